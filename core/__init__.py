@@ -1,0 +1,11 @@
+"""The forward reflection method on plain NumPy arrays; knows nothing of Blender."""
+from .projection import Images, project
+from .reflection import ReflectionError, reflect, reflection_steps
+from .reflection_mesh import ReflectionMesh
+from .scene_tree import SceneTree
+from .settings import METHODS, PLACEMENTS, Settings
+from .triangle_mesh import TriangleMesh
+from .view import View
+
+__all__ = ["Images", "METHODS", "PLACEMENTS", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings",
+           "TriangleMesh", "View", "project", "reflect", "reflection_steps"]

@@ -1,0 +1,237 @@
+"""Positive roots of many cubics at once, each with the rounding error of its coefficients in view."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+UNIT = 2.0 ** -53
+"""Unit roundoff of float64."""
+
+_FAR = 2.0 ** 300
+"""Extrema beyond this count as infinitely far: their cubes still fit a float64."""
+
+_QUICK_STEPS, _MOST_STEPS = 3, 160
+"""Steps of Halley's that every root takes, and the bound on steps of Newton's for the few that need more: those gain a
+factor of 2/3 a step at a triple root, and one that would leave the bracket halves it instead."""
+
+
+@dataclass(frozen=True)
+class Roots:
+    """Roots s > 0, in rising order for each cubic.
+
+    A root up to 1 is `value`; one above 1 is 1 / `value`, found as a root of the reversed cubic, so that neither
+    infinitely large numbers nor vanishing leading coefficients need care.
+
+    Attributes
+    ----------
+    cubic : (m,) int64
+        Which cubic, sorted.
+    value : (m,) float64
+        In [0, 1].
+    reversed : (m,) bool
+        Whether the root is 1 / `value`.
+    sign : (m,) int8
+        Sign of the cubic's derivative by s at the root, 0 where rounding cannot tell it from a multiple root.
+    error : (m,) float64
+        Bound on the error of `value`, to first order in the unit roundoff.
+    """
+
+    cubic: np.ndarray
+    value: np.ndarray
+    reversed: np.ndarray
+    sign: np.ndarray
+    error: np.ndarray
+
+
+def positive_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray,
+                   high: np.ndarray) -> tuple[Roots, np.ndarray]:
+    """Every root s > 0 of c0 + c1 s + c2 s^2 + c3 s^3 between `low` and `high`.
+
+    Coefficients at either end that rounding cannot tell from zero are taken as zero: their roots lie at 0 or at
+    infinity as far as anyone can know, and are no positive roots. What is left is split at the extrema into monotone
+    intervals; the sign of the cubic at their ends says which of them hold a root, and Newton's method, kept inside its
+    bracket, finds it [1]_. An extremum at which rounding cannot tell the cubic from zero is one double root.
+
+    Parameters
+    ----------
+    coefficients : (4, n) float64
+        c0 to c3. Scaled so that the roots of interest are of the order of 1.
+    bounds : (4, n) float64
+        Bounds on the absolute errors of the coefficients.
+    low, high : (n,) float64
+        From 0 to infinity. Roots that rounding cannot tell from either may be left out.
+
+    Returns
+    -------
+    roots : Roots
+    degenerate : (n,) bool
+        Cubics that rounding cannot tell from zero; they have no roots here.
+
+    References
+    ----------
+    .. [1] C. Yuksel, "High-Performance Polynomial Root Finding for Graphics", Proc. ACM Comput. Graph. Interact.
+       Tech. 5 (3), 2022.
+    """
+    count = coefficients.shape[1]
+    coefficients, first, last, degenerate = _without_noise(coefficients, bounds)
+    ends, signs = _monotone_intervals(coefficients, bounds, first, last, low, high)
+
+    # The one root of an interval whose ends differ in sign, or the double root at an extremum that counts as zero:
+    # no interval next to such an extremum changes sign, so its slot is free to hold it.
+    found = np.empty((count, 3), dtype=bool)
+    found[...] = (signs[:-1] * signs[1:] < 0).T
+    found[:, 0] |= signs[1] == 0
+    found[:, 2] |= (signs[2] == 0) & (signs[1] != 0)
+    found[degenerate] = False
+    slots = np.flatnonzero(found)
+    cubic = slots // 3
+    slot = slots - 3 * cubic
+    at = slot * count + cubic
+    low, high = ends.ravel()[at], ends.ravel()[at + count]
+    low_sign, high_sign = signs.ravel()[at], signs.ravel()[at + count]
+    double = np.flatnonzero(low_sign * high_sign == 0)
+    low[double] = high[double] = np.where(slot[double] == 0, high[double], low[double])
+
+    # A root between 0 and 1 is found as it is, one above as the inverse of a root of the reversed cubic.
+    inverse = low >= 1.0
+    across = np.flatnonzero((low < 1.0) & (high > 1.0))
+    inverse[across] = coefficients[:, cubic[across]].sum(axis=0) * low_sign[across] > 0.0
+    c, e = coefficients[:, cubic], bounds[:, cubic]
+    turn = np.flatnonzero(inverse)
+    c[:, turn], e[:, turn] = c[::-1, turn], e[::-1, turn]
+    with np.errstate(divide="ignore"):
+        low[turn], high[turn] = 1.0 / high[turn], 1.0 / low[turn]
+    low, high = np.minimum(low, 1.0), np.minimum(high, 1.0)
+    value = _bracketed_root(c, low, high, np.where(inverse, high_sign, low_sign))
+    value[double] = low[double]
+    high_sign[double] = 0
+    error = _root_error(c, e, value, high_sign)
+    return Roots(cubic, value, inverse, high_sign, error), degenerate
+
+
+def _without_noise(c: np.ndarray, bounds: np.ndarray):
+    """The cubics less the outer coefficients within their bounds, and the first and last coefficient left."""
+    known = np.abs(c) > bounds
+    degenerate = ~(known[0] | known[1] | known[2] | known[3])
+    if known[0].all() and known[3].all():
+        return c, c[0], c[3], degenerate
+    up = np.logical_or.accumulate(known, axis=0)
+    down = np.logical_or.accumulate(known[::-1], axis=0)[::-1]
+    c = np.where(up & down, c, 0.0)
+    first = np.where(known[0], c[0], np.where(known[1], c[1], np.where(known[2], c[2], c[3])))
+    last = np.where(known[3], c[3], np.where(known[2], c[2], np.where(known[1], c[1], c[0])))
+    return c, first, last, degenerate
+
+
+def _monotone_intervals(c: np.ndarray, bounds: np.ndarray, first: np.ndarray, last: np.ndarray, low: np.ndarray,
+                        high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Ends (4, n) of the three intervals low, extremum, extremum, high (any of them empty), and the signs there."""
+    high = np.maximum(low, high)
+    ends = np.empty((4, c.shape[1]))
+    ends[0], ends[3] = low, np.where(high < _FAR, high, np.inf)
+    signs = np.empty((4, c.shape[1]), dtype=np.int8)
+    # A zero at an end is no root that is looked for, so either sign will do there.
+    signs[0] = np.where(np.where(low > 0.0, _horner(c, np.minimum(low, _FAR)), first) < 0.0, -1, 1)
+    signs[3] = np.where(np.where(high < _FAR, _horner(c, np.minimum(high, _FAR)), last) < 0.0, -1, 1)
+
+    discriminant = c[2] * c[2] - 3.0 * c[3] * c[1]
+    q = np.sqrt(np.maximum(discriminant, 0.0))
+    q = -(c[2] + np.copysign(q, c[2]))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        one, other = q / (3.0 * c[3]), c[1] / q
+    real = discriminant > 0.0
+    # A missing extremum makes an empty interval at the lower end, one beyond the upper end an empty interval there.
+    one, other = (np.where(real & (end > low), end, low) for end in (one, other))
+    for k, end in ((1, np.minimum(one, other)), (2, np.maximum(one, other))):
+        end = np.minimum(end, ends[3])
+        inside = (end > low) & (end < ends[3])
+        x = np.minimum(end, _FAR)
+        sign = _sign(_horner(c, x), _evaluation_bound(c, bounds, x))
+        signs[k] = np.where(inside, sign, np.where(end > low, signs[3], signs[0]))
+        ends[k] = end
+    # Two extrema in a row that count as zero are one triple root, between them.
+    triple = np.flatnonzero((signs[1] == 0) & (signs[2] == 0) & (ends[2] < ends[3]))
+    ends[1, triple] = 0.5 * (ends[1, triple] + ends[2, triple])
+    return ends, signs
+
+
+def _bracketed_root(c: np.ndarray, low: np.ndarray, high: np.ndarray, low_sign: np.ndarray) -> np.ndarray:
+    """The root of each cubic (4, n) in [low, high], a part of [0, 1], where it is monotone and changes sign."""
+    at_low, at_high = _horner(c, low), _horner(c, high)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        x = low + (high - low) * (at_low / (at_low - at_high))
+        for _ in range(_QUICK_STEPS):
+            value = c[3] * x
+            bend = 3.0 * value + c[2]
+            slope = (bend + c[2]) * x + c[1]
+            value = ((value + c[2]) * x + c[1]) * x + c[0]
+            x = np.minimum(np.maximum(x - value * slope / (slope * slope - value * bend), low), high)
+    x = np.where(x >= 0.0, x, 0.5 * (low + high))
+    active = np.flatnonzero(~(np.abs(_horner(c, x)) <= 2.0 * UNIT * _horner(np.abs(c), x)))
+    c, y, low, high, low_sign = c[:, active], x[active], low[active], high[active], low_sign[active].astype(np.float64)
+    for _ in range(_MOST_STEPS):
+        y, moved = _newton_step(c, y, low, high, low_sign)
+        x[active] = y
+        if not moved.any():
+            break
+        active, c, y, low, high, low_sign = (part[..., moved] for part in (active, c, y, low, high, low_sign))
+    return x
+
+
+def _newton_step(c, x, low, high, low_sign):
+    """One step; narrows `low` and `high` in place. Also whether the step can still be told from rounding."""
+    value, slope = c[3] * x + c[2], 3.0 * c[3] * x + 2.0 * c[2]
+    value, slope = value * x + c[1], slope * x + c[1]
+    value = value * x + c[0]
+    below = value * low_sign > 0.0
+    np.copyto(low, x, where=below)
+    np.copyto(high, x, where=~below)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        new = x - value / slope
+    new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
+    size = np.abs(c[0]) + x * (np.abs(c[1]) + x * (np.abs(c[2]) + x * np.abs(c[3])))
+    moved = (np.abs(new - x) > 2.0 * UNIT * x) & (np.abs(value) > 2.0 * UNIT * size)
+    return new, moved
+
+
+def _root_error(c: np.ndarray, bounds: np.ndarray, x: np.ndarray, sign: np.ndarray) -> np.ndarray:
+    """How far the true root may lie from x; clears the signs (in place) of roots with no slope to speak of.
+
+    A simple root of slope f' and curvature f'' whose extremum is further from zero than the bound B has
+    f'^2 > 2 B |f''|, and then |f' d| - |f'' d^2| / 2 = B gives d <= 2 B / |f'|. At a double root |f| <= B leaves a
+    true value up to 2 B, so f'' d^2 / 2 (1 - 2/3 d / D) = 2 B gives d <= sqrt(12 B / |f''|) as far as the other extremum,
+    at the distance D; at a triple root f''' d^3 / 6 = 2 B.
+    """
+    bound = _evaluation_bound(c, bounds, x)
+    slope = c[1] + x * (2.0 * c[2] + x * 3.0 * c[3])
+    steep = np.abs(slope)
+    # The derivative's coefficients are the cubic's times 1, 2, 3, their errors also.
+    slope_bound = _evaluation_bound(c[1:] * [[1.0], [2.0], [3.0]], bounds[1:] * [[1.0], [2.0], [3.0]], x)
+    sign[steep <= slope_bound] = 0
+    flat = np.flatnonzero(sign == 0)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        error = 2.0 * bound / steep + 4.0 * UNIT * x
+        curvature = np.abs(2.0 * c[2, flat] + 6.0 * c[3, flat] * x[flat])
+        square = np.sqrt(12.0 * bound[flat] / curvature)
+        cube = np.cbrt(12.0 * bound[flat] / np.abs(6.0 * c[3, flat]))
+    error[flat] = np.fmin(square, cube)
+    return error
+
+
+def _horner(c: np.ndarray, x: np.ndarray) -> np.ndarray:
+    value = c[-1]
+    for row in c[-2::-1]:
+        value = value * x + row
+    return value
+
+
+def _evaluation_bound(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Bound on the error of `_horner`: twice the coefficients' errors, for an outer one that was taken as zero while its
+    true value may be as large, and the 2 k roundings of Horner's rule of degree k (Higham 2002, section 5.1)."""
+    return _horner(2.0 * bounds + 6.0 * UNIT * np.abs(c), x)
+
+
+def _sign(value: np.ndarray, bound) -> np.ndarray:
+    """-1, 0 where |value| <= bound, 1."""
+    return (value > bound).view(np.int8) - (value < -bound).view(np.int8)

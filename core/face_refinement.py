@@ -1,0 +1,217 @@
+"""Error-bounded refinement of the reflected faces, and their cut along caustics.
+
+Inside a face, position and texture are interpolated; halfway along an edge the interpolated point and the one truly
+seen there differ by a vector in the plane of the diffuse triangle. Divided by the true map's derivative it is a
+displacement in pixels. Edges where it exceeds the tolerance are split at a point of the true map: an image of a diffuse
+edge at the image of its point, any other at the middle in the picture.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .cameras import Cameras
+from .connection import Faces
+from .mirror_map import MirrorMap
+from .nodes import Nodes
+from .scene_frames import SceneFrames
+from .subdivision import parent_side, shared_edges, split
+from .vectors import dot, norm
+from .view import View
+
+LEVELS = 10
+SHORTEST_EDGE = 0.25  # pixels
+STRETCH = 4.0
+
+
+@dataclass(frozen=True)
+class FaceRefinement:
+    """Splits faces on one mirror and one scene; `virtual` tells that faces are drawn at the virtual image's depth."""
+
+    view: View
+    mirror_map: MirrorMap
+    cameras: Cameras
+    frames: SceneFrames
+    virtual: bool
+
+    def refine(self, nodes: Nodes, faces: Faces, tolerance: float, maximum: int) -> tuple[Nodes, Faces, np.ndarray, int]:
+        """Faces whose edges stray by less than `tolerance` pixels.
+
+        Returns
+        -------
+        nodes, faces
+        left : (e,) float64
+            The displacements estimated on the edges that stay, in pixels.
+        limited : int
+            Edges that the bound on depth or count left unsplit.
+        """
+        finished, done, left = [], np.zeros((len(faces), 3), dtype=bool), []
+        for level in range(LEVELS + 1):
+            if not len(faces):
+                break
+            marked, straying, middle = self._marked(nodes, faces, done, tolerance)
+            ends, edge, choice, middle_nodes = middle
+            stop = level == LEVELS or sum(map(len, finished)) + len(faces) + 2 * marked.sum() > maximum
+            if stop or not marked.any():
+                finished.append(faces)
+                return nodes, Faces.joined(finished), np.concatenate((*left, straying)), int(marked.sum())
+            left.append(straying)
+            new = np.full(len(ends), -1)
+            new[choice] = np.arange(marked.sum()) + len(nodes.distance)
+            nodes = nodes.joined(*middle_nodes)
+            faces, done = _children(faces, new[edge])
+            resting = done.all(axis=1)
+            finished.append(faces.select(resting))
+            faces, done = faces.select(~resting), done[~resting]
+        return nodes, Faces.joined(finished) if finished else faces, np.concatenate((*left, np.zeros(1))), 0
+
+    def _marked(self, nodes: Nodes, faces: Faces, done: np.ndarray, tolerance: float):
+        """Edges to split, what all edges stray by, and the nodes in their middles."""
+        ends, first, edge = shared_edges(faces.nodes)
+        face, side = first // 3, first % 3
+        open_ = np.flatnonzero(~done.reshape(-1)[first])
+        marked = np.zeros(len(ends), dtype=bool)
+        a, b = ends[open_].T
+        camera, column = faces.camera[face[open_]], faces.column[face[open_]]
+        mirror_face = self.cameras.face[camera]
+        place = self._middle(nodes, a, b)
+        shown = 0.5 * (nodes.point[:, a] + nodes.point[:, b])
+        uv = self.mirror_map.coordinates(mirror_face, place)
+        drift, error, point, distance = self._straying(mirror_face, uv, column, shown)
+        pixels = self.view.pixels(nodes.place.T)
+        length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
+        # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight
+        outline = faces.on_scene_edge[face, side][open_]
+        straying = np.minimum(error, length)
+        chosen = (np.minimum(np.where(outline, 2.0 * drift, error), length) > tolerance) & (length > SHORTEST_EDGE)
+        marked[open_] = chosen
+        place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]
+        along = np.flatnonzero(outline[chosen])
+        if len(along):
+            target = shown[:, chosen][:, along]
+            on_face = mirror_face[chosen][along]
+            found, s = self.mirror_map.locate(on_face, uv[:, chosen][:, along], distance[along], target)
+            spot = self.mirror_map.places(on_face, found)
+            away = np.linalg.norm(self.view.pixels(spot.T) - self.view.pixels(place[:, along].T), axis=1)
+            good = (away <= length[chosen][along]) & (s >= 0.0)
+            along = along[good]
+            place[:, along], point[:, along], distance[along] = spot[:, good], target[:, good], s[good]
+        return marked, straying[~chosen], (ends, edge, marked, (place, point, distance))
+
+    def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        """Where on the mirror the middle of a drawn edge is seen."""
+        if not self.virtual or self.view.orthographic:
+            return 0.5 * (nodes.place[:, a] + nodes.place[:, b])
+        weight_a, weight_b = 1.0 + nodes.distance[a], 1.0 + nodes.distance[b]
+        return (weight_a * nodes.place[:, a] + weight_b * nodes.place[:, b]) / (weight_a + weight_b)
+
+    def _straying(self, face: np.ndarray, uv: np.ndarray, column: np.ndarray, shown: np.ndarray):
+        """Pixels between the places where `shown` is drawn and where it is truly seen, and as much of them as an eye could
+        tell inside a face; what is truly seen there, and its s.
+
+        Near a caustic the picture of a point is drawn out in one direction, and a shift in that direction shows nothing:
+        no shift counts for more than `STRETCH` times the pixels it would be in the direction that is drawn out least."""
+        one, zero = np.ones(len(face)), np.zeros(len(face))
+        place, ray, moves = self.mirror_map.linearise(face, uv, np.stack((one, zero)), np.stack((zero, one)))
+        s = np.maximum(self.frames.distance(column, place, ray), 0.0)
+        point = place + s * ray
+        normal = np.take(self.frames.normal, column, axis=1)
+        falling = dot(normal, ray)
+        falling = np.where(falling != 0.0, falling, 1e-300)
+        moving = []
+        for move, change in moves:
+            free = move + s * change
+            moving.append(free - dot(normal, free) / falling * ray)
+        (a, c), (b, d) = (self.frames.directions(column, along)[:2] for along in moving)
+        right = self.frames.directions(column, shown - point)[:2]
+        x, y = _solve(a, b, c, d, *right)
+        seen_u, seen_v = (self.view.pixel_derivatives(place.T, move.T).T for move, _ in moves)
+        drift = np.hypot(*(x * seen_u + y * seen_v))
+        motion = [norm(x * moving[0] + y * moving[1]) for x, y in
+                  (_solve(seen_u[0], seen_v[0], seen_u[1], seen_v[1], *step) for step in ((1.0, 0.0), (0.0, 1.0)))]
+        coarse = norm(shown - point) / np.maximum(np.maximum(*motion), 1e-300)
+        return drift, np.minimum(drift, STRETCH * coarse), point, s
+
+    def split_at_caustics(self, nodes: Nodes, faces: Faces) -> tuple[Nodes, Faces, int]:
+        """Faces of one parity each: those that fold over are cut where the map's magnification is zero.
+
+        Only cameras whose rays may cross are looked at; returns the count of cut edges as well.
+        """
+        folding = np.flatnonzero(_may_fold(self.cameras)[faces.camera])
+        if not len(folding):
+            return nodes, faces, 0
+        chosen = faces.select(folding)
+        ends = np.stack((chosen.nodes, np.roll(chosen.nodes, -1, axis=1)), axis=2).reshape(-1, 2)
+        face, column = np.repeat(self.cameras.face[chosen.camera], 3), np.repeat(chosen.column, 3)
+        turned = self._magnification(face, column, nodes.place[:, ends[:, 0]])
+        following = turned.reshape(-1, 3)[:, [1, 2, 0]].ravel()
+        mixed = turned * following < 0.0
+        if not mixed.any():
+            return nodes, faces, 0
+        unique, first, edge = shared_edges(chosen.nodes)
+        cut = np.zeros(len(unique), dtype=bool)
+        cut[edge.ravel()[mixed]] = True
+        owner = np.full(len(unique), -1)
+        owner[edge.ravel()[mixed]] = np.flatnonzero(mixed)
+        owner = owner[cut]
+        place, point, distance = self._caustic(face[owner], column[owner], nodes.place[:, ends[owner, 0]],
+                                               nodes.place[:, ends[owner, 1]])
+        new = np.full(len(unique), -1)
+        new[cut] = np.arange(cut.sum()) + len(nodes.distance)
+        children, _ = _children(chosen, new[edge])
+        resting = np.ones(len(faces), dtype=bool)
+        resting[folding] = False
+        return nodes.joined(place, point, distance), Faces.joined([faces.select(resting), children]), int(cut.sum())
+
+    def _magnification(self, face: np.ndarray, column: np.ndarray, place: np.ndarray) -> np.ndarray:
+        uv = self.mirror_map.coordinates(face, place)
+        s = self.frames.distance(column, place, self.mirror_map.rays(face, uv))
+        return self.mirror_map.turned(face, uv, s)
+
+    def _caustic(self, face, column, start, end):
+        """Where between two places of opposite parity the magnification is zero, by bisection; with the point there."""
+        low, high = np.zeros(len(face)), np.ones(len(face))
+        sign = np.sign(self._magnification(face, column, start))
+        for _ in range(24):
+            middle = 0.5 * (low + high)
+            same = self._magnification(face, column, start + middle * (end - start)) * sign > 0.0
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        place = start + 0.5 * (low + high) * (end - start)
+        ray = self.mirror_map.rays(face, self.mirror_map.coordinates(face, place))
+        s = np.maximum(self.frames.distance(column, place, ray), 0.0)
+        return place, place + s * ray, s
+
+
+def _solve(a, b, c, d, right_x, right_y):
+    """x, y with a x + b y = right_x and c x + d y = right_y."""
+    determinant = a * d - b * c
+    determinant = np.where(np.abs(determinant) > 1e-300, determinant, 1e-300)
+    return (d * right_x - b * right_y) / determinant, (a * right_y - c * right_x) / determinant
+
+
+def _children(faces: Faces, middle: np.ndarray) -> tuple[Faces, np.ndarray]:
+    """Faces split at the nodes `middle` (f, 3) of their edges, -1 for none; and which of the children's edges are whole
+    edges of their parents, which nothing splits any more."""
+    parent, local = split(middle >= 0)
+    six = np.concatenate((faces.nodes, middle), axis=1)[parent]
+    side = parent_side(local)
+    row = np.arange(len(parent))[:, None]
+    on_edge = np.where(side < 3, faces.on_scene_edge[parent][row, np.minimum(side, 2)], False)
+    whole = (local < 3) & (np.roll(local, -1, axis=1) < 3) & (side < 3)
+    return Faces(np.take_along_axis(six, local, axis=1), faces.camera[parent], faces.column[parent], on_edge), whole
+
+
+def _may_fold(cameras: Cameras) -> np.ndarray:
+    """Cameras whose rays may cross at some distance: the moved triangle's area across a corner's ray,
+    n0 + s n1 + s^2 n2, has a coefficient of the other sign."""
+    places, rays = cameras.places[:, cameras.corners], cameras.rays[:, cameras.corners]
+    p, q = places[:, :, 1] - places[:, :, 0], places[:, :, 2] - places[:, :, 0]
+    r, t = rays[:, :, 1] - rays[:, :, 0], rays[:, :, 2] - rays[:, :, 0]
+    cross_rows = lambda a, b: np.cross(a, b, axis=0)  # noqa: E731
+    coefficients = np.stack([np.einsum("kn,kni->ni", normal, rays) for normal in
+                             (cross_rows(p, q), cross_rows(p, t) + cross_rows(r, q), cross_rows(r, t))])
+    # curvature below rounding, as on flat mirrors, is none
+    noise = 1e-12 * np.abs(coefficients).max(axis=0)
+    positive, negative = (coefficients > noise).any(axis=(0, 2)), (coefficients < -noise).any(axis=(0, 2))
+    return positive & negative

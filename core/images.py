@@ -1,0 +1,103 @@
+"""Images of the diffuse vertices in the cameras: the cubic's roots, brought onto the true reflection map."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .cameras import Cameras
+from .candidates import Candidates
+from .cones import Cones
+from .mirror_map import MirrorMap
+from .projection import project
+from .scene_frames import SceneFrames
+from .view import View
+
+SAME_IMAGE = 1e-3  # pixels: closer images of one vertex are one image, found from both sides of a shared edge
+NEAR_IMAGE = 2.0  # pixels: how far the linear guess of a neighbouring camera may lie from an image that it shares
+
+
+@dataclass(frozen=True)
+class VertexImages:
+    """Images, sorted by vertex.
+
+    Attributes
+    ----------
+    vertex, camera : (n,) int64
+    uv : (2, n) float64, place on the camera's mirror triangle
+    distance : (n,) float64, s
+    place : (3, n) float64, Q
+    pixel : (n, 2) float64
+    """
+
+    vertex: np.ndarray
+    camera: np.ndarray
+    uv: np.ndarray
+    distance: np.ndarray
+    place: np.ndarray
+    pixel: np.ndarray
+
+    def nearest(self, vertex: np.ndarray, camera: np.ndarray, pixel: np.ndarray) -> np.ndarray:
+        """Index of the image that a guess (vertex, camera, pixel), n of each, means: one in the same camera, else one
+        of a neighbouring camera within `NEAR_IMAGE` pixels, else -1."""
+        start, stop = np.searchsorted(self.vertex, vertex), np.searchsorted(self.vertex, vertex, side="right")
+        guess = np.repeat(np.arange(len(vertex)), stop - start)
+        image = np.arange(len(guess)) + np.repeat(start - np.append(0, np.cumsum(stop - start)[:-1]), stop - start)
+        away = np.linalg.norm(self.pixel[image] - pixel[guess], axis=1)
+        own = self.camera[image] == camera[guess]
+        meant = own | (away < NEAR_IMAGE)
+        guess, image, away, own = guess[meant], image[meant], away[meant], own[meant]
+        order = np.lexsort((away, ~own, guess))
+        found, first = np.unique(guess[order], return_index=True)
+        result = np.full(len(vertex), -1)
+        result[found] = image[order[first]]
+        return result
+
+
+def vertex_images(view: View, mirror_map: MirrorMap, cameras: Cameras, cones: Cones, positions: np.ndarray,
+                  frames: SceneFrames, candidates: Candidates) -> tuple[VertexImages, dict]:
+    """Images of the vertices of the candidate triangles, each in the cameras that it is a candidate of.
+
+    Returns
+    -------
+    images : VertexImages
+    counts : dict
+        Pairs solved, roots found, images kept.
+    """
+    vertices = frames.vertices[:, candidates.column]
+    key = np.unique((candidates.camera * len(positions) + vertices).ravel())
+    camera, vertex = key // len(positions), key % len(positions)
+    points = positions[vertex].T
+    touching = cones.touch(camera, points, np.zeros(len(camera)))
+    camera, vertex = camera[touching], vertex[touching]
+    corners = cameras.corners[camera]
+    found = project(np.moveaxis(cameras.places[:, corners], 0, 2), np.moveaxis(cameras.rays[:, corners], 0, 2),
+                    positions[vertex])
+    counts = {"projections": len(camera), "roots": len(found.pair)}
+    camera, vertex = camera[found.pair], vertex[found.pair]
+    guess = (cameras.places[:, cameras.corners[camera]] * found.weights).sum(axis=2)
+    face = cameras.face[camera]
+    uv, distance = mirror_map.locate(face, mirror_map.coordinates(face, guess), found.distance, positions[vertex].T)
+    place = mirror_map.places(face, uv)
+    pixel = view.pixels(place.T)
+    near = np.linalg.norm(pixel - view.pixels(guess.T), axis=1) < 8.0 + 0.1 * max(view.resolution)
+    kept = np.flatnonzero(np.isfinite(pixel).all(axis=1) & (distance > 0.0) & near)
+    order = kept[np.lexsort((camera[kept], vertex[kept]))]
+    images = VertexImages(vertex[order], camera[order], uv[:, order], distance[order], place[:, order], pixel[order])
+    images = _each_once(images)
+    counts["images"] = len(images.vertex)
+    return images, counts
+
+
+def _each_once(images: VertexImages) -> VertexImages:
+    """Without the images that an earlier camera already found: those on a shared edge or mirror vertex."""
+    again = np.zeros(len(images.vertex), dtype=bool)
+    for gap in range(1, 9):
+        same = np.flatnonzero(images.vertex[gap:] == images.vertex[:-gap]) + gap
+        if not len(same):
+            break
+        away = np.linalg.norm(images.pixel[same] - images.pixel[same - gap], axis=1)
+        again[same[away < SAME_IMAGE]] = True
+    keep = np.flatnonzero(~again)
+    return VertexImages(images.vertex[keep], images.camera[keep], images.uv[:, keep], images.distance[keep],
+                        images.place[:, keep], images.pixel[keep])

@@ -1,0 +1,82 @@
+"""Refinement of the cameras in which the straight outline of a triangle would miss the true, quadratic one.
+
+What the quadratic part adds to a triangle's side halfway along a camera's edge, over the side's rise per pixel, tells
+how many pixels the straight outline misses there. Tall cameras that see a triangle edge on ask for it, and those in
+which the rays cross before the triangle; all others keep their size.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from .cameras import Cameras
+from .candidates import Candidates, overlapping
+from .clipping import CONTACT, SCENE_EDGE, clip
+from .mirror_map import MirrorMap
+from .mirror_refinement import split_cameras
+from .scene_frames import SceneFrames
+from .vectors import ranges
+from .view import View
+
+LEVELS = 10
+SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
+
+
+def refine_for_outlines(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames,
+                        candidates: Candidates, tolerance: float, maximum: int) -> tuple[Cameras, Candidates, bool]:
+    """Cameras split until no outline in them misses the true one by more than `tolerance` pixels.
+
+    Returns
+    -------
+    cameras : Cameras
+    candidates : Candidates
+        The pairs that may really overlap.
+    limited : bool
+        Whether the bound on depth, or on count (`maximum` pairs), stopped the refinement.
+    """
+    for _ in range(LEVELS):
+        candidates, lines = _really_overlapping(candidates)
+        bent = _bent_edges(view, cameras, candidates, lines, tolerance)
+        if not bent.any():
+            return cameras, candidates, False
+        if len(candidates) > maximum:
+            break
+        order = np.argsort(candidates.camera, kind="stable")
+        camera, column = candidates.camera[order], candidates.column[order]
+        count = len(cameras)
+        cameras, parent = split_cameras(view, mirror_map, cameras, bent)
+        start = np.searchsorted(camera, np.arange(count + 1))
+        entry, child = ranges(start[parent], start[parent + 1] - start[parent])
+        # a camera across the triangle's plane stands twice among the candidates, and is asked once
+        pairs = np.unique(child * len(frames.triangle) + column[entry])
+        candidates = overlapping(cameras, frames, pairs // len(frames.triangle), pairs % len(frames.triangle))
+    return cameras, candidates, True
+
+
+def _really_overlapping(candidates: Candidates) -> tuple[Candidates, np.ndarray]:
+    """Candidates that overlap when each side moves out by all that its quadratic part may add; and (3, p), which of the
+    triangle's sides then still bound the overlap."""
+    wide = Candidates(candidates.camera, candidates.column, candidates.sides + candidates.room[:, None],
+                      candidates.ahead, candidates.bend)
+    polygons = clip(wide)
+    row = np.repeat(np.arange(len(polygons.pair)), np.diff(polygons.start))
+    scene = (polygons.after >= SCENE_EDGE) & (polygons.after < CONTACT)
+    lines = np.zeros((3, len(polygons.pair)), dtype=bool)
+    lines[polygons.after[scene] - SCENE_EDGE, row[scene]] = True
+    return candidates.select(polygons.pair), lines
+
+
+def _bent_edges(view: View, cameras: Cameras, candidates: Candidates, lines: np.ndarray,
+                tolerance: float) -> np.ndarray:
+    """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses too much."""
+    pixels = view.pixels(cameras.places.T)[cameras.corners]
+    across, up = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
+    area = np.abs(across[:, 0] * up[:, 1] - across[:, 1] * up[:, 0])
+    camera = candidates.camera
+    rise, climb = candidates.sides[:, 1] - candidates.sides[:, 0], candidates.sides[:, 2] - candidates.sides[:, 0]
+    steepness = np.hypot(rise * up[camera, 1] - climb * across[camera, 1],
+                         climb * across[camera, 0] - rise * up[camera, 0])
+    misses = (np.abs(candidates.bend) * area[camera] > tolerance * steepness[:, None]) & lines[:, None]
+    edge, pair = np.nonzero(misses.any(axis=0))
+    bent = np.zeros((len(cameras), 3), dtype=bool)
+    bent[camera[pair], edge] = True
+    return bent & (np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > SHORTEST_EDGE)

@@ -1,0 +1,52 @@
+"""The result: the reflection as triangles, with where each corner came from and what it cost."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class ReflectionMesh:
+    """The reflection of a diffuse scene in one mirror, in world space and scene units.
+
+    Attributes
+    ----------
+    positions : (n, 3) float64
+        Vertices where the placement puts them.
+    triangles : (m, 3) int64
+        Faces, all turned towards the eye.
+    reflected_position : (n, 3) float64
+        The diffuse point whose image the vertex is.
+    mirror_position : (n, 3) float64
+        Q on the mirror.
+    path_length : (n,) float64
+        From Q to the diffuse point.
+    image_parity : (n,) int8
+        +1 or -1 (turned over), 0 on a caustic.
+    source_face : (m,) int64
+        Triangle of the diffuse scene.
+    source_weights : (m, 3, 3) float64
+        Barycentric coordinates of each corner of each face in its source triangle: carries UVs and colours over.
+    mirror_face : (m,) int64
+        Triangle of the mirror, -1 where a face spans several.
+    counts : dict
+        How much of each part the scene needed (cameras, nodes visited, pairs, roots, pieces, ...): plain integers.
+    seconds : dict
+        Time by stage.
+    estimated_error : float
+        Estimated 99th percentile of the displacement inside the faces, in pixels.
+    """
+
+    positions: np.ndarray
+    triangles: np.ndarray
+    reflected_position: np.ndarray
+    mirror_position: np.ndarray
+    path_length: np.ndarray
+    image_parity: np.ndarray
+    source_face: np.ndarray
+    source_weights: np.ndarray
+    mirror_face: np.ndarray
+    counts: dict = field(default_factory=dict)
+    seconds: dict = field(default_factory=dict)
+    estimated_error: float = 0.0

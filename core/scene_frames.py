@@ -1,0 +1,64 @@
+"""Affine frames of diffuse triangles: barycentric coordinates and height above the plane, as dot products."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .triangle_mesh import TriangleMesh
+from .vectors import cross, dot, rows
+
+
+@dataclass(frozen=True)
+class SceneFrames:
+    """Frames of chosen triangles.
+
+    Attributes
+    ----------
+    triangle : (t,) int64, sorted: the triangles of the scene that the columns below belong to
+    vertices : (3, t) int64, their vertices
+    origin : (3, t) float64, the third vertex
+    first, second : (3, t) float64, gradients of the barycentric coordinates of the first and second vertex
+    normal : (3, t) float64, along the plane's normal, scaled to the gradients' size
+    """
+
+    triangle: np.ndarray
+    vertices: np.ndarray
+    origin: np.ndarray
+    first: np.ndarray
+    second: np.ndarray
+    normal: np.ndarray
+
+    @classmethod
+    def of(cls, mesh: TriangleMesh, triangle: np.ndarray) -> SceneFrames:
+        vertices = np.ascontiguousarray(mesh.triangles[triangle].T)
+        a, b, c = (rows(mesh.positions[vertices[k]]) for k in range(3))
+        u, v = a - c, b - c
+        normal = cross(u, v)
+        area = dot(normal, normal)
+        return cls(triangle, vertices, c, cross(v, normal) / area, cross(normal, u) / area, normal / area**0.75)
+
+    def coordinates(self, column: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Barycentric coordinates of the first and second vertex, and height, of points (3, ...) in frames `column`."""
+        offset = points - self._take(self.origin, column, points)
+        return self.directions(column, offset)
+
+    def directions(self, column: np.ndarray, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The same of vectors, which have no origin."""
+        return tuple(dot(self._take(row, column, vectors), vectors) for row in (self.first, self.second, self.normal))
+
+    def weights(self, column: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Barycentric coordinates (3, ...) of points (3, ...)."""
+        first, second, _ = self.coordinates(column, points)
+        return np.stack((first, second, 1.0 - first - second))
+
+    def distance(self, column: np.ndarray, places: np.ndarray, rays: np.ndarray) -> np.ndarray:
+        """s at which the rays Q + s R, (3, n) each, meet the planes of the frames."""
+        _, _, height = self.coordinates(column, places)
+        _, _, falling = self.directions(column, rays)
+        return -height / np.where(falling != 0.0, falling, 1e-300)
+
+    @staticmethod
+    def _take(row: np.ndarray, column: np.ndarray, like: np.ndarray) -> np.ndarray:
+        taken = np.take(row, column, axis=1)
+        return taken.reshape(taken.shape[:1] + (1,) * (like.ndim - taken.ndim) + taken.shape[1:])

@@ -1,0 +1,71 @@
+"""Splitting triangles at the middles of marked edges, the same way on both sides of an edge."""
+from __future__ import annotations
+
+import numpy as np
+
+# Corners 0 1 2 and the middles 3 4 5 of the edges 01, 12, 20. For each set of marked edges (bit k: edge k): the children,
+# and behind them the two choices where two edges are marked and a four-cornered rest must be cut along a diagonal.
+_TEMPLATES = {
+    0b001: [(0, 3, 2), (3, 1, 2)],
+    0b010: [(0, 1, 4), (0, 4, 2)],
+    0b100: [(0, 1, 5), (5, 1, 2)],
+    0b011: [(3, 1, 4), (0, 3, 4), (0, 4, 2)],
+    0b110: [(5, 4, 2), (0, 1, 4), (0, 4, 5)],
+    0b101: [(0, 3, 5), (3, 1, 2), (3, 2, 5)],
+    0b111: [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)],
+}
+
+
+def split(marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Children of triangles whose edges are marked.
+
+    Parameters
+    ----------
+    marked : (n, 3) bool
+        Whether the edges 01, 12 and 20 of each triangle get a middle.
+
+    Returns
+    -------
+    parent : (m,) int64
+        The triangle that each child lies in; unmarked triangles are their own only child.
+    local : (m, 3) int64
+        The child's corners in its parent: 0 1 2 the parent's corners, 3 4 5 the middles of its edges 01, 12, 20.
+    """
+    case = marked @ np.array([1, 2, 4])
+    whole = np.flatnonzero(case == 0)
+    parents, locals_ = [whole], [np.broadcast_to(np.arange(3), (len(whole), 3))]
+    for bits, children in _TEMPLATES.items():
+        chosen = np.flatnonzero(case == bits)
+        if len(chosen):
+            parents.append(np.repeat(chosen, len(children)))
+            locals_.append(np.tile(np.array(children), (len(chosen), 1)))
+    return np.concatenate(parents), np.concatenate(locals_)
+
+
+# Which edge of the parent a child's edge between two local corners lies on: 0, 1, 2, or 3 for the inside.
+_SIDES = np.full((6, 6), 3)
+for _edge, _line in enumerate(((0, 3, 1), (1, 4, 2), (2, 5, 0))):
+    for _a in _line:
+        for _b in _line:
+            _SIDES[_a, _b] = _edge
+
+
+def parent_side(local: np.ndarray) -> np.ndarray:
+    """(m, 3): the parent's edge that each of the edges 01, 12, 20 of the children lies on, 3 where it is inside."""
+    return _SIDES[local, np.roll(local, -1, axis=1)]
+
+
+def shared_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Edges of triangles (n, 3), each once.
+
+    Returns
+    -------
+    ends : (e, 2) int64, smaller index first
+    first : (e,) int64, an entry of the flattened (n, 3) edges 01, 12, 20 where the edge occurs
+    edge : (n, 3) int64, index into `ends` of each triangle's edges
+    """
+    a, b = triangles, np.roll(triangles, -1, axis=1)
+    low, high = np.minimum(a, b).ravel(), np.maximum(a, b).ravel()
+    count = int(high.max()) + 1 if len(high) else 1
+    keys, first, edge = np.unique(low * count + high, return_index=True, return_inverse=True)
+    return np.stack((keys // count, keys % count), axis=1), first, edge.reshape(-1, 3)

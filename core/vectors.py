@@ -1,0 +1,47 @@
+"""Dot and cross products on component-first arrays: three rows x, y, z of any length.
+
+Rows that lie contiguous in memory make these several times faster than `np.cross` and `np.einsum` on (n, 3) arrays,
+and the many small three-dimensional products of the method are where its time goes.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+
+def rows(points: np.ndarray) -> np.ndarray:
+    """Component-first copy (3, ...) of points (..., 3)."""
+    return np.ascontiguousarray(np.moveaxis(points, -1, 0))
+
+
+def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.stack((a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]))
+
+
+def norm(a: np.ndarray) -> np.ndarray:
+    return np.sqrt(dot(a, a))
+
+
+def unit(a: np.ndarray) -> np.ndarray:
+    """a / |a|, and zero where a is zero."""
+    length = norm(a)
+    return a / np.where(length > 0.0, length, 1.0)
+
+
+def solve(c0: np.ndarray, c1: np.ndarray, c2: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """x (3, n) with x0 c0 + x1 c1 + x2 c2 = right, by Cramer's rule; zero where the three columns are dependent."""
+    normal = cross(c1, c2)
+    determinant = dot(c0, normal)
+    inverse = np.divide(1.0, determinant, out=np.zeros_like(determinant), where=np.abs(determinant) > 1e-300)
+    turned = cross(right, c0)
+    return np.stack((dot(right, normal), -dot(turned, c2), dot(turned, c1))) * inverse
+
+
+def ranges(starts: np.ndarray, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Every index of the runs [start, start + length), one after another, and the run each belongs to."""
+    run = np.repeat(np.arange(len(lengths)), lengths)
+    before = np.cumsum(lengths) - lengths
+    return np.arange(len(run)) - np.repeat(before - starts, lengths), run
