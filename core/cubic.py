@@ -11,9 +11,9 @@ UNIT = 2.0 ** -53
 _FAR = 2.0 ** 300
 """Extrema beyond this count as infinitely far: their cubes still fit a float64."""
 
-_QUICK_STEPS, _MOST_STEPS = 3, 160
-"""Steps of Halley's that every root takes, and the bound on steps of Newton's for the few that need more: those gain a
-factor of 2/3 a step at a triple root, and one that would leave the bracket halves it instead."""
+_QUICK_STEPS, _MOST_STEPS = 5, 160
+"""Steps of Halley's method that every root takes, and the bound for the few that need more: they gain a factor of 1/2 a
+step even at a triple root, and a step that would leave the bracket halves it instead."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def positive_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray
 
     Coefficients at either end that rounding cannot tell from zero are taken as zero: their roots lie at 0 or at
     infinity as far as anyone can know, and are no positive roots. What is left is split at the extrema into monotone
-    intervals; the sign of the cubic at their ends says which of them hold a root, and Newton's method, kept inside its
+    intervals; the sign of the cubic at their ends says which of them hold a root, and Halley's method, kept inside its
     bracket, finds it [1]_. An extremum at which rounding cannot tell the cubic from zero is one double root.
 
     Parameters
@@ -97,7 +97,7 @@ def positive_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray
     inverse = low >= 1.0
     across = np.flatnonzero((low < 1.0) & (high > 1.0))
     inverse[across] = coefficients[:, cubic[across]].sum(axis=0) * low_sign[across] > 0.0
-    c, e = coefficients[:, cubic], bounds[:, cubic]
+    c, e = coefficients.take(cubic, axis=1), bounds.take(cubic, axis=1)
     turn = np.flatnonzero(inverse)
     c[:, turn], e[:, turn] = c[::-1, turn], e[::-1, turn]
     with np.errstate(divide="ignore"):
@@ -147,7 +147,7 @@ def _monotone_intervals(c: np.ndarray, bounds: np.ndarray, first: np.ndarray, la
         end = np.minimum(end, ends[3])
         inside = (end > low) & (end < ends[3])
         x = np.minimum(end, _FAR)
-        sign = _sign(_horner(c, x), _evaluation_bound(c, bounds, x))
+        sign = _sign_at_extremum(c, bounds, x)
         signs[k] = np.where(inside, sign, np.where(end > low, signs[3], signs[0]))
         ends[k] = end
     # Two extrema in a row that count as zero are one triple root, between them.
@@ -156,22 +156,38 @@ def _monotone_intervals(c: np.ndarray, bounds: np.ndarray, first: np.ndarray, la
     return ends, signs
 
 
+def _sign_at_extremum(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Sign of each cubic at its extremum x, 0 where there may be a double root nearby.
+
+    At the double root that the exact cubic has, this one is at most its bound B and its slope at most that slope's
+    bound D. So the root is within d = min(D / |f''|, sqrt(D / |3 c3|)) of x, and the value here at most B + D d.
+    As D d is seldom above 3 B, this is looked at closely up to 4 B.
+    """
+    value, bound = _horner(c, x), _evaluation_bound(c, bounds, x)
+    size = np.abs(value)
+    near = np.flatnonzero((size > bound) & (size <= 4.0 * bound))
+    if len(near):
+        part, at = c[:, near], x[near]
+        slope = _slope_bound(part, bounds[:, near], at)
+        with np.errstate(divide="ignore"):
+            way = np.fmin(slope / np.abs(2.0 * part[2] + 6.0 * part[3] * at), np.sqrt(slope / np.abs(3.0 * part[3])))
+        bound[near] += slope * way
+    return _sign(value, bound)
+
+
 def _bracketed_root(c: np.ndarray, low: np.ndarray, high: np.ndarray, low_sign: np.ndarray) -> np.ndarray:
     """The root of each cubic (4, n) in [low, high], a part of [0, 1], where it is monotone and changes sign."""
     at_low, at_high = _horner(c, low), _horner(c, high)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         x = low + (high - low) * (at_low / (at_low - at_high))
         for _ in range(_QUICK_STEPS):
-            value = c[3] * x
-            bend = 3.0 * value + c[2]
-            slope = (bend + c[2]) * x + c[1]
-            value = ((value + c[2]) * x + c[1]) * x + c[0]
+            value, slope, bend = _derivatives(c, x)
             x = np.minimum(np.maximum(x - value * slope / (slope * slope - value * bend), low), high)
     x = np.where(x >= 0.0, x, 0.5 * (low + high))
     active = np.flatnonzero(~(np.abs(_horner(c, x)) <= 2.0 * UNIT * _horner(np.abs(c), x)))
     c, y, low, high, low_sign = c[:, active], x[active], low[active], high[active], low_sign[active].astype(np.float64)
     for _ in range(_MOST_STEPS):
-        y, moved = _newton_step(c, y, low, high, low_sign)
+        y, moved = _bracketed_step(c, y, low, high, low_sign)
         x[active] = y
         if not moved.any():
             break
@@ -179,20 +195,25 @@ def _bracketed_root(c: np.ndarray, low: np.ndarray, high: np.ndarray, low_sign: 
     return x
 
 
-def _newton_step(c, x, low, high, low_sign):
-    """One step; narrows `low` and `high` in place. Also whether the step can still be told from rounding."""
-    value, slope = c[3] * x + c[2], 3.0 * c[3] * x + 2.0 * c[2]
-    value, slope = value * x + c[1], slope * x + c[1]
-    value = value * x + c[0]
+def _bracketed_step(c, x, low, high, low_sign):
+    """One step of Halley's, or a halving where that leaves the bracket; narrows `low` and `high` in place. Also whether
+    rounding still allows another step."""
+    value, slope, bend = _derivatives(c, x)
     below = value * low_sign > 0.0
     np.copyto(low, x, where=below)
     np.copyto(high, x, where=~below)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        new = x - value / slope
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        new = x - value * slope / (slope * slope - value * bend)
     new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
-    size = np.abs(c[0]) + x * (np.abs(c[1]) + x * (np.abs(c[2]) + x * np.abs(c[3])))
-    moved = (np.abs(new - x) > 2.0 * UNIT * x) & (np.abs(value) > 2.0 * UNIT * size)
-    return new, moved
+    size = _horner(np.abs(c), x)
+    return new, (np.abs(new - x) > 2.0 * UNIT * x) & (np.abs(value) > 2.0 * UNIT * size)
+
+
+def _derivatives(c, x):
+    """The cubic, its slope and half its second derivative."""
+    value = c[3] * x
+    bend = 3.0 * value + c[2]
+    return ((value + c[2]) * x + c[1]) * x + c[0], (bend + c[2]) * x + c[1], bend
 
 
 def _root_error(c: np.ndarray, bounds: np.ndarray, x: np.ndarray, sign: np.ndarray) -> np.ndarray:
@@ -200,15 +221,13 @@ def _root_error(c: np.ndarray, bounds: np.ndarray, x: np.ndarray, sign: np.ndarr
 
     A simple root of slope f' and curvature f'' whose extremum is further from zero than the bound B has
     f'^2 > 2 B |f''|, and then |f' d| - |f'' d^2| / 2 = B gives d <= 2 B / |f'|. At a double root |f| <= B leaves a
-    true value up to 2 B, so f'' d^2 / 2 (1 - 2/3 d / D) = 2 B gives d <= sqrt(12 B / |f''|) as far as the other extremum,
-    at the distance D; at a triple root f''' d^3 / 6 = 2 B.
+    true value up to 2 B, so f'' d^2 / 2 (1 - 2/3 d / D) = 2 B gives d <= sqrt(12 B / |f''|) as far as the other
+    extremum, at the distance D; at a triple root f''' d^3 / 6 = 2 B.
     """
     bound = _evaluation_bound(c, bounds, x)
     slope = c[1] + x * (2.0 * c[2] + x * 3.0 * c[3])
     steep = np.abs(slope)
-    # The derivative's coefficients are the cubic's times 1, 2, 3, their errors also.
-    slope_bound = _evaluation_bound(c[1:] * [[1.0], [2.0], [3.0]], bounds[1:] * [[1.0], [2.0], [3.0]], x)
-    sign[steep <= slope_bound] = 0
+    sign[steep <= _slope_bound(c, bounds, x)] = 0
     flat = np.flatnonzero(sign == 0)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         error = 2.0 * bound / steep + 4.0 * UNIT * x
@@ -227,9 +246,15 @@ def _horner(c: np.ndarray, x: np.ndarray) -> np.ndarray:
 
 
 def _evaluation_bound(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Bound on the error of `_horner`: twice the coefficients' errors, for an outer one that was taken as zero while its
-    true value may be as large, and the 2 k roundings of Horner's rule of degree k (Higham 2002, section 5.1)."""
+    """Bound on the error of `_horner`: twice the coefficients' errors, for an outer one that was taken as zero while
+    its true value may be as large, and the 2 k roundings of Horner's rule of degree k (Higham 2002, section 5.1)."""
     return _horner(2.0 * bounds + 6.0 * UNIT * np.abs(c), x)
+
+
+def _slope_bound(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """The same of the derivative, whose coefficients are the cubic's times 1, 2, 3."""
+    factors = [[1.0], [2.0], [3.0]]
+    return _evaluation_bound(c[1:] * factors, bounds[1:] * factors, x)
 
 
 def _sign(value: np.ndarray, bound) -> np.ndarray:

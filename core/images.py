@@ -14,7 +14,7 @@ from .scene_frames import SceneFrames
 from .view import View
 
 SAME_IMAGE = 1e-3  # pixels: closer images of one vertex are one image, found from both sides of a shared edge
-NEAR_IMAGE = 2.0  # pixels: how far the linear guess of a neighbouring camera may lie from an image that it shares
+NEAR_IMAGE = 3.0  # pixels: how far the straight outlines of the clip may put a vertex from its image
 
 
 @dataclass(frozen=True)
@@ -38,14 +38,14 @@ class VertexImages:
     pixel: np.ndarray
 
     def nearest(self, vertex: np.ndarray, camera: np.ndarray, pixel: np.ndarray) -> np.ndarray:
-        """Index of the image that a guess (vertex, camera, pixel), n of each, means: one in the same camera, else one
-        of a neighbouring camera within `NEAR_IMAGE` pixels, else -1."""
+        """Index of the image within `NEAR_IMAGE` pixels that a guess (vertex, camera, pixel), n of each, means: one in
+        the same camera before one in a neighbouring camera, else -1."""
         start, stop = np.searchsorted(self.vertex, vertex), np.searchsorted(self.vertex, vertex, side="right")
         guess = np.repeat(np.arange(len(vertex)), stop - start)
         image = np.arange(len(guess)) + np.repeat(start - np.append(0, np.cumsum(stop - start)[:-1]), stop - start)
         away = np.linalg.norm(self.pixel[image] - pixel[guess], axis=1)
         own = self.camera[image] == camera[guess]
-        meant = own | (away < NEAR_IMAGE)
+        meant = away < NEAR_IMAGE
         guess, image, away, own = guess[meant], image[meant], away[meant], own[meant]
         order = np.lexsort((away, ~own, guess))
         found, first = np.unique(guess[order], return_index=True)

@@ -13,7 +13,7 @@ import numpy as np
 from .cameras import Cameras
 from .candidates import Candidates
 from .clipping import CONTACT, SCENE_EDGE, Polygons
-from .images import VertexImages
+from .images import NEAR_IMAGE, VertexImages
 from .mirror_map import MirrorMap
 from .scene_frames import SceneFrames
 from .view import View
@@ -58,6 +58,20 @@ class _Corners:
         """Q (3, n) where the linear clip puts the corners."""
         corners = self.cameras.corners[self.camera[chosen]].T
         return (np.take(self.cameras.places, corners, axis=1) * self.weights[:, chosen]).sum(axis=1)
+
+    def near(self, moved: np.ndarray, guess: np.ndarray) -> np.ndarray:
+        """Whether places (3, n) moved from the guess by no more than straight outlines may miss; else they are another
+        image, or Newton's method went astray on a triangle seen edge on."""
+        with np.errstate(invalid="ignore", over="ignore"):
+            away = np.linalg.norm(self.view.pixels(moved.T) - self.view.pixels(guess.T), axis=1)
+        return away < NEAR_IMAGE
+
+    def seen(self, chosen: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The point (3, n) that the true ray at a place meets on the triangle's plane, and its s."""
+        face = self.cameras.face[self.camera[chosen]]
+        ray = self.mirror_map.rays(face, self.mirror_map.coordinates(face, place))
+        s = np.maximum(self.frames.distance(self.column[chosen], place, ray), 0.0)
+        return place + s * ray, s
 
     def mirror_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
         """(n, 2) sorted camera corners of the mirror edge `label`."""
@@ -131,13 +145,14 @@ def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     way = end - start
     t = ((place - start) * way).sum(axis=0) / (way * way).sum(axis=0)
     uv_start, uv_end = mirror_map.coordinates(face, start), mirror_map.coordinates(face, end)
-    rays = mirror_map.rays(face, uv_start + t * (uv_end - uv_start))
-    s = np.maximum(corners.frames.distance(corners.column[chosen], place, rays), 0.0)
+    seen, seen_s = corners.seen(chosen, place)
     point = corners.positions[scene_edge[:, 0]].T
     edge = corners.positions[scene_edge[:, 1]].T - point
-    t, along, s = mirror_map.meet(face, uv_start, uv_end, t, s, point, edge)
-    t, along, s = np.clip(t, 0.0, 1.0), np.clip(along, 0.0, 1.0), np.maximum(s, 0.0)
-    return (start + t * way, point + along * edge, s), group
+    t, along, s = mirror_map.meet(face, uv_start, uv_end, t, seen_s, point, edge)
+    met = start + np.clip(t, 0.0, 1.0) * way
+    near = corners.near(met, place)
+    point = np.where(near, point + np.clip(along, 0.0, 1.0) * edge, seen)
+    return (np.where(near, met, place), point, np.where(near, np.maximum(s, 0.0), seen_s)), group
 
 
 def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
@@ -156,14 +171,13 @@ def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     own = first[lone]
     face, mirror_map = corners.cameras.face[camera[own]], corners.mirror_map
     start = guess[:, own]
-    uv = mirror_map.coordinates(face, start)
-    s = corners.frames.distance(column[own], start, mirror_map.rays(face, uv))
-    moved, found = mirror_map.locate(face, uv, s, point[:, lone])
+    seen, seen_s = corners.seen(chosen[own], start)
+    moved, found = mirror_map.locate(face, mirror_map.coordinates(face, start), seen_s, point[:, lone])
     moved_place = mirror_map.places(face, moved)
-    away = np.linalg.norm(corners.view.pixels(moved_place.T) - corners.view.pixels(start.T), axis=1)
-    astray = ~((away < 16.0) & (found >= 0.0))
-    place[:, lone] = np.where(astray, start, moved_place)
-    distance[lone] = np.where(astray, np.maximum(s, 0.0), found)
+    near = corners.near(moved_place, start) & (found >= 0.0)
+    place[:, lone] = np.where(near, moved_place, start)
+    point[:, lone] = np.where(near, point[:, lone], seen)
+    distance[lone] = np.where(near, found, seen_s)
     return (place, point, distance), group
 
 

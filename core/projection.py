@@ -8,12 +8,8 @@ import numpy as np
 from .cubic import UNIT, positive_roots
 from .vectors import cross, dot, norm
 
-_CHUNK = 8192
+_CHUNK = 16384
 """Pairs that are worked on at once: their arrays stay in the cache."""
-
-_COEFFICIENT_ERROR = 12.0 * UNIT
-"""See `_coefficients`."""
-
 
 @dataclass(frozen=True)
 class Images:
@@ -44,16 +40,16 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facin
     """Every image of each point in its three-ray camera.
 
     The camera sees P at the weights W where P = Q(W) + s R(W), s > 0, W >= 0, sum W = 1, with Q(W) = sum W_i V_i and
-    R(W) = sum W_i R_i: the triangle whose corners move from V_i along R_i then contains P at the time s, which is a root
-    of a cubic [1]_. There are up to three images. A double root, a point on the caustic, is one image of parity 0. A
-    root at which the moved triangle is a line is no image, nor is P on the mirror itself (s = 0). Triangles are closed:
+    R(W) = sum W_i R_i: the triangle whose corners move from V_i along R_i then contains P at the time s, a root of a
+    cubic [1]_. There are up to three images. A double root, a point on the caustic, is one image of parity 0. A root at
+    which the moved triangle is a line is no image, nor is P on the mirror itself (s = 0). Triangles are closed:
     a point seen along an edge is an image in both triangles that share it. What rounding cannot decide counts as
     equal: double roots, points on the mirror and on edges, and vanishing cubics are told by bounds on the rounding
     errors of the float64 arithmetic on the given numbers, however far from the origin they lie.
 
     The parity is the sign of the cubic's derivative, R(W) . N(s) with N the moved triangle's normal by its winding,
-    times the sign of that normal on the side to which the mirror reflects: that of (R_A + R_B + R_C) . N(0), or `facing`.
-    Both change with the winding, so the product does not; the second is one for all images of a camera, so within a
+    times the sign of that normal on the side to which the mirror reflects: that of (R_A + R_B + R_C) . N(0), or
+    `facing`. Both change with the winding, so the product does not; the second is one for all images of a camera, so within a
     camera the parity changes only across a caustic. Shading normals that bend the middle ray under the flat triangle
     make it the wrong one; a caller who knows where the eye is gives `facing`.
 
@@ -107,29 +103,25 @@ def _project_chunk(vertices, rays, points, facing):
     coefficients, bounds, lengths = _coefficients(still, moving)
     roots, degenerate = positive_roots(coefficients, bounds, *_reach(still, moving, lengths))
 
+    at, turned = roots.cubic, np.flatnonzero(roots.reversed)
+    place, velocity = still.reshape(9, count).take(at, axis=1), moving.reshape(9, count).take(at, axis=1)
+    lengths = lengths.take(at, axis=1)
     # The reversed cubic is that of the same triangle with places and velocities exchanged: p + s r = s (r + p / s).
-    at, turned = roots.cubic, roots.reversed
-    sources = np.stack((still.reshape(9, count), moving.reshape(9, count)))
-    rows = np.arange(9)[:, None] * count + at
-    place = np.where(turned, 9 * count, 0) + rows
-    velocity = np.where(turned, 0, 9 * count) + rows
-    now = sources.ravel()[place] + roots.value * sources.ravel()[velocity]
-    p, a, b = now.reshape(3, 3, -1)
-    flat = lengths.ravel()
-    rows = np.arange(3)[:, None] * count + at
-    x, e1, e2 = flat[np.where(turned, 3 * count, 0) + rows]
-    r, d1, d2 = flat[np.where(turned, 0, 3 * count) + rows]
-    weights, sure, solid = _weights(p, a, b, roots, x, e1, e2, r, d1, d2)
+    place[:, turned], velocity[:, turned] = velocity[:, turned], place[:, turned]
+    lengths[:3, turned], lengths[3:, turned] = lengths[3:, turned], lengths[:3, turned]
+    velocity *= roots.value
+    place += velocity
+    weights, sure, solid = _weights(place.reshape(3, 3, -1), lengths, roots)
 
     inside = solid & (weights >= -sure).all(axis=0)
     at, weights = at[inside], np.maximum(weights[:, inside], 0.0)
     weights /= weights[0] + weights[1] + weights[2]
     value = roots.value[inside]
     with np.errstate(divide="ignore"):
-        distance = np.where(turned[inside], 1.0 / value, value) * seconds[at]
+        distance = np.where(roots.reversed[inside], 1.0 / value, value) * seconds[at]
     if facing is None:
-        _, e1, e2 = still[:, :, at]
-        r, d1, d2 = moving[:, :, at]
+        e1, e2 = still.reshape(9, count)[3:].take(at, axis=1).reshape(2, 3, -1)
+        r, d1, d2 = moving.reshape(9, count).take(at, axis=1).reshape(3, 3, -1)
         facing = dot(3.0 * r + d1 + d2, cross(e1, e2))
     else:
         facing = facing[at]
@@ -138,8 +130,9 @@ def _project_chunk(vertices, rays, points, facing):
 
 
 def _scaled(vertices, rays, points):
-    """Places and velocities (3, 3, n) of A - P, B - A, C - A, each in a unit that makes its largest number 1 to 2, and
-    the unit of time (n,) that goes with them. The units are powers of two, so nothing is rounded but the differences."""
+    """Places and velocities (3, 3, n) of A - P, B - A, C - A, in units that make the
+    largest place 1 to 2 and the largest velocity 4 to 8, so that most roots are below 1, and the unit of time (n,) that
+    goes with them. The units are powers of two: nothing is rounded but the differences."""
     count = len(points)
     v = np.ascontiguousarray(vertices.reshape(count, 9).T).reshape(3, 3, count)
     m = np.ascontiguousarray(rays.reshape(count, 9).T).reshape(3, 3, count)
@@ -148,8 +141,8 @@ def _scaled(vertices, rays, points):
     v[0] -= points.T
     length, speed = _power_of_two(v), _power_of_two(m)
     v *= 1.0 / length
-    m *= 1.0 / speed
-    return v, m, length / speed
+    m *= 4.0 / speed
+    return v, m, 4.0 * (length / speed)
 
 
 def _power_of_two(numbers: np.ndarray) -> np.ndarray:
@@ -163,31 +156,43 @@ def _coefficients(still, moving):
     """Coefficients (4, n) of f(s) = p(s) . N(s), bounds on their errors, and the lengths (6, n) behind the bounds.
 
     With p = A - P + s R_A, N = (B - A + s (R_B - R_A)) x (C - A + s (R_C - R_A)), a coefficient is a sum of products of
-    three numbers. Each product carries at most 10 roundings: 3 differences, 3 in the cross product and its sum, 1 and 2 in
-    the dot product, 1 in the last sum. So its error is at most 10 u times the same sum over absolute values, a
-    permanent, which is at most 3!/3^(3/2) < 1.155 times the product of the three lengths [1]_: 12 u in all.
+    three numbers. Each product carries at most 10 roundings: 3 differences, 3 in the cross product and its sum, 1 and 2
+    in the dot product, 1 in the last sum. So its error is at most 10 u times the same sum over absolute values, a
+    permanent, which is at most 3!/3^(3/2) < 1.155 times the product of the three lengths [1]_: 12 u in all. Where the
+    cubic is so small beside the lengths that this could hide it, the sum over absolute values itself is taken.
 
     References
     ----------
     .. [1] E. Carlen, E. Lieb, M. Loss, "An inequality of Hadamard type for permanents", Methods Appl. Anal. 13, 2006.
     """
-    p, a, b = still
-    r, u, v = moving
-    n0, n2 = cross(a, b), cross(u, v)
-    n1 = cross(a, v) + cross(u, b)
-    coefficients = np.stack((dot(p, n0), dot(p, n1) + dot(r, n0), dot(p, n2) + dot(r, n1), dot(r, n2)))
-    lengths = np.stack([norm(vector) for vector in (p, a, b, r, u, v)])
-    x, e1, e2, y, d1, d2 = lengths
-    m0, m1, m2 = e1 * e2, e1 * d2 + d1 * e2, d1 * d2
-    bounds = np.stack((x * m0, x * m1 + y * m0, x * m2 + y * m1, y * m2)) * _COEFFICIENT_ERROR
+    coefficients = np.stack(_expanded(dot, cross, still, moving))
+    lengths = np.stack([norm(vector) for vector in (*still, *moving)])
+    bounds = np.stack(_expanded(np.multiply, np.multiply, lengths[:3], lengths[3:]))
+    bounds *= 12.0 * UNIT
+    small = np.flatnonzero((np.abs(coefficients) < 2.0 ** 20 * bounds).all(axis=0))
+    if len(small):
+        parts = np.abs(still.take(small, axis=2)), np.abs(moving.take(small, axis=2))
+        bounds[:, small] = 12.0 * UNIT * np.stack(_expanded(dot, _absolute_cross, *parts))
     return coefficients, bounds, lengths
+
+
+def _expanded(dot, cross, still, moving):
+    """The coefficients of dot(p + s r, cross(a + s u, b + s v)) for any two bilinear products."""
+    (p, a, b), (r, u, v) = still, moving
+    n0, n1, n2 = cross(a, b), cross(a, v) + cross(u, b), cross(u, v)
+    return dot(p, n0), dot(p, n1) + dot(r, n0), dot(p, n2) + dot(r, n1), dot(r, n2)
+
+
+def _absolute_cross(a, b):
+    return np.stack((a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]))
 
 
 def _reach(still, moving, lengths):
     """The times (n,), (n,) between which an image can lie at all.
 
-    P in the moved triangle is at most as far from the first corner as the further of the others: |p + s r| <= E + s D, a
-    quadratic in s. E and D are doubled, and raised by 2^-23 of |p| and |r|, which is more than all rounding can do here.
+    P in the moved triangle is at most as far from the first corner as the further of the others: |p + s r| <= E + s D,
+    a quadratic in s. E and D are doubled, for points that rounding moves out of the triangle, and raised by 2^-23 of |p|
+    and |r|: squared that is 128 u, more than all the rounding here.
     """
     x, e1, e2, r, d1, d2 = lengths
     e = 2.0 * np.maximum(e1, e2) + 2.0 ** -23 * x
@@ -198,7 +203,7 @@ def _reach(still, moving, lengths):
     q = -(b + np.copysign(q, b))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         one, other = q / a, c / q
-    # Where the triangle grows faster than it leaves (a <= 0) no bounds are sought; where it never reaches, none is left.
+    # A triangle that grows faster than it leaves (a <= 0) gets no bounds; one that never reaches P an empty interval.
     bounded = a > 0.0
     low = np.where(bounded, np.fmax(np.fmin(one, other), 0.0), 0.0)
     high = np.where(bounded, np.fmax(np.fmax(one, other), 0.0), np.inf)
@@ -206,13 +211,15 @@ def _reach(still, moving, lengths):
     return np.where(never, 1.0, low), np.where(never, 1.0, high)
 
 
-def _weights(p, a, b, roots, x, e1, e2, r, d1, d2):
+def _weights(place, lengths, roots):
     """Weights (3, m) of P in the moved triangle, bounds on their errors, and whether the triangle is more than a line.
 
     p + W_B a + W_C b = 0. Through p, a, b and the products the weight of a corner is off by at most 8 u times the
-    lengths that go into them, over the triangle's height at that corner; through the root's error, by the way that P moves
-    in that time against the triangle, over the height.
+    lengths that go into them, over the triangle's height at that corner; through the root's error, by the way that P
+    moves in that time against the triangle, over the height.
     """
+    p, a, b = place
+    x, e1, e2, r, d1, d2 = lengths
     normal = cross(a, b)
     square = dot(normal, normal)
     with np.errstate(divide="ignore", invalid="ignore"):

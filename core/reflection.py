@@ -19,7 +19,7 @@ from .mirror_refinement import in_picture, refine_mirror
 from .mirror_visibility import without_hidden
 from .nodes import polygon_nodes
 from .outline_refinement import refine_for_outlines
-from .placement import place
+from .placement import place, slide_limits
 from .reflection_mesh import ReflectionMesh
 from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
@@ -98,7 +98,7 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     cameras = cut_at_horizon(view, mirror_map, cameras.select(in_picture(view, cameras)))
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
-    cameras = without_hidden(view, mirror_map, cameras)
+    cameras, grid = without_hidden(view, mirror_map, cameras)
     counts["mirror_triangles"] = len(cameras)
     cones = Cones.around(cameras)
     sphere = tree.spheres[0][:, 0]
@@ -139,6 +139,7 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))
     refinement = FaceRefinement(view, mirror_map, cameras, frames, settings.placement == "VIRTUAL")
     nodes, faces, counts["caustic_edges"] = refinement.split_at_caustics(nodes, faces)
+    faces = faces.select(~grid.hides(nodes.place)[faces.nodes].all(axis=1))
     counts["connected"] = len(faces)
     stages.done("connection")
 
@@ -196,7 +197,8 @@ def _mesh(view, mirror_map, cameras, frames, nodes, faces, settings) -> Reflecti
     triangles[away] = triangles[away][:, [0, 2, 1]]
     column = np.repeat(faces.column, 3)
     weights = frames.weights(column, np.take(kept.point, triangles.ravel(), axis=1))
+    most = slide_limits(view, kept, path, frames, triangles, faces.column)
     return ReflectionMesh(
-        positions=place(view, kept, path, settings.placement).T, triangles=triangles, reflected_position=kept.point.T,
+        positions=place(view, kept, path, settings.placement, most).T, triangles=triangles, reflected_position=kept.point.T,
         mirror_position=kept.place.T, path_length=path, image_parity=parity,
         source_face=frames.triangle[faces.column], source_weights=weights.T.reshape(-1, 3, 3), mirror_face=mirror_face)
