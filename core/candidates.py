@@ -1,9 +1,9 @@
 """Pairs of a camera and a diffuse triangle whose images may overlap, and the triangle as the camera's corners see it.
 
 On a camera the ray Q(W) + s R(W) meets the plane of a triangle at s = a / b with a(W) = -height(Q), b(W) = the rate at
-which R crosses the plane. The point, in the triangle's barycentric coordinates times b, is quadratic in W; its values at
-the camera's corners are interpolated linearly, which is exact for a flat mirror. What the quadratic part adds halfway
-along the camera's edges bounds the error of that.
+which R crosses the plane. The point, in the triangle's barycentric coordinates times b, is quadratic in W; its values
+at the camera's corners are interpolated linearly, which is exact for a flat mirror. What the quadratic part adds
+halfway along the camera's edges bounds the error of that.
 """
 from __future__ import annotations
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from .candidates import Candidates
 from .clipping import CONTACT, SCENE_EDGE, Polygons
+from .subdivision import parent_side, split
 from .vectors import ranges
 
 
@@ -32,6 +33,24 @@ class Faces:
 
     def select(self, chosen: np.ndarray) -> Faces:
         return Faces(self.nodes[chosen], self.camera[chosen], self.column[chosen], self.on_scene_edge[chosen])
+
+    def split(self, middle: np.ndarray) -> tuple[Faces, np.ndarray]:
+        """Faces split at the nodes `middle` (f, 3) of their edges, -1 for none.
+
+        Returns
+        -------
+        children : Faces
+        whole : (m, 3) bool
+            Which of their edges are whole edges of their parents.
+        """
+        parent, local = split(middle >= 0)
+        six = np.concatenate((self.nodes, middle), axis=1)[parent]
+        side = parent_side(local)
+        row = np.arange(len(parent))[:, None]
+        on_edge = np.where(side < 3, self.on_scene_edge[parent][row, np.minimum(side, 2)], False)
+        whole = (local < 3) & (np.roll(local, -1, axis=1) < 3) & (side < 3)
+        nodes = np.take_along_axis(six, local, axis=1)
+        return Faces(nodes, self.camera[parent], self.column[parent], on_edge), whole
 
     @staticmethod
     def joined(parts: list[Faces]) -> Faces:
@@ -68,8 +87,10 @@ def connect(candidates: Candidates, polygons: Polygons, node_of: np.ndarray, pix
     base, length = polygons.start[:-1][fan], size[fan]
     corner = [base + (apex[fan] + k) % length for k in (np.zeros_like(step), step, step + 1)]
     scene = (polygons.after >= SCENE_EDGE) & (polygons.after < CONTACT)
-    edges = np.stack((scene[corner[0]] & (step == 1), scene[corner[1]], scene[corner[2]] & (step + 2 == length)), axis=1)
+    first, last = step == 1, step + 2 == length
+    edges = np.stack((scene[corner[0]] & first, scene[corner[1]], scene[corner[2]] & last), axis=1)
+    nodes = np.stack([node_of[c] for c in corner], axis=1)
     pair = polygons.pair[fan]
-    faces = Faces(np.stack([node_of[c] for c in corner], axis=1), candidates.camera[pair], candidates.column[pair], edges)
+    faces = Faces(nodes, candidates.camera[pair], candidates.column[pair], edges)
     a, b, c = faces.nodes.T
     return faces.select((a != b) & (b != c) & (c != a))

@@ -1,4 +1,4 @@
-"""Error-bounded refinement of the reflected faces, and their cut along caustics.
+"""Error-bounded refinement of the reflected faces.
 
 Inside a face, position and texture are interpolated; halfway along an edge the interpolated point and the one truly
 seen there differ by a vector in the plane of the diffuse triangle. Divided by the true map's derivative it is a
@@ -16,7 +16,7 @@ from .connection import Faces
 from .mirror_map import MirrorMap
 from .nodes import Nodes
 from .scene_frames import SceneFrames
-from .subdivision import parent_side, shared_edges, split
+from .subdivision import shared_edges
 from .vectors import dot, norm
 from .view import View
 
@@ -35,7 +35,8 @@ class FaceRefinement:
     frames: SceneFrames
     virtual: bool
 
-    def refine(self, nodes: Nodes, faces: Faces, tolerance: float, maximum: int) -> tuple[Nodes, Faces, np.ndarray, int]:
+    def refine(self, nodes: Nodes, faces: Faces, tolerance: float,
+               maximum: int) -> tuple[Nodes, Faces, np.ndarray, int]:
         """Faces whose edges stray by less than `tolerance` pixels.
 
         Returns
@@ -60,7 +61,7 @@ class FaceRefinement:
             new = np.full(len(ends), -1)
             new[choice] = np.arange(marked.sum()) + len(nodes.distance)
             nodes = nodes.joined(*middle_nodes)
-            faces, done = _children(faces, new[edge])
+            faces, done = faces.split(new[edge])
             resting = done.all(axis=1)
             finished.append(faces.select(resting))
             faces, done = faces.select(~resting), done[~resting]
@@ -107,11 +108,12 @@ class FaceRefinement:
         return (weight_a * nodes.place[:, a] + weight_b * nodes.place[:, b]) / (weight_a + weight_b)
 
     def _straying(self, face: np.ndarray, uv: np.ndarray, column: np.ndarray, shown: np.ndarray):
-        """Pixels between the places where `shown` is drawn and where it is truly seen, and as much of them as an eye could
-        tell inside a face; what is truly seen there, and its s.
+        """Pixels between the places where `shown` is drawn and where it is truly seen, and as much of them as an eye
+        could tell inside a face; what is truly seen there, and its s.
 
-        Near a caustic the picture of a point is drawn out in one direction, and a shift in that direction shows nothing:
-        no shift counts for more than `STRETCH` times the pixels it would be in the direction that is drawn out least."""
+        Near a caustic the picture of a point is drawn out in one direction, and a shift in that direction shows
+        nothing: none counts for more than `STRETCH` times the pixels it would be where the picture is drawn out least.
+        """
         one, zero = np.ones(len(face)), np.zeros(len(face))
         place, ray, moves = self.mirror_map.linearise(face, uv, np.stack((one, zero)), np.stack((zero, one)))
         s = np.maximum(self.frames.distance(column, place, ray), 0.0)
@@ -133,85 +135,9 @@ class FaceRefinement:
         coarse = norm(shown - point) / np.maximum(np.maximum(*motion), 1e-300)
         return drift, np.minimum(drift, STRETCH * coarse), point, s
 
-    def split_at_caustics(self, nodes: Nodes, faces: Faces) -> tuple[Nodes, Faces, int]:
-        """Faces of one parity each: those that fold over are cut where the map's magnification is zero.
-
-        Only cameras whose rays may cross are looked at; returns the count of cut edges as well.
-        """
-        folding = np.flatnonzero(_may_fold(self.cameras)[faces.camera])
-        if not len(folding):
-            return nodes, faces, 0
-        chosen = faces.select(folding)
-        ends = np.stack((chosen.nodes, np.roll(chosen.nodes, -1, axis=1)), axis=2).reshape(-1, 2)
-        face, column = np.repeat(self.cameras.face[chosen.camera], 3), np.repeat(chosen.column, 3)
-        turned = self._magnification(face, column, nodes.place[:, ends[:, 0]])
-        following = turned.reshape(-1, 3)[:, [1, 2, 0]].ravel()
-        mixed = turned * following < 0.0
-        if not mixed.any():
-            return nodes, faces, 0
-        unique, first, edge = shared_edges(chosen.nodes)
-        cut = np.zeros(len(unique), dtype=bool)
-        cut[edge.ravel()[mixed]] = True
-        owner = np.full(len(unique), -1)
-        owner[edge.ravel()[mixed]] = np.flatnonzero(mixed)
-        owner = owner[cut]
-        place, point, distance = self._caustic(face[owner], column[owner], nodes.place[:, ends[owner, 0]],
-                                               nodes.place[:, ends[owner, 1]])
-        new = np.full(len(unique), -1)
-        new[cut] = np.arange(cut.sum()) + len(nodes.distance)
-        children, _ = _children(chosen, new[edge])
-        resting = np.ones(len(faces), dtype=bool)
-        resting[folding] = False
-        return nodes.joined(place, point, distance), Faces.joined([faces.select(resting), children]), int(cut.sum())
-
-    def _magnification(self, face: np.ndarray, column: np.ndarray, place: np.ndarray) -> np.ndarray:
-        uv = self.mirror_map.coordinates(face, place)
-        s = self.frames.distance(column, place, self.mirror_map.rays(face, uv))
-        return self.mirror_map.turned(face, uv, s)
-
-    def _caustic(self, face, column, start, end):
-        """Where between two places of opposite parity the magnification is zero, by bisection; with the point there."""
-        low, high = np.zeros(len(face)), np.ones(len(face))
-        sign = np.sign(self._magnification(face, column, start))
-        for _ in range(24):
-            middle = 0.5 * (low + high)
-            same = self._magnification(face, column, start + middle * (end - start)) * sign > 0.0
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
-        place = start + 0.5 * (low + high) * (end - start)
-        ray = self.mirror_map.rays(face, self.mirror_map.coordinates(face, place))
-        s = np.maximum(self.frames.distance(column, place, ray), 0.0)
-        return place, place + s * ray, s
-
 
 def _solve(a, b, c, d, right_x, right_y):
     """x, y with a x + b y = right_x and c x + d y = right_y."""
     determinant = a * d - b * c
     determinant = np.where(np.abs(determinant) > 1e-300, determinant, 1e-300)
     return (d * right_x - b * right_y) / determinant, (a * right_y - c * right_x) / determinant
-
-
-def _children(faces: Faces, middle: np.ndarray) -> tuple[Faces, np.ndarray]:
-    """Faces split at the nodes `middle` (f, 3) of their edges, -1 for none; and which of the children's edges are whole
-    edges of their parents, which nothing splits any more."""
-    parent, local = split(middle >= 0)
-    six = np.concatenate((faces.nodes, middle), axis=1)[parent]
-    side = parent_side(local)
-    row = np.arange(len(parent))[:, None]
-    on_edge = np.where(side < 3, faces.on_scene_edge[parent][row, np.minimum(side, 2)], False)
-    whole = (local < 3) & (np.roll(local, -1, axis=1) < 3) & (side < 3)
-    return Faces(np.take_along_axis(six, local, axis=1), faces.camera[parent], faces.column[parent], on_edge), whole
-
-
-def _may_fold(cameras: Cameras) -> np.ndarray:
-    """Cameras whose rays may cross at some distance: the moved triangle's area across a corner's ray,
-    n0 + s n1 + s^2 n2, has a coefficient of the other sign."""
-    places, rays = cameras.places[:, cameras.corners], cameras.rays[:, cameras.corners]
-    p, q = places[:, :, 1] - places[:, :, 0], places[:, :, 2] - places[:, :, 0]
-    r, t = rays[:, :, 1] - rays[:, :, 0], rays[:, :, 2] - rays[:, :, 0]
-    cross_rows = lambda a, b: np.cross(a, b, axis=0)  # noqa: E731
-    coefficients = np.stack([np.einsum("kn,kni->ni", normal, rays) for normal in
-                             (cross_rows(p, q), cross_rows(p, t) + cross_rows(r, q), cross_rows(r, t))])
-    # curvature below rounding, as on flat mirrors, is none
-    noise = 1e-12 * np.abs(coefficients).max(axis=0)
-    positive, negative = (coefficients > noise).any(axis=(0, 2)), (coefficients < -noise).any(axis=(0, 2))
-    return positive & negative

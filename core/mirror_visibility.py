@@ -1,8 +1,8 @@
 """What of the mirror its own body hides from the eye: found on a coarse grid of view rays.
 
 Nothing is called hidden that might peek out between the samples: a camera is dropped only where it and all cameras
-round it have samples and every one lies behind another part of the mirror, and a place only where the four samples round
-it do.
+round it have samples and every one lies behind another part of the mirror, and a place only where the four samples
+round it do.
 """
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ class DepthGrid:
 
 
 def without_hidden(view: View, mirror_map: MirrorMap, cameras: Cameras) -> tuple[Cameras, DepthGrid]:
-    """The cameras that the eye may see; large ones that are hidden in part are split, and their hidden parts dropped."""
+    """The cameras that the eye may see; large ones hidden in part are split, and their hidden parts dropped."""
     for level in range(LEVELS + 1):
         grid, seen, hidden = DepthGrid.of(view, cameras)
         pixels = view.pixels(cameras.places.T)[cameras.corners]

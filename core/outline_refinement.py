@@ -22,34 +22,34 @@ SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
 
 
 def refine_for_outlines(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames,
-                        candidates: Candidates, tolerance: float, maximum: int) -> tuple[Cameras, Candidates, bool]:
-    """Cameras split until no outline in them misses the true one by more than `tolerance` pixels.
+                        candidates: Candidates, tolerance: float,
+                        maximum: int) -> tuple[Cameras, Candidates, np.ndarray]:
+    """Cameras split until no outline in them misses the true one by more than `tolerance` pixels, or until there are
+    `maximum` candidates.
 
     Returns
     -------
     cameras : Cameras
     candidates : Candidates
         The pairs that may really overlap.
-    limited : bool
-        Whether the bound on depth, or on count (`maximum` pairs), stopped the refinement.
+    open_ : (n,) bool
+        Cameras too small to be split in which some outline still does.
     """
-    for _ in range(LEVELS):
+    for level in range(LEVELS + 1):
         candidates, lines = _really_overlapping(candidates)
-        bent = _bent_edges(view, cameras, candidates, lines, tolerance)
-        if not bent.any():
-            return cameras, candidates, False
-        if len(candidates) > maximum:
+        bent, long = _bent_edges(view, cameras, candidates, lines, tolerance)
+        if level == LEVELS or not (bent & long).any() or len(candidates) > maximum:
             break
         order = np.argsort(candidates.camera, kind="stable")
         camera, column = candidates.camera[order], candidates.column[order]
         count = len(cameras)
-        cameras, parent = split_cameras(view, mirror_map, cameras, bent)
+        cameras, parent = split_cameras(view, mirror_map, cameras, bent & long)
         start = np.searchsorted(camera, np.arange(count + 1))
         entry, child = ranges(start[parent], start[parent + 1] - start[parent])
         # a camera across the triangle's plane stands twice among the candidates, and is asked once
         pairs = np.unique(child * len(frames.triangle) + column[entry])
         candidates = overlapping(cameras, frames, pairs // len(frames.triangle), pairs % len(frames.triangle))
-    return cameras, candidates, True
+    return cameras, candidates, bent.any(axis=1) & ~long.any(axis=1)
 
 
 def _really_overlapping(candidates: Candidates) -> tuple[Candidates, np.ndarray]:
@@ -66,8 +66,9 @@ def _really_overlapping(candidates: Candidates) -> tuple[Candidates, np.ndarray]
 
 
 def _bent_edges(view: View, cameras: Cameras, candidates: Candidates, lines: np.ndarray,
-                tolerance: float) -> np.ndarray:
-    """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses too much."""
+                tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+    """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses too much; and those
+    that are long enough to be split."""
     pixels = view.pixels(cameras.places.T)[cameras.corners]
     across, up = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
     area = np.abs(across[:, 0] * up[:, 1] - across[:, 1] * up[:, 0])
@@ -79,4 +80,4 @@ def _bent_edges(view: View, cameras: Cameras, candidates: Candidates, lines: np.
     edge, pair = np.nonzero(misses.any(axis=0))
     bent = np.zeros((len(cameras), 3), dtype=bool)
     bent[camera[pair], edge] = True
-    return bent & (np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > SHORTEST_EDGE)
+    return bent, np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > SHORTEST_EDGE

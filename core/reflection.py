@@ -3,15 +3,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Generator
+from dataclasses import replace
 
 import numpy as np
 
+from .assembly import assemble
 from .cameras import three_ray_cameras, visible_triangles
 from .candidates import overlapping
+from .caustics import split_at_caustics
 from .clipping import clip
 from .cones import Cones
 from .connection import connect
 from .face_refinement import FaceRefinement
+from .filling import fill
 from .horizon import cut_at_horizon
 from .images import vertex_images
 from .mirror_map import MirrorMap
@@ -19,7 +23,6 @@ from .mirror_refinement import in_picture, refine_mirror
 from .mirror_visibility import without_hidden
 from .nodes import polygon_nodes
 from .outline_refinement import refine_for_outlines
-from .placement import place, slide_limits
 from .reflection_mesh import ReflectionMesh
 from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
@@ -117,7 +120,7 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     met, column = np.unique(triangle, return_inverse=True)
     frames = SceneFrames.of(tree.mesh, met)
     candidates = overlapping(cameras, frames, camera, column)
-    cameras, candidates, outline_limited = refine_for_outlines(
+    cameras, candidates, open_ = refine_for_outlines(
         view, mirror_map, cameras, frames, candidates, OUTLINE_SHARE * settings.tolerance, settings.maximum_faces)
     cones = Cones.around(cameras)
     counts["cameras"], counts["candidates"] = len(cameras), len(candidates)
@@ -131,30 +134,29 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
 
     yield 0.6, "clipping"
     polygons = clip(candidates)
+    polygons, counts["filled"] = fill(mirror_map, cameras, frames, candidates, polygons, open_)
     nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, positions, candidates, polygons, images)
     counts["polygons"] = len(polygons.pair)
     stages.done("clipping")
 
     yield 0.75, "connection"
     faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))
-    refinement = FaceRefinement(view, mirror_map, cameras, frames, settings.placement == "VIRTUAL")
-    nodes, faces, counts["caustic_edges"] = refinement.split_at_caustics(nodes, faces)
+    nodes, faces, counts["caustic_edges"] = split_at_caustics(mirror_map, cameras, frames, nodes, faces)
     faces = faces.select(~grid.hides(nodes.place)[faces.nodes].all(axis=1))
     counts["connected"] = len(faces)
     stages.done("connection")
 
     yield 0.8, "refinement"
+    refinement = FaceRefinement(view, mirror_map, cameras, frames, settings.placement == "VIRTUAL")
     nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * settings.tolerance,
                                                     settings.maximum_faces)
     stages.done("refinement")
 
     yield 0.95, "depth order"
-    result = _mesh(view, mirror_map, cameras, frames, nodes, faces, settings)
-    counts["faces"] = len(result.triangles)
-    counts["vertices"] = len(result.positions)
-    counts["limited"] = int(mirror_limited) + int(outline_limited) + limited
+    counts["faces"], counts["limited"] = len(faces), int(mirror_limited) + limited
+    mesh = assemble(view, mirror_map, cameras, frames, nodes, faces, settings.placement)
     stages.done("placement")
-    return ReflectionMesh(**result.__dict__ | {"counts": counts, "seconds": stages.seconds, "estimated_error": float(np.percentile(left, 99))})
+    return replace(mesh, counts=counts, seconds=stages.seconds, estimated_error=float(np.percentile(left, 99)))
 
 
 def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree) -> None:
@@ -177,28 +179,3 @@ def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree) ->
     inside = np.stack([np.einsum("ij,ij->i", np.cross(p, q), normals[near]) for p, q in ((a, b), (b, c), (c, a))])
     if (inside >= 0.0).all(axis=0).any():
         raise ReflectionError("The eye lies on the mirror; move the camera away from the mirror's surface.")
-
-
-def _mesh(view, mirror_map, cameras, frames, nodes, faces, settings) -> ReflectionMesh:
-    """The faces as arrays, without unused nodes, all turned to the eye."""
-    used, corner = np.unique(faces.nodes, return_inverse=True)
-    triangles = corner.reshape(-1, 3)
-    kept = type(nodes)(nodes.place[:, used], nodes.point[:, used], nodes.distance[used])
-    mirror_face = cameras.face[faces.camera]
-    owner = np.zeros(len(used), dtype=np.int64)
-    owner[triangles.ravel()] = np.repeat(mirror_face, 3)
-    ray = mirror_map.rays(owner, mirror_map.coordinates(owner, kept.place)) if len(used) else kept.place
-    path = kept.distance * norm(ray)
-    turned = mirror_map.turned(owner, mirror_map.coordinates(owner, kept.place), kept.distance)
-    parity = np.where(np.abs(turned) < 1e-5, 0, np.sign(turned)).astype(np.int8)
-    pixels = view.pixels(kept.place.T)[triangles]
-    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
-    away = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0.0
-    triangles[away] = triangles[away][:, [0, 2, 1]]
-    column = np.repeat(faces.column, 3)
-    weights = frames.weights(column, np.take(kept.point, triangles.ravel(), axis=1))
-    most = slide_limits(view, kept, path, frames, triangles, faces.column)
-    return ReflectionMesh(
-        positions=place(view, kept, path, settings.placement, most).T, triangles=triangles, reflected_position=kept.point.T,
-        mirror_position=kept.place.T, path_length=path, image_parity=parity,
-        source_face=frames.triangle[faces.column], source_weights=weights.T.reshape(-1, 3, 3), mirror_face=mirror_face)

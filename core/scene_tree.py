@@ -2,8 +2,8 @@
 
 J. L. Bentley, "Multidimensional binary search trees used for associative searching", CACM 1975. The tree is complete
 and lies in flat arrays: nodes of one level are rows of one array, cut at the median of their widest axis, all nodes of
-a level at a time. Each triangle hangs at the leaf of its first vertex, and a node's sphere holds its triangles whole, so
-that a cone that touches a triangle meets its leaf even where no vertex of the triangle lies in the cone.
+a level at a time. Each triangle hangs at the leaf of its first vertex, and a node's sphere holds its triangles whole,
+so that a cone that touches a triangle meets its leaf even where no vertex of the triangle lies in the cone.
 """
 from __future__ import annotations
 

@@ -3,8 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-# Corners 0 1 2 and the middles 3 4 5 of the edges 01, 12, 20. For each set of marked edges (bit k: edge k): the children,
-# and behind them the two choices where two edges are marked and a four-cornered rest must be cut along a diagonal.
+# Corners 0 1 2 and the middles 3 4 5 of edges 01, 12, 20: the children for each set of marked edges (bit k: edge k).
 _TEMPLATES = {
     0b001: [(0, 3, 2), (3, 1, 2)],
     0b010: [(0, 1, 4), (0, 4, 2)],

@@ -16,7 +16,7 @@ class View:
         Rigid placement of the eye, which looks along its own -Z with +Y up (Blender's and OpenGL's convention).
     projection : (4, 4) float64
         Clip matrix in eye space, as OpenGL and `bpy.types.Object.calc_matrix_camera` define it: lens, shift, sensor
-        fit and pixel aspect are all in it. The last row tells a perspective (0 0 -1 0) from an orthographic (0 0 0 1) eye.
+        fit and pixel aspect are all in it. Its last row tells a perspective (0 0 -1 0) from an orthographic eye.
     resolution : (width, height)
         Size of the picture in pixels.
     """
