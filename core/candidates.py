@@ -7,7 +7,8 @@ halfway along the camera's edges bounds the error of that.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -43,6 +44,11 @@ class Candidates:
     def select(self, chosen: np.ndarray) -> Candidates:
         return Candidates(self.camera[chosen], self.column[chosen], self.sides[:, :, chosen], self.ahead[:, chosen],
                           self.bend[:, :, chosen])
+
+    @staticmethod
+    def joined(parts: Sequence[Candidates]) -> Candidates:
+        return Candidates(*(np.concatenate([getattr(part, field.name) for part in parts], axis=-1)
+                            for field in fields(Candidates)))
 
     @property
     def room(self) -> np.ndarray:

@@ -35,6 +35,8 @@ class Roots:
         Sign of the cubic's derivative by s at the root, 0 where rounding cannot tell it from a multiple root.
     error : (m,) float64
         Bound on the error of `value`, to first order in the unit roundoff.
+    spread : (m,) float64
+        How far from `value` the separate roots may lie that count as one multiple root; `error` for a simple one.
     """
 
     cubic: np.ndarray
@@ -42,6 +44,7 @@ class Roots:
     reversed: np.ndarray
     sign: np.ndarray
     error: np.ndarray
+    spread: np.ndarray
 
 
 def positive_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray,
@@ -106,8 +109,7 @@ def positive_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray
     value = _bracketed_root(c, low, high, np.where(inverse, high_sign, low_sign))
     value[double] = low[double]
     high_sign[double] = 0
-    error = _root_error(c, e, value, high_sign)
-    return Roots(cubic, value, inverse, high_sign, error), degenerate
+    return Roots(cubic, value, inverse, high_sign, *_root_errors(c, e, value, high_sign)), degenerate
 
 
 def _without_noise(c: np.ndarray, bounds: np.ndarray):
@@ -160,8 +162,8 @@ def _sign_at_extremum(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.nd
     """Sign of each cubic at its extremum x, 0 where there may be a double root nearby.
 
     At the double root that the exact cubic has, this one is at most its bound B and its slope at most that slope's
-    bound D. So the root is within d = min(D / |f''|, sqrt(D / |3 c3|)) of x, and the value here at most B + D d.
-    As D d is seldom above 3 B, this is looked at closely up to 4 B.
+    bound D. So the root is within d of x (see `_shift`), and the value here at most B + D d. As D d is seldom above 3 B,
+    this is looked at closely up to 4 B.
     """
     value, bound = _horner(c, x), _evaluation_bound(c, bounds, x)
     size = np.abs(value)
@@ -169,10 +171,15 @@ def _sign_at_extremum(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.nd
     if len(near):
         part, at = c[:, near], x[near]
         slope = _slope_bound(part, bounds[:, near], at)
-        with np.errstate(divide="ignore"):
-            way = np.fmin(slope / np.abs(2.0 * part[2] + 6.0 * part[3] * at), np.sqrt(slope / np.abs(3.0 * part[3])))
-        bound[near] += slope * way
+        bound[near] += slope * _shift(part, slope, at)
     return _sign(value, bound)
+
+
+def _shift(c: np.ndarray, slope_bound: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """How far an extremum at x may move where the slope f' is off by no more than its bound D: D / |f''|, and where that
+    vanishes sqrt(D / |3 c3|)."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.fmin(slope_bound / np.abs(2.0 * c[2] + 6.0 * c[3] * x), np.sqrt(slope_bound / np.abs(3.0 * c[3])))
 
 
 def _bracketed_root(c: np.ndarray, low: np.ndarray, high: np.ndarray, low_sign: np.ndarray) -> np.ndarray:
@@ -216,26 +223,27 @@ def _derivatives(c, x):
     return ((value + c[2]) * x + c[1]) * x + c[0], (bend + c[2]) * x + c[1], bend
 
 
-def _root_error(c: np.ndarray, bounds: np.ndarray, x: np.ndarray, sign: np.ndarray) -> np.ndarray:
-    """How far the true root may lie from x; clears the signs (in place) of roots with no slope to speak of.
+def _root_errors(c: np.ndarray, bounds: np.ndarray, x: np.ndarray, sign: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """`Roots.error` and `Roots.spread`; clears the signs (in place) of roots with no slope to speak of.
 
     A simple root of slope f' and curvature f'' whose extremum is further from zero than the bound B has
     f'^2 > 2 B |f''|, and then |f' d| - |f'' d^2| / 2 = B gives d <= 2 B / |f'|. At a double root |f| <= B leaves a
-    true value up to 2 B, so f'' d^2 / 2 (1 - 2/3 d / D) = 2 B gives d <= sqrt(12 B / |f''|) as far as the other
-    extremum, at the distance D; at a triple root f''' d^3 / 6 = 2 B.
+    true value up to 2 B, so f'' d^2 / 2 (1 - 2/3 d / D) = 2 B gives a spread d <= sqrt(12 B / |f''|) as far as the other
+    extremum, at the distance D; at a triple root c3 d^3 = 2 B.
     """
     bound = _evaluation_bound(c, bounds, x)
-    slope = c[1] + x * (2.0 * c[2] + x * 3.0 * c[3])
-    steep = np.abs(slope)
-    sign[steep <= _slope_bound(c, bounds, x)] = 0
-    flat = np.flatnonzero(sign == 0)
+    steep = np.abs(_derivatives(c, x)[1])
+    slope_bound = _slope_bound(c, bounds, x)
+    sign[steep <= slope_bound] = 0
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         error = 2.0 * bound / steep + 4.0 * UNIT * x
-        curvature = np.abs(2.0 * c[2, flat] + 6.0 * c[3, flat] * x[flat])
-        square = np.sqrt(12.0 * bound[flat] / curvature)
-        cube = np.cbrt(12.0 * bound[flat] / np.abs(6.0 * c[3, flat]))
-    error[flat] = np.fmin(square, cube)
-    return error
+        spread = error.copy()
+        flat = np.flatnonzero(sign == 0)
+        c, bound, at = c[:, flat], bound[flat], x[flat]
+        error[flat] = _shift(c, slope_bound[flat], at) + 4.0 * UNIT * at
+        spread[flat] = np.fmin(np.sqrt(12.0 * bound / np.abs(2.0 * c[2] + 6.0 * c[3] * at)),
+                               np.cbrt(2.0 * bound / np.abs(c[3]))) + error[flat]
+    return error, spread
 
 
 def _horner(c: np.ndarray, x: np.ndarray) -> np.ndarray:

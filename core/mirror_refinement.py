@@ -51,7 +51,7 @@ def refine_mirror(view: View, mirror_map: MirrorMap, cameras: Cameras, tolerance
 
 
 def split_cameras(view: View, mirror_map: MirrorMap, cameras: Cameras,
-                  marked: np.ndarray) -> tuple[Cameras, np.ndarray]:
+                  marked: np.ndarray) -> tuple[Cameras, np.ndarray, np.ndarray]:
     """Cameras split along the `marked` (n, 3) edges, each from a corner to the next, on both sides of each edge.
 
     Returns
@@ -60,6 +60,8 @@ def split_cameras(view: View, mirror_map: MirrorMap, cameras: Cameras,
         Those in the picture.
     parent : (m,) int64
         The camera that each lies in.
+    new : (m,) bool
+        Whether it is only a part of its parent.
     """
     ends, first, edge = shared_edges(cameras.corners)
     chosen = np.zeros(len(ends), dtype=bool)
@@ -67,7 +69,7 @@ def split_cameras(view: View, mirror_map: MirrorMap, cameras: Cameras,
     middles, rays = _middles(mirror_map, cameras, ends, first)
     cameras, parent = _split(cameras, chosen, edge, middles, rays)
     seen = in_picture(view, cameras)
-    return cameras.select(seen), parent[seen]
+    return cameras.select(seen), parent[seen], chosen[edge].any(axis=1)[parent[seen]]
 
 
 def _middles(mirror_map: MirrorMap, cameras: Cameras, ends: np.ndarray, first: np.ndarray):

@@ -103,7 +103,7 @@ def without_hidden(view: View, mirror_map: MirrorMap, cameras: Cameras) -> tuple
         marked = (seen & hidden)[:, None] & long
         if level == LEVELS or not marked.any():
             break
-        cameras, _ = split_cameras(view, mirror_map, cameras, marked)
+        cameras, *_ = split_cameras(view, mirror_map, cameras, marked)
     keep = seen | ~hidden
     corner_seen = np.zeros(cameras.places.shape[1], dtype=bool)
     corner_seen[cameras.corners[keep]] = True

@@ -6,6 +6,8 @@ which the rays cross before the triangle; all others keep their size.
 """
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from .cameras import Cameras
@@ -35,21 +37,40 @@ def refine_for_outlines(view: View, mirror_map: MirrorMap, cameras: Cameras, fra
     open_ : (n,) bool
         Cameras too small to be split in which some outline still does.
     """
+    settled, open_ = candidates.select(np.zeros(0, dtype=np.int64)), np.zeros(len(cameras), dtype=bool)
     for level in range(LEVELS + 1):
         candidates, lines = _really_overlapping(candidates)
         bent, long = _bent_edges(view, cameras, candidates, lines, tolerance)
-        if level == LEVELS or not (bent & long).any() or len(candidates) > maximum:
+        settled = Candidates.joined((settled, candidates))
+        if level == LEVELS or not (bent & long).any() or len(settled) > maximum:
             break
-        order = np.argsort(candidates.camera, kind="stable")
-        camera, column = candidates.camera[order], candidates.column[order]
-        count = len(cameras)
-        cameras, parent = split_cameras(view, mirror_map, cameras, bent & long)
-        start = np.searchsorted(camera, np.arange(count + 1))
-        entry, child = ranges(start[parent], start[parent + 1] - start[parent])
-        # a camera across the triangle's plane stands twice among the candidates, and is asked once
-        pairs = np.unique(child * len(frames.triangle) + column[entry])
-        candidates = overlapping(cameras, frames, pairs // len(frames.triangle), pairs % len(frames.triangle))
-    return cameras, candidates, bent.any(axis=1) & ~long.any(axis=1)
+        open_ |= (bent & ~long).any(axis=1)
+        before = len(cameras)
+        cameras, parent, new = split_cameras(view, mirror_map, cameras, bent & long)
+        now = np.full(before, -1)
+        now[parent[~new]] = np.flatnonzero(~new)
+        open_ = open_[parent] & ~new
+        candidates = overlapping(cameras, frames, *_children(settled, parent, new, before, len(frames.triangle)))
+        settled = _renumbered(settled, now)
+    return cameras, settled, open_ | (bent.any(axis=1) & ~long.any(axis=1))
+
+
+def _renumbered(candidates: Candidates, now: np.ndarray) -> Candidates:
+    """Candidates under the cameras' numbers `now`, without those of cameras that are no more (-1)."""
+    kept = candidates.select(now[candidates.camera] >= 0)
+    return replace(kept, camera=now[kept.camera])
+
+
+def _children(candidates: Candidates, parent: np.ndarray, new: np.ndarray, before: int,
+              columns: int) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of the new cameras with the candidates of their parents, each once: a camera across a triangle's plane
+    stands twice among the candidates."""
+    order = np.argsort(candidates.camera, kind="stable")
+    start = np.searchsorted(candidates.camera[order], np.arange(before + 1))
+    child = np.flatnonzero(new)
+    entry, run = ranges(start[parent[child]], start[parent[child] + 1] - start[parent[child]])
+    pairs = np.unique(child[run] * columns + candidates.column[order][entry])
+    return pairs // columns, pairs % columns
 
 
 def _really_overlapping(candidates: Candidates) -> tuple[Candidates, np.ndarray]:

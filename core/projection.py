@@ -49,8 +49,8 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facin
 
     The parity is the sign of the cubic's derivative, R(W) . N(s) with N the moved triangle's normal by its winding,
     times the sign of that normal on the side to which the mirror reflects: that of (R_A + R_B + R_C) . N(0), or
-    `facing`. Both change with the winding, so the product does not; the second is one for all images of a camera, so within a
-    camera the parity changes only across a caustic. Shading normals that bend the middle ray under the flat triangle
+    `facing`. Both change with the winding, so the product does not; the second is one for all images of a camera, so
+    within a camera the parity changes only across a caustic. Shading normals that bend the middle ray under the flat triangle
     make it the wrong one; a caller who knows where the eye is gives `facing`.
 
     Parameters
@@ -191,8 +191,8 @@ def _reach(still, moving, lengths):
     """The times (n,), (n,) between which an image can lie at all.
 
     P in the moved triangle is at most as far from the first corner as the further of the others: |p + s r| <= E + s D,
-    a quadratic in s. E and D are doubled, for points that rounding moves out of the triangle, and raised by 2^-23 of |p|
-    and |r|: squared that is 128 u, more than all the rounding here.
+    a quadratic in s. E and D are doubled, for points that rounding moves out of the triangle, and raised by 2^-23 of
+    |p| and |r|: squared that is 128 u, more than all the rounding here.
     """
     x, e1, e2, r, d1, d2 = lengths
     e = 2.0 * np.maximum(e1, e2) + 2.0 ** -23 * x
@@ -216,19 +216,21 @@ def _weights(place, lengths, roots):
 
     p + W_B a + W_C b = 0. Through p, a, b and the products the weight of a corner is off by at most 8 u times the
     lengths that go into them, over the triangle's height at that corner; through the root's error, by the way that P
-    moves in that time against the triangle, over the height.
+    moves in that time against the triangle, over the height. Bounds end at 1/2, as far as `_reach` goes.
     """
     p, a, b = place
     x, e1, e2, r, d1, d2 = lengths
     normal = cross(a, b)
     square = dot(normal, normal)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         second, third = dot(cross(b, p), normal) / square, dot(cross(p, a), normal) / square
         area = np.sqrt(square)
         t = roots.value
         long1, long2 = e1 + t * d1, e2 + t * d2
-        shift = (8.0 * UNIT * (x + t * r + long1 + long2) + (r + d1 + d2) * roots.error) / area
-        # One whole height off: P lies on a line as far as anyone can know.
-        solid = (area > 10.0 * UNIT * long1 * long2 + (d1 * long2 + long1 * d2) * roots.error) & \
-            (shift * (long1 + long2) < 1.0)
-    return np.stack((1.0 - second - third, second, third)), shift * np.stack((long1 + long2, long2, long1)), solid
+        still, moving = 8.0 * UNIT * (x + t * r + long1 + long2) / area, (r + d1 + d2) / area
+        # Off by a whole height: the triangle is a line as far as anyone can know.
+        solid = area > 10.0 * UNIT * long1 * long2 + (d1 * long2 + long1 * d2) * roots.error
+        solid &= (still + moving * roots.error) * (long1 + long2) < 1.0
+        sure = still + moving * roots.spread
+        sure = np.minimum(np.stack((long1 + long2, long2, long1)) * sure, 0.5)
+    return np.stack((1.0 - second - third, second, third)), sure, solid
