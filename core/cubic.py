@@ -13,7 +13,7 @@ _FAR = 2.0 ** 300
 
 _QUICK_STEPS, _MOST_STEPS = 5, 160
 """Steps of Halley's method that every root takes, and the bound for the few that need more: they gain a factor of 1/2 a
-step even at a triple root, and a step that would leave the bracket halves it instead."""
+step even at a triple root, or halve their bracket instead."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ def positive_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray
     with np.errstate(divide="ignore"):
         low[turn], high[turn] = 1.0 / high[turn], 1.0 / low[turn]
     low, high = np.minimum(low, 1.0), np.minimum(high, 1.0)
-    value = _bracketed_root(c, low, high, np.where(inverse, high_sign, low_sign))
+    value = _bracketed_root(_without_zeros(c), low, high, np.where(inverse, high_sign, low_sign))
     value[double] = low[double]
     high_sign[double] = 0
     return Roots(cubic, value, inverse, high_sign, *_root_errors(c, e, value, high_sign)), degenerate
@@ -126,6 +126,17 @@ def _without_noise(c: np.ndarray, bounds: np.ndarray):
     return c, first, last, degenerate
 
 
+def _without_zeros(c: np.ndarray) -> np.ndarray:
+    """The cubics divided by s as often as they allow, which leaves no root at 0 for a bracket to end in."""
+    for _ in range(3):
+        at = np.flatnonzero(c[0] == 0.0)
+        if not len(at):
+            break
+        c = c.copy()
+        c[:, at] = np.roll(c[:, at], -1, axis=0)
+    return c
+
+
 def _monotone_intervals(c: np.ndarray, bounds: np.ndarray, first: np.ndarray, last: np.ndarray, low: np.ndarray,
                         high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Ends (4, n) of the three intervals low, extremum, extremum, high (any of them empty), and the signs there."""
@@ -143,6 +154,15 @@ def _monotone_intervals(c: np.ndarray, bounds: np.ndarray, first: np.ndarray, la
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         one, other = q / (3.0 * c[3]), c[1] / q
     real = discriminant > 0.0
+    # Where rounding cannot tell the slope at the inflection from zero, both extrema are there.
+    near = np.flatnonzero(~real & (discriminant > -0.1 * c[2] * c[2]) & (c[2] * c[3] < 0.0))
+    if len(near):
+        part = c[:, near]
+        inflection = -part[2] / (3.0 * part[3])
+        level = np.abs(_derivatives(part, inflection)[1]) <= _slope_bound(part, bounds[:, near], inflection)
+        near = near[level]
+        one[near] = other[near] = inflection[level]
+        real[near] = True
     # A missing extremum makes an empty interval at the lower end, one beyond the upper end an empty interval there.
     one, other = (np.where(real & (end > low), end, low) for end in (one, other))
     for k, end in ((1, np.minimum(one, other)), (2, np.maximum(one, other))):
@@ -162,8 +182,8 @@ def _sign_at_extremum(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.nd
     """Sign of each cubic at its extremum x, 0 where there may be a double root nearby.
 
     At the double root that the exact cubic has, this one is at most its bound B and its slope at most that slope's
-    bound D. So the root is within d of x (see `_shift`), and the value here at most B + D d. As D d is seldom above 3 B,
-    this is looked at closely up to 4 B.
+    bound D. So the root is within d of x (see `_shift`), and the value here at most B + D d. As D d is seldom above
+    3 B, this is looked at closely up to 4 B.
     """
     value, bound = _horner(c, x), _evaluation_bound(c, bounds, x)
     size = np.abs(value)
@@ -203,17 +223,18 @@ def _bracketed_root(c: np.ndarray, low: np.ndarray, high: np.ndarray, low_sign: 
 
 
 def _bracketed_step(c, x, low, high, low_sign):
-    """One step of Halley's, or a halving where that leaves the bracket; narrows `low` and `high` in place. Also whether
-    rounding still allows another step."""
+    """One step of Halley's, or a halving where that leaves the bracket or, for want of slope, rests at an extremum;
+    narrows `low` and `high` in place. Also whether rounding still allows another step."""
     value, slope, bend = _derivatives(c, x)
     below = value * low_sign > 0.0
     np.copyto(low, x, where=below)
     np.copyto(high, x, where=~below)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         new = x - value * slope / (slope * slope - value * bend)
-    new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
-    size = _horner(np.abs(c), x)
-    return new, (np.abs(new - x) > 2.0 * UNIT * x) & (np.abs(value) > 2.0 * UNIT * size)
+    useful = (new >= low) & (new <= high) & (slope * slope >= np.abs(value * bend))
+    new = np.where(useful, new, 0.5 * (low + high))
+    open_ = np.abs(value) > 2.0 * UNIT * _horner(np.abs(c), x)
+    return np.where(open_, new, x), open_ & (np.abs(new - x) > 2.0 * UNIT * x)
 
 
 def _derivatives(c, x):
@@ -223,7 +244,8 @@ def _derivatives(c, x):
     return ((value + c[2]) * x + c[1]) * x + c[0], (bend + c[2]) * x + c[1], bend
 
 
-def _root_errors(c: np.ndarray, bounds: np.ndarray, x: np.ndarray, sign: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _root_errors(c: np.ndarray, bounds: np.ndarray, x: np.ndarray,
+                 sign: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """`Roots.error` and `Roots.spread`; clears the signs (in place) of roots with no slope to speak of.
 
     A simple root of slope f' and curvature f'' whose extremum is further from zero than the bound B has

@@ -80,6 +80,8 @@ class FaceRefinement:
         shown = 0.5 * (nodes.point[:, a] + nodes.point[:, b])
         uv = self.mirror_map.coordinates(mirror_face, place)
         drift, error, point, distance = self._straying(mirror_face, uv, column, shown)
+        sliver = self.mirror_map.lifted(mirror_face, uv)
+        drift[sliver] = error[sliver] = 0.0
         pixels = self.view.pixels(nodes.place.T)
         length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
         # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight
@@ -138,6 +140,9 @@ class FaceRefinement:
 
 def _solve(a, b, c, d, right_x, right_y):
     """x, y with a x + b y = right_x and c x + d y = right_y."""
-    determinant = a * d - b * c
-    determinant = np.where(np.abs(determinant) > 1e-300, determinant, 1e-300)
+    straight, crossed = a * d, b * c
+    determinant = straight - crossed
+    # a map that rounding cannot tell from singular moves far, but not infinitely far
+    least = 1e-14 * (np.abs(straight) + np.abs(crossed)) + 1e-150
+    determinant = np.where(np.abs(determinant) > least, determinant, least)
     return (d * right_x - b * right_y) / determinant, (a * right_y - c * right_x) / determinant

@@ -3,6 +3,12 @@
 At Q on the flat triangle, with the normalised interpolated normal n(Q), the ray leaves along d - 2 (d . n) n, which is
 what Cycles traces on the same mesh. The three-ray camera interpolates rays instead and is O(h^2) off; Newton steps on
 this map make its images exact.
+
+Near silhouettes that ray would enter the flat triangle it leaves. There the normal n is turned towards the flat normal
+g until the ray just clears the surface, as Cycles does (`ensure_valid_specular_reflection` in its kernel): with i the
+unit vector to the eye and x the unit tangent in the plane of n and g, turning n in that plane only turns the part of
+the reflected ray that lies in it, of length sqrt((i . x)^2 + (i . g)^2), while the part across it stays. The ray that
+rises by t along g is therefore sqrt((i . x)^2 + (i . g)^2 - t^2) x + t g - (i - (i . x) x - (i . g) g).
 """
 from __future__ import annotations
 
@@ -11,6 +17,10 @@ import numpy as np
 from .triangle_mesh import TriangleMesh
 from .vectors import cross, dot, norm, rows, solve, unit
 from .view import View
+
+LEAST_RISE = 0.01  # sine of the angle at which Cycles lets a bent ray leave
+NEARLY_GRAZING = 0.1  # sine at a face's corners or middle below which some ray of the face may need to be bent
+DIFFERENCE = 1e-5  # of a triangle's side: step of the difference quotients for bent rays
 
 
 class MirrorMap:
@@ -31,6 +41,13 @@ class MirrorMap:
         self.orthographic = view.orthographic
         self.eye, self.forward = view.eye[:, None], view.forward[:, None]
         self.parallel = parallel
+        self.face_normal = unit(self.flat)
+        self.grazing = np.zeros(self.a.shape[1], dtype=bool)
+        if not parallel:
+            every = np.arange(self.a.shape[1])
+            for u, v in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0 / 3.0, 1.0 / 3.0)):
+                uv = np.stack((np.full(len(every), u), np.full(len(every), v)))
+                self.grazing |= self._rise(every, *self._unbent(every, uv)[:2]) < NEARLY_GRAZING
         if parallel:
             middle = self.a + (self.u + self.v) / 3.0
             direction = unit(self._directions(middle))
@@ -66,9 +83,51 @@ class MirrorMap:
         """R as (3, n), not normalised: as long as d."""
         if self.parallel:
             return self.constant[:, face]
+        ray, direction, normal = self._unbent(face, uv)
+        part = np.flatnonzero(self.grazing[face])
+        if len(part):
+            ray[:, part] = self._lifted(face[part], ray[:, part], direction[:, part], normal[:, part])
+        return ray
+
+    def lifted(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+        """Whether the rays (n,) would enter their flat faces and are turned until they clear them."""
+        found = np.zeros(len(face), dtype=bool)
+        part = np.flatnonzero(self.grazing[face])
+        if len(part) and not self.parallel:
+            face, uv = face[part], uv[:, part]
+            ray, direction, _ = self._unbent(face, uv)
+            found[part] = self._rise(face, ray, direction) < self._least_rise(face, direction)
+        return found
+
+    def _least_rise(self, face: np.ndarray, direction: np.ndarray) -> np.ndarray:
+        upright = np.abs(dot(unit(direction), self.face_normal[:, face]))
+        return np.minimum(0.9 * upright, LEAST_RISE)
+
+    def _unbent(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Ray, view direction and unit normal, all (3, n), before the ray is lifted above the flat face."""
         direction = self._directions(self.places(face, uv))
         normal = self.normals(face, uv)
-        return direction - 2.0 * dot(direction, normal) * normal
+        return direction - 2.0 * dot(direction, normal) * normal, direction, normal
+
+    def _rise(self, face: np.ndarray, ray: np.ndarray, direction: np.ndarray) -> np.ndarray:
+        """How steeply rays leave the flat faces on the eye's side, as a sine."""
+        flat = self.face_normal[:, face]
+        length = np.maximum(norm(direction), 1e-300)
+        return -dot(ray, flat) * np.sign(dot(direction, flat)) / length
+
+    def _lifted(self, face: np.ndarray, ray: np.ndarray, direction: np.ndarray, normal: np.ndarray) -> np.ndarray:
+        """The rays, those that would enter the flat face turned until they just clear it."""
+        length = np.maximum(norm(direction), 1e-300)
+        to_eye = -direction / length
+        side = np.where(dot(to_eye, self.face_normal[:, face]) < 0.0, -1.0, 1.0)
+        flat, normal = side * self.face_normal[:, face], side * normal
+        upright = dot(to_eye, flat)
+        least = self._least_rise(face, direction)
+        tangent = unit(normal - dot(normal, flat) * flat)
+        sideways = dot(to_eye, tangent)
+        forth = np.sqrt(np.maximum(sideways**2 + upright**2 - least**2, 0.0))
+        lifted = forth * tangent + least * flat - (to_eye - sideways * tangent - upright * flat)
+        return np.where(dot(ray, flat) < least * length, lifted * length, ray)
 
     def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: np.ndarray) -> tuple:
         """Place, ray, and for each of the `ways` (2, n) in (u, v) the derivatives of both along it, all (3, n)."""
@@ -90,7 +149,16 @@ class MirrorMap:
             seen = np.zeros_like(move) if self.orthographic else move
             change = seen - 2.0 * (dot(seen, normal) + dot(direction, turn)) * normal - 2.0 * slope * turn
             derivatives.append((move, change))
-        return place, direction - 2.0 * slope * normal, derivatives
+        ray = direction - 2.0 * slope * normal
+        part = np.flatnonzero(self.grazing[face])
+        if len(part):
+            near = face[part], uv[:, part]
+            ray[:, part] = self.rays(*near)
+            for way, (_, change) in zip(ways, derivatives):
+                step = DIFFERENCE * np.broadcast_to(way, uv.shape)[:, part]
+                after, before = (self.rays(near[0], near[1] + sign * step) for sign in (1.0, -1.0))
+                change[:, part] = (after - before) / (2.0 * DIFFERENCE)
+        return place, ray, derivatives
 
     def locate(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray,
                steps: int = 3) -> tuple[np.ndarray, np.ndarray]:

@@ -41,8 +41,9 @@ def refine_mirror(view: View, mirror_map: MirrorMap, cameras: Cameras, tolerance
         if not len(cameras) or len(cameras) > maximum:
             return cameras, bool(len(cameras))
         ends, first, edge = shared_edges(cameras.corners)
-        middles, rays = _middles(mirror_map, cameras, ends, first)
-        marked = _straying(view, cameras, ends, rays, reach) > tolerance
+        middles, rays, lifted = _middles(mirror_map, cameras, ends, first)
+        # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
+        marked = (_straying(view, cameras, ends, rays, reach) > tolerance) & ~lifted
         if not marked.any():
             return cameras, False
         cameras, _ = _split(cameras, marked, edge, middles, rays)
@@ -66,17 +67,18 @@ def split_cameras(view: View, mirror_map: MirrorMap, cameras: Cameras,
     ends, first, edge = shared_edges(cameras.corners)
     chosen = np.zeros(len(ends), dtype=bool)
     chosen[edge[marked]] = True
-    middles, rays = _middles(mirror_map, cameras, ends, first)
+    middles, rays, _ = _middles(mirror_map, cameras, ends, first)
     cameras, parent = _split(cameras, chosen, edge, middles, rays)
     seen = in_picture(view, cameras)
     return cameras.select(seen), parent[seen], chosen[edge].any(axis=1)[parent[seen]]
 
 
 def _middles(mirror_map: MirrorMap, cameras: Cameras, ends: np.ndarray, first: np.ndarray):
-    """Places (3, e) halfway along edges `ends` (e, 2), and the true rays there."""
+    """Places (3, e) halfway along edges `ends` (e, 2), the true rays there, and whether those had to be lifted."""
     middles = 0.5 * (cameras.places[:, ends[:, 0]] + cameras.places[:, ends[:, 1]])
     face = cameras.face[first // 3]
-    return middles, mirror_map.rays(face, mirror_map.coordinates(face, middles))
+    uv = mirror_map.coordinates(face, middles)
+    return middles, mirror_map.rays(face, uv), mirror_map.lifted(face, uv)
 
 
 def _split(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np.ndarray, rays: np.ndarray):

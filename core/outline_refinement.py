@@ -41,6 +41,8 @@ def refine_for_outlines(view: View, mirror_map: MirrorMap, cameras: Cameras, fra
     for level in range(LEVELS + 1):
         candidates, lines = _really_overlapping(candidates)
         bent, long = _bent_edges(view, cameras, candidates, lines, tolerance)
+        middle = cameras.places[:, cameras.corners].mean(axis=2)
+        bent &= ~mirror_map.lifted(cameras.face, mirror_map.coordinates(cameras.face, middle))[:, None]
         settled = Candidates.joined((settled, candidates))
         if level == LEVELS or not (bent & long).any() or len(settled) > maximum:
             break

@@ -50,8 +50,8 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facin
     The parity is the sign of the cubic's derivative, R(W) . N(s) with N the moved triangle's normal by its winding,
     times the sign of that normal on the side to which the mirror reflects: that of (R_A + R_B + R_C) . N(0), or
     `facing`. Both change with the winding, so the product does not; the second is one for all images of a camera, so
-    within a camera the parity changes only across a caustic. Shading normals that bend the middle ray under the flat triangle
-    make it the wrong one; a caller who knows where the eye is gives `facing`.
+    within a camera the parity changes only across a caustic. It is the wrong one where shading normals bend the middle
+    ray under the flat triangle; a caller who knows where the eye is gives `facing`.
 
     Parameters
     ----------

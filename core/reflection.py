@@ -98,7 +98,7 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     yield 0.1, "cameras"
     mirror_map = MirrorMap(view, mirror, settings.method == "PARALLEL")
     cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
-    cameras = cut_at_horizon(view, mirror_map, cameras.select(in_picture(view, cameras)))
+    cameras = cut_at_horizon(mirror_map, cameras.select(in_picture(view, cameras)))
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
     cameras, grid = without_hidden(view, mirror_map, cameras)
