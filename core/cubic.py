@@ -196,8 +196,8 @@ def _sign_at_extremum(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.nd
 
 
 def _shift(c: np.ndarray, slope_bound: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """How far an extremum at x may move where the slope f' is off by no more than its bound D: D / |f''|, and where that
-    vanishes sqrt(D / |3 c3|)."""
+    """How far an extremum at x may move where the slope f' is off by no more than its bound D: D / |f''|, and where
+    that vanishes sqrt(D / |3 c3|)."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.fmin(slope_bound / np.abs(2.0 * c[2] + 6.0 * c[3] * x), np.sqrt(slope_bound / np.abs(3.0 * c[3])))
 
@@ -250,8 +250,8 @@ def _root_errors(c: np.ndarray, bounds: np.ndarray, x: np.ndarray,
 
     A simple root of slope f' and curvature f'' whose extremum is further from zero than the bound B has
     f'^2 > 2 B |f''|, and then |f' d| - |f'' d^2| / 2 = B gives d <= 2 B / |f'|. At a double root |f| <= B leaves a
-    true value up to 2 B, so f'' d^2 / 2 (1 - 2/3 d / D) = 2 B gives a spread d <= sqrt(12 B / |f''|) as far as the other
-    extremum, at the distance D; at a triple root c3 d^3 = 2 B.
+    true value up to 2 B, so f'' d^2 / 2 (1 - 2/3 d / D) = 2 B gives a spread d <= sqrt(12 B / |f''|) as far as the
+    other extremum, at the distance D; at a triple root c3 d^3 = 2 B.
     """
     bound = _evaluation_bound(c, bounds, x)
     steep = np.abs(_derivatives(c, x)[1])

@@ -19,7 +19,7 @@ from .vectors import cross, dot, norm, rows, solve, unit
 from .view import View
 
 LEAST_RISE = 0.01  # sine of the angle at which Cycles lets a bent ray leave
-NEARLY_GRAZING = 0.1  # sine at a face's corners or middle below which some ray of the face may need to be bent
+NEARLY_GRAZING = 0.03  # sine at a face's corners or middle below which some ray of the face may need to be bent
 DIFFERENCE = 1e-5  # of a triangle's side: step of the difference quotients for bent rays
 
 
@@ -150,7 +150,7 @@ class MirrorMap:
             change = seen - 2.0 * (dot(seen, normal) + dot(direction, turn)) * normal - 2.0 * slope * turn
             derivatives.append((move, change))
         ray = direction - 2.0 * slope * normal
-        part = np.flatnonzero(self.grazing[face])
+        part = np.flatnonzero(self.lifted(face, uv))
         if len(part):
             near = face[part], uv[:, part]
             ray[:, part] = self.rays(*near)

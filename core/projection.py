@@ -134,8 +134,8 @@ def _scaled(vertices, rays, points):
     largest place 1 to 2 and the largest velocity 4 to 8, so that most roots are below 1, and the unit of time (n,) that
     goes with them. The units are powers of two: nothing is rounded but the differences."""
     count = len(points)
-    v = np.ascontiguousarray(vertices.reshape(count, 9).T).reshape(3, 3, count)
-    m = np.ascontiguousarray(rays.reshape(count, 9).T).reshape(3, 3, count)
+    v = np.array(vertices.reshape(count, 9).T, order="C").reshape(3, 3, count)
+    m = np.array(rays.reshape(count, 9).T, order="C").reshape(3, 3, count)
     v[1:] -= v[0]
     m[1:] -= m[0]
     v[0] -= points.T
