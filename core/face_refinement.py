@@ -70,7 +70,7 @@ class FaceRefinement:
     def _marked(self, nodes: Nodes, faces: Faces, done: np.ndarray, tolerance: float):
         """Edges to split, what all edges stray by, and the nodes in their middles."""
         ends, first, edge = shared_edges(faces.nodes)
-        face, side = first // 3, first % 3
+        face = first // 3
         open_ = np.flatnonzero(~done.reshape(-1)[first])
         marked = np.zeros(len(ends), dtype=bool)
         a, b = ends[open_].T
@@ -85,7 +85,9 @@ class FaceRefinement:
         pixels = self.view.pixels(nodes.place.T)
         length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
         # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight
-        outline = faces.on_scene_edge[face, side][open_]
+        outline = np.zeros(len(ends), dtype=bool)
+        outline[edge[faces.on_scene_edge]] = True
+        outline = outline[open_]
         straying = np.minimum(error, length)
         chosen = (np.minimum(np.where(outline, 2.0 * drift, error), length) > tolerance) & (length > SHORTEST_EDGE)
         marked[open_] = chosen
@@ -97,9 +99,10 @@ class FaceRefinement:
             found, s = self.mirror_map.locate(on_face, uv[:, chosen][:, along], distance[along], target)
             spot = self.mirror_map.places(on_face, found)
             away = np.linalg.norm(self.view.pixels(spot.T) - self.view.pixels(place[:, along].T), axis=1)
-            good = (away <= length[chosen][along]) & (s >= 0.0)
-            along = along[good]
-            place[:, along], point[:, along], distance[along] = spot[:, good], target[:, good], s[good]
+            good = (away <= length[chosen][along]) & self.mirror_map.meets(on_face, found, s, target)
+            # a point of the edge in any case: the triangle on its other side shares the node
+            point[:, along] = target
+            place[:, along[good]], distance[along[good]] = spot[:, good], s[good]
         return marked, straying[~chosen], (ends, edge, marked, (place, point, distance))
 
     def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -1,7 +1,7 @@
 """The horizon of a smooth mirror: where its interpolated normals would send rays under the flat faces they leave.
 
-Beyond it the true map lifts the rays until they clear the surface, and bends sharply where it begins to. Cameras are cut
-along that line, so that none has the bend inside; what lies beyond is a sliver at the silhouette.
+Beyond it the true map lifts the rays until they clear the surface, and bends sharply where it begins to. Cameras are
+cut along that line, so that none has the bend inside; what lies beyond is a sliver at the silhouette.
 """
 from __future__ import annotations
 

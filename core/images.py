@@ -81,7 +81,8 @@ def vertex_images(view: View, mirror_map: MirrorMap, cameras: Cameras, cones: Co
     place = mirror_map.places(face, uv)
     pixel = view.pixels(place.T)
     near = np.linalg.norm(pixel - view.pixels(guess.T), axis=1) < 8.0 + 0.1 * max(view.resolution)
-    kept = np.flatnonzero(np.isfinite(pixel).all(axis=1) & (distance > 0.0) & near)
+    near &= mirror_map.meets(face, uv, distance, positions[vertex].T)
+    kept = np.flatnonzero(np.isfinite(pixel).all(axis=1) & near)
     order = kept[np.lexsort((camera[kept], vertex[kept]))]
     images = VertexImages(vertex[order], camera[order], uv[:, order], distance[order], place[:, order], pixel[order])
     images = _each_once(images)

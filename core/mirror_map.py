@@ -20,6 +20,7 @@ from .view import View
 
 LEAST_RISE = 0.01  # sine of the angle at which Cycles lets a bent ray leave
 NEARLY_GRAZING = 0.03  # sine at a face's corners or middle below which some ray of the face may need to be bent
+ARRIVED = 1e-10  # of the path and the viewing distance: by how much a ray that Newton's method found may miss
 DIFFERENCE = 1e-5  # of a triangle's side: step of the difference quotients for bent rays
 
 
@@ -161,7 +162,7 @@ class MirrorMap:
         return place, ray, derivatives
 
     def locate(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray,
-               steps: int = 3) -> tuple[np.ndarray, np.ndarray]:
+               steps: int = 4) -> tuple[np.ndarray, np.ndarray]:
         """Newton's method for Q(u, v) + s R(u, v) = P from a near start, `points` P as (3, n); returns uv and s."""
         one, zero = np.ones_like(s), np.zeros_like(s)
         for _ in range(steps):
@@ -171,7 +172,7 @@ class MirrorMap:
         return uv, s
 
     def meet(self, face: np.ndarray, start: np.ndarray, end: np.ndarray, t: np.ndarray, s: np.ndarray,
-             point: np.ndarray, edge: np.ndarray, steps: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+             point: np.ndarray, edge: np.ndarray, steps: int = 5) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Newton's method for the ray from the mirror's line `start` to `end`, (2, n) in (u, v), that meets the line
         P + r E, `point` P and `edge` E as (3, n); returns t along the mirror's line, r along the other, and s."""
         way = end - start
@@ -182,6 +183,12 @@ class MirrorMap:
             step = _bounded(moved[:2])
             t, s, r = t + step[0], s + step[1], moved[2]
         return t, r, s
+
+    def meets(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Whether the ray at (u, v) really passes through `points` (3, n) at s > 0: that Newton's method arrived."""
+        place, ray = self.places(face, uv), self.rays(face, uv)
+        miss = norm(place + s * ray - points)
+        return (s >= 0.0) & (miss <= ARRIVED * (norm(points - place) + norm(ray)))
 
     def turned(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray) -> np.ndarray:
         """How the map magnifies at distance s: the moved triangle's area across the ray over the area at s = 0.

@@ -16,6 +16,7 @@ from .clipping import CONTACT, SCENE_EDGE, Polygons
 from .images import NEAR_IMAGE, VertexImages
 from .mirror_map import MirrorMap
 from .scene_frames import SceneFrames
+from .vectors import dot, groups
 from .view import View
 
 
@@ -113,20 +114,10 @@ def polygon_nodes(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: S
     return Nodes(*(np.concatenate(side, axis=-1) for side in zip(*made))), node_of
 
 
-def _unique(*keys: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """First occurrence and group of each row of several integer keys."""
-    group = keys[0]
-    for key in keys[1:]:
-        _, group = np.unique(group, return_inverse=True)
-        group = group * (int(key.max()) + 1) + key
-    _, first, group = np.unique(group, return_index=True, return_inverse=True)
-    return first, group
-
-
 def _mirror_corners(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     camera, column = corners.camera[chosen], corners.column[chosen]
     corner = corners.cameras.corners[camera, 3 - corners.low[chosen] - corners.high[chosen]]
-    first, group = _unique(corner, column)
+    first, group = groups(corner, column)
     corner, column = corner[first], column[first]
     place, ray = corners.cameras.places[:, corner], corners.cameras.rays[:, corner]
     distance = np.maximum(corners.frames.distance(column, place, ray), 0.0)
@@ -136,23 +127,24 @@ def _mirror_corners(corners: _Corners, chosen: np.ndarray, images: VertexImages)
 def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     mirror_edge = corners.mirror_edge(chosen, corners.low[chosen])
     scene_edge = corners.scene_edge(chosen, corners.high[chosen])
-    first, group = _unique(*mirror_edge.T, *scene_edge.T)
+    first, group = groups(*mirror_edge.T, *scene_edge.T)
     mirror_edge, scene_edge, chosen = mirror_edge[first], scene_edge[first], chosen[first]
     places, mirror_map = corners.cameras.places, corners.mirror_map
     face = corners.cameras.face[corners.camera[chosen]]
     start, end = places[:, mirror_edge[:, 0]], places[:, mirror_edge[:, 1]]
     place = corners.guess(chosen)
     way = end - start
-    t = ((place - start) * way).sum(axis=0) / (way * way).sum(axis=0)
+    t = dot(place - start, way) / dot(way, way)
     uv_start, uv_end = mirror_map.coordinates(face, start), mirror_map.coordinates(face, end)
     seen, seen_s = corners.seen(chosen, place)
     point = corners.positions[scene_edge[:, 0]].T
     edge = corners.positions[scene_edge[:, 1]].T - point
     t, along, s = mirror_map.meet(face, uv_start, uv_end, t, seen_s, point, edge)
     met = start + np.clip(t, 0.0, 1.0) * way
-    near = corners.near(met, place)
-    point = np.where(near, point + np.clip(along, 0.0, 1.0) * edge, seen)
-    return (np.where(near, met, place), point, np.where(near, np.maximum(s, 0.0), seen_s)), group
+    near = corners.near(met, place) & (s >= 0.0)
+    # just beyond an end of the edge, by no more than straight outlines miss, the end stands in
+    along = np.clip(np.where(near, along, dot(seen - point, edge) / dot(edge, edge)), 0.0, 1.0)
+    return (np.where(near, met, place), point + along * edge, np.where(near, s, seen_s)), group
 
 
 def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
@@ -163,7 +155,7 @@ def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     image = images.nearest(vertex, camera, corners.view.pixels(guess.T))
     # a vertex on the wrong side of a bent mirror edge by less than the linear clip sees has no image of its own here
     lone = image < 0
-    first, group = _unique(np.where(lone, camera, -1) + 1, np.where(lone, vertex + len(images.vertex), image))
+    first, group = groups(np.where(lone, camera, -1) + 1, np.where(lone, vertex + len(images.vertex), image))
     image, lone = image[first], lone[first]
     place, distance = np.empty((3, len(first))), np.empty(len(first))
     place[:, ~lone], distance[~lone] = images.place[:, image[~lone]], images.distance[image[~lone]]
@@ -171,25 +163,24 @@ def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     own = first[lone]
     face, mirror_map = corners.cameras.face[camera[own]], corners.mirror_map
     start = guess[:, own]
-    seen, seen_s = corners.seen(chosen[own], start)
+    _, seen_s = corners.seen(chosen[own], start)
     moved, found = mirror_map.locate(face, mirror_map.coordinates(face, start), seen_s, point[:, lone])
     moved_place = mirror_map.places(face, moved)
-    near = corners.near(moved_place, start) & (found >= 0.0)
+    near = corners.near(moved_place, start) & mirror_map.meets(face, moved, found, point[:, lone])
     place[:, lone] = np.where(near, moved_place, start)
-    point[:, lone] = np.where(near, point[:, lone], seen)
     distance[lone] = np.where(near, found, seen_s)
     return (place, point, distance), group
 
 
 def _contacts_of_mirror_edges(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     mirror_edge = corners.mirror_edge(chosen, corners.low[chosen])
-    first, group = _unique(*mirror_edge.T, corners.column[chosen])
+    first, group = groups(*mirror_edge.T, corners.column[chosen])
     return _contact(corners, chosen[first]), group
 
 
 def _contacts_of_scene_edges(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     scene_edge = corners.scene_edge(chosen, corners.low[chosen])
-    first, group = _unique(corners.cameras.face[corners.camera[chosen]], *scene_edge.T)
+    first, group = groups(corners.cameras.face[corners.camera[chosen]], *scene_edge.T)
     return _contact(corners, chosen[first]), group
 
 

@@ -34,6 +34,7 @@ from .view import View
 MIRROR_SHARE = 0.8  # of the tolerance: what the rays of a camera may stray
 OUTLINE_SHARE = 0.5  # of the tolerance: what a straight outline in a camera may miss
 FACE_SHARE = 0.8  # of the tolerance: what the interpolation inside a face may stray
+INSIDE = 4.0 / 3.0  # a quadratic that is zero at a triangle's corners exceeds its values at the edges' middles by this
 
 
 class ReflectionError(ValueError):
@@ -153,10 +154,11 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     stages.done("refinement")
 
     yield 0.95, "depth order"
-    counts["faces"], counts["limited"] = len(faces), int(mirror_limited) + limited
-    mesh = assemble(view, mirror_map, cameras, frames, nodes, faces, settings.placement)
+    mesh = assemble(view, mirror_map, cameras, frames, positions, nodes, faces, settings.placement)
+    counts["faces"], counts["limited"] = len(mesh.triangles), int(mirror_limited) + limited
     stages.done("placement")
-    return replace(mesh, counts=counts, seconds=stages.seconds, estimated_error=float(np.percentile(left, 99)))
+    return replace(mesh, counts=counts, seconds=stages.seconds,
+                   estimated_error=INSIDE * float(np.percentile(left, 99)))
 
 
 def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree) -> None:

@@ -27,7 +27,8 @@ class ReflectionMesh:
     source_face : (m,) int64
         Triangle of the diffuse scene.
     source_weights : (m, 3, 3) float64
-        Barycentric coordinates of each corner of each face in its source triangle: carries UVs and colours over.
+        Barycentric coordinates of each corner of each face in its source triangle, none negative: they carry UVs and
+        colours over.
     mirror_face : (m,) int64
         Triangle of the mirror, -1 where a face spans several.
     counts : dict

@@ -45,3 +45,13 @@ def ranges(starts: np.ndarray, lengths: np.ndarray) -> tuple[np.ndarray, np.ndar
     run = np.repeat(np.arange(len(lengths)), lengths)
     before = np.cumsum(lengths) - lengths
     return np.arange(len(run)) - np.repeat(before - starts, lengths), run
+
+
+def groups(*keys: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of several keys (n,) of integers >= 0, each distinct one once: where it first occurs; each row's group."""
+    group = keys[0]
+    for key in keys[1:]:
+        _, group = np.unique(group, return_inverse=True)
+        group = group * (int(key.max(initial=0)) + 1) + key
+    _, first, group = np.unique(group, return_index=True, return_inverse=True)
+    return first, group
