@@ -26,6 +26,10 @@ def assemble(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneF
     used, corner = np.unique(faces.nodes, return_inverse=True)
     triangles = corner.reshape(-1, 3)
     place, point = nodes.place[:, used], nodes.point[:, used].copy()
+    pixels = view.pixels(place.T)[triangles]
+    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
+    away = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0.0
+    triangles[away] = triangles[away][:, [0, 2, 1]]
     column = np.repeat(faces.column, 3)
     weights = frames.weights(column, np.take(point, triangles.ravel(), axis=1))
     # straight outlines may leave a corner a fraction of a pixel beside its triangle: it takes the point of the rim
@@ -41,10 +45,6 @@ def assemble(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneF
     owner[triangles.ravel()] = np.repeat(mirror_face, 3)
     turned = mirror_map.turned(owner, mirror_map.coordinates(owner, nodes.place), nodes.distance)
     parity = np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8)
-    pixels = view.pixels(nodes.place.T)[triangles]
-    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
-    away = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0.0
-    triangles[away] = triangles[away][:, [0, 2, 1]]
     most = slide_limits(view, nodes, path, frames, triangles, faces.column)
     return ReflectionMesh(
         positions=placed(view, nodes, path, placement, most).T, triangles=triangles,

@@ -1,0 +1,14 @@
+"""What Blender sees of the extension: roles, operators, a panel and a command; the optics are in `core`."""
+from . import clear, command_line, compare, generate, panel, properties
+
+MODULES = (properties, generate, compare, clear, panel, command_line)
+
+
+def register() -> None:
+    for module in MODULES:
+        module.register()
+
+
+def unregister() -> None:
+    for module in reversed(MODULES):
+        module.unregister()

@@ -1,0 +1,60 @@
+"""Remove results and restore what they changed."""
+from __future__ import annotations
+
+import bpy
+
+from .roles import results_of
+from .write_object import show_to_camera
+
+
+def results_to_clear(context: bpy.types.Context) -> list:
+    """The selected results, or those of selected mirrors; where the selection names none, all of the scene."""
+    results = [obj for obj in context.scene.objects
+               if obj.reflection_mesh.role == "REFLECTION" and obj.library is None]
+    selected = set(context.selected_objects)
+    named = [obj for obj in results if obj in selected or obj.reflection_mesh.mirror in selected]
+    return named or results
+
+
+def clear(context: bpy.types.Context, results: list) -> None:
+    """Remove `results` with their meshes, unless something else uses those, and show mirrors without a result again."""
+    layer = context.view_layer
+    active = layer.objects.active
+    for obj in results:
+        mirror, mesh = obj.reflection_mesh.mirror, obj.data
+        if obj == active and mirror is not None and mirror.name in layer.objects:
+            layer.objects.active = mirror
+        bpy.data.objects.remove(obj)
+        if mesh.users == 0:
+            bpy.data.meshes.remove(mesh)
+    for obj in context.scene.objects:
+        if obj.reflection_mesh.camera_hidden and not results_of(context, obj):
+            show_to_camera(obj)
+
+
+class REFLECTION_MESH_OT_clear(bpy.types.Operator):
+    """Remove the selected reflections, or all of the scene, and restore what they changed"""
+
+    bl_idname = "reflection_mesh.clear"
+    bl_label = "Clear Reflections"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: bpy.types.Context) -> set:
+        if context.mode != "OBJECT":
+            self.report({"ERROR"}, "Reflections are cleared in Object Mode: leave the present mode first.")
+            return {"CANCELLED"}
+        results = results_to_clear(context)
+        if not results and not any(obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
+            self.report({"WARNING"}, "The scene has no reflection to clear.")
+            return {"CANCELLED"}
+        clear(context, results)
+        self.report({"INFO"}, f"{len(results)} reflection{'' if len(results) == 1 else 's'} cleared.")
+        return {"FINISHED"}
+
+
+def register() -> None:
+    bpy.utils.register_class(REFLECTION_MESH_OT_clear)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(REFLECTION_MESH_OT_clear)

@@ -1,0 +1,128 @@
+"""`blender -b scene.blend --command reflection_mesh generate|compare ...`, and the same verbs for PyPI's bpy."""
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+
+import bpy
+
+from .. import core
+from .compare import compare
+from .compare import summary as comparison
+from .generate import Outcome, generation
+from .properties import METHODS, PLACEMENTS
+from .roles import Participants, choose
+
+COMMAND = "reflection_mesh"
+_commands = []
+
+
+def run(arguments: list[str]) -> int:
+    """Run one verb on the open file; returns the exit status, 0 only on success."""
+    try:
+        options = _parser().parse_args(arguments)
+    except SystemExit as stop:
+        # asking for help is a success, a wrong argument is not; argparse has said what is wrong
+        return int(stop.code or 0)
+    try:
+        options.work(bpy.context, options)
+    except (core.ReflectionError, RuntimeError, OSError, MemoryError) as error:
+        print(f"Error: {str(error).removeprefix('Error: ').strip() or 'the memory does not suffice'}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog=COMMAND, description="Mirror reflections computed forward, as meshes.")
+    verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
+    generate = verbs.add_parser("generate", help="generate the reflections and save the file")
+    _add_settings(generate)
+    generate.add_argument("--mirror", nargs="+", default=[], metavar="NAME",
+                          help="mirror objects (else by selection and role, as in the window)")
+    generate.add_argument("--diffuse", nargs="+", default=[], metavar="NAME", help="diffuse objects")
+    generate.add_argument("--output", metavar="FILE", help="save here, and leave the opened file as it is")
+    generate.set_defaults(work=_generate)
+    compare = verbs.add_parser("compare", help="compare with a Cycles render of the same view")
+    _add_settings(compare)
+    compare.add_argument("--samples", type=int, default=16, metavar="N", help="samples per pixel of the pictures")
+    compare.add_argument("--output", metavar="FOLDER", help="where pictures and numbers go (else beside the file)")
+    compare.set_defaults(work=_compare)
+    return parser
+
+
+def _add_settings(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--tolerance", type=float, default=0.5, metavar="PIXELS")
+    parser.add_argument("--placement", choices=[item[0] for item in PLACEMENTS], default="LAYERED")
+    parser.add_argument("--method", choices=[item[0] for item in METHODS], default="GENERAL")
+
+
+def _settings(options: argparse.Namespace) -> core.Settings:
+    try:
+        return core.Settings(options.tolerance, options.placement, options.method)
+    except ValueError as error:
+        raise core.ReflectionError(str(error)) from error
+
+
+def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
+    if not (options.output or bpy.data.filepath):
+        raise core.ReflectionError("There is no file to save to: open a .blend file or name one with --output.")
+    started = time.perf_counter()
+    settings = _settings(options)
+    outcome = _announced(generation(context, _chosen(context, options), settings))
+    if options.output:
+        bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(options.output), copy=True)
+    else:
+        bpy.ops.wm.save_mainfile()
+    for remark in outcome.remarks:
+        print(remark)
+    print(outcome.summary(time.perf_counter() - started))
+
+
+def _announced(steps) -> Outcome:
+    """Run a generator of progress to its end, printing each stage once; returns what it returns."""
+    told = None
+    while True:
+        try:
+            fraction, stage = next(steps)
+        except StopIteration as stop:
+            return stop.value
+        if stage != told:
+            print(f"{100.0 * fraction:3.0f} %  {stage}", flush=True)
+            told = stage
+
+
+def _chosen(context: bpy.types.Context, options: argparse.Namespace) -> Participants:
+    """The objects named, or those that the selection and the roles choose."""
+    if not (options.mirror or options.diffuse):
+        return choose(context)
+    if not (options.mirror and options.diffuse):
+        raise core.ReflectionError("Name both: the mirrors with --mirror and the objects to reflect with --diffuse.")
+    objects = context.view_layer.objects
+    missing = [name for name in options.mirror + options.diffuse if name not in objects]
+    if missing:
+        raise core.ReflectionError(f"There is no object '{missing[0]}' in the view layer: check its name.")
+    both = set(options.mirror) & set(options.diffuse)
+    if both:
+        raise core.ReflectionError(f"'{min(both)}' is named both as a mirror and as a diffuse object: name it once.")
+    return Participants([objects[name] for name in options.mirror], [objects[name] for name in options.diffuse], [])
+
+
+def _compare(context: bpy.types.Context, options: argparse.Namespace) -> None:
+    folder = options.output or bpy.path.abspath("//reflection comparison")
+    if not (options.output or bpy.data.filepath):
+        raise core.ReflectionError("The comparison has no folder: open a .blend file or name one with --output.")
+    if options.samples < 1:
+        raise core.ReflectionError("A comparison takes at least one sample: raise --samples.")
+    folder = os.path.abspath(folder)
+    print(comparison(compare(context, folder, options.samples, _settings(options)), folder))
+
+
+def register() -> None:
+    _commands.append(bpy.utils.register_cli_command(COMMAND, run))
+
+
+def unregister() -> None:
+    while _commands:
+        bpy.utils.unregister_cli_command(_commands.pop())

@@ -1,0 +1,140 @@
+"""The operator that judges a reflection mesh against Cycles."""
+from __future__ import annotations
+
+import os
+import time
+
+import bpy
+import numpy as np
+
+from ..core import ReflectionError, Settings
+from .compare_numbers import measure, picture_error
+from .compare_pictures import render_comparison
+from .compare_report import write_report
+from .cycles_scene import copied_scene
+from .generate import generation
+from .properties import method_property, placement_property, tolerance_property
+from .read_view import read_view
+from .roles import Participants, participants, results_of
+
+# Blender 4.5 and newer want to be told that a path may start with "//"; older ones do not know the word
+RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
+
+
+def compare(context: bpy.types.Context, folder: str, samples: int = 16, settings: Settings = Settings()) -> dict:
+    """Judge the reflection meshes of the mirrors that take part against Cycles, and write pictures and numbers.
+
+    What stands in the file is judged; a mirror that has no reflection yet gets one first, by `settings`. Everything is
+    rendered in a temporary scene of copies: once in materials that emit positions and identities, which gives the truth
+    and what is shown at each pixel's centre, and once in the scene's own materials and lights.
+
+    Parameters
+    ----------
+    folder : str
+        Absolute path; made where it does not exist.
+    samples : int
+        Samples per pixel of the two pictures.
+    settings : core.Settings
+        For reflections that are still to be generated.
+
+    Returns
+    -------
+    report : dict
+        What report.json holds.
+
+    Raises
+    ------
+    ReflectionError
+        Where nothing can be compared; before anything has changed.
+    """
+    if context.mode != "OBJECT":
+        raise ReflectionError("Reflections are compared in Object Mode: leave the present mode first.")
+    mirrors, diffuse = participants(context)
+    read_view(context)
+    earlier = [result for mirror in mirrors for result in results_of(context, mirror)]
+    hidden = [result for result in earlier if result.hide_render or not result.visible_get()]
+    if hidden:
+        raise ReflectionError(f"The reflection '{hidden[0].name}' is hidden: show it in the viewport and in renders.")
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise ReflectionError(f"The folder '{folder}' cannot be made: choose another one.") from error
+    if not os.access(folder, os.W_OK):
+        raise ReflectionError(f"The folder '{folder}' cannot be written: choose another one.")
+    started = time.perf_counter()
+    missing = [mirror for mirror in mirrors if not results_of(context, mirror)]
+    if missing:
+        for _ in generation(context, Participants(missing, diffuse, []), settings):
+            pass
+    results = [result for mirror in mirrors for result in results_of(context, mirror)]
+    with copied_scene(context, mirrors, diffuse, results) as copied:
+        mirror, bent, truth, shown, reference, result = render_comparison(context, copied, diffuse, results, samples)
+        measurement = measure(mirror, bent, truth, shown)
+        report = {
+            "blender": bpy.app.version_string,
+            "resolution": [mirror.shape[1], mirror.shape[0]],
+            "mirrors": [obj.name for obj in mirrors], "diffuse": [obj.name for obj in diffuse],
+            "results": [obj.name for obj in results],
+            **measurement.numbers,
+            "picture": {"mirror": picture_error(reference, result, measurement.judged),
+                        "all": picture_error(reference, result, np.ones_like(mirror)), "samples": samples},
+            "seconds": time.perf_counter() - started,
+        }
+        write_report(folder, copied.scene, reference, result, mirror, measurement, report)
+    return report
+
+
+class REFLECTIONMESH_OT_compare(bpy.types.Operator):
+    """Compare the reflections with Cycles; leaves pictures and errors in pixels in a folder"""
+
+    bl_idname = "reflection_mesh.compare"
+    bl_label = "Compare with Cycles"
+    bl_options = {"REGISTER", "UNDO"}
+
+    filepath: bpy.props.StringProperty(name="Folder", description="Folder for the pictures and the report",
+                                       default="//reflection comparison", subtype="FILE_PATH",
+                                       options=RELATIVE_PATH)
+    samples: bpy.props.IntProperty(name="Samples", description="Samples per pixel of the two pictures", default=16,
+                                   min=1, soft_max=1024)
+    tolerance: tolerance_property()
+    placement: placement_property()
+    method: method_property()
+
+    def invoke(self, context, event):
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context):
+        if self.filepath.startswith("//") and not bpy.data.filepath:
+            self.report({"ERROR"}, "The file has not been saved: save it, or choose an absolute folder.")
+            return {"CANCELLED"}
+        if not self.filepath:
+            self.report({"ERROR"}, "No folder is named: choose one for the pictures and the report.")
+            return {"CANCELLED"}
+        folder = os.path.abspath(bpy.path.abspath(self.filepath))
+        try:
+            report = compare(context, folder, self.samples, Settings(self.tolerance, self.placement, self.method))
+        except ReflectionError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, summary(report, folder))
+        return {"FINISHED"}
+
+
+def summary(report: dict, folder: str) -> str:
+    """The report in one sentence."""
+    displacement, coverage = report["displacement_px"], report["coverage_percent"]
+    if not report["judged_pixels"]:
+        return f"The camera sees no mirror whose reflection could be judged; pictures in {folder}"
+    if displacement["p99"] is None:
+        return f"The reflection shows nothing that could be measured; pictures in {folder}"
+    return (f"Displacement {displacement['median']:.3f} px (median), {displacement['p99']:.3f} px (99 %); "
+            f"holes, spill and wrong layer {coverage['all']:.3f} % of the mirror; pictures in {folder}")
+
+
+def register() -> None:
+    bpy.utils.register_class(REFLECTIONMESH_OT_compare)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(REFLECTIONMESH_OT_compare)

@@ -1,0 +1,132 @@
+"""Coded pictures -> numbers: how far a reflection mesh is from what a ray tracer shows, in pixels and in coverage."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+NOTHING = -1    # the ray meets no diffuse object
+ITSELF = -2     # the reflected ray meets a mirror
+OTHER_SURFACE = 2.0     # displacement in pixels from which another face counts as another surface
+
+
+@dataclass(frozen=True)
+class CodedPicture:
+    """What every pixel of a picture shows at its centre.
+
+    Attributes
+    ----------
+    source : (height, width) int64
+        Index of the diffuse object, `NOTHING` or `ITSELF`.
+    face : (height, width) int64
+        Its polygon, -1 where unknown.
+    position : (height, width, 3) float64
+        The diffuse point, in world space and scene units; without meaning where `source` is negative.
+    """
+
+    source: np.ndarray
+    face: np.ndarray
+    position: np.ndarray
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """Errors of a reflection over the mirror's visible pixels.
+
+    Attributes
+    ----------
+    displacement : (height, width) float64
+        |point shown - true point| in units of that point's motion per pixel; NaN where it is not measured.
+    judged, hole, spill, wrong_layer : (height, width) bool
+    numbers : dict
+        Counts of pixels, displacement in pixels, coverage in per cent of the judged pixels.
+    """
+
+    displacement: np.ndarray
+    judged: np.ndarray
+    hole: np.ndarray
+    spill: np.ndarray
+    wrong_layer: np.ndarray
+    numbers: dict
+
+
+def motion_per_pixel(truth: CodedPicture) -> np.ndarray:
+    """How far the true point moves (height, width) from a pixel to the next, in scene units.
+
+    The larger of both axes; along each the smaller of the steps to either side, since the larger may cross to another
+    surface of the same object. NaN where no neighbour along an axis shows the same object.
+    """
+    seen = truth.source >= 0
+    axes = []
+    for axis in (0, 1):
+        step = np.linalg.norm(np.diff(truth.position, axis=axis), axis=2)
+        same = np.diff(truth.source, axis=axis) == 0
+        step = np.where(same, step, np.inf)
+        pad = [(0, 0), (0, 0)]
+        sides = []
+        for side in ((1, 0), (0, 1)):
+            pad[axis] = side
+            sides.append(np.pad(step, pad, constant_values=np.inf))
+        axes.append(np.minimum(*sides))
+    motion = np.maximum(*axes)
+    return np.where(seen & np.isfinite(motion) & (motion > 0.0), motion, np.nan)
+
+
+def measure(mirror: np.ndarray, bent: np.ndarray, truth: CodedPicture, shown: CodedPicture) -> Measurement:
+    """Compare what the reflection mesh shows with the truth.
+
+    Parameters
+    ----------
+    mirror : (height, width) bool
+        Pixels in which the eye sees a mirror.
+    bent : (height, width) bool
+        Pixels where the ray tracer bends the shading normal; left out, like those where a mirror sees a mirror.
+    truth, shown : CodedPicture
+        The ray traced picture, and the one with the reflection mesh before a mirror that reflects nothing.
+
+    Notes
+    -----
+    hole: the truth shows the scene, the mesh nothing. spill: the reverse, or the mesh reaches outside the mirror.
+    wrong layer: another face, and displaced by more than two pixels; such pixels do not count in the displacement.
+    """
+    judged = mirror & ~bent & (truth.source != ITSELF)
+    true, drawn = judged & (truth.source >= 0), shown.source >= 0
+    hole = true & ~drawn
+    spill = drawn & ((judged & (truth.source == NOTHING)) | ~mirror)
+    motion = motion_per_pixel(truth)
+    displacement = np.full(mirror.shape, np.nan)
+    both = true & drawn
+    displacement[both] = np.linalg.norm(shown.position[both] - truth.position[both], axis=1) / motion[both]
+    unknown = (shown.face < 0) | (truth.face < 0)
+    elsewhere = (shown.source != truth.source) | ((shown.face != truth.face) & ~unknown)
+    # without a neighbour there is no scale: another face is then taken for another surface
+    wrong = both & elsewhere & ~(displacement <= OTHER_SURFACE)
+    displacement[wrong] = np.nan
+    measured = displacement[np.isfinite(displacement)]
+    count = int(judged.sum())
+    share = {name: 100.0 * int(mask.sum()) / max(count, 1)
+             for name, mask in (("hole", hole), ("spill", spill), ("wrong_layer", wrong))}
+    numbers = {
+        "mirror_pixels": int(mirror.sum()), "judged_pixels": count, "measured_pixels": len(measured),
+        "left_out_mirror_in_mirror": int((mirror & (truth.source == ITSELF)).sum()),
+        "left_out_bent_normal": int((mirror & bent & (truth.source != ITSELF)).sum()),
+        "displacement_px": _distribution(measured),
+        "coverage_percent": {**share, "all": sum(share.values())},
+    }
+    return Measurement(displacement, judged, hole, spill, wrong, numbers)
+
+
+def _distribution(values: np.ndarray) -> dict:
+    if not len(values):
+        return {"median": None, "p95": None, "p99": None, "max": None}
+    median, p95, p99 = np.percentile(values, (50, 95, 99))
+    return {"median": float(median), "p95": float(p95), "p99": float(p99), "max": float(values.max())}
+
+
+def picture_error(reference: np.ndarray, result: np.ndarray, pixels: np.ndarray) -> dict:
+    """RMSE and PSNR (dB, for a peak of 1) of two linear pictures (height, width, 3) over `pixels` (height, width)."""
+    if not pixels.any():
+        return {"rmse": None, "psnr": None}
+    difference = reference[pixels].astype(np.float64) - result[pixels]
+    rmse = float(np.sqrt(np.mean(difference ** 2)))
+    return {"rmse": rmse, "psnr": float(-20.0 * np.log10(rmse)) if rmse > 0.0 else None}

@@ -1,0 +1,127 @@
+"""Materials that emit numbers instead of light: a render in them says what each pixel shows."""
+from __future__ import annotations
+
+import bpy
+
+from .cycles_scene import CopiedScene
+
+
+class CodedMaterials:
+    """Makes coded materials for a copied scene, which deletes them in the end.
+
+    Positions are emitted relative to `origin`, the lowest corner of all that is shown, so that they are never negative.
+    """
+
+    def __init__(self, copied: CopiedScene, origin: tuple[float, float, float]) -> None:
+        self._copied = copied
+        self.origin = origin
+
+    def black(self) -> bpy.types.Material:
+        """Hides what is behind and shows nothing."""
+        return self._material("Black")[0]
+
+    def position(self) -> bpy.types.Material:
+        """Emits the world position of the point."""
+        material, tree, emission = self._material("Position")
+        self._from_origin(tree, tree.nodes.new("ShaderNodeNewGeometry").outputs["Position"], emission)
+        return material
+
+    def identity(self) -> bpy.types.Material:
+        """Emits the object's pass index and the face's number."""
+        material, tree, emission = self._material("Identity")
+        combine = tree.nodes.new("ShaderNodeCombineXYZ")
+        tree.links.new(tree.nodes.new("ShaderNodeObjectInfo").outputs["Object Index"], combine.inputs["X"])
+        tree.links.new(self._attribute(tree, "polygon_code").outputs["Fac"], combine.inputs["Y"])
+        tree.links.new(combine.outputs["Vector"], emission.inputs["Color"])
+        return material
+
+    def attribute_position(self, name: str) -> bpy.types.Material:
+        """Emits a position that the mesh carries as the attribute `name`."""
+        material, tree, emission = self._material("Attribute Position")
+        self._from_origin(tree, self._attribute(tree, name).outputs["Vector"], emission)
+        return material
+
+    def attribute(self, name: str) -> bpy.types.Material:
+        """Emits the vector attribute `name` as it is."""
+        material, tree, emission = self._material("Attribute")
+        tree.links.new(self._attribute(tree, name).outputs["Vector"], emission.inputs["Color"])
+        return material
+
+    def mirror(self) -> bpy.types.Material:
+        """Reflects perfectly; a mirror seen in a mirror emits 1 in the first channel."""
+        material, tree, emission = self._material("Mirror")
+        emission.inputs["Color"].default_value = (1.0, 0.0, 0.0, 1.0)
+        glossy = _glossy(tree)
+        mix = tree.nodes.new("ShaderNodeMixShader")
+        tree.links.new(tree.nodes.new("ShaderNodeLightPath").outputs["Is Glossy Ray"], mix.inputs[0])
+        tree.links.new(glossy.outputs["BSDF"], mix.inputs[1])
+        tree.links.new(emission.outputs["Emission"], mix.inputs[2])
+        tree.links.new(mix.outputs["Shader"], tree.nodes["Output"].inputs["Surface"])
+        return material
+
+    def plain_mirror(self) -> bpy.types.Material:
+        """Reflects perfectly, and codes nothing."""
+        material, tree, _ = self._material("Plain Mirror")
+        tree.links.new(_glossy(tree).outputs["BSDF"], tree.nodes["Output"].inputs["Surface"])
+        return material
+
+    def mirror_facing(self) -> bpy.types.Material:
+        """Emits 2 + R.Ng, 2 + I.Ng and 1: how steeply the reflected ray and the eye stand on the flat face."""
+        material, tree, emission = self._material("Mirror Facing")
+        geometry = tree.nodes.new("ShaderNodeNewGeometry")
+        reflect = tree.nodes.new("ShaderNodeVectorMath")
+        reflect.operation = "REFLECT"
+        tree.links.new(geometry.outputs["Incoming"], reflect.inputs[0])
+        tree.links.new(geometry.outputs["Normal"], reflect.inputs[1])
+        combine = tree.nodes.new("ShaderNodeCombineXYZ")
+        combine.inputs["Z"].default_value = 1.0
+        # Incoming points to the eye, so its mirror image about the normal is the reflected ray turned round
+        for source, sign, channel in ((reflect.outputs["Vector"], -1.0, "X"), (geometry.outputs["Incoming"], 1.0, "Y")):
+            dot = tree.nodes.new("ShaderNodeVectorMath")
+            dot.operation = "DOT_PRODUCT"
+            tree.links.new(source, dot.inputs[0])
+            tree.links.new(geometry.outputs["True Normal"], dot.inputs[1])
+            shift = tree.nodes.new("ShaderNodeMath")
+            shift.operation = "MULTIPLY_ADD"
+            tree.links.new(dot.outputs["Value"], shift.inputs[0])
+            shift.inputs[1].default_value, shift.inputs[2].default_value = sign, 2.0
+            tree.links.new(shift.outputs["Value"], combine.inputs[channel])
+        tree.links.new(combine.outputs["Vector"], emission.inputs["Color"])
+        return material
+
+    def _material(self, name: str):
+        """A material that emits black, its tree, and its emission node."""
+        material = bpy.data.materials.new(f"Code: {name}")
+        self._copied.owned.append(material)
+        if material.node_tree is None:
+            material.use_nodes = True
+        # codes are no lights: nothing is to be sampled from them
+        material.cycles.emission_sampling = "NONE"
+        tree = material.node_tree
+        tree.nodes.clear()
+        emission, output = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputMaterial")
+        output.name = "Output"
+        emission.inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+        tree.links.new(emission.outputs["Emission"], output.inputs["Surface"])
+        return material, tree, emission
+
+    def _attribute(self, tree: bpy.types.NodeTree, name: str) -> bpy.types.Node:
+        node = tree.nodes.new("ShaderNodeAttribute")
+        node.attribute_type, node.attribute_name = "GEOMETRY", name
+        return node
+
+    def _from_origin(self, tree: bpy.types.NodeTree, socket, emission: bpy.types.Node) -> None:
+        subtract = tree.nodes.new("ShaderNodeVectorMath")
+        subtract.operation = "SUBTRACT"
+        subtract.inputs[1].default_value = self.origin
+        tree.links.new(socket, subtract.inputs[0])
+        tree.links.new(subtract.outputs["Vector"], emission.inputs["Color"])
+
+
+def _glossy(tree: bpy.types.NodeTree) -> bpy.types.Node:
+    """A perfect mirror's shader."""
+    glossy = tree.nodes.new("ShaderNodeBsdfAnisotropic")
+    glossy.distribution = "GGX"
+    glossy.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    glossy.inputs["Roughness"].default_value = 0.0
+    return glossy

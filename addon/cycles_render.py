@@ -1,0 +1,95 @@
+"""Cycles renders of a temporary scene, as arrays."""
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+
+from ..core import ReflectionError
+
+SLOT = "Reflection Comparison"
+
+
+def prepare(scene: bpy.types.Scene) -> None:
+    """Set a temporary scene up for Cycles on the processor and lossless linear pictures.
+
+    Raises
+    ------
+    ReflectionError
+        Where Cycles is switched off.
+    """
+    try:
+        scene.render.engine = "CYCLES"
+    except TypeError as error:
+        raise ReflectionError("Cycles is not available: enable the add-on 'Cycles Render Engine' in the "
+                              "preferences.") from error
+    scene.render.use_persistent_data = False
+    scene.render.film_transparent = False
+    settings = scene.render.image_settings
+    if hasattr(settings, "media_type"):
+        settings.media_type = "IMAGE"
+    settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGB", "32"
+    settings.exr_codec = "ZIP"
+    cycles = scene.cycles
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
+    cycles.blur_glossy = 0.0
+    cycles.caustics_reflective = True
+    cycles.seed = 0
+    cycles.max_bounces = 4
+    # one reflection: a mirror seen in a mirror is black
+    cycles.glossy_bounces = 1
+
+
+def render_codes(scene: bpy.types.Scene) -> np.ndarray:
+    """What each pixel's centre shows, (height, width, 3) float32 from the lowest row up: one sample, no filter."""
+    cycles = scene.cycles
+    cycles.samples, cycles.pixel_filter_type, cycles.filter_width = 1, "BOX", 0.01
+    cycles.film_exposure = 1.0
+    return _render(scene)
+
+
+def render_picture(scene: bpy.types.Scene, samples: int) -> np.ndarray:
+    """The picture in linear light, (height, width, 3) float32 from the lowest row up."""
+    cycles = scene.cycles
+    cycles.samples, cycles.pixel_filter_type, cycles.filter_width = samples, "BLACKMAN_HARRIS", 1.5
+    return _render(scene)
+
+
+def _render(scene: bpy.types.Scene) -> np.ndarray:
+    # A file, since a render result has no pixels to read without a window.
+    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as folder, _slot_of_its_own():
+        path = os.path.join(folder, "render.exr")
+        scene.render.filepath = path
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+        image = bpy.data.images.load(path)
+        try:
+            image.colorspace_settings.name = "Non-Color"
+            width, height = image.size
+            pixels = np.empty(width * height * image.channels, dtype=np.float32)
+            image.pixels.foreach_get(pixels)
+            return pixels.reshape(height, width, -1)[..., :3].copy()
+        finally:
+            bpy.data.images.remove(image)
+
+
+@contextmanager
+def _slot_of_its_own() -> Iterator[None]:
+    """Keep the user's last render: ours goes into another slot of the render result."""
+    result = bpy.data.images.get("Render Result")
+    if bpy.app.background or result is None:
+        yield
+        return
+    slots = result.render_slots
+    active = slots.active_index
+    if slots.find(SLOT) < 0:
+        slots.new(name=SLOT)
+    slots.active_index = slots.find(SLOT)
+    try:
+        yield
+    finally:
+        slots.active_index = active

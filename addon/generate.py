@@ -1,0 +1,131 @@
+"""The main job: read the scene, reflect it in each mirror, write one object per mirror."""
+from __future__ import annotations
+
+import time
+from collections.abc import Generator
+from dataclasses import dataclass
+
+import bpy
+
+from .. import core
+from .join_meshes import read_mirror, read_scene
+from .properties import method_property, placement_property, tolerance_property
+from .read_view import read_view
+from .roles import Participants, choose
+from .stepped_operator import SteppedOperator
+from .write_mesh import mesh_arrays
+from .write_object import origin_of, write_object
+
+# share of the work that reading takes, before the mirrors are reflected one by one
+READING = 0.1
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a generation made: (object, core.ReflectionMesh) of each mirror, and sentences on what was left out."""
+
+    results: list
+    remarks: list
+
+    def summary(self, seconds: float) -> str:
+        """One line on what was generated."""
+        faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
+        error = max(result.estimated_error for _, result in self.results)
+        names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
+        return f"{names}: {faces} faces, estimated error {error:.2f} px, {seconds:.2f} s"
+
+
+def generation(context: bpy.types.Context, chosen: Participants,
+               settings: core.Settings) -> Generator[tuple[float, str], None, Outcome]:
+    """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
+
+    Nothing in the file changes before the last step, which writes all results at once; a generator that is closed
+    before leaves no trace. Of several mirrors, those that cannot show anything are left out with a remark.
+
+    Raises
+    ------
+    core.ReflectionError
+        Where the input cannot be reflected; its message is one sentence for the user.
+    """
+    if context.mode != "OBJECT":
+        raise core.ReflectionError("Reflections are generated in Object Mode: leave the present mode first.")
+    yield 0.0, "Reading the scene"
+    remarks = [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
+    view = read_view(context)
+    depsgraph = context.evaluated_depsgraph_get()
+    surfaces = [read_mirror(depsgraph, mirror) for mirror in chosen.mirrors]
+    scene = read_scene(depsgraph, chosen.diffuse)
+    yield 0.5 * READING, "Building the tree"
+    tree = core.SceneTree.build(scene.mesh)
+    prepared, refused = [], []
+    for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
+        steps = core.reflection_steps(view, surface.mesh, tree, settings)
+        try:
+            result = yield from _within(steps, mirror.name, index, len(surfaces))
+        except core.ReflectionError as error:
+            refused.append(f"{mirror.name}: {error}")
+            continue
+        if not len(result.triangles):
+            refused.append(f"{mirror.name}: The camera sees none of the diffuse objects in this mirror; move the "
+                           "camera, the mirror or the objects.")
+            continue
+        origin = origin_of(surface.mesh)
+        prepared.append((mirror, origin, mesh_arrays(result, scene, surface.triangle, origin), result))
+    if not prepared:
+        raise core.ReflectionError(refused[0])
+    yield 1.0, "Writing"
+    results = [(write_object(context, mirror, chosen.diffuse, origin, arrays, result, view, settings.placement), result)
+               for mirror, origin, arrays, result in prepared]
+    return Outcome(results, remarks + refused)
+
+
+def _within(steps: Generator, name: str, index: int, count: int) -> Generator[tuple[float, str], None, object]:
+    """The progress of one mirror of `count` as a part of the whole; returns what `steps` returns."""
+    while True:
+        try:
+            fraction, stage = next(steps)
+        except StopIteration as stop:
+            return stop.value
+        done = (index + min(max(fraction, 0.0), 1.0)) / count
+        yield READING + (1.0 - READING) * done, f"{name}: {stage}"
+
+
+class REFLECTION_MESH_OT_generate(SteppedOperator, bpy.types.Operator):
+    """Compute the reflection of the diffuse objects in each mirror, as a mesh"""
+
+    bl_idname = "reflection_mesh.generate"
+    bl_label = "Generate Reflection"
+    bl_options = {"REGISTER", "UNDO"}
+
+    tolerance: tolerance_property()
+    placement: placement_property()
+    method: method_property()
+
+    def steps(self, context: bpy.types.Context) -> Generator[tuple[float, str], None, None]:
+        started = time.perf_counter()
+        settings = core.Settings(tolerance=self.tolerance, placement=self.placement, method=self.method)
+        outcome = yield from generation(context, choose(context), settings)
+        # the view layer knows new objects only from its next update on
+        context.view_layer.update()
+        for obj, _ in outcome.results:
+            if obj.name in context.view_layer.objects:
+                obj.select_set(True)
+                context.view_layer.objects.active = obj
+        for remark in outcome.remarks:
+            self.report({"WARNING"}, remark)
+        self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
+
+
+def draw_menu(self, context: bpy.types.Context) -> None:
+    self.layout.separator()
+    self.layout.operator(REFLECTION_MESH_OT_generate.bl_idname, icon="MOD_MIRROR")
+
+
+def register() -> None:
+    bpy.utils.register_class(REFLECTION_MESH_OT_generate)
+    bpy.types.VIEW3D_MT_object.append(draw_menu)
+
+
+def unregister() -> None:
+    bpy.types.VIEW3D_MT_object.remove(draw_menu)
+    bpy.utils.unregister_class(REFLECTION_MESH_OT_generate)

@@ -1,0 +1,48 @@
+"""Which materials are mirrors: a sharp Glossy or Metallic BSDF, or a sharp metallic Principled BSDF."""
+from __future__ import annotations
+
+import bpy
+
+from . import compat
+
+SHARP_ROUGHNESS = 0.1
+FULL_METALLIC = 0.9
+
+
+def is_mirror(material: bpy.types.Material | None) -> bool:
+    """Whether light leaves `material` as from a mirror: its surface shader is glossy with a roughness near 0.
+
+    Values that a texture drives are not constant over the surface and make no mirror.
+    """
+    if material is None:
+        return False
+    if not compat.uses_nodes(material):
+        return material.metallic >= FULL_METALLIC and material.roughness <= SHARP_ROUGHNESS
+    shader = _surface_shader(material.node_tree)
+    if shader is None or not _constant(shader, "Roughness", at_most=SHARP_ROUGHNESS):
+        return False
+    if shader.type == "BSDF_PRINCIPLED":
+        return _constant(shader, "Metallic", at_least=FULL_METALLIC)
+    return shader.type in {"BSDF_GLOSSY", "BSDF_METALLIC"}
+
+
+def _surface_shader(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
+    """The shader node behind the active output's Surface socket."""
+    output = tree.get_output_node("ALL")
+    if output is None:
+        return None
+    socket = output.inputs["Surface"]
+    # a chain of reroutes cannot be longer than the tree has nodes
+    for _ in range(len(tree.nodes)):
+        if not socket.is_linked:
+            return None
+        node = socket.links[0].from_node
+        if node.type != "REROUTE":
+            return node
+        socket = node.inputs[0]
+    return None
+
+
+def _constant(node: bpy.types.Node, name: str, at_least: float = float("-inf"), at_most: float = float("inf")) -> bool:
+    socket = node.inputs.get(name)
+    return socket is not None and not socket.is_linked and at_least <= socket.default_value <= at_most

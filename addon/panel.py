@@ -1,0 +1,56 @@
+"""The tab "Reflection" of the 3D viewport's sidebar."""
+from __future__ import annotations
+
+import bpy
+
+
+class REFLECTION_MESH_PT_main(bpy.types.Panel):
+    """Roles, settings and the operators"""
+
+    bl_idname = "REFLECTION_MESH_PT_main"
+    bl_label = "Reflection Mesh"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Reflection"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        if context.object is not None:
+            _draw_object(layout, context.object)
+        settings = context.scene.reflection_mesh
+        column = layout.column()
+        column.prop(settings, "tolerance")
+        column.prop(settings, "placement")
+        column.prop(settings, "method")
+        column = layout.column(align=True)
+        generate = column.operator("reflection_mesh.generate", icon="MOD_MIRROR")
+        compare = column.operator("reflection_mesh.compare", icon="IMAGE_DATA")
+        for operator in (generate, compare):
+            operator.tolerance = settings.tolerance
+            operator.placement = settings.placement
+            operator.method = settings.method
+        column.operator("reflection_mesh.clear", icon="TRASH")
+
+
+def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    record = obj.reflection_mesh
+    box = layout.box()
+    box.label(text=obj.name, icon="OBJECT_DATA", translate=False)
+    if record.role != "REFLECTION":
+        box.prop(record, "role")
+        return
+    mirror = record.mirror.name if record.mirror else "removed"
+    count = len(record.sources)
+    box.label(text=f"Mirror: {mirror}", translate=False)
+    box.label(text=f"{count} source{'' if count == 1 else 's'}, {record.faces} faces")
+    box.label(text=f"Error about {record.estimated_error:.2f} px at {record.resolution[0]} x {record.resolution[1]}")
+
+
+def register() -> None:
+    bpy.utils.register_class(REFLECTION_MESH_PT_main)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(REFLECTION_MESH_PT_main)

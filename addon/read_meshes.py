@@ -1,0 +1,179 @@
+"""Evaluated Blender meshes -> arrays, in each object's own space, with the places where they stand."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..core import ReflectionError
+
+# what evaluated objects can be turned into a mesh
+SURFACES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
+
+
+@dataclass(frozen=True)
+class LocalMesh:
+    """A triangulated mesh in its object's space.
+
+    Attributes
+    ----------
+    positions : (n, 3) float32
+    triangles : (m, 3) int32
+        Vertices of Blender's own triangulation (`Mesh.loop_triangles`).
+    corners : (m, 3) int32
+        Face corners of the triangles.
+    corner_count : int
+    material_index : (m,) int32
+    materials : tuple
+        The object's materials by index; None where a slot is empty.
+    normals : (m, 3, 3) float32 or None
+        Shading normals of the corners: smooth, flat or custom, as Blender shades.
+    uv_maps : dict of str to (corners, 2) float32
+    colours : dict of str to (type, (corners, 4) float32)
+        Colour attributes on face corners, in linear colour; type is FLOAT_COLOR or BYTE_COLOR.
+    active_uv, active_colour : str
+        What a material without a name of its own shows; empty where there is none.
+    """
+
+    positions: np.ndarray
+    triangles: np.ndarray
+    corners: np.ndarray
+    corner_count: int
+    material_index: np.ndarray
+    materials: tuple
+    normals: np.ndarray | None
+    uv_maps: dict
+    colours: dict
+    active_uv: str
+    active_colour: str
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A mesh and where it stands: `owners` (k,) are indices of participants, `matrices` (k, 4, 4) float64 to world."""
+
+    mesh: LocalMesh
+    owners: np.ndarray
+    matrices: np.ndarray
+
+
+def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, normals: bool) -> list[Placed]:
+    """Each distinct mesh of `objects`, modifiers applied, with every place where it or an instance of it stands.
+
+    Instances count as their instancer: an object that instances others owns them. `normals` asks for corner normals.
+
+    Raises
+    ------
+    ReflectionError
+        Where a coordinate, a normal or a transform is not a finite number.
+    """
+    owner_of = {obj: index for index, obj in enumerate(objects)}
+    meshes, owners, matrices = {}, {}, {}
+    for instance in depsgraph.object_instances:
+        evaluated = instance.object
+        original = evaluated.original
+        owner = owner_of.get(instance.parent.original if instance.is_instance else original)
+        if owner is None or evaluated.type not in SURFACES or not instance.show_self:
+            continue
+        if instance.is_instance and not _may_be_reflected(original):
+            continue
+        materials = tuple(slot.material.original if slot.material else None for slot in evaluated.material_slots)
+        key = (evaluated.data.as_pointer(), materials) if evaluated.type == "MESH" else (original, materials)
+        if key not in meshes:
+            meshes[key] = _read(evaluated, materials, normals)
+            owners[key], matrices[key] = [], []
+        owners[key].append(owner)
+        matrices[key].append(np.array(instance.matrix_world, dtype=np.float64))
+    placed = []
+    for key, mesh in meshes.items():
+        if mesh is None:
+            continue
+        matrix = np.stack(matrices[key])
+        if not np.isfinite(matrix).all():
+            raise ReflectionError(f"'{objects[owners[key][0]].name}' has a transform that is not a finite number: "
+                                  "clear its location, rotation and scale.")
+        placed.append(Placed(mesh, np.array(owners[key]), matrix))
+    return placed
+
+
+def _may_be_reflected(obj: bpy.types.Object) -> bool:
+    return not obj.hide_render and obj.reflection_mesh.role not in {"IGNORE", "REFLECTION"}
+
+
+def _read(obj: bpy.types.Object, materials: tuple, normals: bool) -> LocalMesh | None:
+    """The mesh of an evaluated object; None where it has no faces."""
+    mesh = obj.to_mesh()
+    if mesh is None:
+        return None
+    if not len(mesh.polygons):
+        obj.to_mesh_clear()
+        return None
+    positions = _values(mesh.attributes["position"].data, "vector", (len(mesh.vertices), 3), np.float32)
+    if not np.isfinite(positions).all():
+        obj.to_mesh_clear()
+        raise ReflectionError(f"'{obj.name}' has a vertex whose coordinates are not finite numbers: remove or repair "
+                              "it.")
+    corners, face = _triangulation(mesh)
+    corner_vertex = _values(mesh.attributes[".corner_vert"].data, "value", len(mesh.loops), np.int32)
+    local = LocalMesh(
+        positions, corner_vertex[corners], corners, len(mesh.loops), _face_materials(mesh)[face],
+        materials or tuple(mesh.materials), _corner_normals(obj, mesh, corners) if normals else None,
+        {} if normals else _uv_maps(mesh), {} if normals else _colours(mesh, corner_vertex), *_active_names(mesh))
+    obj.to_mesh_clear()
+    return local
+
+
+def _values(data, name: str, shape, dtype) -> np.ndarray:
+    """All values of one property of a collection, through the buffer that has exactly its type and length."""
+    array = np.empty(shape, dtype=dtype)
+    data.foreach_get(name, array.reshape(-1))
+    return array
+
+
+def _triangulation(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Face corners (m, 3) and polygon (m,) of each triangle."""
+    if len(mesh.loops) == 3 * len(mesh.polygons):
+        # triangles already: their corners lie in order
+        face = np.arange(len(mesh.polygons), dtype=np.int32)
+        return np.arange(len(mesh.loops), dtype=np.int32).reshape(-1, 3), face
+    mesh.calc_loop_triangles()
+    count = len(mesh.loop_triangles)
+    return (_values(mesh.loop_triangles, "loops", (count, 3), np.int32),
+            _values(mesh.loop_triangle_polygons, "value", count, np.int32))
+
+
+def _face_materials(mesh: bpy.types.Mesh) -> np.ndarray:
+    attribute = mesh.attributes.get("material_index")
+    if attribute is None or attribute.data_type != "INT" or attribute.domain != "FACE":
+        return np.zeros(len(mesh.polygons), dtype=np.int32)
+    return _values(attribute.data, "value", len(mesh.polygons), np.int32)
+
+
+def _corner_normals(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.ndarray) -> np.ndarray:
+    normals = _values(mesh.corner_normals, "vector", (len(mesh.loops), 3), np.float32)
+    if not np.isfinite(normals).all():
+        obj.to_mesh_clear()
+        raise ReflectionError(f"'{obj.name}' has a normal that is not a finite number: recalculate its normals.")
+    return normals[corners]
+
+
+def _uv_maps(mesh: bpy.types.Mesh) -> dict:
+    return {layer.name: _values(layer.uv, "vector", (len(mesh.loops), 2), np.float32) for layer in mesh.uv_layers}
+
+
+def _colours(mesh: bpy.types.Mesh, corner_vertex: np.ndarray) -> dict:
+    colours = {}
+    for attribute in mesh.color_attributes:
+        if attribute.domain not in {"POINT", "CORNER"}:
+            continue
+        values = _values(attribute.data, "color", (len(attribute.data), 4), np.float32)
+        values = values if attribute.domain == "CORNER" else values[corner_vertex]
+        colours[attribute.name] = (attribute.data_type, values)
+    return colours
+
+
+def _active_names(mesh: bpy.types.Mesh) -> tuple[str, str]:
+    uv = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
+    index = mesh.color_attributes.render_color_index
+    return uv, mesh.color_attributes[index].name if 0 <= index < len(mesh.color_attributes) else ""

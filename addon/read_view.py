@@ -1,0 +1,42 @@
+"""Scene camera -> `core.View`: lens, shift, sensor fit, pixel aspect and resolution of the render."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ..core import ReflectionError, View
+
+
+def read_view(context: bpy.types.Context) -> View:
+    """The eye of the scene's camera at the render's resolution, in world space and scene units.
+
+    Raises
+    ------
+    ReflectionError
+        Where the scene has no camera, or one whose picture is not a perspective or an orthographic one.
+    """
+    scene = context.scene
+    camera = scene.camera
+    if camera is None:
+        raise ReflectionError("The scene has no camera: add one (Add > Camera) and make it the scene's camera.")
+    if camera.type != "CAMERA":
+        raise ReflectionError(f"The scene's camera '{camera.name}' is no camera object: choose one in the scene's "
+                              "properties.")
+    if camera.data.type not in {"PERSP", "ORTHO"}:
+        raise ReflectionError(f"The camera '{camera.name}' is panoramic: set its type to Perspective or Orthographic.")
+    depsgraph = context.evaluated_depsgraph_get()
+    camera = camera.evaluated_get(depsgraph)
+    render = scene.render
+    width, height = (max(1, size * render.resolution_percentage // 100)
+                     for size in (render.resolution_x, render.resolution_y))
+    projection = camera.calc_matrix_camera(depsgraph, x=width, y=height, scale_x=render.pixel_aspect_x,
+                                           scale_y=render.pixel_aspect_y)
+    placement = np.array(camera.matrix_world, dtype=np.float64)
+    # as a render does: the camera's scale takes no part in its picture
+    length = np.linalg.norm(placement[:3, :3], axis=0)
+    if not np.isfinite(placement).all() or (length == 0.0).any():
+        raise ReflectionError(f"The camera '{camera.name}' has a scale of zero or a position that is no number: clear "
+                              "its transform.")
+    placement[:3, :3] /= length
+    placement[3] = 0.0, 0.0, 0.0, 1.0
+    return View(placement, np.array(projection, dtype=np.float64), (width, height))

@@ -1,0 +1,88 @@
+"""A long operator as one generator: run to its end when executed, stepped by a timer, with ESC, when invoked."""
+from __future__ import annotations
+
+import time
+from collections.abc import Generator
+
+import bpy
+
+from ..core import ReflectionError
+
+INTERVAL = 0.02
+# the window answers to ESC and draws the progress this often, where single steps are not longer
+BUDGET = 0.1
+
+
+class SteppedOperator:
+    """Mix-in of operators whose `steps(context)` yields (fraction, stage) and changes nothing before its last step."""
+
+    def steps(self, context: bpy.types.Context) -> Generator[tuple[float, str], None, None]:
+        raise NotImplementedError
+
+    def execute(self, context: bpy.types.Context) -> set:
+        self._running = self.steps(context)
+        while (outcome := self._step()) is None:
+            pass
+        return outcome
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        self._running = self.steps(context)
+        # wrong input is told at once, before anything of the window changes
+        outcome = self._step()
+        if outcome is not None:
+            return outcome
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(INTERVAL, window=context.window)
+        manager.progress_begin(0, 100)
+        manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
+        if event.type == "ESC" and event.value == "PRESS":
+            self.cancel(context)
+            self.report({"INFO"}, f"{self.bl_label}: cancelled, nothing has changed.")
+            return {"CANCELLED"}
+        # all other events end here: nobody may change the scene between two steps
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        enough = time.perf_counter() + BUDGET
+        outcome = self._step()
+        while outcome is None and time.perf_counter() < enough:
+            outcome = self._step()
+        if outcome is not None:
+            self._tidy(context)
+            return outcome
+        fraction, stage = self._progress
+        context.window_manager.progress_update(100.0 * fraction)
+        context.workspace.status_text_set(f"{stage}: {100.0 * fraction:.0f} %, ESC cancels")
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Stop without a trace; Blender calls it too, when it ends the operator itself."""
+        self._running.close()
+        self._tidy(context)
+
+    def _step(self) -> set | None:
+        """One step: what the operator returns where that was the last, or None."""
+        try:
+            self._progress = next(self._running)
+        except StopIteration:
+            return {"FINISHED"}
+        except ReflectionError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        except ReferenceError:
+            self.report({"ERROR"}, "An object was removed while the work went on: start it again.")
+            return {"CANCELLED"}
+        except MemoryError:
+            self.report({"ERROR"}, "The memory does not suffice: raise the tolerance or reflect fewer objects at once.")
+            return {"CANCELLED"}
+        return None
+
+    def _tidy(self, context: bpy.types.Context) -> None:
+        manager = context.window_manager
+        manager.event_timer_remove(self._timer)
+        manager.progress_end()
+        context.workspace.status_text_set(None)

@@ -1,0 +1,83 @@
+"""The object that carries a reflection: made or found, placed, linked beside its mirror, seen by the camera only."""
+from __future__ import annotations
+
+import json
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ..core import ReflectionMesh, TriangleMesh, View
+from .roles import results_of
+from .write_mesh import write_mesh
+
+RAYS = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter", "visible_shadow")
+
+
+def origin_of(mirror: TriangleMesh) -> np.ndarray:
+    """The middle of the mirror's box, rounded as Blender stores an object's location."""
+    corners = mirror.positions[mirror.triangles].reshape(-1, 3)
+    return (0.5 * (corners.min(axis=0) + corners.max(axis=0))).astype(np.float32).astype(np.float64)
+
+
+def write_object(context: bpy.types.Context, mirror: bpy.types.Object, sources: list, origin: np.ndarray, arrays: dict,
+                 result: ReflectionMesh, view: View, placement: str) -> bpy.types.Object:
+    """The result of `mirror` as an object: a new one, or the one it already has, updated in place."""
+    earlier = results_of(context, mirror)
+    if earlier:
+        active = context.view_layer.objects.active
+        obj = active if active in earlier else earlier[0]
+        if obj.data.users > 1 or obj.data.library is not None:
+            # whoever else shows this mesh keeps it as it is
+            obj.data = obj.data.copy()
+    else:
+        name = f"{mirror.name} Reflection"
+        obj = bpy.data.objects.new(name, bpy.data.meshes.new(name))
+        _link_beside(context, obj, mirror)
+        for rays in RAYS:
+            setattr(obj, rays, False)
+    write_mesh(obj.data, arrays)
+    obj.matrix_world = Matrix.Translation(origin)
+    _remember(obj, mirror, sources, result, view)
+    if placement == "VIRTUAL":
+        _hide_from_camera(mirror)
+    else:
+        show_to_camera(mirror)
+    return obj
+
+
+def _link_beside(context: bpy.types.Context, obj: bpy.types.Object, mirror: bpy.types.Object) -> None:
+    """Link to the mirror's collections, those of this scene that can be changed, else to the scene's own."""
+    of_scene = {context.scene.collection, *context.scene.collection.children_recursive}
+    beside = [collection for collection in mirror.users_collection
+              if collection in of_scene and collection.library is None]
+    for collection in beside or [context.scene.collection]:
+        collection.objects.link(obj)
+
+
+def _remember(obj: bpy.types.Object, mirror: bpy.types.Object, sources: list, result: ReflectionMesh,
+              view: View) -> None:
+    record = obj.reflection_mesh
+    record.role = "REFLECTION"
+    record.mirror = mirror
+    record.sources.clear()
+    for source in sources:
+        record.sources.add().object = source
+    record.estimated_error = result.estimated_error
+    record.counts = json.dumps({name: int(count) for name, count in result.counts.items()})
+    record.resolution = view.resolution
+    record.faces = len(obj.data.polygons)
+
+
+def _hide_from_camera(mirror: bpy.types.Object) -> None:
+    """Make a window of the mirror: the camera must see the virtual image behind it."""
+    if mirror.visible_camera and mirror.library is None:
+        mirror.visible_camera = False
+        mirror.reflection_mesh.camera_hidden = True
+
+
+def show_to_camera(mirror: bpy.types.Object) -> None:
+    """Undo `_hide_from_camera`; a mirror that the user hid stays hidden."""
+    if mirror.reflection_mesh.camera_hidden and mirror.library is None:
+        mirror.visible_camera = True
+        mirror.reflection_mesh.camera_hidden = False

@@ -1,0 +1,53 @@
+"""The extension as users have it: built as a zip, installed into preferences of its own, tested from there."""
+from __future__ import annotations
+
+import importlib
+import shutil
+import tempfile
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from benchmarks import extension_zip
+
+USER_FOLDER = Path(tempfile.mkdtemp(prefix="reflection_mesh_tests_"))
+# before anything imports bpy: it reads the place of its preferences once
+extension_zip.use_throw_away_preferences(USER_FOLDER)
+import bpy  # noqa: E402
+
+ZIP = extension_zip.build(USER_FOLDER / "zip")
+extension_zip.install(ZIP)
+
+
+def pytest_sessionfinish() -> None:
+    # bpy may crash at its end where classes are still registered, and hide the tests' own exit status
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.preferences.addon_disable(module=extension_zip.PACKAGE)
+    shutil.rmtree(USER_FOLDER, ignore_errors=True)
+
+
+@pytest.fixture(scope="session")
+def extension_archive() -> Path:
+    """The zip that was installed."""
+    return ZIP
+
+
+@pytest.fixture(scope="session")
+def room():
+    """Import a module of the installed extension: room("addon.read_view")."""
+    def imported(name: str) -> ModuleType:
+        return importlib.import_module(f"{extension_zip.PACKAGE}.{name}")
+    return imported
+
+
+@pytest.fixture
+def blank() -> bpy.types.Context:
+    """An empty file with a camera at (0, -6, 1) that looks along +Y, 256 x 192 pixels."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.object.camera_add(location=(0.0, -6.0, 1.0), rotation=(1.45, 0.0, 0.0))
+    scene = bpy.context.scene
+    scene.camera = bpy.context.object
+    scene.render.resolution_x, scene.render.resolution_y = 256, 192
+    bpy.ops.object.select_all(action="DESELECT")
+    return bpy.context

@@ -1,0 +1,113 @@
+"""The verbs of the command line: exit status 0 only on success, the opened file as it was unless it is to be saved."""
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import bpy
+import parts
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def saved(blank, tmp_path) -> Path:
+    """A saved file: a cube before a wall mirror, roles set, nothing selected; it is open."""
+    cube = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0))
+    mirror = parts.add_wall_mirror()
+    cube.reflection_mesh.role, mirror.reflection_mesh.role = "DIFFUSE", "MIRROR"
+    bpy.context.preferences.filepaths.save_version = 0
+    path = tmp_path / "scene.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def faces_in(path: Path, name: str = "Mirror Reflection") -> int:
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    obj = bpy.data.objects.get(name)
+    return len(obj.data.polygons) if obj else 0
+
+
+def with_bpy(*arguments: str) -> subprocess.CompletedProcess:
+    return subprocess.run([sys.executable, str(ROOT / "addon" / "run_with_bpy.py"), *map(str, arguments)],
+                          capture_output=True, text=True, check=False, cwd=ROOT.parent,
+                          env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+
+
+def test_generate_saves_the_file(saved, room, capsys):
+    assert room("addon.command_line").run(["generate", "--tolerance", "2"]) == 0
+    assert "'Mirror Reflection'" in capsys.readouterr().out
+    assert faces_in(saved) > 0
+
+
+def test_generate_to_another_file(saved, room, tmp_path):
+    before = saved.read_bytes()
+    output = tmp_path / "other.blend"
+    assert room("addon.command_line").run(["generate", "--output", str(output), "--placement", "VIRTUAL"]) == 0
+    assert saved.read_bytes() == before
+    assert faces_in(output) > 0 and faces_in(saved) == 0
+
+
+def test_objects_by_name(saved, room, tmp_path):
+    for name in ("Box", "Mirror"):
+        bpy.data.objects[name].reflection_mesh.role = "AUTO"
+    output = tmp_path / "named.blend"
+    assert room("addon.command_line").run(
+        ["generate", "--mirror", "Mirror", "--diffuse", "Box", "--output", str(output)]) == 0
+    assert faces_in(output) > 0
+
+
+@pytest.mark.parametrize(("arguments", "status", "words"), [
+    (["generate", "--mirror", "Mirror", "--diffuse", "Nothing"], 1, "no object 'Nothing'"),
+    (["generate", "--mirror", "Mirror"], 1, "Name both"),
+    (["generate", "--mirror", "Mirror", "--diffuse", "Mirror"], 1, "named both"),
+    (["generate", "--tolerance", "0"], 1, "tolerance"),
+    (["generate", "--tolerance", "nan"], 1, "tolerance"),
+    (["generate", "--placement", "NOWHERE"], 2, "NOWHERE"),
+    (["generate", "--output", "{folder}/none/there/x.blend"], 1, "Error"),
+    (["compare", "--samples", "0"], 1, "sample"),
+    (["polish"], 2, "polish"),
+    ([], 2, "verb"),
+])
+def test_failures(saved, room, capfd, tmp_path, arguments, status, words):
+    before = saved.read_bytes()
+    assert room("addon.command_line").run([argument.format(folder=tmp_path) for argument in arguments]) == status
+    assert words in capfd.readouterr().err
+    assert saved.read_bytes() == before
+
+
+def test_nothing_to_save_to(blank, room, capsys):
+    assert room("addon.command_line").run(["generate"]) == 1
+    assert "no file to save to" in capsys.readouterr().err
+
+
+def test_bad_input_is_one_line(saved, room, capsys):
+    bpy.context.scene.camera = None
+    assert room("addon.command_line").run(["generate"]) == 1
+    error = capsys.readouterr().err
+    assert error.startswith("Error: The scene has no camera") and error.count("\n") == 1
+
+
+def test_help_succeeds(room, capsys):
+    assert room("addon.command_line").run(["--help"]) == 0
+    out = capsys.readouterr().out
+    assert "generate" in out and "compare" in out
+
+
+def test_through_pypis_bpy(saved, tmp_path):
+    """From a checkout, in a fresh process."""
+    done = with_bpy(saved, "generate", "--output", tmp_path / "result.blend")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "Traceback" not in done.stdout + done.stderr and "100 %" in done.stdout
+    assert faces_in(tmp_path / "result.blend") > 0
+
+
+def test_pypis_bpy_without_a_file(tmp_path):
+    done = with_bpy(tmp_path / "none.blend", "generate")
+    assert done.returncode == 1 and "Traceback" not in done.stderr and "none.blend" in done.stderr
+
+
+def test_pypis_bpy_without_a_verb():
+    done = with_bpy()
+    assert done.returncode == 2 and done.stderr.startswith("Usage:")

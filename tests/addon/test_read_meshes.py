@@ -1,0 +1,176 @@
+"""Evaluated meshes in world space, against what Blender says of each face corner, one by one."""
+import bpy
+import numpy as np
+import parts
+import pytest
+from mathutils import Matrix
+
+
+def plain_triangles(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
+    """World corners (m, 3, 3) and world corner normals of an object, through mathutils, one at a time."""
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh, matrix = evaluated.data, obj.matrix_world
+    to_normal = matrix.to_3x3().inverted().transposed()
+    corners = [[matrix @ mesh.vertices[index].co for index in triangle.vertices] for triangle in mesh.loop_triangles]
+    normals = [[(to_normal @ mesh.corner_normals[index].vector).normalized() for index in triangle.loops]
+               for triangle in mesh.loop_triangles]
+    return np.array(corners), np.array(normals)
+
+
+def read_mirror(room, obj: bpy.types.Object):
+    bpy.context.view_layer.update()
+    return room("addon.join_meshes").read_mirror(bpy.context.evaluated_depsgraph_get(), obj)
+
+
+def read_scene(room, *objects: bpy.types.Object):
+    bpy.context.view_layer.update()
+    return room("addon.join_meshes").read_scene(bpy.context.evaluated_depsgraph_get(), list(objects))
+
+
+def suzanne(shading: str) -> bpy.types.Object:
+    obj = parts.add("monkey", "Suzanne", location=(3.0, -2.0, 5.0), rotation=(0.3, 0.5, 0.7))
+    obj.scale = 1.0, 2.0, 0.5
+    mesh = obj.data
+    if shading != "flat":
+        mesh.shade_smooth()
+    if shading == "mixed":
+        mesh.polygons.foreach_set("use_smooth", np.arange(len(mesh.polygons)) % 2 == 0)
+    if shading == "custom":
+        random = np.random.default_rng(3).normal(size=(len(mesh.loops), 3)) * 0.2
+        own = np.array([normal.vector for normal in mesh.corner_normals])
+        mesh.normals_split_custom_set((own + random) / np.linalg.norm(own + random, axis=1, keepdims=True))
+    return obj
+
+
+@pytest.mark.parametrize("shading", ["flat", "smooth", "mixed", "custom"])
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_corners_and_normals(blank, room, shading, mirrored):
+    obj = suzanne(shading)
+    if mirrored:
+        obj.scale.x = -1.5
+    surface = read_mirror(room, obj)
+    corners, normals = plain_triangles(obj)
+    order = [0, 2, 1] if mirrored else [0, 1, 2]
+    assert np.allclose(surface.mesh.positions[surface.mesh.triangles], corners[:, order], atol=2e-6)
+    assert np.allclose(surface.mesh.corner_normals, normals[:, order], atol=2e-6)
+    # faces and shading look to the same side
+    agreement = np.einsum("ij,ij->i", surface.mesh.face_normals(), surface.mesh.corner_normals.mean(axis=1))
+    assert (agreement > 0.0).mean() > 0.95
+
+
+def test_modifiers_are_applied(blank, room):
+    cube = parts.add("cube", "Box", size=2.0)
+    cube.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    array = cube.modifiers.new("Array", "ARRAY")
+    array.count, array.use_relative_offset, array.use_constant_offset = 2, False, True
+    array.constant_offset_displace = 5.0, 0.0, 0.0
+    mesh = read_scene(room, cube).mesh
+    assert len(mesh.triangles) == 2 * 6 * 16 * 2
+    assert mesh.positions[:, 0].max() > 5.0 and mesh.positions[:, 0].min() > -1.0
+
+
+def test_triangle_numbers_are_blenders(blank, room):
+    """Quads, triangles and polygons with more corners, two objects: faces are counted within each object."""
+    cone = parts.add("cone", "Cone", vertices=5, end_fill_type="NGON")
+    sphere = parts.add("uv_sphere", "Ball", segments=6, ring_count=4, location=(5.0, 0.0, 0.0))
+    scene = read_scene(room, cone, sphere)
+    for index, obj in enumerate((cone, sphere)):
+        own = np.flatnonzero(scene.source_object == index)
+        corners = plain_triangles(obj)[0]
+        assert sorted(scene.source_face[own]) == list(range(len(corners)))
+        found = scene.mesh.positions[scene.mesh.triangles[own]]
+        assert np.allclose(found, corners[scene.source_face[own]], atol=1e-6)
+
+
+def test_instances_belong_to_their_instancer(blank, room):
+    """A collection with a cube and a turned-over triangle, instanced twice, once through a negative scale."""
+    cube = parts.add("cube", "Box", size=1.0)
+    leaf = parts.add_triangle("Leaf", [(0, 0, 2), (1, 0, 2), (0, 1, 3)])
+    kit = bpy.data.collections.new("Kit")
+    for obj in (cube, leaf):
+        kit.objects.link(obj)
+        bpy.context.scene.collection.objects.unlink(obj)
+    empties = []
+    for matrix in (Matrix.Translation((10.0, 0.0, 0.0)), Matrix.Diagonal((-2.0, 1.0, 1.0, 1.0))):
+        empty = bpy.data.objects.new("Instance", None)
+        empty.instance_type, empty.instance_collection = "COLLECTION", kit
+        empty.matrix_world = matrix
+        bpy.context.scene.collection.objects.link(empty)
+        empties.append(empty)
+    scene = read_scene(room, *empties)
+    assert len(scene.mesh.triangles) == 2 * 13
+    for index, empty in enumerate(empties):
+        own = scene.source_object == index
+        assert sorted(scene.source_face[own]) == list(range(13))
+        expected = np.array([empty.matrix_world @ vertex.co for vertex in leaf.data.vertices])
+        corners = scene.mesh.positions[scene.mesh.triangles[own]]
+        leaf_seen = corners[corners[:, :, 2].min(axis=1) > 1.0]
+        order = [0, 1, 2] if index == 0 else [0, 2, 1]
+        assert np.allclose(leaf_seen[0], expected[order], atol=1e-6)
+    uv = scene.uv_maps["UVMap"][scene.mesh.positions[scene.mesh.triangles][:, :, 2].min(axis=1) > 1.0]
+    assert np.allclose(uv[0], [(0, 0), (1, 0), (0, 1)]) and np.allclose(uv[1], [(0, 0), (0, 1), (1, 0)])
+
+
+def test_vertex_instances(blank, room):
+    cube = parts.add("cube", "Box", size=0.5)
+    plane = parts.add("plane", "Field", size=6.0)
+    cube.parent = plane
+    plane.instance_type = "VERTS"
+    plane.show_instancer_for_viewport = plane.show_instancer_for_render = False
+    scene = read_scene(room, plane)
+    assert len(scene.mesh.triangles) == 4 * 12
+    centres = scene.mesh.positions.reshape(4, 8, 3).mean(axis=1)
+    assert np.allclose(np.abs(centres[:, :2]), 3.0, atol=1e-6)
+
+
+@pytest.mark.parametrize(("add", "setting"), [("text_add", None), ("metaball", None), ("curve", None)])
+def test_other_kinds_of_surface(blank, room, add, setting):
+    if add == "text_add":
+        bpy.ops.object.text_add()
+    elif add == "metaball":
+        bpy.ops.object.metaball_add(type="BALL")
+    else:
+        bpy.ops.curve.primitive_bezier_circle_add()
+        bpy.context.object.data.bevel_depth = 0.2
+    obj = bpy.context.object
+    obj.location = 0.0, 0.0, 7.0
+    mesh = read_scene(room, obj).mesh
+    assert len(mesh.triangles) > 10
+    centre = 0.5 * (mesh.positions.min(axis=0) + mesh.positions.max(axis=0))
+    assert abs(centre[2] - 7.0) < 0.1
+
+
+def test_materials_follow_the_object(blank, room):
+    """A slot that is linked to the object hides the mesh's own material."""
+    first = parts.add("cube", "First")
+    first.data.materials.append(parts.material("Shared"))
+    second = bpy.data.objects.new("Second", first.data)
+    bpy.context.scene.collection.objects.link(second)
+    second.material_slots[0].link = "OBJECT"
+    second.material_slots[0].material = parts.material("Own")
+    scene = read_scene(room, first, second)
+    names = np.array([material.name for material in scene.materials])
+    assert (names[scene.material] == np.where(scene.source_object == 0, "Shared", "Own")).all()
+
+
+def test_layers_of_several_objects(blank, room):
+    """An object without the active UV map shows its own active one; one that has none, zeros."""
+    first = parts.add_triangle("First", [(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    second = parts.add_triangle("Second", [(0, 0, 1), (1, 0, 1), (0, 1, 1)], uv=((5, 5), (6, 5), (5, 6)))
+    second.data.uv_layers[0].name = "Other"
+    third = parts.add_triangle("Third", [(0, 0, 2), (1, 0, 2), (0, 1, 2)])
+    third.data.uv_layers.remove(third.data.uv_layers[0])
+    third.data.update()
+    scene = read_scene(room, first, second, third)
+    assert scene.active_uv == "UVMap" and set(scene.uv_maps) == {"UVMap", "Other"}
+    order = np.argsort(scene.source_object)
+    assert np.allclose(scene.uv_maps["UVMap"][order[1]], [(5, 5), (6, 5), (5, 6)])
+    assert np.allclose(scene.uv_maps["UVMap"][order[2]], 0.0)
+    assert np.allclose(scene.uv_maps["Other"][order[0]], 0.0)
+
+
+def test_a_scale_of_zero_keeps_its_normals(blank, room):
+    plane = parts.add("plane", "Flat")
+    plane.scale.z = 0.0
+    surface = read_mirror(room, plane)
+    assert np.allclose(surface.mesh.corner_normals, (0.0, 0.0, 1.0))
