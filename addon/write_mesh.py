@@ -24,13 +24,12 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, triangle: np.ndarra
     origin : (3,) float64
         World position of the object's origin. Positions are kept relative to it: float32 is precise only near it.
     """
-    kept = distinct_faces(result.triangles)
-    source, mirror_face = result.source_face[kept], result.mirror_face[kept]
+    source, mirror_face = result.source_face, result.mirror_face
     spans = mirror_face < 0
-    weights = result.source_weights[kept].astype(np.float32)
+    weights = result.source_weights.astype(np.float32)
     return {
         "positions": (result.positions - origin).astype(np.float32),
-        "triangles": result.triangles[kept].astype(np.int32),
+        "triangles": result.triangles.astype(np.int32),
         "material_index": scene.material[source].astype(np.int32),
         "uv_maps": {name: _at_corners(weights, values, source) for name, values in scene.uv_maps.items()},
         "colours": {name: (kind, _at_corners(weights, values, source))
@@ -49,16 +48,6 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, triangle: np.ndarra
         "active_uv": scene.active_uv,
         "active_colour": scene.active_colour,
     }
-
-
-def distinct_faces(triangles: np.ndarray) -> np.ndarray:
-    """Indices (k,) of the triangles that a Blender mesh holds: three different vertices and no other face on them."""
-    low, middle, high = np.sort(triangles, axis=1).T
-    order = np.lexsort((high, middle, low))
-    low, middle, high = low[order], middle[order], high[order]
-    good = (low != middle) & (middle != high)
-    good[1:] &= (low[1:] != low[:-1]) | (middle[1:] != middle[:-1]) | (high[1:] != high[:-1])
-    return np.sort(order[good])
 
 
 def _at_corners(weights: np.ndarray, values: np.ndarray, source: np.ndarray) -> np.ndarray:

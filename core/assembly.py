@@ -19,7 +19,7 @@ ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the c
 
 def assemble(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames, positions: np.ndarray,
              nodes: Nodes, faces: Faces, placement: str) -> ReflectionMesh:
-    """The faces as arrays, without unused nodes, all turned to the eye."""
+    """The faces as arrays, no two on the same nodes, without unused nodes, all turned to the eye."""
     # doubled triangles of the scene, and polygons that fold flat, give the same face twice
     once, _ = groups(*np.sort(faces.nodes, axis=1).T)
     faces = faces.select(np.sort(once))

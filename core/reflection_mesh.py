@@ -36,7 +36,7 @@ class ReflectionMesh:
     seconds : dict
         Time by stage.
     estimated_error : float
-        Estimated 99th percentile of the displacement inside the faces, in pixels.
+        Estimated 99th percentile of the displacement inside the faces, in pixels, on the safe side.
     """
 
     positions: np.ndarray

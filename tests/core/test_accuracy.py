@@ -1,0 +1,75 @@
+"""The method against ray tracing of the same meshes, pixel by pixel."""
+import numpy as np
+import pytest
+
+from tests.core.true_map import case_of, mesh_of, truth_of
+from tests.judge import compare
+from tests.scenes import SCENES
+
+
+def numbers_of(name, single_precision=False, placement="LAYERED", **settings):
+    case, mesh = case_of(name), mesh_of(name, placement=placement, **settings)
+    return compare(case.view, case.mirror, mesh, truth_of(name), placement=placement,
+                   single_precision=single_precision).numbers
+
+
+@pytest.mark.parametrize("tolerance", [0.5, 0.25])
+@pytest.mark.parametrize("name", SCENES)
+def test_displacement_stays_below_the_tolerance_and_coverage_is_whole(name, tolerance):
+    numbers = numbers_of(name, tolerance=tolerance)
+    assert numbers["compared"] > 3000
+    assert numbers["p99"] < tolerance
+    assert numbers["uncovered"] < 0.1
+    assert numbers["spill_outside"] == 0.0
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_half_the_tolerance_reduces_the_error(name):
+    coarse, fine = (numbers_of(name, tolerance=tolerance) for tolerance in (0.5, 0.25))
+    if name == "flat_ortho":
+        assert coarse["maximum"] < 1e-6
+        return
+    assert fine["p99"] < coarse["p99"]
+    assert fine["median"] < coarse["median"]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_estimated_error_is_no_smaller_than_the_measured_one(name):
+    measured = numbers_of(name)["p99"]
+    # Estimated halfway along the faces' edges, measured at the pixels: percentiles of two samplings.
+    assert mesh_of(name).estimated_error > 0.9 * measured - 1e-6
+    # A bound that says nothing would be no estimate.
+    assert mesh_of(name).estimated_error < 0.5
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_nothing_sinks_behind_the_mirror_in_single_precision(name):
+    for single_precision in (False, True):
+        numbers = numbers_of(name, single_precision)
+        assert numbers["sunk"] < 0.01
+        assert numbers["uncovered"] < 0.1
+
+
+@pytest.mark.parametrize("name", ["sphere", "flat", "flat_ortho", "water", "bowl"])
+def test_virtual_images_show_the_same_picture(name):
+    numbers = numbers_of(name, placement="VIRTUAL")
+    assert numbers["p99"] < 0.5
+    assert numbers["uncovered"] < 0.1
+    if name.startswith("flat"):
+        assert numbers["maximum"] < 1e-6
+
+
+def test_a_finer_picture_asks_for_more_faces_and_keeps_the_tolerance():
+    case = case_of("sphere", 512)
+    numbers = compare(case.view, case.mirror, mesh_of("sphere", 512), truth_of("sphere", 512)).numbers
+    assert numbers["p99"] < 0.5
+    assert numbers["uncovered"] < 0.1
+    assert len(mesh_of("sphere", 512).triangles) > 1.3 * len(mesh_of("sphere").triangles)
+    assert numbers["mirror_pixels"] == pytest.approx(4 * numbers_of("sphere")["mirror_pixels"], rel=0.01)
+
+
+def test_the_reflection_is_the_same_wherever_the_scene_lies_and_however_large_it_is():
+    keys = ("median", "p95", "p99", "uncovered")
+    expected = [numbers_of("sphere")[key] for key in keys]
+    for name in ("sphere_far", "sphere_small"):
+        np.testing.assert_allclose([numbers_of(name)[key] for key in keys], expected, atol=0.02)

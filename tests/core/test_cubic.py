@@ -1,0 +1,117 @@
+"""Positive roots of cubics, against roots known beforehand."""
+import numpy as np
+import pytest
+
+from core.cubic import UNIT, positive_roots
+
+
+def _solve(coefficients, low=0.0, high=np.inf):
+    """(roots, signs) of each of the cubics (n, 4), whose coefficients are taken as exact."""
+    c = np.array(coefficients, dtype=np.float64).T
+    roots, degenerate = positive_roots(c, np.zeros_like(c), np.full(c.shape[1], low), np.full(c.shape[1], high))
+    with np.errstate(divide="ignore"):
+        values = np.where(roots.reversed, 1.0 / roots.value, roots.value)
+    assert (np.diff(roots.cubic) >= 0).all() and (roots.value >= 0.0).all() and (roots.value <= 1.0).all()
+    return [(values[roots.cubic == k], roots.sign[roots.cubic == k].tolist()) for k in range(c.shape[1])], degenerate
+
+
+def _expanded(lead, *roots):
+    return (lead * np.poly(roots))[::-1].tolist() + [0.0] * (3 - len(roots))
+
+
+@pytest.mark.parametrize("coefficients, expected, signs", [
+    (_expanded(1, 1, 2, 4), [1, 2, 4], [1, -1, 1]),
+    (_expanded(-8, 0.125, 0.25, 0.5), [0.125, 0.25, 0.5], [-1, 1, -1]),
+    (_expanded(1, -1, -1, 3), [3], [1]),                 # a flat mirror: (1 + s)^2 times a linear factor
+    (_expanded(1, -1, -1, -1), [], []),
+    (_expanded(1, 2, 2, 5), [2, 5], [0, 1]),             # double, then simple
+    (_expanded(1, 0.5, 3, 3), [0.5, 3], [1, 0]),
+    (_expanded(1, 2, 2, 2), [2], [0]),                   # triple
+    (_expanded(1, 0.25, 0.25, 0.25), [0.25], [0]),
+    (_expanded(1, 0, 2, 3), [2, 3], [-1, 1]),            # a root at 0 is not positive
+    (_expanded(1, 0, 0, 3), [3], [1]),
+    (_expanded(1, 0, 0, 0), [], []),
+    (_expanded(3, 1, 7), [1, 7], [-1, 1]),               # lower degrees
+    (_expanded(3, 7, 7), [7], [0]),
+    (_expanded(-2, 5), [5], [-1]),
+    ([4, 0, 0, 0], [], []),
+    ([0, 0, 0, 0], [], []),
+    ([1, 0, 1, 0], [], []),                              # no real roots
+    ([-1, 0, 0, 1], [1], [1]),                           # one real root, exactly at the border of the reversed cubic
+    ([-8, 0, 0, 1], [2], [1]),
+    (_expanded(1, 1, 1, -2), [1], [0]),
+    (_expanded(1, 2.0 ** -40, 2.0 ** -20, 2.0 ** 40), [2.0 ** -40, 2.0 ** -20, 2.0 ** 40], [1, -1, 1]),
+])
+def test_known_roots(coefficients, expected, signs):
+    ((roots, found),), degenerate = _solve([coefficients])
+    assert found == signs
+    # A double root moves by the square root of a rounding, a triple one by its cube root.
+    tolerance = [8 * UNIT if sign else 1e-7 if len(expected) > 1 else 1e-4 for sign in signs]
+    np.testing.assert_array_less(np.abs(roots - expected), np.multiply(tolerance, np.array(expected)) * 20 + 1e-300)
+    assert degenerate[0] == (not any(coefficients))
+
+
+def test_many_at_once_as_each_alone():
+    rng = np.random.default_rng(1)
+    c = rng.normal(size=(300, 4)) * 10.0 ** rng.integers(-6, 7, (300, 4))
+    together, _ = _solve(c)
+    for k in range(300):
+        (alone,), _ = _solve(c[k:k + 1])
+        np.testing.assert_array_equal(alone[0], together[k][0])
+        assert alone[1] == together[k][1]
+
+
+def test_random_cubics_against_companion_matrices():
+    rng = np.random.default_rng(2)
+    c = rng.normal(size=(3000, 4)) * 10.0 ** rng.uniform(-2, 2, (3000, 4))
+    compared = 0
+    for (roots, _), row in zip(_solve(c)[0], c):
+        expected = np.roots(row[::-1])
+        if np.abs(expected.imag[:, None] * (expected.imag != 0)[:, None]).max(initial=0) and \
+                np.abs(expected.imag[expected.imag != 0]).min() < 1e-5 * np.abs(expected).max():
+            continue                                     # nearly double: the companion matrix cannot tell
+        expected = np.sort(expected.real[(expected.imag == 0) & (expected.real > 0)])
+        assert len(roots) == len(expected)
+        np.testing.assert_allclose(roots, expected, rtol=1e-9)
+        compared += 1
+    assert compared > 2900
+
+
+def test_backward_error_at_close_roots():
+    """A root's residual stays at the rounding of the terms, however close the roots lie."""
+    rng = np.random.default_rng(3)
+    middle, gap = rng.uniform(0.1, 8.0, 2000), 10.0 ** rng.uniform(-14, -1, 2000)
+    close = middle * (1.0 + 10.0 ** rng.uniform(-12, 0, 2000))
+    other = np.where(rng.random(2000) < 0.5, close, rng.uniform(-5, 5, 2000))
+    c = np.array([_expanded(1, a, a * (1 + g), b) for a, g, b in zip(middle, gap, other)])
+    found = 0
+    for (roots, _), row in zip(_solve(c)[0], c):
+        powers = roots[:, None] ** np.arange(4)
+        assert (np.abs(powers @ row) <= 32 * UNIT * (powers @ np.abs(row))).all()
+        found += len(roots)
+    assert found > 2000
+
+
+def test_noise_at_the_ends_makes_no_roots():
+    """Outer coefficients within their bounds: roots near 0 and near infinity are not there."""
+    c = np.array([[1e-18, 1.0, -1.0, 1e-18], [-1e-18, 1.0, -1.0, -1e-18], [1e-18, -1e-18, 1e-18, 1e-18]]).T
+    roots, degenerate = positive_roots(c, np.full_like(c, 1e-16), np.zeros(3), np.full(3, np.inf))
+    assert roots.cubic.tolist() == [0, 1]
+    np.testing.assert_allclose(roots.value, 1.0)
+    assert degenerate.tolist() == [False, False, True]
+
+
+def test_only_between_the_given_ends():
+    c = [_expanded(1, 1, 2, 4)] * 5
+    coefficients = np.array(c).T
+    roots, _ = positive_roots(coefficients, np.zeros((4, 5)), np.array([0, 1.5, 3, 2.5, 5.0]),
+                              np.array([1.5, np.inf, 5, 3, 1.0]))
+    values = np.where(roots.reversed, 1.0 / roots.value, roots.value)
+    np.testing.assert_allclose(values, [1, 2, 4, 4], rtol=1e-14)
+    assert roots.cubic.tolist() == [0, 1, 1, 2]
+
+
+def test_none():
+    empty = np.zeros((4, 0))
+    roots, degenerate = positive_roots(empty, empty, np.zeros(0), np.zeros(0))
+    assert len(roots.cubic) == len(degenerate) == 0

@@ -1,0 +1,121 @@
+"""Refinement: a smaller tolerance gives less error, flat things stay whole, and bounds are kept."""
+import numpy as np
+import pytest
+
+from core import Settings, reflect
+from core.cameras import three_ray_cameras, visible_triangles
+from core.mirror_map import MirrorMap
+from core.mirror_refinement import in_picture, refine_mirror, split_cameras
+from tests.core.true_map import case_of, mesh_of, true_rays, truth_of, view_rays
+from tests.judge import compare
+
+FAR = 10.0
+
+
+def cameras_of(case):
+    mirror_map = MirrorMap(case.view, case.mirror)
+    cameras = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
+    return mirror_map, cameras.select(in_picture(case.view, cameras))
+
+
+def picture_size(case, cameras):
+    a, b, c = (case.view.pixels(cameras.places.T)[cameras.corners[:, k]] for k in range(3))
+    return 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+
+
+def straying(case, cameras, samples=12):
+    """Pixels by which interpolated rays miss the true ones at the distance FAR, at random places inside the cameras:
+    the way across the ray over the longest way of its point for a move of one pixel. None where normals are bent."""
+    weights = np.random.default_rng(103).dirichlet((1.0, 1.0, 1.0), samples)
+    places, rays = (np.einsum("wk,xnk->nwx", weights, given[:, cameras.corners]).reshape(-1, 3)
+                    for given in (cameras.places, cameras.rays))
+    face = np.repeat(cameras.face, samples)
+    _, ray, _, bent = true_rays(case.mirror, face, *view_rays(case.view, places))
+    turn = np.linalg.norm(rays / np.linalg.norm(rays, axis=1, keepdims=True) - ray, axis=1)
+    pixels, motion = case.view.pixels(places), []
+    for step in ((0.02, 0.0), (0.0, 0.02)):
+        q, turned, *_ = true_rays(case.mirror, face, *case.view.rays(pixels + step))
+        moved = (q + FAR * turned - places - FAR * ray) / 0.02
+        motion.append(np.linalg.norm(moved - (moved * ray).sum(axis=1, keepdims=True) * ray, axis=1))
+    return (FAR * turn / np.maximum(*motion))[~bent]
+
+
+@pytest.mark.parametrize("tolerance", [1.0, 0.3, 0.1])
+@pytest.mark.parametrize("name", ["sphere", "sphere_ortho", "cylinder", "torus", "bowl"])
+def test_refined_cameras_stray_by_less_than_the_tolerance(name, tolerance):
+    case = case_of(name)
+    mirror_map, cameras = cameras_of(case)
+    refined, _ = refine_mirror(case.view, mirror_map, cameras, tolerance, FAR, 1_000_000)
+    before, after = straying(case, cameras), straying(case, refined)
+    assert np.percentile(after, 99) < tolerance
+    if name != "bowl":
+        assert np.percentile(after, 99) < np.percentile(before, 99)
+        assert len(refined) > len(cameras)
+    assert picture_size(case, refined).sum() == pytest.approx(picture_size(case, cameras).sum(), rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["flat", "flat_ortho"])
+def test_a_flat_mirror_stays_whole_at_any_tolerance(name):
+    case = case_of(name)
+    mirror_map, cameras = cameras_of(case)
+    refined, limited = refine_mirror(case.view, mirror_map, cameras, 1e-6, FAR, 1_000_000)
+    assert len(refined) == len(cameras) == 2
+    assert not limited
+
+
+def test_the_count_of_cameras_is_bounded_and_told():
+    case = case_of("sphere")
+    mirror_map, cameras = cameras_of(case)
+    refined, limited = refine_mirror(case.view, mirror_map, cameras, 1e-4, FAR, 3000)
+    assert limited
+    assert len(refined) < 4 * 3000
+
+
+def test_split_cameras_lie_in_their_parents_with_true_rays_at_the_middles():
+    case = case_of("sphere_ico")
+    mirror_map, cameras = cameras_of(case)
+    marked = np.random.default_rng(107).random((len(cameras), 3)) < 0.3
+    parts, parent, *_ = split_cameras(case.view, mirror_map, cameras, marked)
+    np.testing.assert_array_equal(parts.face, cameras.face[parent])
+    covered = np.bincount(parent, weights=picture_size(case, parts), minlength=len(cameras))
+    np.testing.assert_allclose(covered, picture_size(case, cameras), rtol=1e-9, atol=1e-9)
+    corner_face = np.repeat(parts.face, 3)
+    places, rays = parts.places.T[parts.corners.ravel()], parts.rays.T[parts.corners.ravel()]
+    origins, directions = view_rays(case.view, places)
+    _, expected, _, _ = true_rays(case.mirror, corner_face, origins, directions)
+    # Next to the silhouette, neighbours bend the ray of a corner that they share in two ways.
+    clear = (case.mirror.face_normals()[corner_face] * directions).sum(axis=1) < -0.25
+    assert clear.mean() > 0.7
+    given = rays / np.linalg.norm(rays, axis=1, keepdims=True)
+    np.testing.assert_allclose(given[clear], expected[clear], rtol=0, atol=1e-8)
+    # Each edge in the middle of which a neighbour was split is split here too.
+    edges = np.sort(np.stack([parts.corners, np.roll(parts.corners, -1, axis=1)], axis=2), axis=2).reshape(-1, 2)
+    _, uses = np.unique(edges, axis=0, return_counts=True)
+    before = np.sort(np.stack([cameras.corners, np.roll(cameras.corners, -1, axis=1)], axis=2), axis=2).reshape(-1, 2)
+    _, uses_before = np.unique(before, axis=0, return_counts=True)
+    assert uses.max() == uses_before.max() == 2
+    whole = np.sum(uses_before == 1)
+    assert whole <= (uses == 1).sum() <= 2 * whole
+
+
+@pytest.mark.parametrize("name", ["sphere", "bowl", "flat"])
+def test_the_error_falls_with_the_tolerance_down_to_a_twentieth_of_a_pixel(name):
+    case, truth = case_of(name), truth_of(name)
+    errors, faces = [], []
+    for tolerance in (2.0, 0.5, 0.1, 0.05):
+        mesh = mesh_of(name, tolerance=tolerance)
+        errors.append(compare(case.view, case.mirror, mesh, truth).numbers["p99"])
+        faces.append(len(mesh.triangles))
+        assert errors[-1] < tolerance
+    assert (np.diff(errors) < 0.0).all()
+    assert (np.diff(faces) > 0).all()
+
+
+def test_the_bound_on_faces_is_kept_and_told():
+    case = case_of("sphere")
+    mesh = reflect(case.view, case.mirror, case.scene, Settings(tolerance=0.01, maximum_faces=12_000))
+    free = reflect(case.view, case.mirror, case.scene, Settings(tolerance=0.05))
+    assert len(free.triangles) > 30_000
+    assert mesh.counts["limited"] > 0
+    assert len(mesh.triangles) < 40_000
+    assert np.isfinite(mesh.positions).all()

@@ -1,0 +1,134 @@
+"""The k-d tree and its trace against every camera tried on every triangle."""
+import numpy as np
+import pytest
+
+from core import SceneTree, TriangleMesh, project
+from core.cameras import Cameras
+from core.cones import Cones
+from tests.core.random_cameras import random_cameras
+from tests.every_pair import every_pair
+
+RNG = np.random.default_rng(17)
+
+
+def soup(count, size=0.3, spread=3.0):
+    middles = RNG.uniform(-spread, spread, (count, 1, 3))
+    return (middles + RNG.normal(scale=size, size=(count, 3, 3))).reshape(-1, 3)
+
+
+def joined(count):
+    """Triangles on shared, clustered vertices."""
+    middles = np.repeat(2.0 * RNG.normal(size=(4, 3)), count, axis=0)
+    points = middles + RNG.normal(scale=0.2, size=(4 * count, 3))
+    return points, RNG.permuted(np.tile(np.arange(4 * count), (3, 1)), axis=1).T
+
+
+SPREAD_OUT = soup(200)
+DATA = {
+    "random": (SPREAD_OUT, np.arange(600).reshape(-1, 3)),
+    "large": (soup(3000, 0.05), np.arange(9000).reshape(-1, 3)),
+    "joined": joined(100),
+    "duplicate_points": (np.repeat(soup(30), 8, axis=0), RNG.integers(0, 720, (200, 3))),
+    "one_place": (np.full((600, 3), 0.7) + 1e-13 * RNG.normal(size=(600, 3)), np.arange(600).reshape(-1, 3)),
+    "in_a_plane": (SPREAD_OUT * [1.0, 1.0, 0.0] + [0.0, 0.0, 1.5], np.arange(600).reshape(-1, 3)),
+    "near_a_line": (SPREAD_OUT * [1.0, 1e-7, 1e-7], np.arange(600).reshape(-1, 3)),
+    "one_triangle": (soup(1), np.array([[0, 1, 2]])),
+    "fewer_than_a_bucket": (soup(5), np.arange(15).reshape(-1, 3)),
+    "large_and_small": (np.concatenate([soup(20, 4.0), soup(180, 0.01)]), np.arange(600).reshape(-1, 3)),
+}
+PLACES = {"here": (1.0, 0.0), "far": (1.0, 1e5), "small": (1e-4, 0.0), "large": (1e4, 0.0)}
+
+
+def case(data, place):
+    positions, triangles = DATA[data]
+    scale, offset = PLACES[place]
+    cameras = random_cameras(np.random.default_rng(23), 60)
+    moved = Cameras(cameras.corners, cameras.face, cameras.places * scale + offset, cameras.rays * scale)
+    return TriangleMesh(positions * scale + offset, triangles), moved
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("data", DATA)
+def test_the_trace_meets_every_triangle_that_a_camera_sees(data, place):
+    mesh, cameras = case(data, place)
+    cones = Cones.around(cameras)
+    tree = SceneTree.build(mesh)
+    cone, triangle, visited = tree.trace(cones)
+    met = np.zeros((len(cameras), len(mesh.triangles)), dtype=bool)
+    met[cone, triangle] = True
+    assert len(cone) == met.sum()
+    areal = np.zeros(len(mesh.triangles), dtype=bool)
+    areal[tree.leaf_triangles] = True
+    # A vertex that projects, and a ray that hits: the triangle must be met.
+    needed = np.zeros_like(met)
+    used = np.unique(mesh.triangles)
+    camera, vertex = (index.ravel() for index in np.meshgrid(np.arange(len(cameras)), used, indexing="ij"))
+    corners = cameras.corners[camera]
+    found = project(cameras.places.T[corners], cameras.rays.T[corners], mesh.positions[vertex]).pair
+    seen = np.zeros((len(cameras), len(mesh.positions)), dtype=bool)
+    seen[camera[found], vertex[found]] = True
+    needed |= seen[:, mesh.triangles].any(axis=2)
+    if data not in ("one_place", "near_a_line", "duplicate_points", "large"):
+        weights = np.random.default_rng(29).dirichlet((1.0, 1.0, 1.0), 8)
+        origins = np.einsum("wk,xnk->nwx", weights, cameras.places[:, cameras.corners]).reshape(-1, 3)
+        rays = np.einsum("wk,xnk->nwx", weights, cameras.rays[:, cameras.corners]).reshape(-1, 3)
+        some = np.flatnonzero(areal)
+        hit, _ = every_pair(TriangleMesh(mesh.positions, mesh.triangles[some]), origins, rays)
+        needed[np.repeat(np.arange(len(cameras)), 8)[hit >= 0], some[hit[hit >= 0]]] = True
+    assert not (needed & areal & ~met).any()
+    # No more than every sphere tried on every cone would give.
+    sphere = tree.triangle_spheres
+    every = cones.touch(np.repeat(np.arange(len(cameras)), len(mesh.triangles)),
+                        np.tile(sphere[:3], (1, len(cameras))), np.tile(sphere[3], len(cameras))).reshape(met.shape)
+    assert not (met & ~(every & areal)).any()
+
+
+@pytest.mark.parametrize("data", DATA)
+def test_each_triangle_with_an_area_hangs_at_one_leaf_inside_the_spheres_above_it(data):
+    mesh, _ = case(data, "here")
+    tree = SceneTree.build(mesh)
+    a, b, c = np.moveaxis(mesh.positions[mesh.triangles], 1, 0)
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    assert len(np.unique(tree.leaf_triangles)) == len(tree.leaf_triangles)
+    clear = np.flatnonzero(area > 1e-9 * (np.abs(b - a).max(axis=1) + np.abs(c - a).max(axis=1)) ** 2)
+    assert np.isin(clear, tree.leaf_triangles).all()
+    assert (area[tree.leaf_triangles] > 0.0).all()
+    assert len(tree.leaf_start) == 2**tree.depth + 1
+    leaf = np.repeat(np.arange(2**tree.depth), np.diff(tree.leaf_start))
+    corners = mesh.positions[mesh.triangles[tree.leaf_triangles]]
+    for level, sphere in enumerate(tree.spheres):
+        node = leaf >> (tree.depth - level)
+        away = np.linalg.norm(corners - sphere[:3, node].T[:, None], axis=2).max(axis=1)
+        assert (away <= sphere[3, node] * (1.0 + 1e-12) + 1e-15 * np.abs(mesh.positions).max()).all()
+
+
+def test_zero_area_triangles_are_left_out():
+    points = soup(4)
+    points[4], points[7] = points[3], 0.5 * (points[6] + points[8])
+    points[9:12] = points[9]
+    tree = SceneTree.build(TriangleMesh(points, np.arange(12).reshape(-1, 3)))
+    np.testing.assert_array_equal(tree.leaf_triangles, [0])
+
+
+def test_leaves_are_medians_with_no_more_than_a_bucket_of_vertices():
+    mesh, _ = case("large", "here")
+    tree = SceneTree.build(mesh)
+    # A triangle hangs at its first vertex, so that a leaf has no more triangles than vertices here.
+    assert 2**tree.depth >= 9000 / 16
+    assert np.diff(tree.leaf_start).max() <= 16 + 1
+
+
+def test_the_trace_visits_a_small_part_of_the_tree():
+    mesh, cameras = case("large", "here")
+    narrow = random_cameras(np.random.default_rng(31), 50, size=0.02, turn=0.02)
+    tree = SceneTree.build(mesh)
+    cone, _, visited = tree.trace(Cones.around(narrow))
+    assert 0 < visited < 0.3 * 50 * 2**tree.depth
+    assert len(cone) < 0.1 * 50 * len(mesh.triangles)
+    assert len(cameras) == 60
+
+
+def test_no_cones_meet_nothing():
+    mesh, cameras = case("random", "here")
+    cone, triangle, visited = SceneTree.build(mesh).trace(Cones.around(cameras.select(np.zeros(0, dtype=np.int64))))
+    assert len(cone) == len(triangle) == visited == 0
