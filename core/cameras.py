@@ -92,9 +92,12 @@ def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.nda
     else:
         vertex = mirror.triangles[faces].ravel()
         normal = mirror.corner_normals[faces].reshape(-1, 3)
-        order = np.lexsort((normal[:, 2], normal[:, 1], normal[:, 0], vertex))
+        # rays that are lifted above their flat face are each face's own
+        lifted = mirror_map.lifted(corner_face, np.stack((corner == 1, corner == 2)).astype(np.float64))
+        keys = np.stack((*normal.T, np.where(lifted, corner_face, -1), vertex))
+        order = np.lexsort(keys)
         new = np.ones(len(order), dtype=bool)
-        new[1:] = (vertex[order][1:] != vertex[order][:-1]) | (normal[order][1:] != normal[order][:-1]).any(axis=1)
+        new[1:] = (keys[:, order[1:]] != keys[:, order[:-1]]).any(axis=0)
         shared = np.empty(len(order), dtype=np.int64)
         shared[order] = np.cumsum(new) - 1
         first = order[new]

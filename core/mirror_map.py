@@ -167,7 +167,9 @@ class MirrorMap:
         one, zero = np.ones_like(s), np.zeros_like(s)
         for _ in range(steps):
             place, ray, ((qu, ru), (qv, rv)) = self.linearise(face, uv, (one, zero), (zero, one))
-            step = _bounded(solve(qu + s * ru, qv + s * rv, ray, points - place - s * ray))
+            step = solve(qu + s * ru, qv + s * rv, ray, points - place - s * ray)
+            # a step longer than the triangle tells a start too far off: keep its direction only
+            step = step / np.maximum(1.0, np.abs(step[:2]).max(axis=0))
             uv, s = uv + step[:2], s + step[2]
         return uv, s
 
@@ -180,7 +182,8 @@ class MirrorMap:
         for _ in range(steps):
             place, ray, ((q, change),) = self.linearise(face, start + t * way, way)
             moved = solve(q + s * change, ray, -edge, point - place - s * ray)
-            step = _bounded(moved[:2])
+            # s is a length in orthographic views: only t can tell a step that is too long
+            step = moved[:2] / np.maximum(1.0, np.abs(moved[0]))
             t, s, r = t + step[0], s + step[1], moved[2]
         return t, r, s
 
@@ -201,7 +204,3 @@ class MirrorMap:
         after = dot(cross(qu + s * ru, qv + s * rv), ray)
         return after / np.where(before != 0.0, before, 1.0)
 
-
-def _bounded(step: np.ndarray) -> np.ndarray:
-    """A step longer than the triangle tells a start too far off: keep its direction only."""
-    return step / np.maximum(1.0, np.abs(step[:2]).max(axis=0))

@@ -63,9 +63,9 @@ def test_source_weights_give_the_reflected_position_back(name):
         assert away.max() < 1e-12
         assert inside.all()
         return
-    bent = corners_of(name).bent.any(axis=1)
-    assert share(case.view, mesh, (away > 1e-9) & ~bent) < 6e-3
-    assert share(case.view, mesh, ~inside & ~bent) < 6e-3
+    assert inside.all()
+    # A corner shared by two triangles that an outline puts a fraction of a pixel beside both has the point of one.
+    assert share(case.view, mesh, away > 1e-9) < 1e-3
 
 
 @pytest.mark.parametrize("name", SCENES)

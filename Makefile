@@ -1,0 +1,66 @@
+# `make demo` and `make test` do everything on a machine that has only Python 3.11 or 3.13:
+#     make demo PYTHON=/path/to/python3.11
+PYTHON ?= python3
+VENV ?= .venv
+REQUIREMENTS ?= requirements.txt
+SAMPLE ?= sphere
+DEMO ?= demo
+
+RUN = $(VENV)/bin/python
+READY = $(VENV)/.ready
+
+.DEFAULT_GOAL := help
+.PHONY: help environment demo measure pictures test lint test-core test-addon zip samples clean
+
+help:
+	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/"
+	@echo "make test     style, the method's tests, the extension's tests"
+	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
+	@echo "make zip      the extension as a zip in dist/, to install in Blender"
+	@echo "make pictures the pictures of the README, in docs/"
+	@echo "make samples  write sample_blends/*.blend anew"
+	@echo "PYTHON=... chooses the Python, 3.11 or 3.13 (now: $(PYTHON))"
+
+environment: $(READY)
+
+$(READY): $(REQUIREMENTS)
+	@command -v "$(PYTHON)" >/dev/null 2>&1 && "$(PYTHON)" -c '' >/dev/null 2>&1 || { \
+	  echo "There is no working Python called '$(PYTHON)': install Python 3.11 or 3.13, or name one with PYTHON=/path/to/python." >&2; exit 1; }
+	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info[:2] not in ((3, 11), (3, 13)))' || { \
+	  echo "'$(PYTHON)' is $$("$(PYTHON)" -V 2>&1), but bpy exists for Python 3.11 and 3.13 only: name one of them with PYTHON=/path/to/python." >&2; exit 1; }
+	@rm -rf "$(VENV)"
+	@"$(PYTHON)" -m venv "$(VENV)" || { \
+	  echo "'$(PYTHON)' cannot make an environment: install its module venv (on Debian: apt-get install python3-venv)." >&2; exit 1; }
+	$(RUN) -m pip install --quiet --disable-pip-version-check -r $(REQUIREMENTS)
+	@if grep -q '^bpy' $(REQUIREMENTS); then $(RUN) -c 'import bpy' || { \
+	  echo "bpy needs libraries of the system (on Debian: apt-get install $$(tr '\n' ' ' < requirements-system.txt))." >&2; exit 1; }; fi
+	@touch $@
+
+demo: environment
+	$(RUN) benchmarks/demo.py --sample $(SAMPLE) --folder $(DEMO)
+
+measure: environment
+	$(RUN) benchmarks/measure.py $(SAMPLES)
+
+pictures: environment
+	$(RUN) benchmarks/pictures.py
+
+test: lint test-core test-addon
+
+lint: environment
+	$(RUN) -m ruff check .
+
+test-core: environment
+	$(RUN) -m pytest -q tests/core
+
+test-addon: environment
+	$(RUN) -m pytest -q tests/addon
+
+zip: environment
+	$(RUN) benchmarks/extension_zip.py dist
+
+samples: environment
+	$(RUN) sample_blends/make_samples.py
+
+clean:
+	rm -rf .venv* build dist $(DEMO)

@@ -1,0 +1,92 @@
+"""Makes the README's pictures from the software's own output.
+
+    python benchmarks/pictures.py [folder]
+
+Leaves `sphere.jpg` (Cycles, the reflection mesh before a mirror that reflects the sky alone, the mesh's edges) and
+`samples.jpg` (the reflection mesh in each sample) in the folder, docs/ by default.
+"""
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+import extension_zip
+import numpy as np
+from PIL import Image
+
+PANEL, GAP = 480, 6
+
+
+def main(folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as name:
+        scratch = Path(name)
+        extension_zip.use_throw_away_preferences(scratch / "preferences")
+        extension_zip.install(extension_zip.build(scratch))
+        samples = sorted((extension_zip.ROOT / "sample_blends").glob("*.blend"))
+        for path in samples:
+            _compare(path, scratch / path.stem)
+        _save(folder / "samples.jpg", [scratch / path.stem / "result.png" for path in samples], columns=3)
+        edges = _edges(scratch / "sphere", extension_zip.ROOT / "sample_blends" / "sphere.blend")
+        _save(folder / "sphere.jpg", [scratch / "sphere" / "reference.png", scratch / "sphere" / "result.png", edges],
+              columns=3, crop=(212, 183, 772, 743))
+        extension_zip.switch_off()
+
+
+def _compare(path: Path, folder: Path) -> None:
+    import bpy
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    bpy.ops.reflection_mesh.generate()
+    bpy.ops.reflection_mesh.compare(filepath=str(folder), samples=32)
+
+
+def _edges(folder: Path, path: Path) -> Path:
+    """The reflection with its edges drawn, which shows that it is a mesh."""
+    import bpy
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    bpy.ops.reflection_mesh.generate()
+    result = bpy.context.view_layer.objects.active
+    for index, material in enumerate(result.data.materials):
+        copy = material.copy()
+        result.data.materials[index] = copy
+        _draw_edges(copy.node_tree)
+    for source in result.reflection_mesh.sources:
+        source.object.visible_glossy = False
+    scene = bpy.context.scene
+    scene.cycles.samples, scene.cycles.use_denoising = 32, False
+    scene.render.filepath = str(folder / "edges.png")
+    bpy.ops.render.render(write_still=True)
+    return folder / "edges.png"
+
+
+def _draw_edges(tree) -> None:
+    """Mix the colour that a material emits with dark edges."""
+    emission = next(node for node in tree.nodes if node.type == "EMISSION")
+    wire, mix = tree.nodes.new("ShaderNodeWireframe"), tree.nodes.new("ShaderNodeMix")
+    wire.use_pixel_size = True
+    wire.inputs["Size"].default_value = 0.7
+    mix.data_type = "RGBA"
+    inputs = [socket for socket in mix.inputs if socket.type == "RGBA"]
+    output = next(socket for socket in mix.outputs if socket.type == "RGBA")
+    tree.links.new(wire.outputs["Fac"], mix.inputs[0])
+    tree.links.new(emission.inputs["Color"].links[0].from_socket, inputs[0])
+    inputs[1].default_value = (0.0, 0.0, 0.0, 1.0)
+    tree.links.new(output, emission.inputs["Color"])
+
+
+def _save(path: Path, pictures: list[Path], columns: int, crop: tuple | None = None) -> None:
+    """Set pictures, or the boxes (left, top, right, bottom) of them, side by side on white."""
+    panels = [np.asarray(Image.open(picture).convert("RGB").resize((PANEL, PANEL), Image.Resampling.LANCZOS, crop))
+              for picture in pictures]
+    rows = -(-len(panels) // columns)
+    step = PANEL + GAP
+    sheet = np.full((rows * step - GAP, columns * step - GAP, 3), 255, dtype=np.uint8)
+    for index, panel in enumerate(panels):
+        top, left = index // columns * step, index % columns * step
+        sheet[top:top + PANEL, left:left + PANEL] = panel
+    Image.fromarray(sheet).save(path, quality=90, optimize=True)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs")
