@@ -50,7 +50,7 @@ class ReflectionObject(bpy.types.PropertyGroup):
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object)
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
-    estimated_error: FloatProperty(name="Estimated Error", description="Estimate of the displacement's 99th percentile, in pixels")
+    estimated_error: FloatProperty(name="Estimated Error", description="99th percentile of the displacement, in pixels")
     counts: StringProperty(name="Counts", description="How much of each part of the method was needed, as JSON")
     resolution: IntVectorProperty(name="Resolution", size=2,
                                   description="Size in pixels of the picture that this reflection was made for")
