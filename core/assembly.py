@@ -8,7 +8,6 @@ from .connection import Faces
 from .mirror_map import MirrorMap
 from .nodes import Nodes
 from .placement import place as placed
-from .placement import slide_limits
 from .reflection_mesh import ReflectionMesh
 from .scene_frames import SceneFrames
 from .vectors import groups, norm, rows
@@ -45,8 +44,7 @@ def assemble(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneF
     owner[triangles.ravel()] = np.repeat(mirror_face, 3)
     turned = mirror_map.turned(owner, mirror_map.coordinates(owner, nodes.place), nodes.distance)
     parity = np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8)
-    most = slide_limits(view, nodes, path, frames, triangles, faces.column)
     return ReflectionMesh(
-        positions=placed(view, nodes, path, placement, most).T, triangles=triangles,
+        positions=placed(view, nodes, path, placement).T, triangles=triangles,
         reflected_position=nodes.point.T, mirror_position=nodes.place.T, path_length=path, image_parity=parity,
         source_face=frames.triangle[faces.column], source_weights=weights.T.reshape(-1, 3, 3), mirror_face=mirror_face)

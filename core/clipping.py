@@ -46,7 +46,7 @@ def clip(candidates: Candidates) -> Polygons:
     if (candidates.ahead < 0.0).any():
         planes.append((CONTACT, candidates.ahead))
     for label, corner_values in planes:
-        weights, after, polygon = _cut(weights, after, polygon, corner_values, label)
+        weights, after, polygon = cut(weights, after, polygon, corner_values, label)
     size = np.bincount(polygon, minlength=count)
     kept = size[polygon] >= 3
     weights, after, polygon = weights[:, kept], after[kept], polygon[kept]
@@ -57,8 +57,22 @@ def clip(candidates: Candidates) -> Polygons:
     return Polygons(pair, start, weights, after[last], after)
 
 
-def _cut(weights, after, polygon, corner_values, label):
-    """One cut of all polygons by the line where a function, linear in the weights, is zero."""
+def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_values: np.ndarray,
+        label: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What is left of convex polygons where a function, linear in the weights, is not negative.
+
+    Parameters
+    ----------
+    weights : (3, k) float64, of the polygons' corners, polygon after polygon
+    after : (k,) int8, the line that starts at each corner
+    polygon : (k,) int64, rising
+    corner_values : (3, p) float64, the function at the corners of each polygon's camera
+    label : the name of the new line
+
+    Returns
+    -------
+    weights, after, polygon : of the corners that are left; polygons may be left with fewer than three
+    """
     if not len(polygon):
         return weights, after, polygon
     value = (weights * np.take(corner_values, polygon, axis=1)).sum(axis=0)

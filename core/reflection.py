@@ -15,6 +15,7 @@ from .clipping import clip
 from .cones import Cones
 from .connection import connect
 from .face_refinement import FaceRefinement
+from .contacts import drop_behind_contacts
 from .filling import fill
 from .horizon import cut_at_horizon
 from .images import vertex_images
@@ -121,6 +122,8 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     met, column = np.unique(triangle, return_inverse=True)
     frames = SceneFrames.of(tree.mesh, met)
     candidates = overlapping(cameras, frames, camera, column)
+    cameras, candidates, counts["contacts"] = drop_behind_contacts(view, mirror_map, cameras, frames,
+                                                                   tree.mesh.positions, candidates)
     cameras, candidates, open_ = refine_for_outlines(
         view, mirror_map, cameras, frames, candidates, OUTLINE_SHARE * settings.tolerance, settings.maximum_faces)
     cones = Cones.around(cameras)

@@ -61,7 +61,7 @@ def test_where_layers_overlap_the_pixel_shows_the_shortest_path_in_single_precis
     width = case.view.resolution[0]
     pixels = case.view.pixels(mesh.positions)[mesh.triangles]
     wide = np.flatnonzero(np.ptp(pixels, axis=1).max(axis=1) > 4.0)
-    for face in wide[:: max(1, len(wide) // 400)]:
+    for face in wide[:: max(1, len(wide) // 800)]:
         low, high = np.ceil(pixels[face].min(axis=0) - 0.5), np.floor(pixels[face].max(axis=0) - 0.5)
         low, high = np.maximum(low, 0).astype(int), np.minimum(high, np.array(case.view.resolution) - 1).astype(int)
         x, y = (grid.ravel() for grid in np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1)))

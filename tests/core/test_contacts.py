@@ -1,0 +1,112 @@
+"""Mirrors that the scene cuts through: what the cutting triangles hide is left out, and nothing else."""
+import numpy as np
+import pytest
+
+from core import SceneTree, Settings, TriangleMesh, View, reflect
+from core.cameras import three_ray_cameras, visible_triangles
+from core.candidates import overlapping
+from core.cones import Cones
+from core.contacts import drop_behind_contacts
+from core.mirror_map import MirrorMap
+from core.scene_frames import SceneFrames
+from tests import shapes
+from tests.judge import judge
+
+FLOOR = shapes.quad((0, 0, 0), (6, 0, 0), (0, 6, 0))
+BOXES = (shapes.box((-1.5, 1, 0.5), (1, 1, 1), 0.3), shapes.box((0.4, 2.5, 0.6), (0.5, 0.5, 2), 0.7))
+POLE = shapes.box((0.8, -0.3, 0.5), (0.6, 0.6, 1.2), 0.4)
+BALL = shapes.icosphere((0, 0, 0.4), 1, 2)
+PERSPECTIVE = {"field_of_view": 0.7}
+CASES = {
+    "boxes standing on a mirror": (View.looking_at((0, -5, 2), (0, 1, 0.5), (256, 256), **PERSPECTIVE),
+                                   shapes.combine(FLOOR), shapes.combine(*BOXES)),
+    "boxes in an orthographic view": (View.looking_at((0, -5, 4), (0, 0, 0), (256, 256), orthographic_scale=6.0),
+                                      shapes.combine(FLOOR), shapes.combine(*BOXES)),
+    "a pole through a ball on a floor": (View.looking_at((0, -6, 2), (0, 0, 0.6), (256, 256), **PERSPECTIVE),
+                                         shapes.combine(BALL), shapes.combine(FLOOR, POLE)),
+}
+
+
+def cameras_before_and_after(view, mirror, scene):
+    mirror_map = MirrorMap(view, mirror)
+    cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
+    tree = SceneTree.build(scene)
+    camera, triangle, _ = tree.trace(Cones.around(cameras))
+    met, column = np.unique(triangle, return_inverse=True)
+    frames = SceneFrames.of(scene, met)
+    candidates = overlapping(cameras, frames, camera, column)
+    return cameras, drop_behind_contacts(view, mirror_map, cameras, frames, scene.positions, candidates)
+
+
+def hidden(view, places, scene):
+    """Which places (n, 3) lie behind which triangles of the scene: (n, m), by solving for each pair alone."""
+    corners = scene.positions[scene.triangles]
+    towards = np.broadcast_to(-view.forward * 100.0, places.shape) if view.orthographic else view.eye - places
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    columns = np.stack(np.broadcast_arrays(u[None], v[None], -towards[:, None]), axis=-1)
+    right = places[:, None] - corners[None, :, 0]
+    regular = np.abs(np.linalg.det(columns)) > 1e-12
+    x = np.linalg.solve(np.where(regular[..., None, None], columns, np.eye(3)), right[..., None])[..., 0]
+    on_triangle = (x[..., :2] > 1e-6).all(-1) & (x[..., :2].sum(-1) < 1 - 1e-6)
+    return regular & on_triangle & (x[..., 2] > 1e-6) & (x[..., 2] < 1)
+
+
+def inside(cameras, face, places, slack):
+    """Which places (n, 3) on the mirror triangles `face` (n,) lie in some camera."""
+    result = np.zeros(len(places), dtype=bool)
+    for number, corners in zip(cameras.face, cameras.places[:, cameras.corners].transpose(1, 2, 0)):
+        chosen = np.flatnonzero(face == number)
+        system = np.vstack((corners.T, np.ones(3)))
+        weights = np.linalg.lstsq(system, np.vstack((places[chosen].T, np.ones(len(chosen)))), rcond=None)[0]
+        result[chosen] |= (weights >= -slack).all(axis=0)
+    return result
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_only_what_a_cutting_triangle_hides_is_dropped(name):
+    view, mirror, scene = CASES[name]
+    cameras, (after, candidates, count) = cameras_before_and_after(view, mirror, scene)
+    assert count > 0
+    assert len(after) > len(cameras)
+    assert candidates.camera.max() < len(after)
+    rng = np.random.default_rng(41)
+    camera = rng.integers(0, len(cameras), 3000)
+    weights = rng.dirichlet((1, 1, 1), 3000)
+    places = np.einsum("nk,xnk->nx", weights, cameras.places[:, cameras.corners[camera]])
+    behind = hidden(view, places, scene)
+    kept = inside(after, cameras.face[camera], places, 1e-9)
+    # Nothing that the eye sees is lost.
+    assert kept[~behind.any(axis=1)].all()
+    # What a triangle that cuts the very camera hides is gone.
+    corners = cameras.places[:, cameras.corners[camera]].transpose(1, 2, 0)
+    normal = scene.face_normals()
+    height = np.einsum("nkx,mx->nmk", corners, normal) - np.einsum("mx,mx->m", scene.positions[scene.triangles[:, 0]],
+                                                                    normal)[None, :, None]
+    dropped = ~kept
+    assert dropped.any()
+    assert behind[dropped].any(axis=1).all()
+    assert ((height[dropped].min(axis=2) < 0) & (height[dropped].max(axis=2) > 0) & behind[dropped]).any(axis=1).all()
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_nothing_comes_out_through_what_cuts_the_mirror(name):
+    view, mirror, scene = CASES[name]
+    numbers = judge(view, mirror, scene, reflect(view, mirror, scene, Settings()), single_precision=True)
+    assert numbers["p99"] < 0.5
+    assert numbers["uncovered"] < 0.1
+
+
+def test_a_scene_that_only_stands_before_the_mirror_cuts_nothing():
+    view, mirror, _ = CASES["boxes standing on a mirror"]
+    scene = shapes.combine(shapes.box((0, 1, 1.5), (1, 1, 1)))
+    cameras, (after, _, count) = cameras_before_and_after(view, mirror, scene)
+    assert count == 0
+    assert after is cameras
+
+
+def test_a_triangle_seen_edge_on_hides_nothing():
+    view, mirror, _ = CASES["boxes standing on a mirror"]
+    eye = view.eye
+    scene = TriangleMesh([eye + (0, 3, -2.5), eye + (0, 3, -1), eye + (0, 6, -2.5)], [[0, 1, 2]])
+    _, (_, _, count) = cameras_before_and_after(view, mirror, scene)
+    assert count == 0
