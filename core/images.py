@@ -11,6 +11,7 @@ from .cones import Cones
 from .mirror_map import MirrorMap
 from .projection import project
 from .scene_frames import SceneFrames
+from .vectors import ranges
 from .view import View
 
 SAME_IMAGE = 1e-3  # pixels: closer images of one vertex are one image, found from both sides of a shared edge
@@ -24,7 +25,6 @@ class VertexImages:
     Attributes
     ----------
     vertex, camera : (n,) int64
-    uv : (2, n) float64, place on the camera's mirror triangle
     distance : (n,) float64, s
     place : (3, n) float64, Q
     pixel : (n, 2) float64
@@ -32,7 +32,6 @@ class VertexImages:
 
     vertex: np.ndarray
     camera: np.ndarray
-    uv: np.ndarray
     distance: np.ndarray
     place: np.ndarray
     pixel: np.ndarray
@@ -41,8 +40,7 @@ class VertexImages:
         """Index of the image within `NEAR_IMAGE` pixels that a guess (vertex, camera, pixel), n of each, means: one in
         the same camera before one in a neighbouring camera, else -1."""
         start, stop = np.searchsorted(self.vertex, vertex), np.searchsorted(self.vertex, vertex, side="right")
-        guess = np.repeat(np.arange(len(vertex)), stop - start)
-        image = np.arange(len(guess)) + np.repeat(start - np.append(0, np.cumsum(stop - start)[:-1]), stop - start)
+        image, guess = ranges(start, stop - start)
         away = np.linalg.norm(self.pixel[image] - pixel[guess], axis=1)
         own = self.camera[image] == camera[guess]
         meant = away < NEAR_IMAGE
@@ -84,7 +82,7 @@ def vertex_images(view: View, mirror_map: MirrorMap, cameras: Cameras, cones: Co
     near &= mirror_map.meets(face, uv, distance, positions[vertex].T)
     kept = np.flatnonzero(np.isfinite(pixel).all(axis=1) & near)
     order = kept[np.lexsort((camera[kept], vertex[kept]))]
-    images = VertexImages(vertex[order], camera[order], uv[:, order], distance[order], place[:, order], pixel[order])
+    images = VertexImages(vertex[order], camera[order], distance[order], place[:, order], pixel[order])
     images = _each_once(images)
     counts["images"] = len(images.vertex)
     return images, counts
@@ -100,5 +98,5 @@ def _each_once(images: VertexImages) -> VertexImages:
         away = np.linalg.norm(images.pixel[same] - images.pixel[same - gap], axis=1)
         again[same[away < SAME_IMAGE]] = True
     keep = np.flatnonzero(~again)
-    return VertexImages(images.vertex[keep], images.camera[keep], images.uv[:, keep], images.distance[keep],
-                        images.place[:, keep], images.pixel[keep])
+    return VertexImages(images.vertex[keep], images.camera[keep], images.distance[keep], images.place[:, keep],
+                        images.pixel[keep])
