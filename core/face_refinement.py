@@ -27,12 +27,14 @@ STRETCH = 4.0
 
 @dataclass(frozen=True)
 class FaceRefinement:
-    """Splits faces on one mirror and one scene; `virtual` tells that faces are drawn at the virtual image's depth."""
+    """Splits faces on one mirror and one scene; `virtual` tells that faces are drawn at the virtual image's depth,
+    `beyond` which cameras lie beyond the horizon, where there is nothing to be exact about."""
 
     view: View
     mirror_map: MirrorMap
     cameras: Cameras
     frames: SceneFrames
+    beyond: np.ndarray
     virtual: bool
 
     def refine(self, nodes: Nodes, faces: Faces, tolerance: float,
@@ -80,8 +82,9 @@ class FaceRefinement:
         shown = 0.5 * (nodes.point[:, a] + nodes.point[:, b])
         uv = self.mirror_map.coordinates(mirror_face, place)
         drift, error, point, distance = self._straying(mirror_face, uv, column, shown)
-        sliver = self.mirror_map.lifted(mirror_face, uv)
-        drift[sliver] = error[sliver] = 0.0
+        worth = np.zeros(len(ends), dtype=bool)
+        worth[edge[~self.beyond[faces.camera]]] = True
+        drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
         pixels = self.view.pixels(nodes.place.T)
         length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
         # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight

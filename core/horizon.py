@@ -9,13 +9,49 @@ import numpy as np
 
 from .cameras import Cameras
 from .mirror_map import MirrorMap
+from .camera_splitting import split_cameras
 from .subdivision import split
+from .view import View
 
 STEPS = 30
+LEVELS = 6  # of splits before the cut, for cameras across which the horizon bulges
+LONG_EDGE = 8.0  # pixels: in a smaller camera a bulge does not matter
+ON_LINE = 1e-6  # rise of rays on the horizon itself, which belong to both its sides
+_PROBES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [1 / 3] * 3]).T
 
 
-def cut_at_horizon(mirror_map: MirrorMap, cameras: Cameras) -> Cameras:
-    """The cameras, each still on its whole mirror triangle, those across the horizon in up to three parts."""
+def beyond_horizon(mirror_map: MirrorMap, cameras: Cameras) -> np.ndarray:
+    """Which cameras (n,) lie beyond the horizon whole, made of lifted rays alone: nothing there is worth refining."""
+    return _lifted_probes(mirror_map, cameras, ON_LINE).all(axis=0)
+
+
+def _lifted_probes(mirror_map: MirrorMap, cameras: Cameras, slack: float) -> np.ndarray:
+    """(7, n): whether the rays at the corners, the edges' middles and the middle of the cameras are lifted."""
+    found = np.zeros((_PROBES.shape[1], len(cameras)), dtype=bool)
+    near = np.flatnonzero(mirror_map.grazing[cameras.face])
+    places = np.einsum("xnk,kp->xpn", cameras.places[:, cameras.corners[near]], _PROBES).reshape(3, -1)
+    face = np.tile(cameras.face[near], len(found))
+    lifted = mirror_map.lifted(face, mirror_map.coordinates(face, places), slack)
+    found[:, near] = lifted.reshape(len(found), -1)
+    return found
+
+
+def cut_at_horizon(view: View, mirror_map: MirrorMap, cameras: Cameras) -> Cameras:
+    """The cameras, those across the horizon cut along it; large ones over whose side it bulges are split first."""
+    for _ in range(LEVELS):
+        probes = _lifted_probes(mirror_map, cameras, 0.0)
+        pixels = view.pixels(cameras.places.T)[cameras.corners]
+        long = np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > LONG_EDGE
+        whole = (probes[:3] == probes[0]).all(axis=0)
+        bulging = (whole & (probes[3:] != probes[0]).any(axis=0))[:, None] & long
+        if not bulging.any():
+            break
+        cameras, *_ = split_cameras(view, mirror_map, cameras, bulging)
+    return _cut(mirror_map, cameras)
+
+
+def _cut(mirror_map: MirrorMap, cameras: Cameras) -> Cameras:
+    """Cameras with corners on both sides of the horizon in up to three parts."""
     near = np.flatnonzero(mirror_map.grazing[cameras.face])
     corner_places = cameras.places[:, cameras.corners[near]].reshape(3, -1)
     face = np.repeat(cameras.face[near], 3)

@@ -90,14 +90,15 @@ class MirrorMap:
             ray[:, part] = self._lifted(face[part], ray[:, part], direction[:, part], normal[:, part])
         return ray
 
-    def lifted(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
-        """Whether the rays (n,) would enter their flat faces and are turned until they clear them."""
+    def lifted(self, face: np.ndarray, uv: np.ndarray, slack: float = 0.0) -> np.ndarray:
+        """Whether the rays (n,) would enter their flat faces and are turned until they clear them, or, by `slack` of
+        their rise, all but are."""
         found = np.zeros(len(face), dtype=bool)
         part = np.flatnonzero(self.grazing[face])
         if len(part) and not self.parallel:
             face, uv = face[part], uv[:, part]
             ray, direction, _ = self._unbent(face, uv)
-            found[part] = self._rise(face, ray, direction) < self._least_rise(face, direction)
+            found[part] = self._rise(face, ray, direction) < self._least_rise(face, direction) + slack
         return found
 
     def _least_rise(self, face: np.ndarray, direction: np.ndarray) -> np.ndarray:

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from .camera_splitting import edge_middles, in_picture, split_at
 from .cameras import Cameras
+from .horizon import beyond_horizon
 from .mirror_map import MirrorMap
-from .subdivision import shared_edges, split
+from .subdivision import shared_edges
 from .vectors import dot, norm, unit
 from .view import View
 
@@ -41,63 +43,16 @@ def refine_mirror(view: View, mirror_map: MirrorMap, cameras: Cameras, tolerance
         if not len(cameras) or len(cameras) > maximum:
             return cameras, bool(len(cameras))
         ends, first, edge = shared_edges(cameras.corners)
-        middles, rays, lifted = _middles(mirror_map, cameras, ends, first)
+        middles, rays = edge_middles(mirror_map, cameras, ends, first)
         # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
-        marked = (_straying(view, cameras, ends, rays, reach) > tolerance) & ~lifted
+        worth = np.zeros(len(ends), dtype=bool)
+        worth[edge[~beyond_horizon(mirror_map, cameras)]] = True
+        marked = (_straying(view, cameras, ends, rays, reach) > tolerance) & worth
         if not marked.any():
             return cameras, False
-        cameras, _ = _split(cameras, marked, edge, middles, rays)
+        cameras, _ = split_at(cameras, marked, edge, middles, rays)
         cameras = cameras.select(in_picture(view, cameras))
     return cameras, True
-
-
-def split_cameras(view: View, mirror_map: MirrorMap, cameras: Cameras,
-                  marked: np.ndarray) -> tuple[Cameras, np.ndarray, np.ndarray]:
-    """Cameras split along the `marked` (n, 3) edges, each from a corner to the next, on both sides of each edge.
-
-    Returns
-    -------
-    cameras : Cameras
-        Those in the picture.
-    parent : (m,) int64
-        The camera that each lies in.
-    new : (m,) bool
-        Whether it is only a part of its parent.
-    """
-    ends, first, edge = shared_edges(cameras.corners)
-    chosen = np.zeros(len(ends), dtype=bool)
-    chosen[edge[marked]] = True
-    middles, rays, _ = _middles(mirror_map, cameras, ends, first)
-    cameras, parent = _split(cameras, chosen, edge, middles, rays)
-    seen = in_picture(view, cameras)
-    return cameras.select(seen), parent[seen], chosen[edge].any(axis=1)[parent[seen]]
-
-
-def _middles(mirror_map: MirrorMap, cameras: Cameras, ends: np.ndarray, first: np.ndarray):
-    """Places (3, e) halfway along edges `ends` (e, 2), the true rays there, and whether those had to be lifted."""
-    middles = 0.5 * (cameras.places[:, ends[:, 0]] + cameras.places[:, ends[:, 1]])
-    face = cameras.face[first // 3]
-    uv = mirror_map.coordinates(face, middles)
-    return middles, mirror_map.rays(face, uv), mirror_map.lifted(face, uv)
-
-
-def _split(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np.ndarray, rays: np.ndarray):
-    new = np.cumsum(marked) - 1 + cameras.places.shape[1]
-    parent, local = split(marked[edge])
-    six = np.concatenate((cameras.corners, new[edge]), axis=1)[parent]
-    return Cameras(np.take_along_axis(six, local, axis=1), cameras.face[parent],
-                   np.concatenate((cameras.places, middles[:, marked]), axis=1),
-                   np.concatenate((cameras.rays, rays[:, marked]), axis=1)), parent
-
-
-def in_picture(view: View, cameras: Cameras) -> np.ndarray:
-    """Which cameras may touch the picture: not all three corners beyond the same side of the view's pyramid."""
-    clip = view.clip(cameras.places.T)
-    margin = 1.0 + 2.0 / np.array(view.resolution)
-    x, y, w = clip[:, 0], clip[:, 1], clip[:, 3]
-    depth = view.depths(cameras.places.T)
-    outside = np.stack((x > w * margin[0], -x > w * margin[0], y > w * margin[1], -y > w * margin[1], depth <= 0.0))
-    return ~outside[:, cameras.corners].all(axis=2).any(axis=0)
 
 
 def _straying(view: View, cameras: Cameras, ends: np.ndarray, middle_rays: np.ndarray, reach: float) -> np.ndarray:

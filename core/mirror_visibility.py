@@ -12,13 +12,14 @@ import numpy as np
 
 from .cameras import Cameras
 from .mirror_map import MirrorMap
-from .mirror_refinement import split_cameras
+from .camera_splitting import split_cameras
 from .vectors import ranges
 from .view import View
 
 SAMPLES = 256  # across the wider side of the picture
 LEVELS = 4
 LONG_EDGE = 32.0  # pixels: a shorter edge of a partly hidden camera is not worth a split
+CELLS = 2.0  # of the grid: the largest face that its hidden corners can speak for
 SURFACE = 2e-4  # relative difference of depth up to which two samples lie on one surface
 
 
@@ -60,18 +61,27 @@ class DepthGrid:
         return grid, *states
 
     def hides(self, places: np.ndarray) -> np.ndarray:
-        """Which places (3, n) on the mirror lie behind nearer parts of it, at all four samples round them."""
+        """Which places (3, n) on the mirror lie in the picture and behind nearer parts of it, at all four samples
+        round them."""
         depth = self.view.depths(places.T)
         with np.errstate(divide="ignore"):
             nearness = -depth if self.view.orthographic else 1.0 / depth
         limit = nearness + self._margin(nearness)
         height, width = self.nearest.shape
-        corner = np.floor(np.nan_to_num(self.view.pixels(places.T) * self.scale - 0.5)).astype(np.int64)
-        hidden = depth > 0.0
+        pixels = np.nan_to_num(self.view.pixels(places.T))
+        corner = np.floor(pixels * self.scale - 0.5).astype(np.int64)
+        hidden = (depth > 0.0) & (pixels >= 0.0).all(axis=1) & (pixels <= self.view.resolution).all(axis=1)
         for step_x, step_y in ((0, 0), (0, 1), (1, 0), (1, 1)):
             x, y = np.clip(corner[:, 0] + step_x, 0, width - 1), np.clip(corner[:, 1] + step_y, 0, height - 1)
             hidden &= self.nearest[y, x] > limit
         return hidden
+
+    def hides_faces(self, places: np.ndarray, faces: np.ndarray) -> np.ndarray:
+        """Which small faces (m, 3) between `places` (3, n) have only hidden corners; between the corners of large ones
+        anything might be seen."""
+        pixels = self.view.pixels(places.T)[faces]
+        small = (np.abs(pixels - np.roll(pixels, -1, axis=1)) * self.scale <= CELLS).all(axis=(1, 2))
+        return small & self.hides(places)[faces].all(axis=1)
 
     def _margin(self, nearness: np.ndarray):
         return self.room if self.view.orthographic else self.room * nearness

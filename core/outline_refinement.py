@@ -13,8 +13,9 @@ import numpy as np
 from .cameras import Cameras
 from .candidates import Candidates, overlapping
 from .clipping import CONTACT, SCENE_EDGE, clip
+from .horizon import beyond_horizon
 from .mirror_map import MirrorMap
-from .mirror_refinement import split_cameras
+from .camera_splitting import split_cameras
 from .scene_frames import SceneFrames
 from .vectors import ranges
 from .view import View
@@ -41,8 +42,7 @@ def refine_for_outlines(view: View, mirror_map: MirrorMap, cameras: Cameras, fra
     for level in range(LEVELS + 1):
         candidates, lines = _really_overlapping(candidates)
         bent, long = _bent_edges(view, cameras, candidates, lines, tolerance)
-        middle = cameras.places[:, cameras.corners].mean(axis=2)
-        bent &= ~mirror_map.lifted(cameras.face, mirror_map.coordinates(cameras.face, middle))[:, None]
+        bent &= ~beyond_horizon(mirror_map, cameras)[:, None]
         settled = Candidates.joined((settled, candidates))
         if level == LEVELS or not (bent & long).any() or len(settled) > maximum:
             break

@@ -17,10 +17,11 @@ from .connection import connect
 from .face_refinement import FaceRefinement
 from .contacts import drop_behind_contacts
 from .filling import fill
-from .horizon import cut_at_horizon
+from .horizon import beyond_horizon, cut_at_horizon
 from .images import vertex_images
 from .mirror_map import MirrorMap
-from .mirror_refinement import in_picture, refine_mirror
+from .camera_splitting import in_picture
+from .mirror_refinement import refine_mirror
 from .mirror_visibility import without_hidden
 from .nodes import polygon_nodes
 from .outline_refinement import refine_for_outlines
@@ -100,7 +101,7 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     yield 0.1, "cameras"
     mirror_map = MirrorMap(view, mirror, settings.method == "PARALLEL")
     cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
-    cameras = cut_at_horizon(mirror_map, cameras.select(in_picture(view, cameras)))
+    cameras = cut_at_horizon(view, mirror_map, cameras.select(in_picture(view, cameras)))
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
     cameras, grid = without_hidden(view, mirror_map, cameras)
@@ -146,12 +147,13 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     yield 0.75, "connection"
     faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))
     nodes, faces, counts["caustic_edges"] = split_at_caustics(mirror_map, cameras, frames, nodes, faces)
-    faces = faces.select(~grid.hides(nodes.place)[faces.nodes].all(axis=1))
+    faces = faces.select(~grid.hides_faces(nodes.place, faces.nodes))
     counts["connected"] = len(faces)
     stages.done("connection")
 
     yield 0.8, "refinement"
-    refinement = FaceRefinement(view, mirror_map, cameras, frames, settings.placement == "VIRTUAL")
+    refinement = FaceRefinement(view, mirror_map, cameras, frames, beyond_horizon(mirror_map, cameras),
+                                settings.placement == "VIRTUAL")
     nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * settings.tolerance,
                                                     settings.maximum_faces)
     stages.done("refinement")

@@ -6,7 +6,7 @@ from core import TriangleMesh, View
 from core.cameras import three_ray_cameras, visible_triangles
 from core.horizon import cut_at_horizon
 from core.mirror_map import MirrorMap
-from core.mirror_refinement import in_picture
+from core.camera_splitting import in_picture
 from tests import shapes
 from tests.core.true_map import case_of, true_rays, truth_of, view_rays
 from tests.scenes import SCENES
@@ -94,7 +94,7 @@ def test_cameras_are_cut_where_their_rays_would_begin_to_enter_the_mirror(name):
     case = case_of(name)
     mirror_map = MirrorMap(case.view, case.mirror)
     whole = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
-    parts = cut_at_horizon(mirror_map, whole)
+    parts = cut_at_horizon(case.view, mirror_map, whole)
     sizes = []
     for cameras in (whole, parts):
         a, b, c = (cameras.places.T[cameras.corners[:, k]] for k in range(3))

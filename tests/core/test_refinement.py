@@ -5,7 +5,9 @@ import pytest
 from core import Settings, reflect
 from core.cameras import three_ray_cameras, visible_triangles
 from core.mirror_map import MirrorMap
-from core.mirror_refinement import in_picture, refine_mirror, split_cameras
+from core.camera_splitting import in_picture
+from core.camera_splitting import split_cameras
+from core.mirror_refinement import refine_mirror
 from tests.core.true_map import case_of, mesh_of, true_rays, truth_of, view_rays
 from tests.judge import compare
 

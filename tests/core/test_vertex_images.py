@@ -5,7 +5,8 @@ import pytest
 from core import Settings, TriangleMesh, View, project, reflect
 from core.cameras import three_ray_cameras, visible_triangles
 from core.mirror_map import MirrorMap
-from core.mirror_refinement import in_picture, refine_mirror
+from core.camera_splitting import in_picture
+from core.mirror_refinement import refine_mirror
 from tests import shapes
 from tests.core.true_map import size_of
 from tests.scenes import Scene

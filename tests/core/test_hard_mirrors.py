@@ -1,0 +1,56 @@
+"""Mirrors and eyes in awkward places, judged by the same numbers as all others."""
+import numpy as np
+import pytest
+
+from core import TriangleMesh, View, reflect
+from tests import shapes
+from tests.judge import judge
+
+ROOM = (shapes.quad((0, 6, 3), (8, 0, 0), (0, 0, 4)), shapes.quad((-6, 0, 3), (0, 8, 0), (0, 0, 4)),
+        shapes.quad((6, 0, 3), (0, 8, 0), (0, 0, 4)))
+FLOOR = shapes.quad((0, 0, 0), (8, 0, 0), (0, 8, 0))
+OBJECTS = (shapes.box((-1.5, 1, 0.5), (1, 1, 1), 0.3), shapes.icosphere((1.2, 0.5, 0.6), 0.6, 2),
+           shapes.box((0.3, 3, 1), (0.5, 0.5, 2), 0.7))
+
+
+def smooth(mesh):
+    """The mesh with its vertices welded and its normals averaged."""
+    places, vertex = np.unique(mesh.positions.round(9), axis=0, return_inverse=True)
+    triangles = vertex.reshape(-1)[mesh.triangles]
+    normals = np.zeros_like(places)
+    for corner in range(3):
+        np.add.at(normals, triangles[:, corner], mesh.face_normals())
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    return TriangleMesh(places, triangles, normals[triangles])
+
+
+def looking(eye, target, field_of_view):
+    return View.looking_at(eye, target, (256, 256), field_of_view=field_of_view)
+
+
+CASES = {
+    "a floor that runs on behind the eye": (
+        looking((0, -5, 0.3), (0, 1, 0.3), 1.9), shapes.combine(shapes.quad((0, 0, 0), (30, 0, 0), (0, 30, 0))),
+        shapes.combine(*OBJECTS, *ROOM)),
+    "a mirror on the wall of the room that the eye is in": (
+        looking((0, -3, 1.5), (0, 5, 1.2), 1.2), shapes.combine(shapes.quad((0, 5.9, 2), (3, 0, 0), (0, 0, 1.8))),
+        shapes.combine(FLOOR, *ROOM, shapes.quad((0, -6, 3), (8, 0, 0), (0, 0, 4)), *OBJECTS)),
+    "an eye a thousandth before a ball": (
+        looking((0, -1.001, 1), (0, 0, 1), 1.0), shapes.combine(shapes.icosphere((0, 0, 1), 1, 4)),
+        shapes.combine(FLOOR, *ROOM, *OBJECTS)),
+    "a ball of eighty triangles": (
+        looking((0, -6, 2), (0, 0, 1), 0.4), shapes.combine(shapes.icosphere((0, 0, 1), 1, 1)),
+        shapes.combine(FLOOR, *ROOM, *OBJECTS)),
+    "a cube shaded smooth": (
+        looking((2, -6, 3), (0, 0, 1), 0.4), smooth(shapes.combine(shapes.box((0, 0, 1), (1.5, 1.5, 1.5), 0.3))),
+        shapes.combine(FLOOR, *ROOM, *OBJECTS)),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_awkward_mirrors_keep_the_tolerance(name):
+    view, mirror, scene = CASES[name]
+    numbers = judge(view, mirror, scene, reflect(view, mirror, scene), single_precision=True)
+    assert numbers["compared"] > 3000
+    assert numbers["p99"] < 0.5
+    assert numbers["uncovered"] < 0.1
