@@ -103,4 +103,10 @@ def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.nda
         first = order[new]
     uv = np.stack((corner[first] == 1, corner[first] == 2)).astype(np.float64)
     face = corner_face[first]
-    return Cameras(shared.reshape(-1, 3), faces, mirror_map.places(face, uv), mirror_map.rays(face, uv))
+    places = mirror_map.places(face, uv)
+    # each begins at its lowest corner in x, y, z, so that splitting does not depend on how the triangle was listed
+    rank = np.empty(len(first), dtype=np.int64)
+    rank[np.lexsort(places[::-1])] = np.arange(len(first))
+    corners = shared.reshape(-1, 3)
+    turn = (np.argmin(rank[corners], axis=1)[:, None] + np.arange(3)) % 3
+    return Cameras(np.take_along_axis(corners, turn, axis=1), faces, places, mirror_map.rays(face, uv))
