@@ -55,12 +55,14 @@ def test_a_shorter_path_from_one_place_is_drawn_nearer(name):
 def test_where_layers_overlap_the_pixel_shows_the_shortest_path_in_single_precision(name):
     case, mesh = case_of(name), mesh_of(name)
     shown = rasterise(case.view, rounded(mesh, case), mesh.triangles)
-    path = shown.interpolate(np.repeat(mesh.path_length[:, None], 3, axis=1), mesh.triangles)[:, 0]
-    shortest = np.full(len(path), np.inf)
+    # Path length, and the depth of the mirror: what lies on a hidden part of it is hidden whatever its path.
+    values = np.stack((mesh.path_length, case.view.depths(mesh.mirror_position)), axis=1)
+    path, depth = shown.interpolate(np.column_stack((values, values[:, 0])), mesh.triangles)[:, :2].T
     # Every face on its own, so that no depth order is asked for.
     width = case.view.resolution[0]
     pixels = case.view.pixels(mesh.positions)[mesh.triangles]
     wide = np.flatnonzero(np.ptp(pixels, axis=1).max(axis=1) > 4.0)
+    found = []
     for face in wide[:: max(1, len(wide) // 800)]:
         low, high = np.ceil(pixels[face].min(axis=0) - 0.5), np.floor(pixels[face].max(axis=0) - 0.5)
         low, high = np.maximum(low, 0).astype(int), np.minimum(high, np.array(case.view.resolution) - 1).astype(int)
@@ -70,9 +72,16 @@ def test_where_layers_overlap_the_pixel_shows_the_shortest_path_in_single_precis
         one = TriangleMesh(mesh.positions[mesh.triangles[face]], [[0, 1, 2]])
         _, weights = plane_hits(one, np.zeros(len(x), dtype=np.int64), *case.view.rays(np.stack([x, y], axis=1) + 0.5))
         inside = weights.min(axis=1) > 1e-3
-        pixel = (y * width + x)[inside]
-        shortest[pixel] = np.minimum(shortest[pixel], weights[inside] @ mesh.path_length[mesh.triangles[face]])
-    seen = np.isfinite(shortest) & (shown.triangle >= 0)
+        found.append(np.column_stack(((y * width + x)[inside], weights[inside] @ values[mesh.triangles[face]])))
+    pixel, face_path, face_depth = np.concatenate(found).T
+    pixel = pixel.astype(int)
+    assert (shown.triangle[pixel] >= 0).all()
+    nearer = np.ptp(case.mirror.positions, axis=0).max() * 0.05
+    assert (depth[pixel] < face_depth + nearer).all()
+    on_it = face_depth < depth[pixel] + nearer
+    shortest = np.full(len(path), np.inf)
+    np.minimum.at(shortest, pixel[on_it], face_path[on_it])
+    seen = np.isfinite(shortest)
     assert seen.sum() > 300
     # Path lengths curve between vertices, within faces by far less than from layer to layer.
     assert (path[seen] < shortest[seen] + 0.02 * shortest[seen] + 0.02).mean() > 0.99
