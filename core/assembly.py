@@ -5,7 +5,7 @@ import numpy as np
 
 from .cameras import Cameras
 from .connection import Faces
-from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 from .nodes import Nodes
 from .placement import place as placed
 from .reflection_mesh import ReflectionMesh
@@ -16,7 +16,7 @@ from .view import View
 ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the caustic
 
 
-def assemble(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames, positions: np.ndarray,
+def assemble(view: View, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, positions: np.ndarray,
              nodes: Nodes, faces: Faces, placement: str) -> ReflectionMesh:
     """The faces as arrays, no two on the same nodes, without unused nodes, all turned to the eye."""
     # doubled triangles of the scene, and polygons that fold flat, give the same face twice

@@ -4,12 +4,12 @@ from __future__ import annotations
 import numpy as np
 
 from .cameras import Cameras
-from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 from .subdivision import shared_edges, split
 from .view import View
 
 
-def split_cameras(view: View, mirror_map: MirrorMap, cameras: Cameras,
+def split_cameras(view: View, mirror_map: ReflectionMap, cameras: Cameras,
                   marked: np.ndarray) -> tuple[Cameras, np.ndarray, np.ndarray]:
     """Cameras split along the `marked` (n, 3) edges, each from a corner to the next, on both sides of each edge.
 
@@ -25,30 +25,28 @@ def split_cameras(view: View, mirror_map: MirrorMap, cameras: Cameras,
     ends, first, edge = shared_edges(cameras.corners)
     chosen = np.zeros(len(ends), dtype=bool)
     chosen[edge[marked]] = True
-    middles, rays = edge_middles(mirror_map, cameras, ends, first)
-    cameras, parent = split_at(cameras, chosen, edge, middles, rays)
+    cameras, parent = split_at(cameras, chosen, edge, *edge_middles(mirror_map, cameras, ends, first))
     seen = in_picture(view, cameras)
     return cameras.select(seen), parent[seen], chosen[edge].any(axis=1)[parent[seen]]
 
 
-def edge_middles(mirror_map: MirrorMap, cameras: Cameras, ends: np.ndarray,
-                 first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Places (3, e) halfway along edges `ends` (e, 2), and the true rays there."""
+def edge_middles(mirror_map: ReflectionMap, cameras: Cameras, ends: np.ndarray,
+                 first: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places (3, e) halfway along edges `ends` (e, 2), and origins and directions of the true rays there."""
     middles = 0.5 * (cameras.places[:, ends[:, 0]] + cameras.places[:, ends[:, 1]])
     face = cameras.face[first // 3]
-    return middles, mirror_map.rays(face, mirror_map.coordinates(face, middles))
+    return middles, *mirror_map.leave(face, mirror_map.coordinates(face, middles))
 
 
-def split_at(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np.ndarray,
+def split_at(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np.ndarray, origins: np.ndarray,
              rays: np.ndarray) -> tuple[Cameras, np.ndarray]:
     """Cameras split at the middles of the `marked` (e,) edges, and the camera that each lies in; `edge` (n, 3) are the
     cameras' edges."""
     new = np.cumsum(marked) - 1 + cameras.places.shape[1]
     parent, local = split(marked[edge])
     six = np.concatenate((cameras.corners, new[edge]), axis=1)[parent]
-    return Cameras(np.take_along_axis(six, local, axis=1), cameras.face[parent],
-                   np.concatenate((cameras.places, middles[:, marked]), axis=1),
-                   np.concatenate((cameras.rays, rays[:, marked]), axis=1)), parent
+    return cameras.replaced(np.take_along_axis(six, local, axis=1), cameras.face[parent], middles[:, marked],
+                            origins[:, marked], rays[:, marked]), parent
 
 
 def in_picture(view: View, cameras: Cameras) -> np.ndarray:

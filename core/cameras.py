@@ -25,22 +25,38 @@ class Cameras:
         Each camera's corners, indices into the columns below.
     face : (n,) int64
         The mirror triangle that the camera lies on.
+        After several bounces, the chain of mirror triangles.
     places : (3, c) float64
-        V, world positions of the corners.
+        Where the eye sees the corners on the mirror, in world space.
     rays : (3, c) float64
-        R, reflected rays of the corners, as long as the view rays.
+        R, reflected rays of the corners, as long as the whole way from the eye.
+    origins : (3, c) float64, optional
+        V, where the rays leave the last mirror: the places themselves where there is but one.
     """
 
     corners: np.ndarray
     face: np.ndarray
     places: np.ndarray
     rays: np.ndarray
+    origins: np.ndarray | None = None
+
+    def __post_init__(self) -> None:
+        if self.origins is None:
+            object.__setattr__(self, "origins", self.places)
 
     def __len__(self) -> int:
         return len(self.face)
 
     def select(self, chosen: np.ndarray) -> Cameras:
-        return Cameras(self.corners[chosen], self.face[chosen], self.places, self.rays)
+        return Cameras(self.corners[chosen], self.face[chosen], self.places, self.rays, self.origins)
+
+    def replaced(self, corners: np.ndarray, face: np.ndarray, places: np.ndarray, origins: np.ndarray,
+                 rays: np.ndarray) -> Cameras:
+        """Other cameras on these corners and on more of them: `places`, `origins` and `rays` (3, k) come behind."""
+        one_bounce = self.origins is self.places
+        places = np.concatenate((self.places, places), axis=1)
+        return Cameras(corners, face, places, np.concatenate((self.rays, rays), axis=1),
+                       places if one_bounce else np.concatenate((self.origins, origins), axis=1))
 
 
 def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:

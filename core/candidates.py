@@ -68,7 +68,7 @@ def overlapping(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, colum
 
 def _overlapping(cameras, frames, camera, column):
     corners = cameras.corners[camera].T
-    x, y, z = frames.coordinates(column, np.take(cameras.places, corners, axis=1))
+    x, y, z = frames.coordinates(column, np.take(cameras.origins, corners, axis=1))
     u, v, w = frames.directions(column, np.take(cameras.rays, corners, axis=1))
     first, second = w * x - z * u, w * y - z * v
     sides = np.stack((first, second, w - first - second))

@@ -9,7 +9,7 @@ import numpy as np
 
 from .cameras import Cameras
 from .connection import Faces
-from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 from .nodes import Nodes
 from .scene_frames import SceneFrames
 from .subdivision import shared_edges
@@ -18,7 +18,7 @@ from .vectors import cross, dot
 STEPS = 24
 
 
-def split_at_caustics(mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames, nodes: Nodes,
+def split_at_caustics(mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, nodes: Nodes,
                       faces: Faces) -> tuple[Nodes, Faces, int]:
     """Faces of one parity each; only cameras whose rays may cross are looked at.
 
@@ -53,7 +53,7 @@ def split_at_caustics(mirror_map: MirrorMap, cameras: Cameras, frames: SceneFram
 
 def _magnification(mirror_map, frames, face, column, place) -> np.ndarray:
     uv = mirror_map.coordinates(face, place)
-    s = frames.distance(column, place, mirror_map.rays(face, uv))
+    s = frames.distance(column, *mirror_map.leave(face, uv))
     return mirror_map.turned(face, uv, s)
 
 
@@ -66,15 +66,15 @@ def _zero(mirror_map, frames, face, column, start, end) -> tuple[np.ndarray, np.
         same = _magnification(mirror_map, frames, face, column, start + middle * (end - start)) * sign > 0.0
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     place = start + 0.5 * (low + high) * (end - start)
-    ray = mirror_map.rays(face, mirror_map.coordinates(face, place))
-    s = np.maximum(frames.distance(column, place, ray), 0.0)
-    return place, place + s * ray, s
+    origin, ray = mirror_map.leave(face, mirror_map.coordinates(face, place))
+    s = np.maximum(frames.distance(column, origin, ray), 0.0)
+    return place, origin + s * ray, s
 
 
 def _may_fold(cameras: Cameras) -> np.ndarray:
     """Cameras whose rays may cross at some distance: the moved triangle's area across a corner's ray,
     n0 + s n1 + s^2 n2, has coefficients of both signs."""
-    places, rays = cameras.places[:, cameras.corners], cameras.rays[:, cameras.corners]
+    places, rays = cameras.origins[:, cameras.corners], cameras.rays[:, cameras.corners]
     p, q = places[:, :, 1] - places[:, :, 0], places[:, :, 2] - places[:, :, 0]
     r, t = rays[:, :, 1] - rays[:, :, 0], rays[:, :, 2] - rays[:, :, 0]
     normals = cross(p, q), cross(p, t) + cross(r, q), cross(r, t)

@@ -29,7 +29,7 @@ class Cones:
 
     @classmethod
     def around(cls, cameras: Cameras) -> Cones:
-        places = cameras.places[:, cameras.corners]
+        places = cameras.origins[:, cameras.corners]
         rays = unit(cameras.rays[:, cameras.corners])
         centre = places.mean(axis=2)
         radius = np.sqrt(((places - centre[:, :, None]) ** 2).sum(axis=0)).max(axis=1)

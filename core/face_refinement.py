@@ -13,7 +13,7 @@ import numpy as np
 
 from .cameras import Cameras
 from .connection import Faces
-from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 from .nodes import Nodes
 from .scene_frames import SceneFrames
 from .subdivision import shared_edges
@@ -31,7 +31,7 @@ class FaceRefinement:
     `beyond` which cameras lie beyond the horizon, where there is nothing to be exact about."""
 
     view: View
-    mirror_map: MirrorMap
+    mirror_map: ReflectionMap
     cameras: Cameras
     frames: SceneFrames
     beyond: np.ndarray
@@ -123,9 +123,9 @@ class FaceRefinement:
         nothing: none counts for more than `STRETCH` times the pixels it would be where the picture is drawn out least.
         """
         one, zero = np.ones(len(face)), np.zeros(len(face))
-        place, ray, moves = self.mirror_map.linearise(face, uv, np.stack((one, zero)), np.stack((zero, one)))
-        s = np.maximum(self.frames.distance(column, place, ray), 0.0)
-        point = place + s * ray
+        origin, ray, moves = self.mirror_map.linearise(face, uv, np.stack((one, zero)), np.stack((zero, one)))
+        s = np.maximum(self.frames.distance(column, origin, ray), 0.0)
+        point = origin + s * ray
         normal = np.take(self.frames.normal, column, axis=1)
         falling = dot(normal, ray)
         falling = np.where(falling != 0.0, falling, 1e-300)
@@ -136,7 +136,8 @@ class FaceRefinement:
         (a, c), (b, d) = (self.frames.directions(column, along)[:2] for along in moving)
         right = self.frames.directions(column, shown - point)[:2]
         x, y = _solve(a, b, c, d, *right)
-        seen_u, seen_v = (self.view.pixel_derivatives(place.T, move.T).T for move, _ in moves)
+        place = self.mirror_map.places(face, uv)
+        seen_u, seen_v = (self.view.pixel_derivatives(place.T, span.T).T for span in self.mirror_map.spans(face))
         drift = np.hypot(*(x * seen_u + y * seen_v))
         motion = [norm(x * moving[0] + y * moving[1]) for x, y in
                   (_solve(seen_u[0], seen_v[0], seen_u[1], seen_v[1], *step) for step in ((1.0, 0.0), (0.0, 1.0)))]

@@ -12,11 +12,11 @@ import numpy as np
 from .cameras import Cameras
 from .candidates import Candidates
 from .clipping import Polygons
-from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
 
 
-def fill(mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames, candidates: Candidates, polygons: Polygons,
+def fill(mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, candidates: Candidates, polygons: Polygons,
          open_: np.ndarray) -> tuple[Polygons, int]:
     """Polygons in which each open camera shows the one triangle that the ray through its middle meets first.
 
@@ -37,9 +37,9 @@ def fill(mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames, candidate
     camera, column = candidates.camera[pairs], candidates.column[pairs]
     face = cameras.face[camera]
     middle = np.take(cameras.places, cameras.corners[camera].T, axis=1).mean(axis=1)
-    ray = mirror_map.rays(face, mirror_map.coordinates(face, middle))
-    distance = frames.distance(column, middle, ray)
-    hit = (frames.weights(column, middle + distance * ray) >= 0.0).all(axis=0) & (distance > 0.0)
+    origin, ray = mirror_map.leave(face, mirror_map.coordinates(face, middle))
+    distance = frames.distance(column, origin, ray)
+    hit = (frames.weights(column, origin + distance * ray) >= 0.0).all(axis=0) & (distance > 0.0)
     order = np.lexsort((distance[hit], camera[hit]))
     _, first = np.unique(camera[hit][order], return_index=True)
     shown = pairs[hit][order[first]]

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from .cameras import Cameras
-from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 from .camera_splitting import split_cameras
 from .subdivision import split
 from .view import View
@@ -20,12 +20,12 @@ ON_LINE = 1e-6  # rise of rays on the horizon itself, which belong to both its s
 _PROBES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [1 / 3] * 3]).T
 
 
-def beyond_horizon(mirror_map: MirrorMap, cameras: Cameras) -> np.ndarray:
+def beyond_horizon(mirror_map: ReflectionMap, cameras: Cameras) -> np.ndarray:
     """Which cameras (n,) lie beyond the horizon whole, made of lifted rays alone: nothing there is worth refining."""
     return _lifted_probes(mirror_map, cameras, ON_LINE).all(axis=0)
 
 
-def _lifted_probes(mirror_map: MirrorMap, cameras: Cameras, slack: float) -> np.ndarray:
+def _lifted_probes(mirror_map: ReflectionMap, cameras: Cameras, slack: float) -> np.ndarray:
     """(7, n): whether the rays at the corners, the edges' middles and the middle of the cameras are lifted."""
     found = np.zeros((_PROBES.shape[1], len(cameras)), dtype=bool)
     near = np.flatnonzero(mirror_map.grazing[cameras.face])
@@ -36,7 +36,7 @@ def _lifted_probes(mirror_map: MirrorMap, cameras: Cameras, slack: float) -> np.
     return found
 
 
-def cut_at_horizon(view: View, mirror_map: MirrorMap, cameras: Cameras) -> Cameras:
+def cut_at_horizon(view: View, mirror_map: ReflectionMap, cameras: Cameras) -> Cameras:
     """The cameras, those across the horizon cut along it; large ones over whose side it bulges are split first."""
     for _ in range(LEVELS):
         probes = _lifted_probes(mirror_map, cameras, 0.0)
@@ -50,7 +50,7 @@ def cut_at_horizon(view: View, mirror_map: MirrorMap, cameras: Cameras) -> Camer
     return _cut(mirror_map, cameras)
 
 
-def _cut(mirror_map: MirrorMap, cameras: Cameras) -> Cameras:
+def _cut(mirror_map: ReflectionMap, cameras: Cameras) -> Cameras:
     """Cameras with corners on both sides of the horizon in up to three parts."""
     near = np.flatnonzero(mirror_map.grazing[cameras.face])
     corner_places = cameras.places[:, cameras.corners[near]].reshape(3, -1)
@@ -67,12 +67,11 @@ def _cut(mirror_map: MirrorMap, cameras: Cameras) -> Cameras:
         middle = 0.5 * (low + high)
         lifted = mirror_map.lifted(face, mirror_map.coordinates(face, middle))
         low, high = np.where(lifted, low, middle), np.where(lifted, middle, high)
-    rays = mirror_map.rays(face, mirror_map.coordinates(face, low))
+    leaving = mirror_map.leave(face, mirror_map.coordinates(face, low))
     six = np.concatenate((corners, np.full_like(corners, -1)), axis=1)
     six[row, 3 + side] = np.arange(len(row)) + cameras.places.shape[1]
     parent, local = split(crossed)
     whole = np.ones(len(cameras), dtype=bool)
     whole[near] = False
-    return Cameras(np.concatenate((cameras.corners[whole], six[parent[:, None], local])),
-                   np.concatenate((cameras.face[whole], cameras.face[near[parent]])),
-                   np.concatenate((cameras.places, low), axis=1), np.concatenate((cameras.rays, rays), axis=1))
+    return cameras.replaced(np.concatenate((cameras.corners[whole], six[parent[:, None], local])),
+                            np.concatenate((cameras.face[whole], cameras.face[near[parent]])), low, *leaving)

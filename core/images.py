@@ -8,7 +8,7 @@ import numpy as np
 from .cameras import Cameras
 from .candidates import Candidates
 from .cones import Cones
-from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 from .projection import project
 from .scene_frames import SceneFrames
 from .vectors import ranges
@@ -52,7 +52,7 @@ class VertexImages:
         return result
 
 
-def vertex_images(view: View, mirror_map: MirrorMap, cameras: Cameras, cones: Cones, positions: np.ndarray,
+def vertex_images(view: View, mirror_map: ReflectionMap, cameras: Cameras, cones: Cones, positions: np.ndarray,
                   frames: SceneFrames, candidates: Candidates) -> tuple[VertexImages, dict]:
     """Images of the vertices of the candidate triangles, each in the cameras that it is a candidate of.
 
@@ -69,7 +69,7 @@ def vertex_images(view: View, mirror_map: MirrorMap, cameras: Cameras, cones: Co
     touching = cones.touch(camera, points, np.zeros(len(camera)))
     camera, vertex = camera[touching], vertex[touching]
     corners = cameras.corners[camera]
-    found = project(np.moveaxis(cameras.places[:, corners], 0, 2), np.moveaxis(cameras.rays[:, corners], 0, 2),
+    found = project(np.moveaxis(cameras.origins[:, corners], 0, 2), np.moveaxis(cameras.rays[:, corners], 0, 2),
                     positions[vertex])
     counts = {"projections": len(camera), "roots": len(found.pair)}
     camera, vertex = camera[found.pair], vertex[found.pair]

@@ -12,7 +12,7 @@ import numpy as np
 from .camera_splitting import edge_middles, in_picture, split_at
 from .cameras import Cameras
 from .horizon import beyond_horizon
-from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 from .subdivision import shared_edges
 from .vectors import dot, norm, unit
 from .view import View
@@ -21,7 +21,7 @@ LEVELS = 12
 SHORTEST_EDGE = 0.5  # pixels: a shorter edge cannot stray by a visible amount
 
 
-def refine_mirror(view: View, mirror_map: MirrorMap, cameras: Cameras, tolerance: float, reach: float,
+def refine_mirror(view: View, mirror_map: ReflectionMap, cameras: Cameras, tolerance: float, reach: float,
                   maximum: int) -> tuple[Cameras, bool]:
     """Cameras in the picture, split until each edge strays by less than `tolerance` pixels.
 
@@ -43,14 +43,14 @@ def refine_mirror(view: View, mirror_map: MirrorMap, cameras: Cameras, tolerance
         if not len(cameras) or len(cameras) > maximum:
             return cameras, bool(len(cameras))
         ends, first, edge = shared_edges(cameras.corners)
-        middles, rays = edge_middles(mirror_map, cameras, ends, first)
+        middles, origins, rays = edge_middles(mirror_map, cameras, ends, first)
         # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
         worth = np.zeros(len(ends), dtype=bool)
         worth[edge[~beyond_horizon(mirror_map, cameras)]] = True
         marked = (_straying(view, cameras, ends, rays, reach) > tolerance) & worth
         if not marked.any():
             return cameras, False
-        cameras, _ = split_at(cameras, marked, edge, middles, rays)
+        cameras, _ = split_at(cameras, marked, edge, middles, origins, rays)
         cameras = cameras.select(in_picture(view, cameras))
     return cameras, True
 
@@ -59,7 +59,7 @@ def _straying(view: View, cameras: Cameras, ends: np.ndarray, middle_rays: np.nd
     """Pixels by which the cameras stray from the true map halfway along edges `ends` (e, 2); infinite where an edge
     crosses the eye's plane and must be cut before anything can be said of it."""
     a, b = ends[:, 0], ends[:, 1]
-    va, vb, ra, rb = cameras.places[:, a], cameras.places[:, b], cameras.rays[:, a], cameras.rays[:, b]
+    va, vb, ra, rb = cameras.origins[:, a], cameras.origins[:, b], cameras.rays[:, a], cameras.rays[:, b]
     behind = (view.depths(cameras.places.T) <= 0.0)[ends]
     with np.errstate(invalid="ignore", over="ignore"):
         pixels = view.pixels(cameras.places.T)

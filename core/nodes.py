@@ -14,7 +14,7 @@ from .cameras import Cameras
 from .candidates import Candidates
 from .clipping import CONTACT, SCENE_EDGE, Polygons
 from .images import NEAR_IMAGE, VertexImages
-from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
 from .vectors import dot, groups
 from .view import View
@@ -45,7 +45,7 @@ class _Corners:
     """What the corners of the polygons are made of, one row each; the arguments that all kinds of nodes need."""
 
     view: View
-    mirror_map: MirrorMap
+    mirror_map: ReflectionMap
     cameras: Cameras
     frames: SceneFrames
     positions: np.ndarray
@@ -70,9 +70,9 @@ class _Corners:
     def seen(self, chosen: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The point (3, n) that the true ray at a place meets on the triangle's plane, and its s."""
         face = self.cameras.face[self.camera[chosen]]
-        ray = self.mirror_map.rays(face, self.mirror_map.coordinates(face, place))
-        s = np.maximum(self.frames.distance(self.column[chosen], place, ray), 0.0)
-        return place + s * ray, s
+        origin, ray = self.mirror_map.leave(face, self.mirror_map.coordinates(face, place))
+        s = np.maximum(self.frames.distance(self.column[chosen], origin, ray), 0.0)
+        return origin + s * ray, s
 
     def mirror_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
         """(n, 2) sorted camera corners of the mirror edge `label`."""
@@ -86,7 +86,7 @@ class _Corners:
         return np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row]), axis=1), axis=1)
 
 
-def polygon_nodes(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames, positions: np.ndarray,
+def polygon_nodes(view: View, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, positions: np.ndarray,
                   candidates: Candidates, polygons: Polygons, images: VertexImages) -> tuple[Nodes, np.ndarray]:
     """Nodes of the polygons, and for each corner of a polygon its node."""
     pair = np.repeat(polygons.pair, np.diff(polygons.start))
@@ -119,9 +119,9 @@ def _mirror_corners(corners: _Corners, chosen: np.ndarray, images: VertexImages)
     corner = corners.cameras.corners[camera, 3 - corners.low[chosen] - corners.high[chosen]]
     first, group = groups(corner, column)
     corner, column = corner[first], column[first]
-    place, ray = corners.cameras.places[:, corner], corners.cameras.rays[:, corner]
-    distance = np.maximum(corners.frames.distance(column, place, ray), 0.0)
-    return (place, place + distance * ray, distance), group
+    origin, ray = corners.cameras.origins[:, corner], corners.cameras.rays[:, corner]
+    distance = np.maximum(corners.frames.distance(column, origin, ray), 0.0)
+    return (corners.cameras.places[:, corner], origin + distance * ray, distance), group
 
 
 def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
@@ -186,4 +186,6 @@ def _contacts_of_scene_edges(corners: _Corners, chosen: np.ndarray, images: Vert
 
 def _contact(corners: _Corners, chosen: np.ndarray):
     place = corners.guess(chosen)
-    return place, place, np.zeros(len(chosen))
+    face = corners.cameras.face[corners.camera[chosen]]
+    origin, _ = corners.mirror_map.leave(face, corners.mirror_map.coordinates(face, place))
+    return place, origin, np.zeros(len(chosen))

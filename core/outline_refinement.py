@@ -14,7 +14,7 @@ from .cameras import Cameras
 from .candidates import Candidates, overlapping
 from .clipping import CONTACT, SCENE_EDGE, clip
 from .horizon import beyond_horizon
-from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 from .camera_splitting import split_cameras
 from .scene_frames import SceneFrames
 from .vectors import ranges
@@ -24,7 +24,7 @@ LEVELS = 10
 SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
 
 
-def refine_for_outlines(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames,
+def refine_for_outlines(view: View, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames,
                         candidates: Candidates, tolerance: float,
                         maximum: int) -> tuple[Cameras, Candidates, np.ndarray]:
     """Cameras split until no outline in them misses the true one by more than `tolerance` pixels, or until there are
