@@ -78,7 +78,7 @@ def _overlapping(cameras, frames, camera, column):
     room = 4.0 / 3.0 * np.abs(bend).max(axis=1)
     kept = []
     for sign in (1.0, -1.0):
-        ahead = (-sign * z).max(axis=0) > 0.0
+        ahead = ((-sign * z).max(axis=0) > 0.0) & ((sign * w).max(axis=0) > 0.0)
         chosen = np.flatnonzero(((sign * sides).max(axis=1) + room > 0.0).all(axis=0) & ahead)
         kept.append((camera[chosen], column[chosen], sign * sides[:, :, chosen], -sign * z[:, chosen],
                      sign * bend[:, :, chosen]))

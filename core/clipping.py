@@ -7,14 +7,18 @@ mirror edge, or a mirror corner's ray on the triangle (S. Vallance, P. Calder, A
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from .candidates import Candidates
+from .vectors import ranges
 
 # Lines: 0 1 2 the camera's edges opposite its corners, 3 4 5 the triangle's edges opposite its vertices, 6 its plane.
-SCENE_EDGE, CONTACT = 3, 6
+# 7 any line along which a nearer mirror begins.
+SCENE_EDGE, CONTACT, HIDDEN = 3, 6, 7
+SMALLEST = 1e-12  # of a camera: a smaller piece that cutting leaves is nothing
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,48 @@ class Polygons:
     before: np.ndarray
     after: np.ndarray
 
+    @staticmethod
+    def of(pairs: np.ndarray, weights: np.ndarray, after: np.ndarray, polygon: np.ndarray) -> Polygons:
+        """Polygons of corners (k) that lie one behind another, `polygon` (k,) rising; those with fewer than three are
+        left out. `pairs` are the candidate pairs of all."""
+        size = np.bincount(polygon, minlength=len(pairs))
+        kept = size[polygon] >= 3
+        weights, after, polygon = weights[:, kept], after[kept], polygon[kept]
+        found, start = np.unique(polygon, return_index=True)
+        start = np.append(start, len(polygon))
+        last = np.arange(len(polygon)) - 1
+        last[start[:-1]] = start[1:] - 1
+        return Polygons(pairs[found], start, weights, after[last], after)
+
+    def select(self, chosen: np.ndarray) -> Polygons:
+        """The polygons `chosen`, as indices or as a mask."""
+        size = np.diff(self.start)
+        corner, _ = ranges(self.start[:-1][chosen], size[chosen])
+        return Polygons(self.pair[chosen], np.append(0, np.cumsum(size[chosen])), self.weights[:, corner],
+                        self.before[corner], self.after[corner])
+
+    @staticmethod
+    def joined(parts: Sequence[Polygons]) -> Polygons:
+        size = np.concatenate([np.diff(part.start) for part in parts])
+        return Polygons(np.concatenate([part.pair for part in parts]), np.append(0, np.cumsum(size)),
+                        np.concatenate([part.weights for part in parts], axis=1),
+                        np.concatenate([part.before for part in parts]), np.concatenate([part.after for part in parts]))
+
+    def cut(self, corner_values: np.ndarray, label: int) -> Polygons:
+        """What is left of each polygon where a function is not negative that is linear in the weights and has the
+        values (3, q) at the corners of its camera."""
+        polygon = np.repeat(np.arange(len(self.pair)), np.diff(self.start))
+        left = Polygons.of(self.pair, *cut(self.weights, self.after, polygon, corner_values, label))
+        return left.select(left.areas() > SMALLEST)
+
+    def areas(self) -> np.ndarray:
+        """(q,): the part of its camera that each polygon covers."""
+        following = np.arange(1, len(self.before) + 1)
+        following[self.start[1:] - 1] = self.start[:-1]
+        x, y = self.weights[0], self.weights[1]
+        terms = np.append(x * y[following] - x[following] * y, 0.0)
+        return np.abs(np.add.reduceat(terms, self.start[:-1])) if len(self.pair) else np.zeros(0)
+
 
 def clip(candidates: Candidates) -> Polygons:
     """Polygons of the candidates that really overlap."""
@@ -47,14 +93,7 @@ def clip(candidates: Candidates) -> Polygons:
         planes.append((CONTACT, candidates.ahead))
     for label, corner_values in planes:
         weights, after, polygon = cut(weights, after, polygon, corner_values, label)
-    size = np.bincount(polygon, minlength=count)
-    kept = size[polygon] >= 3
-    weights, after, polygon = weights[:, kept], after[kept], polygon[kept]
-    pair, start = np.unique(polygon, return_index=True)
-    start = np.append(start, len(polygon))
-    last = np.arange(len(polygon)) - 1
-    last[start[:-1]] = start[1:] - 1
-    return Polygons(pair, start, weights, after[last], after)
+    return Polygons.of(np.arange(count), weights, after, polygon)
 
 
 def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_values: np.ndarray,

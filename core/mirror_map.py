@@ -56,6 +56,12 @@ class MirrorMap(ReflectionMap):
     def spans(self, face: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return self.surface.u[:, face], self.surface.v[:, face]
 
+    def first(self, face: np.ndarray) -> np.ndarray:
+        return face
+
+    def last(self, face: np.ndarray) -> tuple[MirrorSurface, np.ndarray]:
+        return self.surface, face
+
     def rays(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
         if self.parallel:
             return self.constant[:, face]
@@ -69,8 +75,8 @@ class MirrorMap(ReflectionMap):
     def leave(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return self.places(face, uv), self.rays(face, uv)
 
-    def path_before(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
-        return np.zeros(len(face))
+    def ways(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+        return []
 
     def turned_before(self, face: np.ndarray, uv: np.ndarray) -> float:
         return 1.0

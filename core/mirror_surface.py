@@ -42,6 +42,11 @@ class MirrorSurface:
         """Q."""
         return self.a[:, face] + uv[0] * self.u[:, face] + uv[1] * self.v[:, face]
 
+    def corners(self, face: np.ndarray) -> np.ndarray:
+        """(3, 3, n): the corners of triangles one behind another."""
+        a = self.a[:, face]
+        return np.stack((a, a + self.u[:, face], a + self.v[:, face]), axis=1)
+
     def coordinates(self, face: np.ndarray, places: np.ndarray) -> np.ndarray:
         """(u, v) of `places` on the planes of the triangles."""
         return self.move_coordinates(face, places - self.a[:, face])

@@ -12,12 +12,14 @@ import numpy as np
 
 from .cameras import Cameras
 from .candidates import Candidates
-from .clipping import CONTACT, SCENE_EDGE, Polygons
+from .clipping import CONTACT, HIDDEN, SCENE_EDGE, Polygons
 from .images import NEAR_IMAGE, VertexImages
 from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
 from .vectors import dot, groups
 from .view import View
+
+WELD = 1e-9  # of the size of what is seen: nodes closer than this are one
 
 
 @dataclass(frozen=True)
@@ -101,7 +103,8 @@ def polygon_nodes(view: View, mirror_map: ReflectionMap, cameras: Cameras, frame
              (_crossings, on_mirror_edge & (high >= SCENE_EDGE) & (high < CONTACT)),
              (_vertices, ~on_mirror_edge & (high < CONTACT)),
              (_contacts_of_mirror_edges, on_mirror_edge & (high == CONTACT)),
-             (_contacts_of_scene_edges, ~on_mirror_edge & (high == CONTACT)))
+             (_contacts_of_scene_edges, ~on_mirror_edge & (high == CONTACT)),
+             (_on_lines_of_hiding, high == HIDDEN))
     for kind, chosen in kinds:
         chosen = np.flatnonzero(chosen)
         if len(chosen):
@@ -182,6 +185,16 @@ def _contacts_of_scene_edges(corners: _Corners, chosen: np.ndarray, images: Vert
     scene_edge = corners.scene_edge(chosen, corners.low[chosen])
     first, group = groups(corners.cameras.face[corners.camera[chosen]], *scene_edge.T)
     return _contact(corners, chosen[first]), group
+
+
+def _on_lines_of_hiding(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+    place = corners.guess(chosen)
+    point, distance = corners.seen(chosen, place)
+    # the lines have no names by which neighbours could share them: what meets in one place is one node
+    both = np.concatenate((place, point))
+    low, size = both.min(axis=1, keepdims=True), np.ptp(both, axis=1).max()
+    first, group = groups(*np.rint((both - low) / (WELD * max(size, 1e-300))).astype(np.int64))
+    return (place[:, first], point[:, first], distance[first]), group
 
 
 def _contact(corners: _Corners, chosen: np.ndarray):

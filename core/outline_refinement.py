@@ -14,6 +14,7 @@ from .cameras import Cameras
 from .candidates import Candidates, overlapping
 from .clipping import CONTACT, SCENE_EDGE, clip
 from .horizon import beyond_horizon
+from .met_surfaces import MetSurfaces
 from .reflection_map import ReflectionMap
 from .camera_splitting import split_cameras
 from .scene_frames import SceneFrames
@@ -22,11 +23,12 @@ from .view import View
 
 LEVELS = 10
 SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
+CROWD = 6  # outlines of mirrors that a camera may hold: all that it sees is cut along each
 
 
 def refine_for_outlines(view: View, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames,
-                        candidates: Candidates, tolerance: float,
-                        maximum: int) -> tuple[Cameras, Candidates, np.ndarray]:
+                        candidates: Candidates, tolerance: float, maximum: int,
+                        met: MetSurfaces) -> tuple[Cameras, Candidates, np.ndarray]:
     """Cameras split until no outline in them misses the true one by more than `tolerance` pixels, or until there are
     `maximum` candidates.
 
@@ -41,7 +43,9 @@ def refine_for_outlines(view: View, mirror_map: ReflectionMap, cameras: Cameras,
     settled, open_ = candidates.select(np.zeros(0, dtype=np.int64)), np.zeros(len(cameras), dtype=bool)
     for level in range(LEVELS + 1):
         candidates, lines = _really_overlapping(candidates)
+        lines &= ~met.inner_sides(cameras, frames, candidates)
         bent, long = _bent_edges(view, cameras, candidates, lines, tolerance)
+        bent |= _crowded(cameras, candidates, lines & met.shows_mirror(frames)[candidates.column])[:, None]
         bent &= ~beyond_horizon(mirror_map, cameras)[:, None]
         settled = Candidates.joined((settled, candidates))
         if level == LEVELS or not (bent & long).any() or len(settled) > maximum:
@@ -86,6 +90,11 @@ def _really_overlapping(candidates: Candidates) -> tuple[Candidates, np.ndarray]
     lines = np.zeros((3, len(polygons.pair)), dtype=bool)
     lines[polygons.after[scene] - SCENE_EDGE, row[scene]] = True
     return candidates.select(polygons.pair), lines
+
+
+def _crowded(cameras: Cameras, candidates: Candidates, outlines: np.ndarray) -> np.ndarray:
+    """Which cameras (n,) hold too many `outlines` (3, p) of mirrors."""
+    return np.bincount(candidates.camera, outlines.sum(axis=0), minlength=len(cameras)) > CROWD
 
 
 def _bent_edges(view: View, cameras: Cameras, candidates: Candidates, lines: np.ndarray,

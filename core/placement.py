@@ -9,29 +9,30 @@ from __future__ import annotations
 
 import numpy as np
 
-from .nodes import Nodes
+from .vectors import norm
 from .view import View
 
 GAP = 2e-4  # share of the viewing distance kept free before the mirror
 DEPTH = 2e-3  # share of the viewing distance over which the layers spread
 
 
-def place(view: View, nodes: Nodes, path_length: np.ndarray, placement: str) -> np.ndarray:
-    """World positions (3, n) of the nodes.
+def place(view: View, places: np.ndarray, path_length: np.ndarray, placement: str) -> np.ndarray:
+    """World positions (3, n) of nodes seen at `places` (3, n).
 
     Parameters
     ----------
-    path_length : (n,) float64, in scene units
+    path_length : (n,) float64
+        Of the whole way behind the mirror, in scene units.
     placement : {'LAYERED', 'SURFACE', 'VIRTUAL'}
     """
     if placement == "SURFACE" or not len(path_length):
-        return nodes.place
-    ahead = view.directions(nodes.place.T).T
+        return places
+    ahead = view.directions(places.T).T
+    distance = path_length / norm(ahead)
     if placement == "VIRTUAL":
-        return nodes.place + ahead * (path_length if view.orthographic else nodes.distance)
+        return places + ahead * distance
     if view.orthographic:
-        size = (nodes.place.max(axis=1) - nodes.place.min(axis=1)).max()
-        slide = size * (GAP + DEPTH * (1.0 - path_length / max(path_length.max(), 1e-300)))
-        return nodes.place - slide * ahead
-    nearer = GAP + DEPTH / (1.0 + nodes.distance)
-    return nodes.place - nearer / (1.0 + nearer) * ahead
+        size = np.ptp(places, axis=1).max()
+        return places - size * (GAP + DEPTH * (1.0 - path_length / max(path_length.max(), 1e-300))) * ahead
+    nearer = GAP + DEPTH / (1.0 + distance)
+    return places - nearer / (1.0 + nearer) * ahead

@@ -1,41 +1,26 @@
 """The way through the house: view and mirror and diffuse scene in, reflection mesh out."""
 from __future__ import annotations
 
-import time
 from collections.abc import Generator
 from dataclasses import replace
 
 import numpy as np
 
 from .assembly import assemble
-from .cameras import three_ray_cameras, visible_triangles
-from .candidates import overlapping
-from .caustics import split_at_caustics
-from .clipping import clip
-from .cones import Cones
-from .connection import connect
-from .face_refinement import FaceRefinement
-from .contacts import drop_behind_contacts
-from .filling import fill
-from .horizon import beyond_horizon, cut_at_horizon
-from .images import vertex_images
-from .mirror_map import MirrorMap
+from .bounce import Bounce, Progress, bounce_steps
+from .bounced_cameras import bounced_cameras
 from .camera_splitting import in_picture
-from .mirror_refinement import refine_mirror
+from .cameras import three_ray_cameras, visible_triangles
+from .horizon import cut_at_horizon
+from .met_surfaces import MetSurfaces
+from .mirror_map import MirrorMap
 from .mirror_visibility import without_hidden
-from .nodes import polygon_nodes
-from .outline_refinement import refine_for_outlines
 from .reflection_mesh import ReflectionMesh
-from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
 from .settings import Settings
 from .triangle_mesh import TriangleMesh
-from .vectors import norm
 from .view import View
 
-MIRROR_SHARE = 0.8  # of the tolerance: what the rays of a camera may stray
-OUTLINE_SHARE = 0.5  # of the tolerance: what a straight outline in a camera may miss
-FACE_SHARE = 0.8  # of the tolerance: what the interpolation inside a face may stray
 INSIDE = 4.0 / 3.0  # a quadratic that is zero at a triangle's corners exceeds its values at the edges' middles by this
 
 
@@ -44,7 +29,7 @@ class ReflectionError(ValueError):
 
 
 def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
-            settings: Settings = Settings()) -> ReflectionMesh:
+            settings: Settings = Settings(), mirrors: TriangleMesh | None = None) -> ReflectionMesh:
     """The reflection of a diffuse scene in a mirror as the view sees it.
 
     Parameters
@@ -55,6 +40,9 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
     scene : TriangleMesh or SceneTree
         In world space; a tree built before saves the time to build it.
     settings : Settings
+    mirrors : TriangleMesh, optional
+        In world space, all mirrors that may be seen in this one, itself among them; this one alone where omitted. They
+        hide what lies behind them, and from a depth of two on they reflect in their turn.
 
     Returns
     -------
@@ -66,7 +54,7 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
     ReflectionError
         Where the mirror or the scene is empty, the mirror is not in the picture, or the eye lies on it.
     """
-    steps = reflection_steps(view, mirror, scene, settings)
+    steps = reflection_steps(view, mirror, scene, settings, mirrors)
     while True:
         try:
             next(steps)
@@ -74,29 +62,18 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
             return end.value
 
 
-class _Stages:
-    """Seconds by stage, and the share of the work done."""
-
-    def __init__(self) -> None:
-        self.seconds: dict[str, float] = {}
-        self._last = time.perf_counter()
-
-    def done(self, stage: str) -> None:
-        now = time.perf_counter()
-        self.seconds[stage] = self.seconds.get(stage, 0.0) + now - self._last
-        self._last = now
-
-
-def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
-                     settings: Settings = Settings()) -> Generator[tuple[float, str], None, ReflectionMesh]:
+def reflection_steps(
+        view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree, settings: Settings = Settings(),
+        mirrors: TriangleMesh | None = None) -> Generator[tuple[float, str], None, ReflectionMesh]:
     """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end."""
-    stages, counts = _Stages(), {}
+    progress = Progress()
     _check(view, mirror, scene)
     yield 0.0, "k-d tree"
     tree = scene if isinstance(scene, SceneTree) else SceneTree.build(scene)
     if not len(tree.leaf_triangles):
         raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
-    stages.done("tree")
+    met = MetSurfaces(tree, mirror if mirrors is None else mirrors)
+    progress.done("tree")
 
     yield 0.1, "cameras"
     mirror_map = MirrorMap(view, mirror, settings.method == "PARALLEL")
@@ -105,65 +82,37 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
     cameras, grid = without_hidden(view, mirror_map, cameras)
-    counts["mirror_triangles"] = len(cameras)
-    cones = Cones.around(cameras)
-    sphere = tree.spheres[0][:, 0]
-    every = np.arange(len(cameras))
-    seeing = cones.touch(every, np.repeat(sphere[:3, None], len(cameras), axis=1), np.full(len(cameras), sphere[3]))
-    cameras = cameras.select(seeing)
-    reach = float(norm(cameras.places - sphere[:3, None]).max() + sphere[3])
-    cameras, mirror_limited = refine_mirror(view, mirror_map, cameras, MIRROR_SHARE * settings.tolerance, reach,
-                                            settings.maximum_faces)
-    stages.done("cameras")
+    progress.done("cameras", mirror_triangles=len(cameras))
 
-    yield 0.2, "cones through the tree"
-    cones = Cones.around(cameras)
-    camera, triangle, counts["nodes_visited"] = tree.trace(cones)
-    counts["pairs"] = len(camera)
-    met, column = np.unique(triangle, return_inverse=True)
-    frames = SceneFrames.of(tree.mesh, met)
-    candidates = overlapping(cameras, frames, camera, column)
-    cameras, candidates, counts["contacts"] = drop_behind_contacts(view, mirror_map, cameras, frames,
-                                                                   tree.mesh.positions, candidates)
-    cameras, candidates, open_ = refine_for_outlines(
-        view, mirror_map, cameras, frames, candidates, OUTLINE_SHARE * settings.tolerance, settings.maximum_faces)
-    cones = Cones.around(cameras)
-    counts["cameras"], counts["candidates"] = len(cameras), len(candidates)
-    stages.done("cones")
-
-    yield 0.4, "projection"
-    positions = tree.mesh.positions
-    images, image_counts = vertex_images(view, mirror_map, cameras, cones, positions, frames, candidates)
-    counts.update(image_counts)
-    stages.done("projection")
-
-    yield 0.6, "clipping"
-    polygons = clip(candidates)
-    polygons, counts["filled"] = fill(mirror_map, cameras, frames, candidates, polygons, open_)
-    nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, positions, candidates, polygons, images)
-    counts["polygons"] = len(polygons.pair)
-    stages.done("clipping")
-
-    yield 0.75, "connection"
-    faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))
-    nodes, faces, counts["caustic_edges"] = split_at_caustics(mirror_map, cameras, frames, nodes, faces)
-    faces = faces.select(~grid.hides_faces(nodes.place, faces.nodes))
-    counts["connected"] = len(faces)
-    stages.done("connection")
-
-    yield 0.8, "refinement"
-    refinement = FaceRefinement(view, mirror_map, cameras, frames, beyond_horizon(mirror_map, cameras),
-                                settings.placement == "VIRTUAL")
-    nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * settings.tolerance,
-                                                    settings.maximum_faces)
-    stages.done("refinement")
+    bounces = []
+    for number in range(settings.depth):
+        start = 0.15 + 0.8 * number / settings.depth
+        last = number + 1 == settings.depth
+        steps = bounce_steps(view, mirror_map, cameras, met, grid, settings, last, progress)
+        bounces.append((yield from _shifted(steps, start, 0.8 / settings.depth)))
+        if not last:
+            mirror_map, cameras = bounced_cameras(view, bounces[-1], met)
+            cameras = cut_at_horizon(view, mirror_map, cameras)
+            progress.done("cameras", bounced_cameras=len(cameras))
+            if not len(cameras):
+                break
 
     yield 0.95, "depth order"
-    mesh = assemble(view, mirror_map, cameras, frames, positions, nodes, faces, settings.placement)
-    counts["faces"], counts["limited"] = len(mesh.triangles), int(mirror_limited) + limited
-    stages.done("placement")
-    return replace(mesh, counts=counts, seconds=stages.seconds,
+    mesh = assemble(view, bounces, met, settings.placement)
+    progress.done("placement", faces=len(mesh.triangles))
+    left = np.concatenate([bounce.left for bounce in bounces])
+    return replace(mesh, counts=progress.counts, seconds=progress.seconds,
                    estimated_error=INSIDE * float(np.percentile(left, 99)))
+
+
+def _shifted(steps: Generator, start: float, share: float) -> Generator[tuple[float, str], None, Bounce]:
+    """The steps of a part of the work, as steps of the whole."""
+    while True:
+        try:
+            done, stage = next(steps)
+        except StopIteration as end:
+            return end.value
+        yield start + share * done, stage
 
 
 def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree) -> None:

@@ -10,6 +10,7 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
+from .mirror_surface import MirrorSurface
 from .vectors import cross, dot, norm, solve
 
 ARRIVED = 1e-10  # of the path and the viewing distance: by how much a ray that Newton's method found may miss
@@ -42,6 +43,14 @@ class ReflectionMap(ABC):
         """Derivatives (3, n) of Q along u and along v."""
 
     @abstractmethod
+    def first(self, face: np.ndarray) -> np.ndarray:
+        """The triangle (n,) of the mirror that the eye sees."""
+
+    @abstractmethod
+    def last(self, face: np.ndarray) -> tuple[MirrorSurface, np.ndarray]:
+        """The surface that the rays leave last, and which of its triangles (n,)."""
+
+    @abstractmethod
     def rays(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
         """R as (3, n), not normalised: as long as the whole way from the eye (1 in orthographic views)."""
 
@@ -50,8 +59,9 @@ class ReflectionMap(ABC):
         """O and R, (3, n) each."""
 
     @abstractmethod
-    def path_before(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
-        """Length (n,) of the way from Q to O, in scene units."""
+    def ways(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+        """Lengths (n,) of the ways from Q to each mirror that the ray meets later, in scene units; the last is that to
+        O. None after one bounce."""
 
     @abstractmethod
     def lifted(self, face: np.ndarray, uv: np.ndarray, slack: float = 0.0) -> np.ndarray:

@@ -37,6 +37,8 @@ class ReflectionMesh:
         Time by stage.
     estimated_error : float
         Estimated 99th percentile of the displacement inside the faces, in pixels, on the safe side.
+    bounces : (m,) int8
+        How many mirrors the light of each face met: 1 for what is seen in the mirror itself, the default.
     """
 
     positions: np.ndarray
@@ -51,3 +53,8 @@ class ReflectionMesh:
     counts: dict = field(default_factory=dict)
     seconds: dict = field(default_factory=dict)
     estimated_error: float = 0.0
+    bounces: np.ndarray | None = None
+
+    def __post_init__(self) -> None:
+        if self.bounces is None:
+            object.__setattr__(self, "bounces", np.ones(len(self.triangles), dtype=np.int8))

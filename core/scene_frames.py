@@ -31,6 +31,7 @@ class SceneFrames:
 
     @classmethod
     def of(cls, mesh: TriangleMesh, triangle: np.ndarray) -> SceneFrames:
+        """Frames of the triangles of a mesh, or of whatever has `positions` and `triangles`."""
         vertices = np.ascontiguousarray(mesh.triangles[triangle].T)
         a, b, c = (rows(mesh.positions[vertices[k]]) for k in range(3))
         u, v = a - c, b - c

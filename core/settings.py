@@ -20,6 +20,8 @@ class Settings:
         virtual image's depth.
     method : {'GENERAL', 'PARALLEL'}
         The general three-ray camera, continuous across mirror triangles, or its discontinuous parallel sibling.
+    depth : int
+        How many bounces from mirror to mirror are followed; 1 for a single reflection.
     maximum_faces : int
         Refinement stops here and the result says so.
     """
@@ -27,6 +29,7 @@ class Settings:
     tolerance: float = 0.5
     placement: str = "LAYERED"
     method: str = "GENERAL"
+    depth: int = 1
     maximum_faces: int = 4_000_000
 
     def __post_init__(self) -> None:
@@ -36,5 +39,7 @@ class Settings:
             raise ValueError(f"The placement must be one of {', '.join(PLACEMENTS)}.")
         if self.method not in METHODS:
             raise ValueError(f"The method must be one of {', '.join(METHODS)}.")
+        if self.depth < 1:
+            raise ValueError("The depth must be at least one bounce.")
         if self.maximum_faces < 1:
             raise ValueError("The maximum number of faces must be at least 1.")

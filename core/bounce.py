@@ -1,0 +1,129 @@
+"""One bounce: from cameras on the last mirror to the faces of all that they see."""
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass, field
+from time import perf_counter
+
+import numpy as np
+
+from .cameras import Cameras
+from .candidates import overlapping
+from .caustics import split_at_caustics
+from .clipping import clip
+from .cones import Cones
+from .connection import Faces, connect
+from .contacts import drop_behind_contacts
+from .face_refinement import FaceRefinement
+from .filling import fill
+from .horizon import beyond_horizon
+from .images import vertex_images
+from .met_surfaces import MetSurfaces
+from .mirror_refinement import refine_mirror
+from .mirror_occlusion import cut_behind_mirrors
+from .mirror_visibility import DepthGrid
+from .nodes import Nodes, polygon_nodes
+from .outline_refinement import refine_for_outlines
+from .reflection_map import ReflectionMap
+from .scene_frames import SceneFrames
+from .settings import Settings
+from .vectors import norm
+from .view import View
+
+MIRROR_SHARE = 0.8  # of the tolerance: what the rays of a camera may stray
+OUTLINE_SHARE = 0.5  # of the tolerance: what a straight outline in a camera may miss
+FACE_SHARE = 0.8  # of the tolerance: what the interpolation inside a face may stray
+
+
+@dataclass
+class Progress:
+    """Seconds by stage, and how much of each part the scene needed, over all bounces."""
+
+    seconds: dict[str, float] = field(default_factory=dict)
+    counts: dict[str, int] = field(default_factory=dict)
+    last: float = field(default_factory=perf_counter)
+
+    def done(self, stage: str, **counts: int) -> None:
+        now = perf_counter()
+        self.seconds[stage] = self.seconds.get(stage, 0.0) + now - self.last
+        self.last = now
+        for name, count in counts.items():
+            self.counts[name] = self.counts.get(name, 0) + int(count)
+
+
+@dataclass(frozen=True)
+class Bounce:
+    """What is seen after one bounce.
+
+    Attributes
+    ----------
+    mirror_map : ReflectionMap
+    cameras : Cameras
+    frames : SceneFrames
+    nodes : Nodes
+    faces : Faces
+    left : (e,) float64
+        Displacements estimated on the edges, in pixels.
+    """
+
+    mirror_map: ReflectionMap
+    cameras: Cameras
+    frames: SceneFrames
+    nodes: Nodes
+    faces: Faces
+    left: np.ndarray
+
+
+def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces, grid: DepthGrid,
+                 settings: Settings, last: bool, progress: Progress) -> Generator[tuple[float, str], None, Bounce]:
+    """All that the cameras see, in steps: yields (share of the bounce done, stage that comes next); `last` tells that
+    light which meets a mirror goes no further."""
+    tolerance, first_bounce = settings.tolerance, cameras.origins is cameras.places
+    cameras = cameras.select(met.touched_by(mirror_map, cameras, not last))
+    centre, radius = met.bounds
+    reach = float(norm(cameras.origins - centre[:, None]).max(initial=0.0) + radius)
+    cameras, mirror_limited = refine_mirror(view, mirror_map, cameras, MIRROR_SHARE * tolerance, reach,
+                                            settings.maximum_faces)
+    progress.done("cameras")
+
+    yield 0.1, "cones through the tree"
+    camera, triangle, visited = met.trace(mirror_map, cameras, Cones.around(cameras))
+    seen, column = np.unique(triangle, return_inverse=True)
+    frames = SceneFrames.of(met, seen)
+    candidates = met.without_touching(mirror_map, cameras, frames, overlapping(cameras, frames, camera, column))
+    if last:
+        candidates = met.hiding_something(frames, candidates)
+    contacts = 0
+    if first_bounce:
+        cameras, candidates, contacts = drop_behind_contacts(view, mirror_map, cameras, frames, met.positions,
+                                                             candidates)
+    cameras, candidates, open_ = refine_for_outlines(
+        view, mirror_map, cameras, frames, candidates, OUTLINE_SHARE * tolerance, settings.maximum_faces, met)
+    progress.done("cones", nodes_visited=visited, pairs=len(camera), contacts=contacts, cameras=len(cameras),
+                  candidates=len(candidates))
+
+    yield 0.35, "clipping"
+    polygons, filled = fill(mirror_map, cameras, frames, candidates, clip(candidates), open_)
+    polygons, occluded = cut_behind_mirrors(cameras, frames, met, candidates, polygons)
+    if last:
+        polygons = polygons.select(~met.shows_mirror(frames)[candidates.column[polygons.pair]])
+    progress.done("clipping", polygons=len(polygons.pair), filled=filled, occluded=occluded)
+
+    yield 0.5, "projection"
+    seen = candidates.select(np.unique(polygons.pair))
+    images, image_counts = vertex_images(view, mirror_map, cameras, Cones.around(cameras), met.positions, frames, seen)
+    nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, met.positions, candidates, polygons, images)
+    progress.done("projection", **image_counts)
+
+    yield 0.75, "connection"
+    faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))
+    nodes, faces, caustic = split_at_caustics(mirror_map, cameras, frames, nodes, faces)
+    faces = faces.select(~grid.hides_faces(nodes.place, faces.nodes))
+    progress.done("connection", connected=len(faces), caustic_edges=caustic)
+
+    yield 0.8, "refinement"
+    refinement = FaceRefinement(view, mirror_map, cameras, frames, beyond_horizon(mirror_map, cameras),
+                                settings.placement == "VIRTUAL")
+    nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * tolerance, settings.maximum_faces)
+    progress.done("refinement", limited=int(mirror_limited) + limited)
+    return Bounce(mirror_map, cameras, frames, nodes, faces, left)
