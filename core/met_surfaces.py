@@ -16,9 +16,10 @@ from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
 from .triangle_mesh import TriangleMesh
 from .subdivision import shared_edges
-from .vectors import cross, dot, rows
+from .vectors import cross, dot, norm, rows
 
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
+BEHIND = 0.02  # of a triangle's size
 FAR = 1e12  # viewing distances: a ray that meets a plane only there is parallel to it
 
 _PROBES = np.array([(i, j, 4 - i - j) for i in range(5) for j in range(5 - i)]).T / 4.0
@@ -127,13 +128,19 @@ class MetSurfaces:
         own = surface.corners(face)
         other = np.take(self._mirror_corners, frames.triangle[candidates.column[pair]] - self.diffuse, axis=1)
         apart = np.abs(own[:, :, None] - np.swapaxes(other, 1, 2)[:, None]).max(axis=0)
-        pair = pair[(apart <= ABOVE * self.size).any(axis=(0, 1))]
+        touching = (apart <= ABOVE * self.size).any(axis=(0, 1))
+        pair = pair[touching]
         corners = cameras.corners[candidates.camera[pair]].T
         origins, rays = (np.einsum("xkn,kp->xpn", np.take(values, corners, axis=1), _PROBES).reshape(3, -1)
                          for values in (cameras.origins, cameras.rays))
         column = np.tile(candidates.column[pair], _PROBES.shape[1])
         s = np.minimum(frames.distance(column, origins, rays), FAR)
-        seen = (s > ABOVE) & (frames.weights(column, origins + s * rays) > ABOVE).all(axis=0)
+        near = np.full(len(pair), ABOVE * self.size)
+        if cameras.origins is not cameras.places:
+            # later cameras follow the sides of their triangles only nearly, and may begin a little behind the next
+            near = BEHIND * np.ptp(other, axis=2).max(axis=0)[touching]
+        ahead = s * norm(rays) > np.tile(near, _PROBES.shape[1])
+        seen = ahead & (frames.weights(column, origins + s * rays) > ABOVE).all(axis=0)
         kept = np.ones(len(candidates), dtype=bool)
         if not len(pair):
             return candidates
