@@ -25,6 +25,8 @@ from .mirror_refinement import refine_mirror
 from .mirror_visibility import without_hidden
 from .nodes import polygon_nodes
 from .outline_refinement import refine_for_outlines
+from .point_tree import PointTree
+from .points import reflected_points
 from .reflection_mesh import ReflectionMesh
 from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
@@ -43,7 +45,7 @@ class ReflectionError(ValueError):
     """The input cannot give a reflection; the message is one sentence for the user."""
 
 
-def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
+def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree,
             settings: Settings = Settings()) -> ReflectionMesh:
     """The reflection of a diffuse scene in a mirror as the view sees it.
 
@@ -52,8 +54,9 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
     view : View
     mirror : TriangleMesh
         In world space, with shading normals. Two-sided.
-    scene : TriangleMesh or SceneTree
-        In world space; a tree built before saves the time to build it.
+    scene : TriangleMesh or SceneTree or PointTree
+        In world space; a tree built before saves the time to build it. The method POINTS takes a `PointTree`, and
+        scenes of vertices without faces.
     settings : Settings
 
     Returns
@@ -87,14 +90,15 @@ class _Stages:
         self._last = now
 
 
-def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
+def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree,
                      settings: Settings = Settings()) -> Generator[tuple[float, str], None, ReflectionMesh]:
     """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end."""
     stages, counts = _Stages(), {}
-    _check(view, mirror, scene)
+    _check(view, mirror, scene, settings.method)
     yield 0.0, "k-d tree"
-    tree = scene if isinstance(scene, SceneTree) else SceneTree.build(scene)
-    if not len(tree.leaf_triangles):
+    kind = PointTree if settings.method == "POINTS" else SceneTree
+    tree = scene if isinstance(scene, kind) else kind.build(getattr(scene, "mesh", scene))
+    if not len(tree):
         raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
     stages.done("tree")
 
@@ -115,6 +119,11 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     cameras, mirror_limited = refine_mirror(view, mirror_map, cameras, MIRROR_SHARE * settings.tolerance, reach,
                                             settings.maximum_faces)
     stages.done("cameras")
+
+    if settings.method == "POINTS":
+        mesh = yield from reflected_points(view, mirror_map, cameras, tree, grid, settings.placement)
+        stages.done("points")
+        return replace(mesh, counts=counts | mesh.counts | {"limited": int(mirror_limited)}, seconds=stages.seconds)
 
     yield 0.2, "cones through the tree"
     cones = Cones.around(cameras)
@@ -166,10 +175,10 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
                    estimated_error=INSIDE * float(np.percentile(left, 99)))
 
 
-def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree) -> None:
+def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, method: str) -> None:
     if not len(mirror.triangles):
         raise ReflectionError("The mirror has no faces; give it faces or choose another mirror.")
-    if isinstance(scene, TriangleMesh) and not len(scene.triangles):
+    if isinstance(scene, TriangleMesh) and not len(scene.triangles) and method != "POINTS":
         raise ReflectionError("The diffuse objects have no faces; select objects with faces to reflect.")
     corners = mirror.positions[mirror.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

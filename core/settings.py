@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 PLACEMENTS = ("LAYERED", "SURFACE", "VIRTUAL")
-METHODS = ("GENERAL", "PARALLEL")
+METHODS = ("GENERAL", "PARALLEL", "POINTS")
 
 
 @dataclass(frozen=True)
@@ -18,8 +18,9 @@ class Settings:
     placement : {'LAYERED', 'SURFACE', 'VIRTUAL'}
         Where the mesh lies: slid a little towards the eye in the order of path lengths, on the mirror, or at the
         virtual image's depth.
-    method : {'GENERAL', 'PARALLEL'}
-        The general three-ray camera, continuous across mirror triangles, or its discontinuous parallel sibling.
+    method : {'GENERAL', 'PARALLEL', 'POINTS'}
+        The general three-ray camera, continuous across mirror triangles, or its discontinuous parallel sibling; or
+        every image of a diffuse vertex as a flat disc, for scenes whose triangles are smaller than a pixel.
     maximum_faces : int
         Refinement stops here and the result says so.
     """

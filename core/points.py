@@ -1,0 +1,94 @@
+"""Point-based rendering: every image of a diffuse vertex as a flat disc, for scenes finer than the picture.
+
+Nothing is clipped and nothing joined: where triangles are smaller than a pixel, what lies inside them cannot be seen.
+"""
+from __future__ import annotations
+
+from collections.abc import Generator
+
+import numpy as np
+
+from .cameras import Cameras
+from .cones import Cones
+from .discs import LARGEST, Discs, flat_discs, picture_ellipses
+from .images import VertexImages, images_of_pairs
+from .magnification import Magnification
+from .mirror_map import MirrorMap
+from .mirror_visibility import DepthGrid
+from .nodes import Nodes
+from .placement import place as placed
+from .point_tree import PointTree
+from .reflection_mesh import ReflectionMesh
+from .vectors import norm, rows
+from .view import View
+
+PAIRS_AT_ONCE = 131072
+SAME_IMAGE = 0.05  # pixels: closer images of one vertex with one parity are one image, found from two cameras
+ON_CAUSTIC = 1e-9  # magnification
+
+
+def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: PointTree, grid: DepthGrid,
+                     placement: str) -> Generator[tuple[float, str], None, ReflectionMesh]:
+    """Every image of the tree's vertices in the cameras, once, as a point with its disc.
+
+    Yields (fraction of the whole work, stage that comes next) and returns the result.
+    """
+    yield 0.2, "cones through the tree"
+    cones = Cones.around(cameras)
+    pairs = tree.trace(cones, Magnification.of(view, cameras))
+    counts = {"nodes_visited": pairs.visited, "pairs": len(pairs.camera), "stood_for": pairs.stood_for,
+              "projections": 0, "roots": 0}
+    found, reach = [], []
+    positions = tree.mesh.positions
+    for start in range(0, max(len(pairs.camera), 1), PAIRS_AT_ONCE):
+        yield 0.3 + 0.4 * start / max(len(pairs.camera), 1), "projection"
+        part = slice(start, start + PAIRS_AT_ONCE)
+        images, solved, pair = images_of_pairs(view, mirror_map, cameras, positions, pairs.camera[part],
+                                               pairs.vertex[part])
+        found.append(images)
+        reach.append(pairs.stood[part][pair])
+        for name in ("projections", "roots"):
+            counts[name] += solved[name]
+    images, reach = VertexImages.joined(found), np.concatenate(reach)
+    face = cameras.face[images.camera]
+    seen = ~grid.hides(images.place)
+    images, reach, face = images.select(seen), reach[seen], face[seen]
+    turned = mirror_map.turned(face, mirror_map.coordinates(face, images.place), images.distance)
+    parity = np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8)
+    once, reach = _each_once(images, parity, reach)
+    images, face, parity = images.select(once), face[once], parity[once]
+    counts["images"] = len(once)
+
+    yield 0.75, "discs"
+    uv = mirror_map.coordinates(face, images.place)
+    alone = reach == 0.0
+    normal = np.where(alone, tree.normal[:, images.vertex], 0.0)
+    axes, wanted = picture_ellipses(view, mirror_map, face, uv, images.distance, normal,
+                                    tree.reach[images.vertex] + reach)
+    counts["coarse"] = int((wanted > LARGEST).sum())
+    point = rows(positions[images.vertex])
+    path = norm(point - images.place)
+    drawn = placed(view, Nodes(images.place, point, images.distance), path, placement)
+    slope = None if placement == "VIRTUAL" else mirror_map.face_normal[:, face]
+    flat, radius = flat_discs(view, images.place, axes, slope, drawn)
+    return ReflectionMesh(
+        positions=drawn.T, triangles=np.zeros((0, 3), dtype=np.int64), reflected_position=point.T,
+        mirror_position=images.place.T, path_length=path, image_parity=parity,
+        source_face=np.zeros(0, dtype=np.int64), source_weights=np.zeros((0, 3, 3)),
+        mirror_face=np.zeros(0, dtype=np.int64), counts=counts,
+        estimated_error=float(np.percentile(np.minimum(wanted, LARGEST), 99)) if len(wanted) else 0.0,
+        discs=Discs(images.vertex, face, np.stack((1.0 - uv[0] - uv[1], *uv), axis=1), radius, flat))
+
+
+def _each_once(images: VertexImages, parity: np.ndarray, reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Indices of the images without those that are there again, from a neighbouring camera or because the vertex also
+    stands for others; and the largest reach of each."""
+    order = np.lexsort((images.pixel[:, 1], images.pixel[:, 0], parity, images.vertex))
+    vertex, sign, pixel = images.vertex[order], parity[order], images.pixel[order]
+    again = np.zeros(len(order), dtype=bool)
+    same = (vertex[1:] == vertex[:-1]) & (sign[1:] == sign[:-1])
+    again[1:] = same & (np.linalg.norm(pixel[1:] - pixel[:-1], axis=1) < SAME_IMAGE)
+    first = np.flatnonzero(~again)
+    if not len(first):
+        return order, reach
+    return order[first], np.maximum.reduceat(reach[order], first)
