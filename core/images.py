@@ -78,7 +78,8 @@ def vertex_images(view: View, mirror_map: MirrorMap, cameras: Cameras, cones: Co
     points = positions[vertex].T
     touching = cones.touch(camera, points, np.zeros(len(camera)))
     images, counts, _ = images_of_pairs(view, mirror_map, cameras, positions, camera[touching], vertex[touching])
-    images = _each_once(images.select(np.lexsort((images.camera, images.vertex))))
+    images = images.select(np.lexsort((images.camera, images.vertex)))
+    images = images.select(~repeated(images))
     counts["images"] = len(images.vertex)
     return images, counts
 
@@ -112,8 +113,8 @@ def images_of_pairs(view: View, mirror_map: MirrorMap, cameras: Cameras, positio
     return images, counts, found.pair[kept]
 
 
-def _each_once(images: VertexImages) -> VertexImages:
-    """Without the images that an earlier camera already found: those on a shared edge or mirror vertex."""
+def repeated(images: VertexImages) -> np.ndarray:
+    """Which images, sorted by vertex, an earlier camera already found: those on a shared edge or mirror vertex."""
     again = np.zeros(len(images.vertex), dtype=bool)
     for gap in range(1, 9):
         same = np.flatnonzero(images.vertex[gap:] == images.vertex[:-gap]) + gap
@@ -121,4 +122,4 @@ def _each_once(images: VertexImages) -> VertexImages:
             break
         away = np.linalg.norm(images.pixel[same] - images.pixel[same - gap], axis=1)
         again[same[away < SAME_IMAGE]] = True
-    return images.select(np.flatnonzero(~again))
+    return again

@@ -11,7 +11,7 @@ import numpy as np
 from .cameras import Cameras
 from .cones import Cones
 from .discs import LARGEST, Discs, flat_discs, picture_ellipses
-from .images import VertexImages, images_of_pairs
+from .images import VertexImages, images_of_pairs, repeated
 from .magnification import Magnification
 from .mirror_map import MirrorMap
 from .mirror_visibility import DepthGrid
@@ -19,16 +19,17 @@ from .nodes import Nodes
 from .placement import place as placed
 from .point_tree import PointTree
 from .reflection_mesh import ReflectionMesh
+from .settling import neighbours, settle
+from .triangle_mesh import TriangleMesh
 from .vectors import norm, rows
 from .view import View
 
 PAIRS_AT_ONCE = 131072
-SAME_IMAGE = 0.05  # pixels: closer images of one vertex with one parity are one image, found from two cameras
 ON_CAUSTIC = 1e-9  # magnification
 
 
-def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: PointTree, grid: DepthGrid,
-                     placement: str) -> Generator[tuple[float, str], None, ReflectionMesh]:
+def reflected_points(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, cameras: Cameras, tree: PointTree,
+                     grid: DepthGrid, placement: str) -> Generator[tuple[float, str], None, ReflectionMesh]:
     """Every image of the tree's vertices in the cameras, once, as a point with its disc.
 
     Yields (fraction of the whole work, stage that comes next) and returns the result.
@@ -39,7 +40,7 @@ def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: 
     counts = {"nodes_visited": pairs.visited, "pairs": len(pairs.camera), "stood_for": pairs.stood_for,
               "projections": 0, "roots": 0}
     found, reach = [], []
-    positions = tree.mesh.positions
+    positions, across = tree.mesh.positions, neighbours(mirror)
     for start in range(0, max(len(pairs.camera), 1), PAIRS_AT_ONCE):
         yield 0.3 + 0.4 * start / max(len(pairs.camera), 1), "projection"
         part = slice(start, start + PAIRS_AT_ONCE)
@@ -51,16 +52,20 @@ def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: 
             counts[name] += solved[name]
     images, reach = VertexImages.joined(found), np.concatenate(reach)
     face = cameras.face[images.camera]
-    seen = ~grid.hides(images.place)
-    images, reach, face = images.select(seen), reach[seen], face[seen]
-    turned = mirror_map.turned(face, mirror_map.coordinates(face, images.place), images.distance)
+    face, uv, distance, real = settle(mirror_map, across, face, mirror_map.coordinates(face, images.place),
+                                      images.distance, rows(positions[images.vertex]))
+    place = mirror_map.places(face, uv)
+    images = VertexImages(images.vertex, images.camera, distance, place, view.pixels(place.T))
+    # of one image, that which stands for most is kept
+    order = np.lexsort((images.camera, -reach, images.vertex))
+    order = order[(real & ~grid.hides(place))[order]]
+    order = order[~repeated(images.select(order))]
+    images, reach, face, uv = images.select(order), reach[order], face[order], uv[:, order]
+    turned = mirror_map.turned(face, uv, images.distance)
     parity = np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8)
-    once, reach = _each_once(images, parity, reach)
-    images, face, parity = images.select(once), face[once], parity[once]
-    counts["images"] = len(once)
+    counts["images"] = len(order)
 
     yield 0.75, "discs"
-    uv = mirror_map.coordinates(face, images.place)
     alone = reach == 0.0
     normal = np.where(alone, tree.normal[:, images.vertex], 0.0)
     axes, wanted = picture_ellipses(view, mirror_map, face, uv, images.distance, normal,
@@ -79,16 +84,3 @@ def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: 
         estimated_error=float(np.percentile(np.minimum(wanted, LARGEST), 99)) if len(wanted) else 0.0,
         discs=Discs(images.vertex, face, np.stack((1.0 - uv[0] - uv[1], *uv), axis=1), radius, flat))
 
-
-def _each_once(images: VertexImages, parity: np.ndarray, reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Indices of the images without those that are there again, from a neighbouring camera or because the vertex also
-    stands for others; and the largest reach of each."""
-    order = np.lexsort((images.pixel[:, 1], images.pixel[:, 0], parity, images.vertex))
-    vertex, sign, pixel = images.vertex[order], parity[order], images.pixel[order]
-    again = np.zeros(len(order), dtype=bool)
-    same = (vertex[1:] == vertex[:-1]) & (sign[1:] == sign[:-1])
-    again[1:] = same & (np.linalg.norm(pixel[1:] - pixel[:-1], axis=1) < SAME_IMAGE)
-    first = np.flatnonzero(~again)
-    if not len(first):
-        return order, reach
-    return order[first], np.maximum.reduceat(reach[order], first)

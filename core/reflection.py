@@ -121,7 +121,7 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     stages.done("cameras")
 
     if settings.method == "POINTS":
-        mesh = yield from reflected_points(view, mirror_map, cameras, tree, grid, settings.placement)
+        mesh = yield from reflected_points(view, mirror, mirror_map, cameras, tree, grid, settings.placement)
         stages.done("points")
         return replace(mesh, counts=counts | mesh.counts | {"limited": int(mirror_limited)}, seconds=stages.seconds)
 
