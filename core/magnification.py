@@ -2,8 +2,8 @@
 
 At the distance s a camera's triangle has moved to corners V_i + s R_i. Per pixel of the picture a point of it moves by
 A(s) = A0 + s A1 across the rays, both constant in a camera, so that a thing of size r has an image of at most
-r / sigma(s) pixels, with sigma the least singular value of A. Over an interval of s it falls by at most |A1| times the
-interval.
+2 r / sigma(s) pixels, with sigma the least singular value of A. Over an interval of s it falls by at most |A1| times
+the interval; in a cone of half angle t, where rays lean against the axis, by tan(t) times the part of A along the axis.
 """
 from __future__ import annotations
 
@@ -25,6 +25,8 @@ class Magnification:
     ----------
     still, mixed, moving : (3, n) float64
         Entries 00, 01, 11 of A0'A0, A0'A1 + A1'A0 and A1'A1.
+    along : (2, n) float64
+        Lengths of the parts of A0 and A1 along the axis.
     speed : (n,) float64
         The least |R| of the camera's rays.
     """
@@ -32,6 +34,7 @@ class Magnification:
     still: np.ndarray
     mixed: np.ndarray
     moving: np.ndarray
+    along: np.ndarray
     speed: np.ndarray
 
     @classmethod
@@ -43,15 +46,16 @@ class Magnification:
         with np.errstate(divide="ignore", invalid="ignore"):
             p, q = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
             area = p[0] * q[1] - p[1] * q[0]
-            columns = []
+            columns, along = [], []
             for corners in (places, rays):
                 e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
                 right, up = (e * q[1] - f * p[1]) / area, (f * p[0] - e * q[0]) / area
+                along.append(np.hypot(dot(right, axis), dot(up, axis)))
                 columns.append([move - dot(move, axis) * axis for move in (right, up)])
             (a, b), (c, d) = columns
             return cls(np.stack((dot(a, a), dot(a, b), dot(b, b))),
                        np.stack((2.0 * dot(a, c), dot(a, d) + dot(b, c), 2.0 * dot(b, d))),
-                       np.stack((dot(c, c), dot(c, d), dot(d, d))), norm(rays).min(axis=0))
+                       np.stack((dot(c, c), dot(c, d), dot(d, d))), np.stack(along), norm(rays).min(axis=0))
 
     def pixels(self, cones: Cones, camera: np.ndarray, sphere: np.ndarray) -> np.ndarray:
         """No more than this is the diameter of the image of each sphere (4, n) in its camera; infinite where nothing
@@ -63,7 +67,10 @@ class Magnification:
         gram = np.take(self.still, camera, axis=1) + s * (np.take(self.mixed, camera, axis=1) + s * moving)
         least = np.sqrt(np.maximum(_least(gram), 0.0)) - room * np.sqrt(moving[0] + moving[2])
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(least > 0.0, 2.0 * np.abs(sphere[3]) / least, np.inf)
+            lean = np.where(cones.cosine[camera] > 0.0, cones.sine[camera] / cones.cosine[camera], np.inf)
+            along = np.take(self.along, camera, axis=1)
+            least -= lean * (along[0] + (s + room) * along[1])
+            return np.where(least > 0.0, 2.0 * (1.0 + lean) * np.abs(sphere[3]) / least, np.inf)
 
 
 def _least(gram: np.ndarray) -> np.ndarray:

@@ -11,11 +11,12 @@ import numpy as np
 
 from .cones import Cones
 from .magnification import Magnification
-from .scene_tree import CONES_AT_ONCE, FIRST_LEVEL, STRIDE, median_leaves, node_spheres
+from .scene_tree import FIRST_LEVEL, STRIDE, median_leaves, node_spheres
 from .triangle_mesh import TriangleMesh
 from .vectors import norm, ranges, rows, unit
 
 BUCKET = 4
+CONES_AT_ONCE = 1024
 SMALL = 1.0  # pixels: the image of a node that one of its vertices may stand for
 
 
@@ -105,10 +106,12 @@ class PointTree:
                 touching = np.flatnonzero(cones.touch(cone, sphere[:3], sphere[3]))
                 cone, node, sphere = cone[touching], node[touching], sphere[:, touching]
                 small = magnification.pixels(cones, cone, sphere) < SMALL
-                nodes, inverse = np.unique(node[small], return_inverse=True)
+                chosen = np.zeros(2**level, dtype=bool)
+                chosen[node[small]] = True
+                nodes = np.flatnonzero(chosen)
+                inverse = (np.cumsum(chosen) - 1)[node[small]]
                 begin, end = self._runs(level, nodes)
-                np.add.at(change, begin, 1)
-                np.add.at(change, end, -1)
+                change += np.bincount(begin, minlength=len(change)) - np.bincount(end, minlength=len(change))
                 vertex, radius = self._representatives(level, nodes)
                 cameras.append(cone[small])
                 vertices.append(vertex[inverse])

@@ -8,6 +8,7 @@ from collections.abc import Generator
 
 import numpy as np
 
+from .beams import Beams
 from .cameras import Cameras
 from .cones import Cones
 from .discs import LARGEST, Discs, flat_discs, picture_ellipses
@@ -39,15 +40,16 @@ def reflected_points(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, ca
     pairs = tree.trace(cones, Magnification.of(view, cameras))
     counts = {"nodes_visited": pairs.visited, "pairs": len(pairs.camera), "stood_for": pairs.stood_for,
               "projections": 0, "roots": 0}
-    found, reach = [], []
+    found, reach, beams = [], [], Beams.of(cameras, cones)
     positions, across = tree.mesh.positions, neighbours(mirror)
     for start in range(0, max(len(pairs.camera), 1), PAIRS_AT_ONCE):
         yield 0.3 + 0.4 * start / max(len(pairs.camera), 1), "projection"
         part = slice(start, start + PAIRS_AT_ONCE)
-        images, solved, pair = images_of_pairs(view, mirror_map, cameras, positions, pairs.camera[part],
-                                               pairs.vertex[part])
+        camera, vertex, stood = pairs.camera[part], pairs.vertex[part], pairs.stood[part]
+        held = beams.hold(camera, rows(positions[vertex]))
+        images, solved, pair = images_of_pairs(view, mirror_map, cameras, positions, camera[held], vertex[held])
         found.append(images)
-        reach.append(pairs.stood[part][pair])
+        reach.append(stood[held][pair])
         for name in ("projections", "roots"):
             counts[name] += solved[name]
     images, reach = VertexImages.joined(found), np.concatenate(reach)
