@@ -93,6 +93,8 @@ def picture_ellipses(view: View, mirror_map: MirrorMap, face: np.ndarray, uv: np
         apart = sum(norm(part - dot(part, ahead) * ahead) for part in parts)
         motion[0] = np.maximum(motion[0], apart / MAGNIFIED)
         length = reach / np.maximum(motion, 1e-300)
+    # beyond the horizon rays are made up, and what they magnify is nothing
+    length[:, mirror_map.lifted(face, uv)] = 0.0
     wanted = length.max(axis=0)
     return direction * np.clip(length, SMALLEST, LARGEST), wanted
 
