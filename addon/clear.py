@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import bpy
 
+from .disc_nodes import hide_discs
 from .roles import results_of
 from .write_object import show_to_camera
 
@@ -24,6 +25,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
         mirror, mesh = obj.reflection_mesh.mirror, obj.data
         if obj == active and mirror is not None and mirror.name in layer.objects:
             layer.objects.active = mirror
+        hide_discs(obj)
         bpy.data.objects.remove(obj)
         if mesh.users == 0:
             bpy.data.meshes.remove(mesh)

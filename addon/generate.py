@@ -15,6 +15,7 @@ from .roles import Participants, choose
 from .stepped_operator import SteppedOperator
 from .write_mesh import mesh_arrays
 from .write_object import origin_of, write_object
+from .write_points import point_arrays
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
@@ -29,10 +30,12 @@ class Outcome:
 
     def summary(self, seconds: float) -> str:
         """One line on what was generated."""
+        points = sum(obj.reflection_mesh.points for obj, _ in self.results)
         faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
+        size = f"{points} points" if points else f"{faces} faces"
         error = max(result.estimated_error for _, result in self.results)
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
-        return f"{names}: {faces} faces, estimated error {error:.2f} px, {seconds:.2f} s"
+        return f"{names}: {size}, estimated error {error:.2f} px, {seconds:.2f} s"
 
 
 def generation(context: bpy.types.Context, chosen: Participants,
@@ -56,7 +59,8 @@ def generation(context: bpy.types.Context, chosen: Participants,
     surfaces = [read_mirror(depsgraph, mirror) for mirror in chosen.mirrors]
     scene = read_scene(depsgraph, chosen.diffuse)
     yield 0.5 * READING, "Building the tree"
-    tree = core.SceneTree.build(scene.mesh)
+    points = settings.method == "POINTS"
+    tree = (core.PointTree if points else core.SceneTree).build(scene.mesh)
     prepared, refused = [], []
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
         steps = core.reflection_steps(view, surface.mesh, tree, settings)
@@ -65,18 +69,31 @@ def generation(context: bpy.types.Context, chosen: Participants,
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             continue
-        if not len(result.triangles):
+        if not len(result.positions):
             refused.append(f"{mirror.name}: The camera sees none of the diffuse objects in this mirror; move the "
                            "camera, the mirror or the objects.")
             continue
         origin = origin_of(surface.mesh)
-        prepared.append((mirror, origin, mesh_arrays(result, scene, surface.triangle, origin), result))
+        if points:
+            arrays = point_arrays(result, scene, surface.triangle, origin, view)
+            remarks += _coarse(mirror, result)
+        else:
+            arrays = mesh_arrays(result, scene, surface.triangle, origin)
+        prepared.append((mirror, origin, arrays, result))
     if not prepared:
         raise core.ReflectionError(refused[0])
     yield 1.0, "Writing"
     results = [(write_object(context, mirror, chosen.diffuse, origin, arrays, result, view, settings.placement), result)
                for mirror, origin, arrays, result in prepared]
     return Outcome(results, remarks + refused)
+
+
+def _coarse(mirror: bpy.types.Object, result: core.ReflectionMesh) -> list:
+    """A remark where points are too far apart for discs to close the surface between them."""
+    if not result.counts["coarse"]:
+        return []
+    return [f"{mirror.name}: {result.counts['coarse']} of {len(result.positions)} points are too far from their "
+            "neighbours to be discs without gaps: subdivide the diffuse objects, or choose the method General."]
 
 
 def _within(steps: Generator, name: str, index: int, count: int) -> Generator[tuple[float, str], None, object]:

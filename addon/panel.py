@@ -44,7 +44,8 @@ def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     mirror = record.mirror.name if record.mirror else "removed"
     count = len(record.sources)
     box.label(text=f"Mirror: {mirror}", translate=False)
-    box.label(text=f"{count} source{'' if count == 1 else 's'}, {record.faces} faces")
+    size = f"{record.points} points" if record.points else f"{record.faces} faces"
+    box.label(text=f"{count} source{'' if count == 1 else 's'}, {size}")
     box.label(text=f"Error about {record.estimated_error:.2f} px at {record.resolution[0]} x {record.resolution[1]}")
 
 

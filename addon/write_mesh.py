@@ -84,12 +84,12 @@ def _write_materials(mesh: bpy.types.Mesh, arrays: dict) -> None:
 def _write_layers(mesh: bpy.types.Mesh, arrays: dict) -> None:
     """UV maps and colour attributes, the active ones first: they must not fall to Blender's limit of UV maps."""
     taken = {name for name, *_ in arrays["attributes"]}
-    for name, values in _first(arrays["uv_maps"], arrays["active_uv"])[:MOST_UV_MAPS]:
+    for name, values in first(arrays["uv_maps"], arrays["active_uv"])[:MOST_UV_MAPS]:
         if name not in taken:
             taken.add(name)
             layer = mesh.uv_layers.new(name=name, do_init=False)
             layer.uv.foreach_set("vector", values.reshape(-1))
-    for name, (kind, values) in _first(arrays["colours"], arrays["active_colour"]):
+    for name, (kind, values) in first(arrays["colours"], arrays["active_colour"]):
         if name not in taken:
             attribute = mesh.color_attributes.new(name, kind, "CORNER")
             attribute.data.foreach_set("color", values.reshape(-1))
@@ -99,5 +99,6 @@ def _write_layers(mesh: bpy.types.Mesh, arrays: dict) -> None:
         mesh.color_attributes.active_color_index = mesh.color_attributes.render_color_index = 0
 
 
-def _first(entries: dict, name: str) -> list:
+def first(entries: dict, name: str) -> list:
+    """The entries as pairs, the one of that name first."""
     return sorted(entries.items(), key=lambda entry: entry[0] != name)

@@ -8,8 +8,10 @@ import numpy as np
 from mathutils import Matrix
 
 from ..core import ReflectionMesh, TriangleMesh, View
+from .disc_nodes import hide_discs, show_discs
 from .roles import results_of
 from .write_mesh import write_mesh
+from .write_points import write_points
 
 RAYS = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter", "visible_shadow")
 
@@ -36,7 +38,11 @@ def write_object(context: bpy.types.Context, mirror: bpy.types.Object, sources: 
         _link_beside(context, obj, mirror)
         for rays in RAYS:
             setattr(obj, rays, False)
-    write_mesh(obj.data, arrays)
+    if result.discs is None:
+        hide_discs(obj)
+        write_mesh(obj.data, arrays)
+    else:
+        show_discs(obj, write_points(obj.data, arrays))
     obj.matrix_world = Matrix.Translation(origin)
     _remember(obj, mirror, sources, result, view)
     if placement == "VIRTUAL":
@@ -67,6 +73,7 @@ def _remember(obj: bpy.types.Object, mirror: bpy.types.Object, sources: list, re
     record.counts = json.dumps({name: int(count) for name, count in result.counts.items()})
     record.resolution = view.resolution
     record.faces = len(obj.data.polygons)
+    record.points = 0 if result.discs is None else len(result.positions)
 
 
 def _hide_from_camera(mirror: bpy.types.Object) -> None:

@@ -1,4 +1,6 @@
 """The forward reflection method on plain NumPy arrays; knows nothing of Blender."""
+from .discs import Discs
+from .point_tree import PointTree
 from .projection import Images, project
 from .reflection import ReflectionError, reflect, reflection_steps
 from .reflection_mesh import ReflectionMesh
@@ -7,5 +9,5 @@ from .settings import METHODS, PLACEMENTS, Settings
 from .triangle_mesh import TriangleMesh
 from .view import View
 
-__all__ = ["Images", "METHODS", "PLACEMENTS", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings",
-           "TriangleMesh", "View", "project", "reflect", "reflection_steps"]
+__all__ = ["Discs", "Images", "METHODS", "PLACEMENTS", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree",
+           "Settings", "TriangleMesh", "View", "project", "reflect", "reflection_steps"]

@@ -79,12 +79,7 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     """All that the cameras see, in steps: yields (share of the bounce done, stage that comes next); `last` tells that
     light which meets a mirror goes no further."""
     tolerance, first_bounce = settings.tolerance, cameras.origins is cameras.places
-    cameras = cameras.select(met.touched_by(mirror_map, cameras, not last))
-    centre, radius = met.bounds
-    reach = float(norm(cameras.origins - centre[:, None]).max(initial=0.0) + radius)
-    cameras, mirror_limited = refine_mirror(view, mirror_map, cameras, MIRROR_SHARE * tolerance, reach,
-                                            settings.maximum_faces)
-    progress.done("cameras")
+    cameras = refined(view, mirror_map, cameras, met, settings, last, progress)
 
     yield 0.1, "cones through the tree"
     camera, triangle, visited = met.trace(mirror_map, cameras, Cones.around(cameras))
@@ -125,5 +120,17 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     refinement = FaceRefinement(view, mirror_map, cameras, frames, beyond_horizon(mirror_map, cameras),
                                 settings.placement == "VIRTUAL")
     nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * tolerance, settings.maximum_faces)
-    progress.done("refinement", limited=int(mirror_limited) + limited)
+    progress.done("refinement", limited=limited)
     return Bounce(mirror_map, cameras, frames, nodes, faces, left)
+
+
+def refined(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces, settings: Settings, last: bool,
+            progress: Progress) -> Cameras:
+    """The cameras that may see something, split where their rays stray from the true map."""
+    cameras = cameras.select(met.touched_by(mirror_map, cameras, not last))
+    centre, radius = met.bounds
+    reach = float(norm(cameras.origins - centre[:, None]).max(initial=0.0) + radius)
+    cameras, limited = refine_mirror(view, mirror_map, cameras, MIRROR_SHARE * settings.tolerance, reach,
+                                     settings.maximum_faces)
+    progress.done("cameras", limited=limited)
+    return cameras

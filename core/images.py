@@ -1,7 +1,8 @@
 """Images of the diffuse vertices in the cameras: the cubic's roots, brought onto the true reflection map."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -36,6 +37,15 @@ class VertexImages:
     place: np.ndarray
     pixel: np.ndarray
 
+    def select(self, chosen: np.ndarray) -> VertexImages:
+        return VertexImages(self.vertex[chosen], self.camera[chosen], self.distance[chosen], self.place[:, chosen],
+                            self.pixel[chosen])
+
+    @staticmethod
+    def joined(parts: Sequence[VertexImages]) -> VertexImages:
+        return VertexImages(*(np.concatenate([getattr(part, field.name) for part in parts],
+                                             axis=1 if field.name == "place" else 0) for field in fields(VertexImages)))
+
     def nearest(self, vertex: np.ndarray, camera: np.ndarray, pixel: np.ndarray) -> np.ndarray:
         """Index of the image within `NEAR_IMAGE` pixels that a guess (vertex, camera, pixel), n of each, means: one in
         the same camera before one in a neighbouring camera, else -1."""
@@ -67,7 +77,25 @@ def vertex_images(view: View, mirror_map: ReflectionMap, cameras: Cameras, cones
     camera, vertex = key // len(positions), key % len(positions)
     points = positions[vertex].T
     touching = cones.touch(camera, points, np.zeros(len(camera)))
-    camera, vertex = camera[touching], vertex[touching]
+    images, counts, _ = images_of_pairs(view, mirror_map, cameras, positions, camera[touching], vertex[touching])
+    images = images.select(np.lexsort((images.camera, images.vertex)))
+    images = images.select(~repeated(images))
+    counts["images"] = len(images.vertex)
+    return images, counts
+
+
+def images_of_pairs(view: View, mirror_map: MirrorMap, cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
+                    vertex: np.ndarray) -> tuple[VertexImages, dict, np.ndarray]:
+    """Images in pairs of a camera and a vertex, not sorted; what lies on a shared edge comes from both its sides.
+
+    Returns
+    -------
+    images : VertexImages
+    counts : dict
+        Pairs solved, roots found.
+    pair : (n,) int64
+        The pair that each image was found in.
+    """
     corners = cameras.corners[camera]
     found = project(np.moveaxis(cameras.origins[:, corners], 0, 2), np.moveaxis(cameras.rays[:, corners], 0, 2),
                     positions[vertex])
@@ -81,15 +109,12 @@ def vertex_images(view: View, mirror_map: ReflectionMap, cameras: Cameras, cones
     near = np.linalg.norm(pixel - view.pixels(guess.T), axis=1) < 8.0 + 0.1 * max(view.resolution)
     near &= mirror_map.meets(face, uv, distance, positions[vertex].T)
     kept = np.flatnonzero(np.isfinite(pixel).all(axis=1) & near)
-    order = kept[np.lexsort((camera[kept], vertex[kept]))]
-    images = VertexImages(vertex[order], camera[order], distance[order], place[:, order], pixel[order])
-    images = _each_once(images)
-    counts["images"] = len(images.vertex)
-    return images, counts
+    images = VertexImages(vertex[kept], camera[kept], distance[kept], place[:, kept], pixel[kept])
+    return images, counts, found.pair[kept]
 
 
-def _each_once(images: VertexImages) -> VertexImages:
-    """Without the images that an earlier camera already found: those on a shared edge or mirror vertex."""
+def repeated(images: VertexImages) -> np.ndarray:
+    """Which images, sorted by vertex, an earlier camera already found: those on a shared edge or mirror vertex."""
     again = np.zeros(len(images.vertex), dtype=bool)
     for gap in range(1, 9):
         same = np.flatnonzero(images.vertex[gap:] == images.vertex[:-gap]) + gap
@@ -97,6 +122,4 @@ def _each_once(images: VertexImages) -> VertexImages:
             break
         away = np.linalg.norm(images.pixel[same] - images.pixel[same - gap], axis=1)
         again[same[away < SAME_IMAGE]] = True
-    keep = np.flatnonzero(~again)
-    return VertexImages(images.vertex[keep], images.camera[keep], images.distance[keep], images.place[:, keep],
-                        images.pixel[keep])
+    return again

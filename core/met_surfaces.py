@@ -16,7 +16,7 @@ from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
 from .triangle_mesh import TriangleMesh
 from .subdivision import shared_edges
-from .vectors import cross, dot, norm, rows
+from .vectors import cross, dot, norm, ranges, rows
 
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
 BEHIND = 0.02  # of a triangle's size
@@ -74,6 +74,29 @@ class MetSurfaces:
         above = self._above(mirror_map, cameras, mirror_camera, mirror_triangle)
         return (np.concatenate((camera, mirror_camera[above])),
                 np.concatenate((triangle, mirror_triangle[above] + self.diffuse)), visited + more)
+
+    def hides(self, mirror_map: ReflectionMap, cameras: Cameras, cones: Cones, camera: np.ndarray, places: np.ndarray,
+              points: np.ndarray) -> np.ndarray:
+        """Which of the `points` (3, n), seen at `places` (3, n) in the cameras (n,), lie behind a mirror."""
+        owner, triangle, _ = self._mirror_tree.trace(cones)
+        above = self._above(mirror_map, cameras, owner, triangle)
+        order = np.argsort(owner[above], kind="stable")
+        owner, triangle = owner[above][order], triangle[above][order]
+        start = np.searchsorted(owner, camera)
+        entry, image = ranges(start, np.searchsorted(owner, camera, side="right") - start)
+        a, b, c = np.moveaxis(np.take(self._mirror_corners, triangle[entry], axis=1), 2, 0)
+        way, offset = (points - places)[:, image], places[:, image] - a
+        normal, turned = cross(b - a, c - a), cross(offset, way)
+        facing = -dot(way, normal)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = dot(offset, normal) / facing
+            second, third = dot(turned, c - a) / facing, -dot(turned, b - a) / facing
+        length = norm(way)
+        hit = (second >= 0.0) & (third >= 0.0) & (second + third <= 1.0)
+        hit &= (share * length > ABOVE * self.size) & ((1.0 - share) * length > ABOVE * self.size)
+        hidden = np.zeros(len(camera), dtype=bool)
+        hidden[image[hit]] = True
+        return hidden
 
     def _above(self, mirror_map: ReflectionMap, cameras: Cameras, camera: np.ndarray,
                triangle: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from .assembly import assemble
-from .bounce import Bounce, Progress, bounce_steps
+from .bounce import Bounce, Progress, bounce_steps, refined
 from .bounced_cameras import bounced_cameras
 from .camera_splitting import in_picture
 from .cameras import three_ray_cameras, visible_triangles
@@ -15,6 +15,8 @@ from .horizon import cut_at_horizon
 from .met_surfaces import MetSurfaces
 from .mirror_map import MirrorMap
 from .mirror_visibility import without_hidden
+from .point_tree import PointTree
+from .points import reflected_points
 from .reflection_mesh import ReflectionMesh
 from .scene_tree import SceneTree
 from .settings import Settings
@@ -28,7 +30,7 @@ class ReflectionError(ValueError):
     """The input cannot give a reflection; the message is one sentence for the user."""
 
 
-def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
+def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree,
             settings: Settings = Settings(), mirrors: TriangleMesh | None = None) -> ReflectionMesh:
     """The reflection of a diffuse scene in a mirror as the view sees it.
 
@@ -37,8 +39,9 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
     view : View
     mirror : TriangleMesh
         In world space, with shading normals. Two-sided.
-    scene : TriangleMesh or SceneTree
-        In world space; a tree built before saves the time to build it.
+    scene : TriangleMesh or SceneTree or PointTree
+        In world space; a tree built before saves the time to build it. The method POINTS takes a `PointTree`, and
+        scenes of vertices without faces.
     settings : Settings
     mirrors : TriangleMesh, optional
         In world space, all mirrors that may be seen in this one, itself among them; this one alone where omitted. They
@@ -63,14 +66,15 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree,
 
 
 def reflection_steps(
-        view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree, settings: Settings = Settings(),
+        view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings = Settings(),
         mirrors: TriangleMesh | None = None) -> Generator[tuple[float, str], None, ReflectionMesh]:
     """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end."""
     progress = Progress()
-    _check(view, mirror, scene)
+    _check(view, mirror, scene, settings.method)
     yield 0.0, "k-d tree"
-    tree = scene if isinstance(scene, SceneTree) else SceneTree.build(scene)
-    if not len(tree.leaf_triangles):
+    kind = PointTree if settings.method == "POINTS" else SceneTree
+    tree = scene if isinstance(scene, kind) else kind.build(getattr(scene, "mesh", scene))
+    if not len(tree):
         raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
     met = MetSurfaces(tree, mirror if mirrors is None else mirrors)
     progress.done("tree")
@@ -83,6 +87,12 @@ def reflection_steps(
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
     cameras, grid = without_hidden(view, mirror_map, cameras)
     progress.done("cameras", mirror_triangles=len(cameras))
+
+    if settings.method == "POINTS":
+        cameras = refined(view, mirror_map, cameras, met, settings, True, progress)
+        mesh = yield from reflected_points(view, mirror, mirror_map, cameras, tree, met, grid, settings.placement)
+        progress.done("points", **mesh.counts)
+        return replace(mesh, counts=progress.counts, seconds=progress.seconds)
 
     bounces = []
     for number in range(settings.depth):
@@ -115,10 +125,10 @@ def _shifted(steps: Generator, start: float, share: float) -> Generator[tuple[fl
         yield start + share * done, stage
 
 
-def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree) -> None:
+def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, method: str) -> None:
     if not len(mirror.triangles):
         raise ReflectionError("The mirror has no faces; give it faces or choose another mirror.")
-    if isinstance(scene, TriangleMesh) and not len(scene.triangles):
+    if isinstance(scene, TriangleMesh) and not len(scene.triangles) and method != "POINTS":
         raise ReflectionError("The diffuse objects have no faces; select objects with faces to reflect.")
     corners = mirror.positions[mirror.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -1,9 +1,11 @@
-"""The result: the reflection as triangles, with where each corner came from and what it cost."""
+"""The result: the reflection as triangles or as points, with where each corner came from and what it cost."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
 import numpy as np
+
+from .discs import Discs
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,10 @@ class ReflectionMesh:
     seconds : dict
         Time by stage.
     estimated_error : float
-        Estimated 99th percentile of the displacement inside the faces, in pixels, on the safe side.
+        Estimated 99th percentile of the displacement inside the faces, in pixels, on the safe side; of points the same
+        of their discs' longer half axes.
+    discs : Discs or None
+        For the method POINTS, where there are no faces: radius, source vertex and more of each point.
     bounces : (m,) int8
         How many mirrors the light of each face met: 1 for what is seen in the mirror itself, the default.
     """
@@ -53,6 +58,7 @@ class ReflectionMesh:
     counts: dict = field(default_factory=dict)
     seconds: dict = field(default_factory=dict)
     estimated_error: float = 0.0
+    discs: Discs | None = None
     bounces: np.ndarray | None = None
 
     def __post_init__(self) -> None:

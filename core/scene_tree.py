@@ -58,13 +58,16 @@ class SceneTree:
         used = np.unique(mesh.triangles[areal])
         leaf_of_vertex = np.zeros(len(mesh.positions), dtype=np.int64)
         depth = max(0, int(np.ceil(np.log2(max(len(used), 1) / BUCKET))))
-        leaf_of_vertex[used] = _median_leaves(mesh.positions[used], depth)
+        leaf_of_vertex[used] = median_leaves(mesh.positions[used], depth)
         leaf = leaf_of_vertex[mesh.triangles[areal, 0]]
         order = np.argsort(leaf, kind="stable")
         leaf_start = np.searchsorted(leaf[order], np.arange(2**depth + 1))
         leaf_triangles = areal[order]
-        spheres = _node_spheres(low[:, leaf_triangles], high[:, leaf_triangles], leaf_start, depth)
+        spheres = node_spheres(low[:, leaf_triangles], high[:, leaf_triangles], leaf_start, depth)
         return cls(mesh, depth, spheres, leaf_start, leaf_triangles, np.concatenate((centre, radius[None])))
+
+    def __len__(self) -> int:
+        return len(self.leaf_triangles)
 
     def trace(self, cones: Cones) -> tuple[np.ndarray, np.ndarray, int]:
         """Pairs of cones and triangles that may touch.
@@ -101,7 +104,7 @@ class SceneTree:
         return (*(np.concatenate(side) for side in zip(*found)), visited)
 
 
-def _median_leaves(points: np.ndarray, depth: int) -> np.ndarray:
+def median_leaves(points: np.ndarray, depth: int) -> np.ndarray:
     """Leaf of each point (n, 3) in a complete tree of medians of the widest axis; leaf sizes differ by the padding."""
     count = len(points)
     if depth == 0:
@@ -120,7 +123,7 @@ def _median_leaves(points: np.ndarray, depth: int) -> np.ndarray:
     return leaf
 
 
-def _node_spheres(low: np.ndarray, high: np.ndarray, leaf_start: np.ndarray, depth: int) -> list:
+def node_spheres(low: np.ndarray, high: np.ndarray, leaf_start: np.ndarray, depth: int) -> list:
     """Spheres around the boxes (3, t) of each node's triangles, which lie in the order of the leaves."""
     leaves = 2**depth
     box_low, box_high = np.full((3, leaves), np.inf), np.full((3, leaves), -np.inf)

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 PLACEMENTS = ("LAYERED", "SURFACE", "VIRTUAL")
-METHODS = ("GENERAL", "PARALLEL")
+METHODS = ("GENERAL", "PARALLEL", "POINTS")
 
 
 @dataclass(frozen=True)
@@ -18,8 +18,9 @@ class Settings:
     placement : {'LAYERED', 'SURFACE', 'VIRTUAL'}
         Where the mesh lies: slid a little towards the eye in the order of path lengths, on the mirror, or at the
         virtual image's depth.
-    method : {'GENERAL', 'PARALLEL'}
-        The general three-ray camera, continuous across mirror triangles, or its discontinuous parallel sibling.
+    method : {'GENERAL', 'PARALLEL', 'POINTS'}
+        The general three-ray camera, continuous across mirror triangles, or its discontinuous parallel sibling; or
+        every image of a diffuse vertex as a flat disc, for scenes whose triangles are smaller than a pixel.
     depth : int
         How many bounces from mirror to mirror are followed; 1 for a single reflection.
     maximum_faces : int
@@ -41,5 +42,7 @@ class Settings:
             raise ValueError(f"The method must be one of {', '.join(METHODS)}.")
         if self.depth < 1:
             raise ValueError("The depth must be at least one bounce.")
+        if self.depth > 1 and self.method == "POINTS":
+            raise ValueError("Points follow one bounce only; set the depth to 1 or choose another method.")
         if self.maximum_faces < 1:
             raise ValueError("The maximum number of faces must be at least 1.")

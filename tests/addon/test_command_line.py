@@ -49,6 +49,14 @@ def test_generate_to_another_file(saved, room, tmp_path):
     assert faces_in(output) > 0 and faces_in(saved) == 0
 
 
+def test_generate_points(saved, room, tmp_path, capsys):
+    output = tmp_path / "points.blend"
+    assert room("addon.command_line").run(["generate", "--output", str(output), "--method", "POINTS"]) == 0
+    printed = capsys.readouterr().out
+    assert "8 points" in printed and "subdivide the diffuse objects" in printed
+    assert faces_in(output) == 0 and len(bpy.data.objects["Mirror Reflection"].data.vertices) == 8
+
+
 def test_objects_by_name(saved, room, tmp_path):
     for name in ("Box", "Mirror"):
         bpy.data.objects[name].reflection_mesh.role = "AUTO"

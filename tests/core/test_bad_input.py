@@ -26,6 +26,9 @@ def assert_sane(mesh, mirror, scene):
         if isinstance(values, np.ndarray):
             assert np.isfinite(values).all(), field.name
     assert np.isfinite(mesh.estimated_error)
+    if mesh.discs is not None:
+        assert all(np.isfinite(getattr(mesh.discs, field.name)).all() for field in fields(mesh.discs))
+        assert (mesh.discs.radius > 0.0).all() and len(mesh.discs.radius) == len(mesh.positions)
     if len(mesh.triangles):
         assert mesh.triangles.min() >= 0 and mesh.triangles.max() < len(mesh.positions)
         assert mesh.source_face.max() < len(scene.triangles)
@@ -156,10 +159,11 @@ def test_ugly_mirrors_and_scenes_give_a_finite_mesh(kind, ball, orthographic):
     for method in METHODS:
         mesh = reflected(UGLY[kind](mirror), BOX, view, method=method)
         if kind not in ("random_normals", "sideways_normals", "one_triangle"):
-            assert len(mesh.triangles) > 10
+            # facets of a ball may show none of a box's few vertices
+            assert method == "POINTS" or len(mesh.triangles) > 10
         mesh = reflected(mirror, UGLY[kind](BOX), view, method=method)
         # The first triangle of the box alone is turned away.
-        assert len(mesh.triangles) > 0 or kind == "one_triangle"
+        assert len(mesh.positions if method == "POINTS" else mesh.triangles) > 0 or kind == "one_triangle"
 
 
 def test_turning_triangles_and_normals_round_changes_nothing_on_a_mirror():

@@ -4,17 +4,22 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from core import METHODS, PLACEMENTS, ReflectionMesh, SceneTree, Settings, TriangleMesh, View, reflect, reflection_steps
+from core import (
+    METHODS, PLACEMENTS, Discs, ReflectionMesh, SceneTree, Settings, TriangleMesh, View, reflect, reflection_steps,
+)
 from tests.core.true_map import case_of, mesh_of, truth_of
 from tests.judge import judge
 
-ARRAYS = [field.name for field in fields(ReflectionMesh) if field.name not in ("counts", "seconds", "estimated_error")]
+OTHERS = ("counts", "seconds", "estimated_error", "discs")
+ARRAYS = [field.name for field in fields(ReflectionMesh) if field.name not in OTHERS]
 KEYS = ("median", "p95", "p99", "uncovered")
 
 
 def assert_same(one, other):
     for name in ARRAYS:
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+    for name in [field.name for field in fields(Discs)] if one.discs is not None else []:
+        np.testing.assert_array_equal(getattr(one.discs, name), getattr(other.discs, name))
     assert one.counts == other.counts
     assert one.estimated_error == other.estimated_error
 

@@ -1,0 +1,116 @@
+"""Geometry Nodes that draw a point result: a disc at each point, as faces with the names and materials of a mesh's."""
+from __future__ import annotations
+
+import math
+
+import bpy
+
+MODIFIER = "Reflection Points"
+SIDES = 6  # of a disc; it is the polygon round the circle, so that discs that touch leave no gap
+FACE_NUMBERS = ("source_object", "source_face", "mirror_face")
+
+
+def show_discs(obj: bpy.types.Object, uv_maps: list) -> None:
+    """Give `obj`, whose mesh holds loose points, the modifier that draws their discs."""
+    modifier = _modifier_of(obj)
+    if modifier is None:
+        modifier = obj.modifiers.new(MODIFIER, "NODES")
+    old = modifier.node_group
+    modifier.node_group = _disc_group(f"{obj.name} Points", uv_maps)
+    _forget(old)
+
+
+def hide_discs(obj: bpy.types.Object) -> None:
+    """Take the modifier away, where there is one, and its nodes, where nothing else uses them."""
+    modifier = _modifier_of(obj)
+    if modifier is not None:
+        old = modifier.node_group
+        obj.modifiers.remove(modifier)
+        _forget(old)
+
+
+def _modifier_of(obj: bpy.types.Object) -> bpy.types.Modifier | None:
+    found = obj.modifiers.get(MODIFIER)
+    return found if found is not None and found.type == "NODES" else None
+
+
+def _forget(group: bpy.types.NodeTree | None) -> None:
+    if group is not None and group.users == 0 and group.library is None:
+        bpy.data.node_groups.remove(group)
+
+
+def _disc_group(name: str, uv_maps: list) -> bpy.types.NodeTree:
+    """Discs on the points by their `disc_rotation` and `disc_scale`; what belongs to faces and corners goes there."""
+    tree = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    tree.is_modifier = True
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    builder = _Builder(tree)
+    points = builder.add("NodeGroupInput").outputs[0]
+    disc = builder.add("GeometryNodeMeshCircle", fill_type="NGON")
+    disc.inputs["Vertices"].default_value = SIDES
+    disc.inputs["Radius"].default_value = 1.0 / math.cos(math.pi / SIDES)
+    instances = builder.add("GeometryNodeInstanceOnPoints")
+    builder.join(points, instances.inputs["Points"])
+    builder.join(disc.outputs["Mesh"], instances.inputs["Instance"])
+    builder.join(builder.read("disc_rotation", "QUATERNION"), instances.inputs["Rotation"])
+    builder.join(builder.read("disc_scale", "FLOAT_VECTOR"), instances.inputs["Scale"])
+    geometry = instances.outputs["Instances"]
+    for attribute in ("disc_rotation", "disc_scale"):
+        geometry = builder.through("GeometryNodeRemoveAttribute", geometry, Name=attribute)
+        points = builder.through("GeometryNodeRemoveAttribute", points, Name=attribute)
+    geometry = builder.through("GeometryNodeRealizeInstances", geometry)
+    # the loose points come along for their materials: discs have none of their own
+    joined = builder.add("GeometryNodeJoinGeometry")
+    builder.join(geometry, joined.inputs[0])
+    builder.join(points, joined.inputs[0])
+    materials = builder.add("GeometryNodeSetMaterialIndex")
+    builder.join(joined.outputs[0], materials.inputs["Geometry"])
+    builder.join(builder.read("source_material", "INT"), materials.inputs["Material Index"])
+    geometry = materials.outputs["Geometry"]
+    for attribute in FACE_NUMBERS:
+        geometry = builder.moved(geometry, attribute, "INT", "INT", "FACE")
+    for attribute in uv_maps:
+        geometry = builder.moved(geometry, attribute, "FLOAT_VECTOR", "FLOAT2", "CORNER")
+    builder.join(geometry, builder.add("NodeGroupOutput").inputs[0])
+    return tree
+
+
+class _Builder:
+    """Adds nodes to a tree from left to right."""
+
+    def __init__(self, tree: bpy.types.NodeTree) -> None:
+        self.tree = tree
+
+    def add(self, kind: str, **settings) -> bpy.types.Node:
+        node = self.tree.nodes.new(kind)
+        node.location = (200.0 * len(self.tree.nodes), 0.0)
+        for name, value in settings.items():
+            setattr(node, name, value)
+        return node
+
+    def join(self, output: bpy.types.NodeSocket, socket: bpy.types.NodeSocket) -> None:
+        self.tree.links.new(output, socket)
+
+    def through(self, kind: str, geometry: bpy.types.NodeSocket, **inputs) -> bpy.types.NodeSocket:
+        """`geometry` through a node of one kind."""
+        node = self.add(kind)
+        for name, value in inputs.items():
+            node.inputs[name].default_value = value
+        self.join(geometry, node.inputs["Geometry"])
+        return node.outputs["Geometry"]
+
+    def read(self, attribute: str, kind: str) -> bpy.types.NodeSocket:
+        node = self.add("GeometryNodeInputNamedAttribute", data_type=kind)
+        node.inputs["Name"].default_value = attribute
+        return next(socket for socket in node.outputs if socket.name == "Attribute" and socket.enabled)
+
+    def moved(self, geometry: bpy.types.NodeSocket, attribute: str, read: str, stored: str,
+              domain: str) -> bpy.types.NodeSocket:
+        """An attribute of the points moved to the faces or corners of their discs."""
+        node = self.add("GeometryNodeStoreNamedAttribute", data_type=stored, domain=domain)
+        node.inputs["Name"].default_value = attribute
+        self.join(geometry, node.inputs["Geometry"])
+        value = next(socket for socket in node.inputs if socket.name == "Value" and socket.enabled)
+        self.join(self.read(attribute, read), value)
+        return node.outputs["Geometry"]
