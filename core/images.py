@@ -84,7 +84,7 @@ def vertex_images(view: View, mirror_map: ReflectionMap, cameras: Cameras, cones
     return images, counts
 
 
-def images_of_pairs(view: View, mirror_map: MirrorMap, cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
+def images_of_pairs(view: View, mirror_map: ReflectionMap, cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
                     vertex: np.ndarray) -> tuple[VertexImages, dict, np.ndarray]:
     """Images in pairs of a camera and a vertex, not sorted; what lies on a shared edge comes from both its sides.
 

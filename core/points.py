@@ -30,7 +30,8 @@ ON_CAUSTIC = 1e-9  # magnification
 
 
 def reflected_points(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, cameras: Cameras, tree: PointTree,
-                     met: MetSurfaces, grid: DepthGrid, placement: str) -> Generator[tuple[float, str], None, ReflectionMesh]:
+                     met: MetSurfaces, grid: DepthGrid,
+                     placement: str) -> Generator[tuple[float, str], None, ReflectionMesh]:
     """Every image of the tree's vertices in the cameras, once, as a point with its disc.
 
     Yields (fraction of the whole work, stage that comes next) and returns the result.
