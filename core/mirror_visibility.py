@@ -31,12 +31,14 @@ class DepthGrid:
     ----------
     view : View
     nearest : (height, width) float64, -inf where a sample sees no mirror
+    layers : (height, width) int64, cameras at each sample
     scale : float, samples per pixel
     room : float, share of the nearness, or for an orthographic view depth, by which two samples of one surface differ
     """
 
     view: View
     nearest: np.ndarray
+    layers: np.ndarray
     scale: float
     room: float
 
@@ -47,12 +49,13 @@ class DepthGrid:
         width, height = (int(side) for side in np.ceil(np.array(view.resolution) * scale))
         depth = view.depths(cameras.places.T)
         room = SURFACE * max(float(np.ptp(depth)), 1e-300) if view.orthographic else SURFACE
-        grid = cls(view, np.full((height, width), -np.inf), scale, room)
+        grid = cls(view, np.full((height, width), -np.inf), np.zeros((height, width), dtype=np.int64), scale, room)
         camera, x, y, weights = grid._samples(view.pixels(cameras.places.T)[cameras.corners] * scale,
                                               (depth[cameras.corners] > 0.0).all(axis=1))
         depth = depth[cameras.corners[camera]].T
         nearness = -(weights * depth).sum(axis=0) if view.orthographic else (weights / depth).sum(axis=0)
         np.maximum.at(grid.nearest, (y, x), nearness)
+        np.add.at(grid.layers, (y, x), 1)
         states, seen = [], nearness + grid._margin(nearness) >= grid.nearest[y, x]
         for state in (seen, ~seen):
             found = np.zeros(len(cameras), dtype=bool)

@@ -28,6 +28,7 @@ from .outline_refinement import refine_for_outlines
 from .reflection_mesh import ReflectionMesh
 from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
+from .self_occlusion import without_occluded
 from .settings import Settings
 from .triangle_mesh import TriangleMesh
 from .vectors import norm
@@ -105,6 +106,7 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
     cameras, grid = without_hidden(view, mirror_map, cameras)
+    cameras, counts["occluded"] = without_occluded(view, mirror_map, mirror, cameras, grid)
     counts["mirror_triangles"] = len(cameras)
     cones = Cones.around(cameras)
     sphere = tree.spheres[0][:, 0]
