@@ -102,11 +102,11 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     yield 0.1, "cameras"
     mirror_map = MirrorMap(view, mirror, settings.method == "PARALLEL")
     cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
-    cameras = cut_at_horizon(view, mirror_map, cameras.select(in_picture(view, cameras)))
+    cameras = cameras.select(in_picture(view, cameras))
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
-    cameras, grid = without_hidden(view, mirror_map, cameras)
-    cameras, counts["occluded"] = without_occluded(view, mirror_map, mirror, cameras, grid)
+    cameras, counts["occluded"] = without_occluded(view, mirror_map, mirror, *without_hidden(view, cameras))
+    cameras = cut_at_horizon(view, mirror_map, cameras)
     counts["mirror_triangles"] = len(cameras)
     cones = Cones.around(cameras)
     sphere = tree.spheres[0][:, 0]
@@ -149,7 +149,6 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     yield 0.75, "connection"
     faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))
     nodes, faces, counts["caustic_edges"] = split_at_caustics(mirror_map, cameras, frames, nodes, faces)
-    faces = faces.select(~grid.hides_faces(nodes.place, faces.nodes))
     counts["connected"] = len(faces)
     stages.done("connection")
 
