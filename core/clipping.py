@@ -75,7 +75,9 @@ def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_valu
     """
     if not len(polygon):
         return weights, after, polygon
-    value = (weights * np.take(corner_values, polygon, axis=1)).sum(axis=0)
+    values = np.take(corner_values, polygon, axis=1)
+    values *= weights
+    value = values.sum(axis=0)
     inside = value >= 0.0
     if inside.all():
         return weights, after, polygon
@@ -83,13 +85,17 @@ def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_valu
     ends = np.flatnonzero(np.append(polygon[1:] != polygon[:-1], True))
     following[ends] = np.append(0, ends[:-1] + 1)
     crossing = inside != inside[following]
-    part = np.flatnonzero(crossing)
+    stay, part = np.flatnonzero(inside), np.flatnonzero(crossing)
     share = value[part] / (value[part] - value[following[part]])
-    crossed = weights[:, part] + share * (weights[:, following[part]] - weights[:, part])
+    start = np.take(weights, part, axis=1)
+    # each corner that stays is followed by the crossing on the way to the next
+    place = np.cumsum(inside.view(np.int8) + crossing, dtype=np.int64)
+    new_weights, new_after = np.empty((3, place[-1])), np.empty(place[-1], dtype=np.int8)
+    new_polygon = np.empty(place[-1], dtype=np.int64)
+    old, new = place[stay] - 1 - crossing[stay], place[part] - 1
+    new_weights[:, old], new_after[old], new_polygon[old] = np.take(weights, stay, axis=1), after[stay], polygon[stay]
+    new_weights[:, new] = start + share * (np.take(weights, following[part], axis=1) - start)
     # a leaving polygon goes on along the cut, an entering one along the edge that it was on
-    crossed_after = np.where(inside[part], np.int8(label), after[part])
-    stay = np.flatnonzero(inside)
-    order = np.argsort(np.concatenate((2 * stay, 2 * part + 1)), kind="stable")
-    return (np.concatenate((weights[:, stay], crossed), axis=1)[:, order],
-            np.concatenate((after[stay], crossed_after))[order],
-            np.concatenate((polygon[stay], polygon[part]))[order])
+    new_after[new] = np.where(inside[part], np.int8(label), after[part])
+    new_polygon[new] = polygon[part]
+    return new_weights, new_after, new_polygon
