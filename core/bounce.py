@@ -21,7 +21,6 @@ from .images import vertex_images
 from .met_surfaces import MetSurfaces
 from .mirror_refinement import refine_mirror
 from .mirror_occlusion import cut_behind_mirrors
-from .mirror_visibility import DepthGrid
 from .nodes import Nodes, polygon_nodes
 from .outline_refinement import refine_for_outlines
 from .reflection_map import ReflectionMap
@@ -74,7 +73,7 @@ class Bounce:
     left: np.ndarray
 
 
-def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces, grid: DepthGrid,
+def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces,
                  settings: Settings, last: bool, progress: Progress) -> Generator[tuple[float, str], None, Bounce]:
     """All that the cameras see, in steps: yields (share of the bounce done, stage that comes next); `last` tells that
     light which meets a mirror goes no further."""
@@ -99,9 +98,9 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
 
     yield 0.35, "clipping"
     polygons, filled = fill(mirror_map, cameras, frames, candidates, clip(candidates), open_)
-    polygons, occluded = cut_behind_mirrors(cameras, frames, met, candidates, polygons)
     if last:
         polygons = polygons.select(~met.shows_mirror(frames)[candidates.column[polygons.pair]])
+    polygons, occluded = cut_behind_mirrors(cameras, frames, met, candidates, polygons)
     progress.done("clipping", polygons=len(polygons.pair), filled=filled, occluded=occluded)
 
     yield 0.5, "projection"
@@ -113,7 +112,6 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     yield 0.75, "connection"
     faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))
     nodes, faces, caustic = split_at_caustics(mirror_map, cameras, frames, nodes, faces)
-    faces = faces.select(~grid.hides_faces(nodes.place, faces.nodes))
     progress.done("connection", connected=len(faces), caustic_edges=caustic)
 
     yield 0.8, "refinement"

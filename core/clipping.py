@@ -8,7 +8,7 @@ mirror edge, or a mirror corner's ray on the triangle (S. Vallance, P. Calder, A
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -69,9 +69,14 @@ class Polygons:
     def cut(self, corner_values: np.ndarray, label: int) -> Polygons:
         """What is left of each polygon where a function is not negative that is linear in the weights and has the
         values (3, q) at the corners of its camera."""
+        return self.cut_with(corner_values, label)[0]
+
+    def cut_with(self, corner_values: np.ndarray, label: int) -> tuple[Polygons, np.ndarray]:
+        """The same, and which polygon each is left of."""
         polygon = np.repeat(np.arange(len(self.pair)), np.diff(self.start))
-        left = Polygons.of(self.pair, *cut(self.weights, self.after, polygon, corner_values, label))
-        return left.select(left.areas() > SMALLEST)
+        left = Polygons.of(np.arange(len(self.pair)), *cut(self.weights, self.after, polygon, corner_values, label))
+        left = left.select(left.areas() > SMALLEST)
+        return replace(left, pair=self.pair[left.pair]), left.pair
 
     def areas(self) -> np.ndarray:
         """(q,): the part of its camera that each polygon covers."""
@@ -114,7 +119,9 @@ def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_valu
     """
     if not len(polygon):
         return weights, after, polygon
-    value = (weights * np.take(corner_values, polygon, axis=1)).sum(axis=0)
+    values = np.take(corner_values, polygon, axis=1)
+    values *= weights
+    value = values.sum(axis=0)
     inside = value >= 0.0
     if inside.all():
         return weights, after, polygon
@@ -122,13 +129,17 @@ def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_valu
     ends = np.flatnonzero(np.append(polygon[1:] != polygon[:-1], True))
     following[ends] = np.append(0, ends[:-1] + 1)
     crossing = inside != inside[following]
-    part = np.flatnonzero(crossing)
+    stay, part = np.flatnonzero(inside), np.flatnonzero(crossing)
     share = value[part] / (value[part] - value[following[part]])
-    crossed = weights[:, part] + share * (weights[:, following[part]] - weights[:, part])
+    start = np.take(weights, part, axis=1)
+    # each corner that stays is followed by the crossing on the way to the next
+    place = np.cumsum(inside.view(np.int8) + crossing, dtype=np.int64)
+    new_weights, new_after = np.empty((3, place[-1])), np.empty(place[-1], dtype=np.int8)
+    new_polygon = np.empty(place[-1], dtype=np.int64)
+    old, new = place[stay] - 1 - crossing[stay], place[part] - 1
+    new_weights[:, old], new_after[old], new_polygon[old] = np.take(weights, stay, axis=1), after[stay], polygon[stay]
+    new_weights[:, new] = start + share * (np.take(weights, following[part], axis=1) - start)
     # a leaving polygon goes on along the cut, an entering one along the edge that it was on
-    crossed_after = np.where(inside[part], np.int8(label), after[part])
-    stay = np.flatnonzero(inside)
-    order = np.argsort(np.concatenate((2 * stay, 2 * part + 1)), kind="stable")
-    return (np.concatenate((weights[:, stay], crossed), axis=1)[:, order],
-            np.concatenate((after[stay], crossed_after))[order],
-            np.concatenate((polygon[stay], polygon[part]))[order])
+    new_after[new] = np.where(inside[part], np.int8(label), after[part])
+    new_polygon[new] = polygon[part]
+    return new_weights, new_after, new_polygon

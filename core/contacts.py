@@ -14,12 +14,13 @@ from .candidates import Candidates, overlapping
 from .clipping import cut
 from .mirror_map import MirrorMap
 from .scene_frames import SceneFrames
-from .vectors import cross, dot, groups, ranges, rows
+from .vectors import cross, dot, groups, ranges, rows, unit
 from .view import View
 
 PASSES = 64  # triangles that cut one camera
 SHORTEST_CONTACT = 1e-6  # of the line across the camera
 WELD = 1e-9  # of the mirror's size: corners closer than this are one
+SAME_RAY = 1e-6  # radians: at a sharp edge of the mirror each side has rays of its own
 SMALLEST = 1e-12  # of a camera: smaller pieces are nothing
 
 
@@ -31,7 +32,7 @@ def drop_behind_contacts(view: View, mirror_map: MirrorMap, cameras: Cameras, fr
     camera, column = pairs // len(frames.triangle), pairs % len(frames.triangle)
     origin, count = np.arange(len(cameras)), 0
     for _ in range(PASSES):
-        sides = _hidden_sides(view, cameras, frames, positions, camera, column)
+        sides = hidden_sides(view, cameras, frames, positions, camera, column)
         meeting = _meets(cameras, frames, camera, column) & sides[1]
         camera, column, sides = camera[meeting], column[meeting], sides[0][:, :, meeting]
         if not len(camera):
@@ -45,7 +46,7 @@ def drop_behind_contacts(view: View, mirror_map: MirrorMap, cameras: Cameras, fr
         rest = np.ones(len(camera), dtype=bool)
         rest[first] = False
         before = whole.sum()
-        cameras, origin_of_piece = _with_pieces(mirror_map, cameras, whole, chosen[parent], weights)
+        cameras, origin_of_piece = with_pieces(mirror_map, cameras, whole, chosen[parent], weights)
         origin = np.concatenate((origin[whole], origin[origin_of_piece]))
         start = np.searchsorted(camera[rest], chosen[parent])
         stop = np.searchsorted(camera[rest], chosen[parent], side="right")
@@ -56,7 +57,7 @@ def drop_behind_contacts(view: View, mirror_map: MirrorMap, cameras: Cameras, fr
     return cameras, _asked_again(cameras, frames, candidates, origin), count
 
 
-def _hidden_sides(view, cameras, frames, positions, camera, column) -> tuple[np.ndarray, np.ndarray]:
+def hidden_sides(view, cameras, frames, positions, camera, column) -> tuple[np.ndarray, np.ndarray]:
     """(4, 3, p): four functions at the cameras' corners that are positive together on the hidden part; and which
     triangles are not seen edge on, when they hide nothing."""
     places = np.take(cameras.places, cameras.corners[camera].T, axis=1)
@@ -125,20 +126,29 @@ def _pieces(sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate(parents), np.concatenate(triangles, axis=2)
 
 
-def _with_pieces(mirror_map: MirrorMap, cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
-                 weights: np.ndarray) -> tuple[Cameras, np.ndarray]:
-    """The `whole` cameras and behind them the pieces, on corners welded by place."""
+def with_pieces(mirror_map: MirrorMap, cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
+                weights: np.ndarray) -> tuple[Cameras, np.ndarray]:
+    """The `whole` cameras (n,) and behind them pieces (m) of the cameras `parent`, with weights (3, 3, m) as from
+    `_pieces`, and the parents; new corners are welded where place and ray agree."""
     places = np.einsum("xjn,jkn->xkn", np.take(cameras.places, cameras.corners[parent].T, axis=1), weights)
     places, face = places.reshape(3, -1), np.tile(cameras.face[parent], 3)
+    corner = np.empty(len(face), dtype=np.int64)
+    # the parents' own corners stay what they are, shared with the neighbours
+    own, new = (np.flatnonzero((weights == 1.0).any(axis=0).ravel() == state) for state in (True, False))
+    number, piece = own // len(parent), own % len(parent)
+    corner[own] = cameras.corners[parent[piece], np.argmax(weights[:, number, piece], axis=0)]
+    places, face = places[:, new], face[new]
+    rays = mirror_map.rays(face, mirror_map.coordinates(face, places))
     low = cameras.places.min(axis=1, keepdims=True)
     size = np.ptp(cameras.places, axis=1).max()
-    first, corner = groups(*np.rint((places - low) / (WELD * size)).astype(np.int64))
-    rays = mirror_map.rays(face[first], mirror_map.coordinates(face[first], places[:, first]))
-    corner = corner.reshape(3, -1).T + cameras.places.shape[1]
+    first, group = groups(*np.rint((places - low) / (WELD * size)).astype(np.int64),
+                          *np.rint((unit(rays) + 1.0) / SAME_RAY).astype(np.int64))
+    corner[new] = group + cameras.places.shape[1]
     kept = cameras.select(whole)
-    return Cameras(np.concatenate((kept.corners, corner)), np.concatenate((kept.face, cameras.face[parent])),
+    return Cameras(np.concatenate((kept.corners, corner.reshape(3, -1).T)),
+                   np.concatenate((kept.face, cameras.face[parent])),
                    np.concatenate((cameras.places, places[:, first]), axis=1),
-                   np.concatenate((cameras.rays, rays), axis=1)), parent
+                   np.concatenate((cameras.rays, rays[:, first]), axis=1)), parent
 
 
 def _asked_again(cameras: Cameras, frames: SceneFrames, candidates: Candidates, origin: np.ndarray) -> Candidates:

@@ -23,6 +23,7 @@ from .view import View
 LEVELS = 10
 SHORTEST_EDGE = 0.25  # pixels
 STRETCH = 4.0
+NEAR_MIDDLE = 0.45  # of an edge: how far from its middle it may be split
 
 
 @dataclass(frozen=True)
@@ -93,19 +94,20 @@ class FaceRefinement:
         outline = outline[open_]
         straying = np.minimum(error, length)
         chosen = (np.minimum(np.where(outline, 2.0 * drift, error), length) > tolerance) & (length > SHORTEST_EDGE)
-        marked[open_] = chosen
-        place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]
-        along = np.flatnonzero(outline[chosen])
+        along = np.flatnonzero(chosen & outline)
         if len(along):
-            target = shown[:, chosen][:, along]
-            on_face = mirror_face[chosen][along]
-            found, s = self.mirror_map.locate(on_face, uv[:, chosen][:, along], distance[along], target)
+            on_face, target = mirror_face[along], shown[:, along]
+            found, s = self.mirror_map.locate(on_face, uv[:, along], distance[along], target)
             spot = self.mirror_map.places(on_face, found)
             away = np.linalg.norm(self.view.pixels(spot.T) - self.view.pixels(place[:, along].T), axis=1)
-            good = (away <= length[chosen][along]) & self.mirror_map.meets(on_face, found, s, target)
-            # a point of the edge in any case: the triangle on its other side shares the node
-            point[:, along] = target
-            place[:, along[good]], distance[along[good]] = spot[:, good], s[good]
+            good = (away <= NEAR_MIDDLE * length[along]) & self.mirror_map.meets(on_face, found, s, target)
+            # an image at the edge's end, or none, straightens nothing however often the edge is split
+            chosen[along[~good]] = False
+            along = along[good]
+            # a point of the edge: the triangle on its other side shares the node
+            point[:, along], place[:, along], distance[along] = target[:, good], spot[:, good], s[good]
+        marked[open_] = chosen
+        place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]
         return marked, straying[~chosen], (ends, edge, marked, (place, point, distance))
 
     def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -17,6 +17,8 @@ from .vectors import groups, ranges
 
 LINES = 16  # outlines that cut one camera; with more, what is left of a polygon is hidden or not by its middle
 NEARER = 1e-9  # of the distance: what is nearer by less is the same surface
+CONTACTS = 8  # triangles of mirrors that one polygon passes through
+CROSSING = 1e-6  # of the largest depth in a camera: a smaller one is none
 INWARD = 0.05  # how far from its corners towards its middle a polygon is asked
 
 
@@ -43,8 +45,13 @@ def _along_outlines(cameras: Cameras, frames: SceneFrames, met: MetSurfaces, can
     first = np.searchsorted(lines[0], np.arange(len(cameras) + 1))
     count = np.diff(first)[candidates.camera[polygons.pair]]
     for number in range(min(LINES, int(count.max(initial=0)))):
-        crossed = count > number
-        values = np.take(lines[1], first[candidates.camera[polygons.pair[crossed]]] + number, axis=1)
+        crossed = np.flatnonzero(count > number)
+        line = first[candidates.camera[polygons.pair[crossed]]] + number
+        low, high = (bound.reduceat(polygons.weights, polygons.start[:-1], axis=1)[:, crossed]
+                     for bound in (np.minimum, np.maximum))
+        near = ((low <= lines[2][1][:, line]) & (high >= lines[2][0][:, line])).all(axis=0)
+        values = lines[1][:, line[near]]
+        crossed = np.isin(np.arange(len(count)), crossed[near])
         sides = [polygons.select(crossed).cut(sign * values, HIDDEN) for sign in (1.0, -1.0)]
         polygons = Polygons.joined((polygons.select(~crossed), *sides))
         count = np.diff(first)[candidates.camera[polygons.pair]]
@@ -52,64 +59,100 @@ def _along_outlines(cameras: Cameras, frames: SceneFrames, met: MetSurfaces, can
 
 
 def _outlines(cameras: Cameras, frames: SceneFrames, met: MetSurfaces, candidates: Candidates,
-              mirror: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Outlines of the mirrors, sorted by camera: the camera (k,), and the values (3, k) at its corners of a function
-    that is zero on the line."""
+              mirror: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Outlines of the mirrors, sorted by camera: the camera (k,), the values (3, k) at its corners of a function that
+    is zero on the line, and the least and the largest weights (2, 3, k) on it."""
     seen = candidates.select(mirror)
     polygons = clip(seen)
-    bounding = np.zeros((3, len(seen)), dtype=bool)
     corner = np.flatnonzero((polygons.after >= SCENE_EDGE) & (polygons.after < CONTACT))
-    side = polygons.after[corner] - SCENE_EDGE
+    side = polygons.after[corner].astype(np.int64) - SCENE_EDGE
     polygon = np.repeat(np.arange(len(polygons.pair)), np.diff(polygons.start))[corner]
-    bounding[side, polygons.pair[polygon]] = True
-    bounding &= ~met.inner_sides(cameras, frames, seen)
-    side, pair = np.nonzero(bounding)
-    vertices = frames.vertices[:, seen.column[pair]]
-    row = np.arange(len(pair))
+    pair = polygons.pair[polygon]
+    outer = ~met.inner_sides(cameras, frames, seen)[side, pair]
+    corner, side, polygon, pair = corner[outer], side[outer], polygon[outer], pair[outer]
+    vertices, row = frames.vertices[:, seen.column[pair]], np.arange(len(pair))
     ends = np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row])), axis=0)
     once, _ = groups(seen.camera[pair], *ends)
-    side, pair = side[once], pair[once]
-    return seen.camera[pair], seen.sides[side, :, pair].T
+    corner, side, polygon, pair = corner[once], side[once], polygon[once], pair[once]
+    following = np.where(corner + 1 == polygons.start[polygon + 1], polygons.start[polygon], corner + 1)
+    along = np.stack((polygons.weights[:, corner], polygons.weights[:, following]))
+    return seen.camera[pair], seen.sides[side, :, pair].T, np.stack((along.min(axis=0), along.max(axis=0)))
 
 
 def _before_mirrors(candidates: Candidates, mirror: np.ndarray, polygons: Polygons) -> tuple[Polygons, int]:
     """The polygons that no mirror hides; those that pass through one are cut in the line of contact."""
     order = mirror[np.argsort(candidates.camera[mirror], kind="stable")]
-    camera = candidates.camera[polygons.pair]
-    start = np.searchsorted(candidates.camera[order], camera)
-    stop = np.searchsorted(candidates.camera[order], camera, side="right")
-    entry, polygon = ranges(start, stop - start)
-    other, own = order[entry], polygons.pair[polygon]
+    seen, hidden = [], 0
+    for _ in range(CONTACTS):
+        camera = candidates.camera[polygons.pair]
+        start = np.searchsorted(candidates.camera[order], camera)
+        entry, polygon = ranges(start, np.searchsorted(candidates.camera[order], camera, side="right") - start)
+        covered, middle = _behind(candidates, order[entry], polygon, polygons)
+        other, polygon = order[entry][covered], polygon[covered]
+        crossing = _changes_sign(polygons.select(polygon), _depth_order(candidates, other, polygons.pair[polygon]))
+        passing, first = np.unique(polygon[crossing], return_index=True)
+        resting = np.ones(len(camera), dtype=bool)
+        resting[passing] = False
+        seen.append(polygons.select(resting & ~middle))
+        hidden += int((middle | ~resting).sum())
+        if not len(passing):
+            return Polygons.joined(seen), hidden
+        part, other = polygons.select(passing), other[crossing][first]
+        polygons = Polygons.joined((*_beside(candidates, other, part, seen),))
+    return Polygons.joined((*seen, polygons)), hidden
 
+
+def _beside(candidates: Candidates, other: np.ndarray, polygons: Polygons, seen: list) -> list[Polygons]:
+    """The parts of polygons beside the mirror triangles `other`, to be asked again; those before them are seen."""
+    beside, rest, own = [], polygons, np.arange(len(other))
+    for side in range(3):
+        values = candidates.sides[side][:, other]
+        outside, _ = rest.cut_with(-values[:, own], HIDDEN)
+        beside.append(outside)
+        rest, kept = rest.cut_with(values[:, own], HIDDEN)
+        own = own[kept]
+    seen.append(rest.cut(_depth_order(candidates, other[own], rest.pair), HIDDEN))
+    return beside
+
+
+def _behind(candidates: Candidates, other: np.ndarray, polygon: np.ndarray,
+            polygons: Polygons) -> tuple[np.ndarray, np.ndarray]:
+    """Which pairs of a polygon and a mirror's candidate `other` have a place where the mirror hides it, of the corners,
+    a little inward, and the middle; and which polygons (q,) are hidden in their middles."""
     size = np.diff(polygons.start)
-    middle = np.add.reduceat(polygons.weights, polygons.start[:-1], axis=1) / size
-    hider, some, every = (np.full(len(polygons.pair), value) for value in (-1, False, True))
+    middle = np.add.reduceat(polygons.weights, polygons.start[:-1], axis=1) / size if len(size) else polygons.weights
+    own, found = polygons.pair[polygon], np.zeros(len(other), dtype=bool)
+    middle_hidden = np.zeros(len(size), dtype=bool)
     for corner in range(-1, int(size.max(initial=0))):
-        at = middle if corner < 0 else (
-            (1.0 - INWARD) * polygons.weights[:, polygons.start[:-1] + np.minimum(corner, size - 1)] + INWARD * middle)
-        inside, nearer = _ahead_of(candidates, other, own, at[:, polygon])
-        hidden = np.zeros(len(polygons.pair), dtype=bool)
-        hidden[polygon[inside & nearer]] = True
-        hider[polygon[inside & nearer]] = other[inside & nearer]
-        some |= hidden
-        every &= hidden
-    passing = np.flatnonzero(some & ~every)
-    kept = polygons.select(~some)
-    if len(passing):
-        part = polygons.select(passing)
-        kept = Polygons.joined((kept, part.cut(_depth_order(candidates, hider[passing], part.pair), HIDDEN)))
-    return kept, int(some.sum())
+        at = middle
+        if corner >= 0:
+            spot = polygons.weights[:, polygons.start[:-1] + np.minimum(corner, size - 1)]
+            at = (1.0 - INWARD) * spot + INWARD * middle
+        hidden = _hides(candidates, other, own, at[:, polygon])
+        found |= hidden
+        if corner < 0:
+            middle_hidden[polygon[hidden]] = True
+    return found, middle_hidden
 
 
-def _ahead_of(candidates: Candidates, other: np.ndarray, own: np.ndarray,
-              weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Whether rays at `weights` (3, n) of the cameras meet the mirror triangles of the candidates `other` (n,), and
-    whether they do before they meet the planes of the candidates `own`."""
+def _changes_sign(polygons: Polygons, corner_values: np.ndarray) -> np.ndarray:
+    """Whether a function, given at the corners of the cameras (3, q), is positive and negative on each polygon."""
+    if not len(polygons.pair):
+        return np.zeros(0, dtype=bool)
+    value = (polygons.weights * np.repeat(corner_values, np.diff(polygons.start), axis=1)).sum(axis=0)
+    low, high = (bound.reduceat(value, polygons.start[:-1]) for bound in (np.minimum, np.maximum))
+    least = CROSSING * np.abs(corner_values).max(axis=0)
+    return (low < -least) & (high > least)
+
+
+def _hides(candidates: Candidates, other: np.ndarray, own: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Whether rays at `weights` (3, n) of the cameras meet the mirror triangles of the candidates `other` (n,) before
+    they meet the planes of the candidates `own`."""
     sides = (candidates.sides[:, :, other] * weights).sum(axis=1)
     reach, own_reach = (((candidates.ahead[:, pair] * weights).sum(axis=0)) for pair in (other, own))
-    rate, own_rate = (((candidates.sides[:, :, pair].sum(axis=0)) * weights).sum(axis=0) for pair in (other, own))
-    nearer = reach * own_rate * (1.0 + NEARER) < own_reach * rate * (1.0 - NEARER)
-    return (sides >= 0.0).all(axis=0) & (reach >= 0.0), nearer & (other != own)
+    own_rate = ((candidates.sides[:, :, own].sum(axis=0)) * weights).sum(axis=0)
+    nearer = reach * own_rate * (1.0 + NEARER) < own_reach * sides.sum(axis=0) * (1.0 - NEARER)
+    return (sides >= 0.0).all(axis=0) & (reach >= 0.0) & nearer & (other != own)
 
 
 def _depth_order(candidates: Candidates, other: np.ndarray, own: np.ndarray) -> np.ndarray:

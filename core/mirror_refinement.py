@@ -38,21 +38,30 @@ def refine_mirror(view: View, mirror_map: ReflectionMap, cameras: Cameras, toler
     limited : bool
         Whether the bound on depth or count stopped the refinement.
     """
-    cameras = cameras.select(in_picture(view, cameras))
+    cameras, finished = cameras.select(in_picture(view, cameras)), []
+    limited = True
     for _ in range(LEVELS):
-        if not len(cameras) or len(cameras) > maximum:
-            return cameras, bool(len(cameras))
+        if sum(map(len, finished)) + len(cameras) > maximum:
+            break
         ends, first, edge = shared_edges(cameras.corners)
         middles, origins, rays = edge_middles(mirror_map, cameras, ends, first)
+        marked = _straying(view, cameras, ends, rays, reach) > tolerance
         # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
+        asked = np.flatnonzero(marked[edge].any(axis=1))
         worth = np.zeros(len(ends), dtype=bool)
-        worth[edge[~beyond_horizon(mirror_map, cameras)]] = True
-        marked = (_straying(view, cameras, ends, rays, reach) > tolerance) & worth
+        worth[edge[asked[~beyond_horizon(mirror_map, cameras.select(asked))]]] = True
+        marked &= worth
         if not marked.any():
-            return cameras, False
-        cameras, _ = split_at(cameras, marked, edge, middles, origins, rays)
+            limited = False
+            break
+        # a whole camera stays whole: what is said of an edge does not depend on who asks
+        divided = marked[edge].any(axis=1)
+        finished.append(cameras.select(~divided))
+        cameras, _ = split_at(cameras.select(divided), marked, edge[divided], middles, origins, rays)
         cameras = cameras.select(in_picture(view, cameras))
-    return cameras, True
+    parts = [*finished, cameras]
+    return Cameras(np.concatenate([part.corners for part in parts]), np.concatenate([part.face for part in parts]),
+                   cameras.places, cameras.rays, cameras.origins), limited
 
 
 def _straying(view: View, cameras: Cameras, ends: np.ndarray, middle_rays: np.ndarray, reach: float) -> np.ndarray:

@@ -1,8 +1,8 @@
-"""What of the mirror its own body hides from the eye: found on a coarse grid of view rays.
+"""Cameras that the mirror's own body hides whole from the eye: found on a coarse grid of view rays.
 
 Nothing is called hidden that might peek out between the samples: a camera is dropped only where it and all cameras
-round it have samples and every one lies behind another part of the mirror, and a place only where the four samples
-round it do.
+round it have samples and every one lies behind another part of the mirror; one that falls between the samples, where
+its corners lie behind nearer parts at all samples round them. What is left is for `self_occlusion`.
 """
 from __future__ import annotations
 
@@ -11,15 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .cameras import Cameras
-from .mirror_map import MirrorMap
-from .camera_splitting import split_cameras
 from .vectors import ranges
 from .view import View
 
 SAMPLES = 256  # across the wider side of the picture
-LEVELS = 4
-LONG_EDGE = 32.0  # pixels: a shorter edge of a partly hidden camera is not worth a split
-CELLS = 2.0  # of the grid: the largest face that its hidden corners can speak for
 SURFACE = 2e-4  # relative difference of depth up to which two samples lie on one surface
 
 
@@ -31,57 +26,58 @@ class DepthGrid:
     ----------
     view : View
     nearest : (height, width) float64, -inf where a sample sees no mirror
+    layers : (height, width) int64, cameras at each sample, hidden ones too
     scale : float, samples per pixel
     room : float, share of the nearness, or for an orthographic view depth, by which two samples of one surface differ
     """
 
     view: View
     nearest: np.ndarray
+    layers: np.ndarray
     scale: float
     room: float
 
     @classmethod
-    def of(cls, view: View, cameras: Cameras) -> tuple[DepthGrid, np.ndarray, np.ndarray]:
-        """The grid of cameras (n,); which of them have samples that are seen, and which have hidden samples."""
+    def of(cls, view: View, cameras: Cameras) -> tuple[DepthGrid, np.ndarray]:
+        """The grid of cameras (n,), and which of them the eye may see."""
         scale = SAMPLES / max(view.resolution)
         width, height = (int(side) for side in np.ceil(np.array(view.resolution) * scale))
         depth = view.depths(cameras.places.T)
         room = SURFACE * max(float(np.ptp(depth)), 1e-300) if view.orthographic else SURFACE
-        grid = cls(view, np.full((height, width), -np.inf), scale, room)
+        grid = cls(view, np.full((height, width), -np.inf), np.zeros((height, width), dtype=np.int64), scale, room)
         camera, x, y, weights = grid._samples(view.pixels(cameras.places.T)[cameras.corners] * scale,
                                               (depth[cameras.corners] > 0.0).all(axis=1))
         depth = depth[cameras.corners[camera]].T
         nearness = -(weights * depth).sum(axis=0) if view.orthographic else (weights / depth).sum(axis=0)
         np.maximum.at(grid.nearest, (y, x), nearness)
-        states, seen = [], nearness + grid._margin(nearness) >= grid.nearest[y, x]
-        for state in (seen, ~seen):
-            found = np.zeros(len(cameras), dtype=bool)
-            found[camera[state]] = True
-            states.append(found)
-        return grid, *states
+        np.add.at(grid.layers, (y, x), 1)
+        seen = nearness + grid._margin(nearness) >= grid.nearest[y, x]
+        shows, hides = (np.bincount(camera[state], minlength=len(cameras)) > 0 for state in (seen, ~seen))
+        between = np.flatnonzero(~shows & ~hides)
+        hides[between] = grid._hides_small(cameras.select(between))
+        corner_seen = np.zeros(cameras.places.shape[1], dtype=bool)
+        corner_seen[cameras.corners[shows | ~hides]] = True
+        return grid, corner_seen[cameras.corners].any(axis=1)
 
-    def hides(self, places: np.ndarray) -> np.ndarray:
-        """Which places (3, n) on the mirror lie in the picture and behind nearer parts of it, at all four samples
-        round them."""
-        depth = self.view.depths(places.T)
+    def _hides_small(self, cameras: Cameras) -> np.ndarray:
+        """Which cameras (n,) that no sample meets lie before the eye, in the picture, and behind nearer parts of the
+        mirror at all four samples round each of their corners."""
+        used, corners = np.unique(cameras.corners, return_inverse=True)
+        places = cameras.places[:, used].T
+        depth, pixels = self.view.depths(places), np.nan_to_num(self.view.pixels(places))
         with np.errstate(divide="ignore"):
             nearness = -depth if self.view.orthographic else 1.0 / depth
         limit = nearness + self._margin(nearness)
         height, width = self.nearest.shape
-        pixels = np.nan_to_num(self.view.pixels(places.T))
-        corner = np.floor(pixels * self.scale - 0.5).astype(np.int64)
         hidden = (depth > 0.0) & (pixels >= 0.0).all(axis=1) & (pixels <= self.view.resolution).all(axis=1)
+        sample = np.where(hidden[:, None], np.floor(pixels * self.scale - 0.5), 0.0).astype(np.int64)
         for step_x, step_y in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            x, y = np.clip(corner[:, 0] + step_x, 0, width - 1), np.clip(corner[:, 1] + step_y, 0, height - 1)
+            x, y = np.clip(sample[:, 0] + step_x, 0, width - 1), np.clip(sample[:, 1] + step_y, 0, height - 1)
             hidden &= self.nearest[y, x] > limit
-        return hidden
-
-    def hides_faces(self, places: np.ndarray, faces: np.ndarray) -> np.ndarray:
-        """Which small faces (m, 3) between `places` (3, n) have only hidden corners; between the corners of large ones
-        anything might be seen."""
-        pixels = self.view.pixels(places.T)[faces]
-        small = (np.abs(pixels - np.roll(pixels, -1, axis=1)) * self.scale <= CELLS).all(axis=(1, 2))
-        return small & self.hides(places)[faces].all(axis=1)
+        corners = corners.reshape(-1, 3)
+        spots = pixels[corners] * self.scale
+        small = (np.abs(spots - np.roll(spots, -1, axis=1)) <= 2.0).all(axis=(1, 2))
+        return small & hidden[corners].all(axis=1)
 
     def _margin(self, nearness: np.ndarray):
         return self.room if self.view.orthographic else self.room * nearness
@@ -104,17 +100,7 @@ class DepthGrid:
         return camera[inside], x[inside], y[inside], weights[:, inside]
 
 
-def without_hidden(view: View, mirror_map: MirrorMap, cameras: Cameras) -> tuple[Cameras, DepthGrid]:
-    """The cameras that the eye may see; large ones hidden in part are split, and their hidden parts dropped."""
-    for level in range(LEVELS + 1):
-        grid, seen, hidden = DepthGrid.of(view, cameras)
-        pixels = view.pixels(cameras.places.T)[cameras.corners]
-        long = np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > LONG_EDGE
-        marked = (seen & hidden)[:, None] & long
-        if level == LEVELS or not marked.any():
-            break
-        cameras, *_ = split_cameras(view, mirror_map, cameras, marked)
-    keep = seen | ~hidden
-    corner_seen = np.zeros(cameras.places.shape[1], dtype=bool)
-    corner_seen[cameras.corners[keep]] = True
-    return cameras.select(corner_seen[cameras.corners].any(axis=1)), grid
+def without_hidden(view: View, cameras: Cameras) -> tuple[Cameras, DepthGrid]:
+    """The cameras that the eye may see, and the grid."""
+    grid, kept = DepthGrid.of(view, cameras)
+    return cameras.select(kept), grid

@@ -19,6 +19,7 @@ from .point_tree import PointTree
 from .points import reflected_points
 from .reflection_mesh import ReflectionMesh
 from .scene_tree import SceneTree
+from .self_occlusion import without_occluded
 from .settings import Settings
 from .triangle_mesh import TriangleMesh
 from .view import View
@@ -82,11 +83,13 @@ def reflection_steps(
     yield 0.1, "cameras"
     mirror_map = MirrorMap(view, mirror, settings.method == "PARALLEL")
     cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
-    cameras = cut_at_horizon(view, mirror_map, cameras.select(in_picture(view, cameras)))
+    cameras = cameras.select(in_picture(view, cameras))
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
-    cameras, grid = without_hidden(view, mirror_map, cameras)
-    progress.done("cameras", mirror_triangles=len(cameras))
+    cameras, grid = without_hidden(view, cameras)
+    cameras, occluded = without_occluded(view, mirror_map, mirror, cameras, grid)
+    cameras = cut_at_horizon(view, mirror_map, cameras)
+    progress.done("cameras", mirror_triangles=len(cameras), self_occluded=occluded)
 
     if settings.method == "POINTS":
         cameras = refined(view, mirror_map, cameras, met, settings, True, progress)
@@ -98,7 +101,7 @@ def reflection_steps(
     for number in range(settings.depth):
         start = 0.15 + 0.8 * number / settings.depth
         last = number + 1 == settings.depth
-        steps = bounce_steps(view, mirror_map, cameras, met, grid, settings, last, progress)
+        steps = bounce_steps(view, mirror_map, cameras, met, settings, last, progress)
         bounces.append((yield from _shifted(steps, start, 0.8 / settings.depth)))
         if not last:
             mirror_map, cameras = bounced_cameras(view, bounces[-1], met)

@@ -110,3 +110,15 @@ def test_a_triangle_seen_edge_on_hides_nothing():
     scene = TriangleMesh([eye + (0, 3, -2.5), eye + (0, 3, -1), eye + (0, 6, -2.5)], [[0, 1, 2]])
     _, (_, _, count) = cameras_before_and_after(view, mirror, scene)
     assert count == 0
+
+
+def test_pieces_on_both_sides_of_a_sharp_edge_keep_the_rays_of_their_own_faces():
+    view = View.looking_at((3, -6, 3), (0, 0, 0), (256, 256), **PERSPECTIVE)
+    mirror = shapes.combine(shapes.box((0, 0, 0), (2, 2, 2)))
+    scene = shapes.combine(shapes.box((1, -1, 0), (1, 1, 0.7)))
+    cameras, (after, _, count) = cameras_before_and_after(view, mirror, scene)
+    assert count > 0
+    corner, face = after.corners.ravel(), np.repeat(after.face, 3)
+    d, n = after.places[:, corner].T - view.eye, mirror.face_normals()[face]
+    expected = d - 2.0 * (d * n).sum(axis=1, keepdims=True) * n
+    np.testing.assert_allclose(after.rays[:, corner].T, expected, rtol=0, atol=1e-6)

@@ -121,3 +121,12 @@ def test_the_bound_on_faces_is_kept_and_told():
     assert mesh.counts["limited"] > 0
     assert len(mesh.triangles) < 40_000
     assert np.isfinite(mesh.positions).all()
+
+
+@pytest.mark.parametrize("name", ["sphere", "torus", "bowl"])
+def test_no_edge_is_split_for_nothing(name):
+    mesh = mesh_of(name, tolerance=0.5)
+    pixels = case_of(name).view.pixels(mesh.mirror_position)[mesh.triangles]
+    shortest = np.linalg.norm(pixels - np.roll(pixels, 1, axis=1), axis=2).min(axis=1)
+    assert (shortest < 1e-4).sum() < 0.002 * len(mesh.triangles)
+    assert mesh.counts["limited"] == 0
