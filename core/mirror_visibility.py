@@ -1,8 +1,8 @@
 """What of the mirror its own body hides from the eye: found on a coarse grid of view rays.
 
-Nothing is called hidden that might peek out between the samples: a camera is dropped only where it and all cameras
-round it have samples and every one lies behind another part of the mirror, and a place only where the four samples
-round it do.
+Nothing is called hidden that might peek out between the samples: a place is hidden only where the four samples round it
+lie behind another part of the mirror, and a camera is dropped only where its corners are hidden so, and where it and
+all cameras that share a corner with it have samples and every one is hidden.
 """
 from __future__ import annotations
 
@@ -115,6 +115,7 @@ def without_hidden(view: View, mirror_map: MirrorMap, cameras: Cameras) -> tuple
             break
         cameras, *_ = split_cameras(view, mirror_map, cameras, marked)
     keep = seen | ~hidden
-    corner_seen = np.zeros(cameras.places.shape[1], dtype=bool)
+    # flat faces share no corners, and the neighbours of a sliver at the outline may be gone: its corners speak too
+    corner_seen = ~grid.hides(cameras.places)
     corner_seen[cameras.corners[keep]] = True
     return cameras.select(corner_seen[cameras.corners].any(axis=1)), grid
