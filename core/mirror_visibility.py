@@ -60,20 +60,29 @@ class DepthGrid:
             states.append(found)
         return grid, *states
 
-    def hides(self, places: np.ndarray) -> np.ndarray:
-        """Which places (3, n) on the mirror lie in the picture and behind nearer parts of it, at all four samples
-        round them."""
+    def hides(self, places: np.ndarray, faces: np.ndarray) -> np.ndarray:
+        """Which corners (m, 3) of faces between `places` (3, n) on the mirror lie in the picture and behind nearer
+        parts of it: at all four samples round them the face's own plane does."""
         depth = self.view.depths(places.T)
         with np.errstate(divide="ignore"):
-            nearness = -depth if self.view.orthographic else 1.0 / depth
-        limit = nearness + self._margin(nearness)
+            nearness = (-depth if self.view.orthographic else 1.0 / depth)[faces]
         height, width = self.nearest.shape
         pixels = np.nan_to_num(self.view.pixels(places.T))
+        inside = (depth > 0.0) & (pixels >= 0.0).all(axis=1) & (pixels <= self.view.resolution).all(axis=1)
+        hidden, pixels = inside[faces], pixels[faces]
+        # nearness is affine over a face's plane: an oblique face must not be hidden by its own nearer parts
+        (ax, ay), (bx, by) = (np.moveaxis(pixels[:, k] - pixels[:, 0], 1, 0) for k in (1, 2))
+        a, b = nearness[:, 1] - nearness[:, 0], nearness[:, 2] - nearness[:, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slope = np.stack((a * by - b * ay, b * ax - a * bx), axis=1) / (ax * by - bx * ay)[:, None]
         corner = np.floor(pixels * self.scale - 0.5).astype(np.int64)
-        hidden = (depth > 0.0) & (pixels >= 0.0).all(axis=1) & (pixels <= self.view.resolution).all(axis=1)
-        for step_x, step_y in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            x, y = np.clip(corner[:, 0] + step_x, 0, width - 1), np.clip(corner[:, 1] + step_y, 0, height - 1)
-            hidden &= self.nearest[y, x] > limit
+        for step in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            sample = corner + step
+            away = (sample + 0.5) / self.scale - pixels
+            with np.errstate(invalid="ignore"):
+                own = nearness + (slope[:, None] * away).sum(axis=2)
+                x, y = np.clip(sample[..., 0], 0, width - 1), np.clip(sample[..., 1], 0, height - 1)
+                hidden &= self.nearest[y, x] > own + self._margin(np.abs(own))
         return hidden
 
     def hides_faces(self, places: np.ndarray, faces: np.ndarray) -> np.ndarray:
@@ -81,7 +90,8 @@ class DepthGrid:
         anything might be seen."""
         pixels = self.view.pixels(places.T)[faces]
         small = (np.abs(pixels - np.roll(pixels, -1, axis=1)) * self.scale <= CELLS).all(axis=(1, 2))
-        return small & self.hides(places)[faces].all(axis=1)
+        small[small] = self.hides(places, faces[small]).all(axis=1)
+        return small
 
     def _margin(self, nearness: np.ndarray):
         return self.room if self.view.orthographic else self.room * nearness
@@ -116,6 +126,7 @@ def without_hidden(view: View, mirror_map: MirrorMap, cameras: Cameras) -> tuple
         cameras, *_ = split_cameras(view, mirror_map, cameras, marked)
     keep = seen | ~hidden
     # flat faces share no corners, and the neighbours of a sliver at the outline may be gone: its corners speak too
-    corner_seen = ~grid.hides(cameras.places)
+    keep |= ~grid.hides(cameras.places, cameras.corners).all(axis=1)
+    corner_seen = np.zeros(cameras.places.shape[1], dtype=bool)
     corner_seen[cameras.corners[keep]] = True
     return cameras.select(corner_seen[cameras.corners].any(axis=1)), grid
