@@ -77,13 +77,18 @@ def _room(name: str):
 @contextmanager
 def _nothing_filled() -> Iterator[None]:
     """Leave the step `filling` out of the method: what it would fill stays as clipping left it."""
+    reflection = _room("core.reflection")
+    find_and_fill = getattr(reflection, "fill_openings", None)
+
     def fill(mirror_map, cameras, frames, candidates, polygons, open_):
         return polygons, 0
 
-    def fill_openings(view, mirror_map, cameras, tree, frames, images, candidates, polygons, nodes, node_of):
-        return candidates, polygons, nodes, node_of, {"filled": 0, "rays": 0}
+    def fill_openings(*given):
+        *_, counts = find_and_fill(*given)
+        # candidates, polygons, nodes and the nodes of the polygons as they came
+        return *given[-4:], dict.fromkeys(counts, 0)
 
-    with mock.patch.multiple(_room("core.reflection"), create=True, fill=fill, fill_openings=fill_openings):
+    with mock.patch.multiple(reflection, create=True, fill=fill, fill_openings=fill_openings):
         yield
 
 
@@ -153,7 +158,7 @@ def _save(path: Path, pictures: list[tuple[str, Image.Image]], box: tuple) -> No
             top = LABEL + (1 + row) * step
             sheet.paste(enlarged, (left, top))
             draw.rectangle([left, top, left + TILE - 1, top + TILE - 1], outline=colour)
-    sheet.save(path, quality=80, optimize=True)
+    sheet.save(path, quality=76, optimize=True)
 
 
 def _filled_box(before: Image.Image, after: Image.Image, truth: Image.Image) -> list[tuple]:
