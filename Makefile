@@ -17,7 +17,7 @@ help:
 	@echo "make test     style, the method's tests, the extension's tests"
 	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
 	@echo "make zip      the extension as a zip in dist/, to install in Blender"
-	@echo "make pictures the pictures of the README, in docs/"
+	@echo "make pictures the pictures of the documents, in docs/"
 	@echo "make samples  write sample_blends/*.blend anew"
 	@echo "PYTHON=... chooses the Python, 3.11 or 3.13 (now: $(PYTHON))"
 
@@ -44,6 +44,7 @@ measure: environment
 
 pictures: environment
 	$(RUN) benchmarks/pictures.py
+	$(RUN) benchmarks/parts.py
 
 test: lint test-core test-addon
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
 
 
 def uses_nodes(material: bpy.types.Material) -> bool:
@@ -9,3 +10,19 @@ def uses_nodes(material: bpy.types.Material) -> bool:
     if bpy.app.version >= (5, 0, 0):
         return material.node_tree is not None
     return material.use_nodes and material.node_tree is not None
+
+
+def smooth_faces_take_vertex_normals(mesh: bpy.types.Mesh) -> bool:
+    """Whether Cycles shades smooth faces beside flat ones with the vertices' normals, flat faces included.
+
+    Before Blender 5.0 it does where flat faces alone make normals split: with sharp edges or custom normals it takes
+    the corners' normals, as the viewport does, and from 5.0 on always.
+    """
+    if bpy.app.version >= (5, 0, 0) or mesh.has_custom_normals or mesh.normals_domain != "CORNER":
+        return False
+    edges = mesh.attributes.get("sharp_edge")
+    if edges is None:
+        return True
+    sharp = np.empty(len(edges.data), dtype=bool)
+    edges.data.foreach_get("value", sharp)
+    return not sharp.any()

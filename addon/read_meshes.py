@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..core import ReflectionError
+from . import compat
 
 # what evaluated objects can be turned into a mesh
 SURFACES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
@@ -152,6 +153,12 @@ def _face_materials(mesh: bpy.types.Mesh) -> np.ndarray:
 
 def _corner_normals(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.ndarray) -> np.ndarray:
     normals = _values(mesh.corner_normals, "vector", (len(mesh.loops), 3), np.float32)
+    if compat.smooth_faces_take_vertex_normals(mesh):
+        smooth = np.repeat(_values(mesh.polygons, "use_smooth", len(mesh.polygons), bool),
+                           _values(mesh.polygons, "loop_total", len(mesh.polygons), np.int32))
+        of_vertices = _values(mesh.vertex_normals, "vector", (len(mesh.vertices), 3), np.float32)
+        vertex = _values(mesh.attributes[".corner_vert"].data, "value", len(mesh.loops), np.int32)
+        normals[smooth] = of_vertices[vertex[smooth]]
     if not np.isfinite(normals).all():
         obj.to_mesh_clear()
         raise ReflectionError(f"'{obj.name}' has a normal that is not a finite number: recalculate its normals.")

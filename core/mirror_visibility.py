@@ -53,31 +53,35 @@ class DepthGrid:
         np.add.at(grid.layers, (y, x), 1)
         seen = nearness + grid._margin(nearness) >= grid.nearest[y, x]
         shows, hides = (np.bincount(camera[state], minlength=len(cameras)) > 0 for state in (seen, ~seen))
-        between = np.flatnonzero(~shows & ~hides)
-        hides[between] = grid._hides_small(cameras.select(between))
+        hides = grid.hides(cameras.places, cameras.corners).all(axis=1) & (hides | ~shows)
         corner_seen = np.zeros(cameras.places.shape[1], dtype=bool)
         corner_seen[cameras.corners[shows | ~hides]] = True
         return grid, corner_seen[cameras.corners].any(axis=1)
 
-    def _hides_small(self, cameras: Cameras) -> np.ndarray:
-        """Which cameras (n,) that no sample meets lie before the eye, in the picture, and behind nearer parts of the
-        mirror at all four samples round each of their corners."""
-        used, corners = np.unique(cameras.corners, return_inverse=True)
-        places = cameras.places[:, used].T
-        depth, pixels = self.view.depths(places), np.nan_to_num(self.view.pixels(places))
+    def hides(self, places: np.ndarray, faces: np.ndarray) -> np.ndarray:
+        """Which corners (m, 3) of faces between `places` (3, n) on the mirror lie in the picture and behind nearer
+        parts of it: at all four samples round them the face's own plane does."""
+        depth = self.view.depths(places.T)
         with np.errstate(divide="ignore"):
-            nearness = -depth if self.view.orthographic else 1.0 / depth
-        limit = nearness + self._margin(nearness)
+            nearness = (-depth if self.view.orthographic else 1.0 / depth)[faces]
         height, width = self.nearest.shape
-        hidden = (depth > 0.0) & (pixels >= 0.0).all(axis=1) & (pixels <= self.view.resolution).all(axis=1)
-        sample = np.where(hidden[:, None], np.floor(pixels * self.scale - 0.5), 0.0).astype(np.int64)
-        for step_x, step_y in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            x, y = np.clip(sample[:, 0] + step_x, 0, width - 1), np.clip(sample[:, 1] + step_y, 0, height - 1)
-            hidden &= self.nearest[y, x] > limit
-        corners = corners.reshape(-1, 3)
-        spots = pixels[corners] * self.scale
-        small = (np.abs(spots - np.roll(spots, -1, axis=1)) <= 2.0).all(axis=(1, 2))
-        return small & hidden[corners].all(axis=1)
+        pixels = np.nan_to_num(self.view.pixels(places.T))
+        inside = (depth > 0.0) & (pixels >= 0.0).all(axis=1) & (pixels <= self.view.resolution).all(axis=1)
+        hidden, pixels = inside[faces], pixels[faces]
+        # nearness is affine over a face's plane: an oblique face must not be hidden by its own nearer parts
+        (ax, ay), (bx, by) = (np.moveaxis(pixels[:, k] - pixels[:, 0], 1, 0) for k in (1, 2))
+        a, b = nearness[:, 1] - nearness[:, 0], nearness[:, 2] - nearness[:, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slope = np.stack((a * by - b * ay, b * ax - a * bx), axis=1) / (ax * by - bx * ay)[:, None]
+        corner = np.floor(pixels * self.scale - 0.5).astype(np.int64)
+        for step in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            sample = corner + step
+            away = (sample + 0.5) / self.scale - pixels
+            with np.errstate(invalid="ignore"):
+                own = nearness + (slope[:, None] * away).sum(axis=2)
+                x, y = np.clip(sample[..., 0], 0, width - 1), np.clip(sample[..., 1], 0, height - 1)
+                hidden &= self.nearest[y, x] > own + self._margin(np.abs(own))
+        return hidden
 
     def _margin(self, nearness: np.ndarray):
         return self.room if self.view.orthographic else self.room * nearness

@@ -16,7 +16,6 @@ from .images import VertexImages, images_of_pairs, repeated
 from .magnification import Magnification
 from .met_surfaces import MetSurfaces
 from .mirror_map import MirrorMap
-from .mirror_visibility import DepthGrid
 from .placement import place as placed
 from .point_tree import PointTree
 from .reflection_mesh import ReflectionMesh
@@ -30,8 +29,7 @@ ON_CAUSTIC = 1e-9  # magnification
 
 
 def reflected_points(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, cameras: Cameras, tree: PointTree,
-                     met: MetSurfaces, grid: DepthGrid,
-                     placement: str) -> Generator[tuple[float, str], None, ReflectionMesh]:
+                     met: MetSurfaces, placement: str) -> Generator[tuple[float, str], None, ReflectionMesh]:
     """Every image of the tree's vertices in the cameras, once, as a point with its disc.
 
     Yields (fraction of the whole work, stage that comes next) and returns the result.
@@ -61,7 +59,7 @@ def reflected_points(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, ca
     images = VertexImages(images.vertex, images.camera, distance, place, view.pixels(place.T))
     # of one image, that which stands for most is kept
     order = np.lexsort((images.camera, -reach, images.vertex))
-    hidden = grid.hides(place) | met.hides(mirror_map, cameras, cones, images.camera, place, positions[images.vertex].T)
+    hidden = met.hides(mirror_map, cameras, cones, images.camera, place, positions[images.vertex].T)
     order = order[(real & ~hidden)[order]]
     order = order[~repeated(images.select(order))]
     images, reach, face, uv = images.select(order), reach[order], face[order], uv[:, order]

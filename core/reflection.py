@@ -93,7 +93,7 @@ def reflection_steps(
 
     if settings.method == "POINTS":
         cameras = refined(view, mirror_map, cameras, met, settings, True, progress)
-        mesh = yield from reflected_points(view, mirror, mirror_map, cameras, tree, met, grid, settings.placement)
+        mesh = yield from reflected_points(view, mirror, mirror_map, cameras, tree, met, settings.placement)
         progress.done("points", **mesh.counts)
         return replace(mesh, counts=progress.counts, seconds=progress.seconds)
 

@@ -109,12 +109,12 @@ def add(kind: str, name: str, location: tuple, material: bpy.types.Material | tu
         added.data.shade_smooth()
     if isinstance(material, tuple):
         bpy.context.view_layer.update()
-        material = _painted(added, material)
+        material = painted(added, material)
     added.data.materials.append(material)
     return added
 
 
-def _painted(target: bpy.types.Object, colour: tuple) -> bpy.types.Material:
+def painted(target: bpy.types.Object, colour: tuple) -> bpy.types.Material:
     """Writes colour times light into a colour attribute and returns the material that emits it."""
     mesh = target.data
     normals = np.empty(len(mesh.loops) * 3, dtype=np.float32)

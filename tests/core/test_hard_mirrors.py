@@ -4,7 +4,8 @@ import pytest
 
 from core import TriangleMesh, View, reflect
 from tests import shapes
-from tests.judge import judge
+from tests.judge import HOLE, compare, judge
+from tests.truth import trace
 
 ROOM = (shapes.quad((0, 6, 3), (8, 0, 0), (0, 0, 4)), shapes.quad((-6, 0, 3), (0, 8, 0), (0, 0, 4)),
         shapes.quad((6, 0, 3), (0, 8, 0), (0, 0, 4)))
@@ -54,3 +55,22 @@ def test_awkward_mirrors_keep_the_tolerance(name):
     assert numbers["compared"] > 3000
     assert numbers["p99"] < 0.5
     assert numbers["uncovered"] < 0.1
+
+
+def test_a_flat_sliver_that_peeks_out_from_behind_another_face_reflects():
+    """Two pixels of it are seen at the mirror's outline, and every coarse sample on it is hidden (a rabbit's ear)."""
+    view = View.looking_at((0, -6, 2), (0, 0, 1), (1024, 1024), field_of_view=0.5)
+
+    def at(pixels, depth):
+        origins, directions = view.rays(np.array(pixels, dtype=np.float64))
+        return origins + depth * directions
+
+    mirror = TriangleMesh(np.concatenate((at([(380.8, 300.3), (380.8, 900.7), (700.9, 600.1)], 5.0),
+                                          at([(390.24, 698.0), (378.62, 761.7), (379.54, 721.5)], 6.0))),
+                          np.arange(6).reshape(2, 3))
+    scene = shapes.combine(shapes.icosphere((0, 0, 0), 50, 2))
+    truth = trace(view, mirror, scene)
+    sliver = truth.mirror_triangle == 1
+    assert sliver.sum() > 20
+    judgement = compare(view, mirror, reflect(view, mirror, scene), truth, single_precision=True)
+    assert not (judgement.kind[sliver] == HOLE).any()

@@ -1,0 +1,177 @@
+"""Makes the pictures that show what each part of the method adds: connection, clipping, filling, beside Cycles.
+
+    python benchmarks/parts.py [folder]
+
+Leaves `parts_bowl.jpg`, `parts_water.jpg` and `parts_suzanne.jpg` in the folder, docs/ by default: the whole picture
+above, parts of it enlarged below.
+"""
+from __future__ import annotations
+
+import importlib
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from unittest import mock
+
+import extension_zip
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+from scipy.ndimage import uniform_filter
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+WHOLE = 1e-6  # by how much the areas of a triangle's faces may miss the triangle's
+TILE, GAP, LABEL = 396, 6, 26
+CLOSE = 28  # pixels across the place where filling helps most
+BOXES = {"bowl": (140, 250, 380, 490), "water": (770, 520, 1010, 760), "suzanne": (430, 650, 670, 890)}
+
+
+def main(folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as name:
+        scratch = Path(name)
+        extension_zip.use_throw_away_preferences(scratch / "preferences")
+        extension_zip.install(extension_zip.build(scratch))
+        for sample, box in BOXES.items():
+            _save(folder / f"parts_{sample}.jpg", _pictures(sample, scratch), box)
+        extension_zip.switch_off()
+
+
+def _pictures(sample: str, scratch: Path) -> list[tuple[str, Image.Image]]:
+    """Each part's label and picture."""
+    with _nothing_filled():
+        obj, mesh = _generated(sample)
+    everything, whole = obj.data.copy(), joined_whole(mesh)
+    _keep_faces(obj.data, whole)
+    connected = _render(obj, scratch)
+    obj.data = everything
+    clipped = _render(obj, scratch)
+    obj, filled = _generated(sample)
+    return [(f"connection only: {whole.sum():,} faces", connected),
+            (f"+ clipping: {len(whole):,} faces", clipped),
+            (f"+ filling: {filled.counts['filled']:,} pieces more", _render(obj, scratch)),
+            ("Cycles, tracing the mirror", _render(None, scratch))]
+
+
+def _generated(sample: str) -> tuple:
+    """Open the sample and reflect it: the object and core's mesh, whose faces it has in the same order."""
+    import bpy
+    bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{sample}.blend"))
+    chosen = _room("addon.roles").choose(bpy.context)
+    steps = _room("addon.generate").generation(bpy.context, chosen, _room("core").Settings())
+    while True:
+        try:
+            next(steps)
+        except StopIteration as stop:
+            bpy.context.view_layer.update()
+            return stop.value.results[0]
+
+
+def _room(name: str):
+    """A module of the installed extension."""
+    return importlib.import_module(f"{extension_zip.PACKAGE}.{name}")
+
+
+@contextmanager
+def _nothing_filled() -> Iterator[None]:
+    """Leave the step `filling` out of the method: what it would fill stays as clipping left it."""
+    reflection = _room("core.reflection")
+    find_and_fill = getattr(reflection, "fill_openings", None)
+
+    def fill(mirror_map, cameras, frames, candidates, polygons, open_):
+        return polygons, 0
+
+    def fill_openings(*given):
+        *_, counts = find_and_fill(*given)
+        # candidates, polygons, nodes and the nodes of the polygons as they came
+        return *given[-4:], dict.fromkeys(counts, 0)
+
+    with mock.patch.multiple(reflection, create=True, fill=fill, fill_openings=fill_openings):
+        yield
+
+
+def joined_whole(mesh) -> np.ndarray:
+    """Faces (m,) of the reflected triangles that no outline cuts: those whose faces of one parity, joined along
+    edges, make up the whole diffuse triangle."""
+    count = len(mesh.triangles)
+    parity = mesh.image_parity[mesh.triangles].astype(np.int64)
+    parity = np.sign(parity.sum(axis=1))
+    edges = np.sort(np.stack((mesh.triangles, np.roll(mesh.triangles, -1, axis=1)), axis=2), axis=2).reshape(-1, 2)
+    face = np.repeat(np.arange(count), 3)
+    # an edge of this triangle's image, of this parity
+    keys = np.column_stack((mesh.source_face[face], parity[face], edges))
+    _, group = np.unique(keys, axis=0, return_inverse=True)
+    group = group.ravel()
+    order = np.argsort(group, kind="stable")
+    same = group[order][1:] == group[order][:-1]
+    first, second = face[order][:-1][same], face[order][1:][same]
+    graph = coo_matrix((np.ones(len(first), dtype=np.int8), (first, second)), shape=(count, count))
+    pieces, piece = connected_components(graph, directed=False)
+    area = np.bincount(piece, np.abs(np.linalg.det(mesh.source_weights)), minlength=pieces)
+    return (np.abs(area - 1.0) < WHOLE)[piece]
+
+
+def _keep_faces(mesh, kept: np.ndarray) -> None:
+    """Delete the other faces of a Blender mesh."""
+    import bmesh
+    edit = bmesh.new()
+    edit.from_mesh(mesh)
+    edit.faces.ensure_lookup_table()
+    bmesh.ops.delete(edit, geom=[edit.faces[index] for index in np.flatnonzero(~kept)], context="FACES_ONLY")
+    edit.to_mesh(mesh)
+    edit.free()
+
+
+def _render(result, scratch: Path) -> Image.Image:
+    """The scene with `result` before a mirror that reflects the sky alone; where None, as Cycles traces it."""
+    import bpy
+    scene = bpy.context.scene
+    for obj in scene.objects:
+        if obj.reflection_mesh.role == "REFLECTION":
+            obj.hide_render = obj != result
+            for source in obj.reflection_mesh.sources:
+                source.object.visible_glossy = result is None
+    scene.cycles.samples, scene.cycles.use_denoising = 24, False
+    scene.render.filepath = str(scratch / "part.png")
+    bpy.ops.render.render(write_still=True)
+    return Image.open(scratch / "part.png").convert("RGB")
+
+
+def _save(path: Path, pictures: list[tuple[str, Image.Image]], box: tuple) -> None:
+    """A sheet: the pictures side by side under their labels; below, the box (left, top, right, bottom) of each, and the
+    place where filling helps most."""
+    font = ImageFont.load_default(16)
+    rows = [(box, "red"), *((found, "blue") for found in _filled_box(*(picture for _, picture in pictures[1:])))]
+    step = TILE + GAP
+    sheet = Image.new("RGB", (len(pictures) * step - GAP, LABEL + (1 + len(rows)) * step - GAP), "white")
+    draw = ImageDraw.Draw(sheet)
+    for column, (label, picture) in enumerate(pictures):
+        left, scale = column * step, TILE / picture.width
+        draw.text((left + 4, 4), label, fill="black", font=font)
+        sheet.paste(picture.resize((TILE, TILE), Image.Resampling.LANCZOS), (left, LABEL))
+        for row, (part, colour) in enumerate(rows):
+            draw.rectangle([(left + x * scale, LABEL + y * scale) for x, y in (part[:2], part[2:])], outline=colour)
+            method = Image.Resampling.LANCZOS if part == box else Image.Resampling.NEAREST
+            enlarged = picture.crop(part).resize((TILE, TILE), method)
+            top = LABEL + (1 + row) * step
+            sheet.paste(enlarged, (left, top))
+            draw.rectangle([left, top, left + TILE - 1, top + TILE - 1], outline=colour)
+    sheet.save(path, quality=76, optimize=True)
+
+
+def _filled_box(before: Image.Image, after: Image.Image, truth: Image.Image) -> list[tuple]:
+    """The square of `CLOSE` pixels in which `after` is nearer to the truth by most; none where nothing changed."""
+    before, after, truth = (np.asarray(picture, dtype=np.float64) for picture in (before, after, truth))
+    gain = (np.abs(before - truth) - np.abs(after - truth)).sum(axis=2)
+    if not gain.any():
+        return []
+    row, column = np.unravel_index(np.argmax(uniform_filter(gain, CLOSE)), gain.shape)
+    left, top = (int(np.clip(middle - CLOSE // 2, 0, side - CLOSE))
+                 for middle, side in zip((column, row), gain.shape[::-1]))
+    return [(left, top, left + CLOSE, top + CLOSE)]
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs")
