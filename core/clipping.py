@@ -13,8 +13,9 @@ import numpy as np
 
 from .candidates import Candidates
 
-# Lines: 0 1 2 the camera's edges opposite its corners, 3 4 5 the triangle's edges opposite its vertices, 6 its plane.
-SCENE_EDGE, CONTACT = 3, 6
+# Lines: 0 1 2 the camera's edges opposite its corners, 3 4 5 the triangle's edges opposite its vertices, 6 its plane;
+# 7 no line at all, round cells that rays filled.
+SCENE_EDGE, CONTACT, FILLED = 3, 6, 7
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,15 @@ def clip(candidates: Candidates) -> Polygons:
     last = np.arange(len(polygon)) - 1
     last[start[:-1]] = start[1:] - 1
     return Polygons(pair, start, weights, after[last], after)
+
+
+def whole_triangles(polygons: Polygons) -> int:
+    """How many polygons hold their triangle whole: three corners, all of them scene vertices."""
+    vertex = (polygons.before >= SCENE_EDGE) & (polygons.after >= SCENE_EDGE) & (polygons.before < CONTACT) & (
+        polygons.after < CONTACT)
+    size = np.diff(polygons.start)
+    vertices = np.bincount(np.repeat(np.arange(len(size)), size), weights=vertex, minlength=len(size))
+    return int(((size == 3) & (vertices == 3)).sum())
 
 
 def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_values: np.ndarray,

@@ -60,6 +60,11 @@ class DepthGrid:
             states.append(found)
         return grid, *states
 
+    @property
+    def mirror_pixels(self) -> int:
+        """About how many pixels see the mirror."""
+        return round(float(np.isfinite(self.nearest).sum()) / self.scale**2)
+
     def hides(self, places: np.ndarray) -> np.ndarray:
         """Which places (3, n) on the mirror lie in the picture and behind nearer parts of it, at all four samples
         round them."""

@@ -11,12 +11,12 @@ from .assembly import assemble
 from .cameras import three_ray_cameras, visible_triangles
 from .candidates import overlapping
 from .caustics import split_at_caustics
-from .clipping import clip
+from .clipping import clip, whole_triangles
 from .cones import Cones
 from .connection import connect
 from .face_refinement import FaceRefinement
 from .contacts import drop_behind_contacts
-from .filling import fill
+from .filling import fill, fill_openings
 from .horizon import beyond_horizon, cut_at_horizon
 from .images import vertex_images
 from .mirror_map import MirrorMap
@@ -105,7 +105,7 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
     cameras, grid = without_hidden(view, mirror_map, cameras)
-    counts["mirror_triangles"] = len(cameras)
+    counts["mirror_triangles"], counts["mirror_pixels"] = len(cameras), grid.mirror_pixels
     cones = Cones.around(cameras)
     sphere = tree.spheres[0][:, 0]
     every = np.arange(len(cameras))
@@ -139,10 +139,18 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
 
     yield 0.6, "clipping"
     polygons = clip(candidates)
-    polygons, counts["filled"] = fill(mirror_map, cameras, frames, candidates, polygons, open_)
+    polygons, bent = fill(mirror_map, cameras, frames, candidates, polygons, open_)
     nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, positions, candidates, polygons, images)
-    counts["polygons"] = len(polygons.pair)
+    counts["polygons"], counts["joined"] = len(polygons.pair), whole_triangles(polygons)
+    counts["cut"] = counts["polygons"] - counts["joined"]
     stages.done("clipping")
+
+    yield 0.7, "filling"
+    candidates, polygons, nodes, node_of, fill_counts = fill_openings(
+        view, mirror_map, cameras, tree, frames, images, candidates, polygons, nodes, node_of)
+    counts.update(fill_counts)
+    counts["filled"], counts["rays"] = counts["filled"] + bent, counts["rays"] + bent
+    stages.done("filling")
 
     yield 0.75, "connection"
     faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))

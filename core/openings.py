@@ -1,0 +1,222 @@
+"""Openings: where the polygons leave the mesh open, found from how they meet and confirmed by rays.
+
+Each edge of a polygon has a partner on the same two nodes. Over a camera's edge it is the same triangle's polygon in the
+neighbouring camera; over a scene edge, the neighbouring triangle's in the same camera, on the other side or, where the
+surface turns away, on the same. Edges are without a partner by right on the border of the mirror, of the scene and
+of a contact. Any other tells a place beside it that may be open. A ray traced backwards from there says which
+triangle is seen; the place is open if no polygon near it shows that triangle.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .backward_rays import first_hits
+from .cameras import Cameras
+from .candidates import Candidates
+from .clipping import CONTACT, SCENE_EDGE, Polygons
+from .mirror_map import MirrorMap
+from .scene_frames import SceneFrames
+from .scene_tree import SceneTree
+from .subdivision import shared_edges
+from .vectors import dot, ranges
+from .view import View
+
+BESIDE = 0.25  # pixels from an edge at which rays look for what should be there
+SPACING = 2.0  # pixels between rays along an edge
+MOST_PLACES = 64  # along one edge
+SHORTEST_EDGE = 0.25  # pixels: an edge as long as an outline may miss opens nothing
+MARGIN = 0.1  # pixels by which a polygon may end before the place that it covers
+
+
+@dataclass(frozen=True)
+class Openings:
+    """Places (n) that nothing covers.
+
+    Attributes
+    ----------
+    camera : (n,) int64
+    pixel : (n, 2) float64
+    column : (n,) int64, in the frames, of the triangle that a ray meets there
+    edges : int
+        Edges without a partner that led there or were found to be no opening.
+    rays : int
+        How many rays were traced.
+    """
+
+    camera: np.ndarray
+    pixel: np.ndarray
+    column: np.ndarray
+    edges: int
+    rays: int
+
+    def __len__(self) -> int:
+        return len(self.camera)
+
+
+def find_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: SceneTree, frames: SceneFrames,
+                  candidates: Candidates, polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Openings:
+    """Openings beside the edges of the polygons that have no partner.
+
+    Parameters
+    ----------
+    node_of : (k,) int64
+        Node of each polygon corner.
+    pixels : (n, 2) float64
+        Picture positions of the nodes.
+    """
+    edge, camera = unmatched_edges(cameras, tree, frames, candidates, polygons, node_of)
+    edges = len(edge)
+    edge, pixel = _beside(polygons, node_of, pixels, edge)
+    camera = camera[edge]
+    pixel, place, ray = moved_into(view, mirror_map, cameras, camera, pixel)
+    sound = np.flatnonzero(np.isfinite(place).all(axis=0))
+    camera, pixel = camera[sound], pixel[sound]
+    column = first_hits(tree, frames, place[:, sound], ray[:, sound])
+    open_ = column >= 0
+    seen = np.flatnonzero(open_)
+    open_[seen] = ~covered(cameras, frames, candidates, polygons, pixels[node_of], camera[seen], column[seen],
+                           pixel[seen])
+    return Openings(camera[open_], pixel[open_], column[open_], edges, len(sound))
+
+
+def unmatched_edges(cameras: Cameras, tree: SceneTree, frames: SceneFrames, candidates: Candidates,
+                    polygons: Polygons, node_of: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Polygon edges without a partner that should have one.
+
+    Returns
+    -------
+    edge : (e,) int64
+        The polygon corners where they start.
+    camera : (e,) int64
+        The camera on the side where the partner is missing.
+    """
+    start, end = node_of, node_of[following_corners(polygons)]
+    inner = polygons.after < CONTACT
+    proper = np.flatnonzero((start != end) & inner)
+    low, high = np.minimum(start, end)[proper], np.maximum(start, end)[proper]
+    _, pair, uses = np.unique(low * (int(node_of.max(initial=0)) + 1) + high, return_inverse=True, return_counts=True)
+    odd = proper[uses[pair] % 2 == 1]
+    of = np.repeat(polygons.pair, np.diff(polygons.start))[odd]
+    camera, column, label = candidates.camera[of], candidates.column[of], polygons.after[odd].astype(np.int64)
+    on_mirror = label < SCENE_EDGE
+    expected = np.zeros(len(odd), dtype=bool)
+    expected[~on_mirror] = _has_neighbour(tree, frames, column[~on_mirror], label[~on_mirror] - SCENE_EDGE)
+    beyond = _across(cameras, camera[on_mirror], label[on_mirror])
+    camera[on_mirror] = beyond
+    expected[on_mirror] = beyond >= 0
+    return odd[expected], camera[expected]
+
+
+def following_corners(polygons: Polygons) -> np.ndarray:
+    """(k,) int64, of each polygon corner the next one round."""
+    following = np.arange(1, len(polygons.after) + 1)
+    following[polygons.start[1:] - 1] = polygons.start[:-1]
+    return following
+
+
+def _has_neighbour(tree: SceneTree, frames: SceneFrames, column: np.ndarray, side: np.ndarray) -> np.ndarray:
+    """Whether the scene edges opposite vertex `side` of triangles are shared by exactly two triangles with an area."""
+    row, mesh = np.arange(len(column)), tree.mesh
+    vertices = frames.vertices[:, column]
+    asked = np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row])), axis=0)
+    touched = np.zeros(len(mesh.positions), dtype=bool)
+    touched[asked] = True
+    triangles = mesh.triangles[tree.leaf_triangles]
+    triangles = triangles[touched[triangles].sum(axis=1) >= 2]
+    low = np.minimum(triangles, np.roll(triangles, -1, axis=1)).ravel()
+    high = np.maximum(triangles, np.roll(triangles, -1, axis=1)).ravel()
+    count = len(mesh.positions)
+    edges, uses = np.unique(low * count + high, return_counts=True)
+    # a triangle that is asked about has an area itself: its edges are among them
+    return uses[np.searchsorted(edges, asked[0] * count + asked[1])] == 2
+
+
+def _across(cameras: Cameras, camera: np.ndarray, label: np.ndarray) -> np.ndarray:
+    """The camera beyond the edge opposite corner `label`, -1 where there is none or more than one."""
+    _, _, edge = shared_edges(cameras.corners)
+    uses = np.bincount(edge.ravel())
+    # the two cameras of an edge add up to the other one and this one
+    total = np.bincount(edge.ravel(), weights=np.repeat(np.arange(len(cameras), dtype=np.float64), 3))
+    here = edge[camera, (label + 1) % 3]
+    return np.where(uses[here] == 2, total[here].astype(np.int64) - camera, -1)
+
+
+def _beside(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray,
+            edge: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Places along polygon edges (e,), on the side away from the polygon: which of the edges, and the pixel."""
+    size = np.diff(polygons.start)
+    corners = pixels[node_of]
+    polygon = np.repeat(np.arange(len(size)), size)[edge]
+    middle = np.stack([corners[polygons.start[polygon] + k] for k in range(3)]).mean(axis=0)
+    start, way = corners[edge], corners[following_corners(polygons)[edge]] - corners[edge]
+    length = np.linalg.norm(way, axis=1)
+    count = np.where(length > SHORTEST_EDGE, np.clip(np.ceil(length / SPACING), 1, MOST_PLACES), 0).astype(np.int64)
+    across = np.stack((-way[:, 1], way[:, 0]), axis=1) / np.where(length > 0.0, length, 1.0)[:, None]
+    across *= -np.sign(((middle - start) * across).sum(axis=1))[:, None]
+    step, row = ranges(np.zeros_like(count), count)
+    share = (step + 0.5) / count[row]
+    return row, start[row] + share[:, None] * way[row] + BESIDE * across[row]
+
+
+def moved_into(view: View, mirror_map: MirrorMap, cameras: Cameras, camera: np.ndarray,
+               pixel: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pixels (n, 2) moved into the cameras' outlines, with the place (3, n) on the mirror and the ray from there."""
+    corners = view.pixels(cameras.places.T)[cameras.corners[camera]]
+    u, v, offset = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], pixel - corners[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+        weights = np.stack((offset[:, 0] * v[:, 1] - offset[:, 1] * v[:, 0],
+                            u[:, 0] * offset[:, 1] - u[:, 1] * offset[:, 0])) / area
+        weights = np.maximum(np.stack((1.0 - weights[0] - weights[1], *weights)), 0.0)
+        pixel = np.einsum("kn,nkx->nx", weights / weights.sum(axis=0), corners)
+    face = cameras.face[camera]
+    origin, direction = (given.T for given in view.rays(pixel))
+    flat = mirror_map.flat[:, face]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        place = origin + dot(mirror_map.a[:, face] - origin, flat) / dot(direction, flat) * direction
+    return pixel, place, mirror_map.rays(face, mirror_map.coordinates(face, place))
+
+
+def covered(cameras: Cameras, frames: SceneFrames, candidates: Candidates, polygons: Polygons, corner_pixels: np.ndarray,
+            camera: np.ndarray, column: np.ndarray, pixel: np.ndarray) -> np.ndarray:
+    """Whether a polygon of triangle `column` (n,), in `camera` (n,) or one that touches it, covers `pixel` (n, 2).
+
+    Parameters
+    ----------
+    corner_pixels : (k, 2) float64
+        Picture positions of the polygons' corners.
+    """
+    inside = np.zeros(len(camera), dtype=bool)
+    near = np.zeros(cameras.places.shape[1], dtype=bool)
+    near[cameras.corners[camera]] = True
+    wanted = np.zeros(len(frames.triangle), dtype=bool)
+    wanted[column] = True
+    of_camera, of_column = candidates.camera[polygons.pair], candidates.column[polygons.pair]
+    chosen = np.flatnonzero(near[cameras.corners[of_camera]].any(axis=1) & wanted[of_column])
+    key = (cameras.corners[of_camera[chosen]] * len(wanted) + of_column[chosen][:, None]).ravel()
+    order = np.argsort(key, kind="stable")
+    asked = (cameras.corners[camera] * len(wanted) + column[:, None]).ravel()
+    first, last = (np.searchsorted(key[order], asked, side=side) for side in ("left", "right"))
+    entry, row = ranges(first, last - first)
+    pairs = np.unique((row // 3) * len(polygons.pair) + chosen[order[entry] // 3])
+    place, polygon = pairs // len(polygons.pair), pairs % len(polygons.pair)
+    size = np.diff(polygons.start)[polygon]
+    corner, run = ranges(polygons.start[polygon], size)
+    if not len(run):
+        return inside
+    a, b, at = corner_pixels[corner], corner_pixels[following_corners(polygons)[corner]], pixel[place[run]]
+    way, offset = b - a, at - a
+    square = (way**2).sum(axis=1)
+    share = np.clip((offset * way).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    away = np.linalg.norm(offset - share[:, None] * way, axis=1)
+    # moved onto the true map, polygons need not be convex: count the edges that a line to the right crosses
+    above = a[:, 1] > at[:, 1]
+    left = (way[:, 0] * offset[:, 1] - way[:, 1] * offset[:, 0]) * np.where(above, -1.0, 1.0) > 0.0
+    crossed = (above != (b[:, 1] > at[:, 1])) & left
+    begin = np.cumsum(size) - size
+    within = np.add.reduceat(crossed.astype(np.int64), begin) % 2 == 1
+    within |= np.minimum.reduceat(away, begin) <= MARGIN
+    inside[place[within]] = True
+    return inside
