@@ -26,8 +26,7 @@ def first_hits(tree: SceneTree, frames: SceneFrames, places: np.ndarray, rays: n
     found = np.full(count, -1)
     zero = np.zeros(count)
     ray, triangle, _ = tree.trace(Cones(places, zero, unit(rays), zero, zero + 1.0))
-    column = np.searchsorted(frames.triangle, triangle)
-    known = frames.triangle[np.minimum(column, len(frames.triangle) - 1)] == triangle
+    column, known = frames.columns(triangle)
     ray, column = ray[known], column[known]
     from_, along = places[:, ray], rays[:, ray]
     s = frames.distance(column, from_, along)

@@ -15,6 +15,7 @@ import numpy as np
 from .cameras import Cameras
 from .candidates import Candidates, overlapping
 from .clipping import FILLED, Polygons, clip
+from .cones import Cones
 from .images import VertexImages
 from .mirror_map import MirrorMap
 from .nodes import Nodes, polygon_nodes
@@ -25,7 +26,7 @@ from .scene_tree import SceneTree
 from .vectors import groups, norm, rows
 from .view import View
 
-ROUNDS = 4  # of finding and clipping, and again of finding and cells: an opening may show the next one
+ROUNDS = 3  # of finding and clipping, then of finding and cells: an opening may show the next one
 
 
 def fill(mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames, candidates: Candidates, polygons: Polygons,
@@ -87,8 +88,8 @@ def fill_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
         and `open`, how many are left; `filled`, polygons and cells added; `rays` traced; `filled_pixels`, their area;
         `unfilled`, 1 where the bound on the cells was hit.
     """
-    def find() -> Openings:
-        found = find_openings(view, mirror_map, cameras, tree, frames, candidates, polygons, node_of, pixels)
+    def find(again: Openings | None = None) -> Openings:
+        found = find_openings(view, mirror_map, cameras, tree, frames, candidates, polygons, node_of, pixels, again)
         counts["rays"] += found.rays
         return found
 
@@ -97,14 +98,16 @@ def fill_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
     openings = find()
     counts["unmatched"], counts["openings"] = openings.edges, len(openings)
     for _ in range(ROUNDS):
-        missing, pieces = _missing(cameras, frames, candidates, polygons, openings)
+        if not len(openings):
+            break
+        missing, pieces = _missing(cameras, tree, frames, candidates, polygons, openings)
         if not len(pieces.pair):
             break
         candidates, polygons = _joined(candidates, polygons, missing, pieces)
         nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, tree.mesh.positions, candidates, polygons,
                                        images)
         pixels = view.pixels(nodes.place.T)
-        openings = find()
+        openings = find(openings)
     for _ in range(ROUNDS):
         if not len(openings):
             break
@@ -114,24 +117,29 @@ def fill_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
         nodes, shown = _cell_nodes(view, frames, tree.mesh.positions, nodes, cells)
         candidates, polygons = _joined(candidates, polygons, *_as_polygons(cells))
         node_of, pixels = np.concatenate((node_of, shown)), view.pixels(nodes.place.T)
-        openings = find()
+        openings = find(openings)
     counts["open"], counts["filled"] = len(openings), len(polygons.pair) - before
     counts["filled_pixels"] = int(np.ceil(_area(polygons, pixels[node_of], before)))
     return candidates, polygons, nodes, node_of, counts
 
 
-def _missing(cameras: Cameras, frames: SceneFrames, candidates: Candidates, polygons: Polygons,
+def _missing(cameras: Cameras, tree: SceneTree, frames: SceneFrames, candidates: Candidates, polygons: Polygons,
              openings: Openings) -> tuple[Candidates, Polygons]:
-    """The triangles found in cameras that have no polygon of them, cut to these cameras."""
+    """What the open cameras see by their cones and have no polygon of, cut to them."""
     columns = len(frames.triangle)
-    found = np.unique(openings.camera * columns + openings.column)
+    open_ = np.unique(openings.camera)
+    cone, triangle, _ = tree.trace(Cones.around(cameras.select(open_)))
+    column, known = frames.columns(triangle)
+    found = np.unique(np.concatenate((open_[cone[known]] * columns + column[known],
+                                      openings.camera * columns + openings.column)))
     present = candidates.camera[polygons.pair] * columns + candidates.column[polygons.pair]
     found = found[~np.isin(found, present)]
     missing = overlapping(cameras, frames, found // columns, found % columns)
     return missing, clip(missing)
 
 
-def _joined(candidates: Candidates, polygons: Polygons, more: Candidates, pieces: Polygons) -> tuple[Candidates, Polygons]:
+def _joined(candidates: Candidates, polygons: Polygons, more: Candidates,
+            pieces: Polygons) -> tuple[Candidates, Polygons]:
     """Both lists with `pieces` of the pairs `more` behind."""
     return Candidates.joined((candidates, more)), Polygons(
         np.concatenate((polygons.pair, pieces.pair + len(candidates))),

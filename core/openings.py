@@ -1,10 +1,11 @@
 """Openings: where the polygons leave the mesh open, found from how they meet and confirmed by rays.
 
-Each edge of a polygon has a partner on the same two nodes. Over a camera's edge it is the same triangle's polygon in the
-neighbouring camera; over a scene edge, the neighbouring triangle's in the same camera, on the other side or, where the
-surface turns away, on the same. Edges are without a partner by right on the border of the mirror, of the scene and
-of a contact. Any other tells a place beside it that may be open. A ray traced backwards from there says which
-triangle is seen; the place is open if no polygon near it shows that triangle.
+Each edge of a polygon has a partner on the same two nodes. Over a camera's edge it is the same triangle's polygon in
+the neighbouring camera; over a scene edge, the neighbouring triangle's in the same camera, on the other side or, where
+the surface turns away, on the same. Edges are without a partner by right on the border of the mirror, of the scene and
+of a contact. Any other tells places beside it that may be open. Where the missing partner covers them after all, on
+other nodes, they are not. From the rest rays are traced backwards: a place is open if no polygon near it shows the
+triangle that its ray meets first.
 """
 from __future__ import annotations
 
@@ -24,8 +25,8 @@ from .vectors import dot, ranges
 from .view import View
 
 BESIDE = 0.25  # pixels from an edge at which rays look for what should be there
-SPACING = 2.0  # pixels between rays along an edge
-MOST_PLACES = 64  # along one edge
+SPACING = 4.0  # pixels between rays along an edge
+MOST_PLACES = 32  # along one edge
 SHORTEST_EDGE = 0.25  # pixels: an edge as long as an outline may miss opens nothing
 MARGIN = 0.1  # pixels by which a polygon may end before the place that it covers
 
@@ -56,7 +57,8 @@ class Openings:
 
 
 def find_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: SceneTree, frames: SceneFrames,
-                  candidates: Candidates, polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Openings:
+                  candidates: Candidates, polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray,
+                  again: Openings | None = None) -> Openings:
     """Openings beside the edges of the polygons that have no partner.
 
     Parameters
@@ -65,24 +67,27 @@ def find_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
         Node of each polygon corner.
     pixels : (n, 2) float64
         Picture positions of the nodes.
+    again : Openings, optional
+        Look only in their cameras and those that touch them.
     """
-    edge, camera = unmatched_edges(cameras, tree, frames, candidates, polygons, node_of)
-    edges = len(edge)
-    edge, pixel = _beside(polygons, node_of, pixels, edge)
-    camera = camera[edge]
-    pixel, place, ray = moved_into(view, mirror_map, cameras, camera, pixel)
-    sound = np.flatnonzero(np.isfinite(place).all(axis=0))
-    camera, pixel = camera[sound], pixel[sound]
-    column = first_hits(tree, frames, place[:, sound], ray[:, sound])
-    open_ = column >= 0
-    seen = np.flatnonzero(open_)
-    open_[seen] = ~covered(cameras, frames, candidates, polygons, pixels[node_of], camera[seen], column[seen],
-                           pixel[seen])
-    return Openings(camera[open_], pixel[open_], column[open_], edges, len(sound))
+    edge, camera, partner = unmatched_edges(cameras, tree, frames, candidates, polygons, node_of)
+    edges, corners = len(edge), pixels[node_of]
+    if again is not None:
+        near = touching(cameras, again.camera)[camera]
+        edge, camera, partner = edge[near], camera[near], partner[near]
+    row, pixel = _beside(polygons, corners, edge)
+    camera, partner = camera[row], partner[row]
+    pixel, place, ray = _moved_into(view, mirror_map, cameras, camera, pixel)
+    doubtful = np.isfinite(place).all(axis=0)
+    doubtful &= ~covered(cameras, frames, candidates, polygons, corners, camera, partner, pixel)
+    camera, pixel = camera[doubtful], pixel[doubtful]
+    column = first_hits(tree, frames, place[:, doubtful], ray[:, doubtful])
+    open_ = (column >= 0) & ~covered(cameras, frames, candidates, polygons, corners, camera, column, pixel)
+    return Openings(camera[open_], pixel[open_], column[open_], edges, len(column))
 
 
 def unmatched_edges(cameras: Cameras, tree: SceneTree, frames: SceneFrames, candidates: Candidates,
-                    polygons: Polygons, node_of: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+                    polygons: Polygons, node_of: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Polygon edges without a partner that should have one.
 
     Returns
@@ -90,7 +95,9 @@ def unmatched_edges(cameras: Cameras, tree: SceneTree, frames: SceneFrames, cand
     edge : (e,) int64
         The polygon corners where they start.
     camera : (e,) int64
-        The camera on the side where the partner is missing.
+        The camera in which the partner is missing.
+    partner : (e,) int64
+        Its triangle's column in the frames, -1 where the frames do not have it.
     """
     start, end = node_of, node_of[following_corners(polygons)]
     inner = polygons.after < CONTACT
@@ -102,11 +109,19 @@ def unmatched_edges(cameras: Cameras, tree: SceneTree, frames: SceneFrames, cand
     camera, column, label = candidates.camera[of], candidates.column[of], polygons.after[odd].astype(np.int64)
     on_mirror = label < SCENE_EDGE
     expected = np.zeros(len(odd), dtype=bool)
-    expected[~on_mirror] = _has_neighbour(tree, frames, column[~on_mirror], label[~on_mirror] - SCENE_EDGE)
     beyond = _across(cameras, camera[on_mirror], label[on_mirror])
-    camera[on_mirror] = beyond
-    expected[on_mirror] = beyond >= 0
-    return odd[expected], camera[expected]
+    camera[on_mirror], expected[on_mirror] = beyond, beyond >= 0
+    neighbour = _neighbour(tree, frames, column[~on_mirror], label[~on_mirror] - SCENE_EDGE)
+    of_neighbour, known = frames.columns(neighbour)
+    column[~on_mirror], expected[~on_mirror] = np.where(known, of_neighbour, -1), neighbour >= 0
+    return odd[expected], camera[expected], column[expected]
+
+
+def touching(cameras: Cameras, camera: np.ndarray) -> np.ndarray:
+    """(n,) bool, which cameras share a corner with one of `camera`."""
+    corner = np.zeros(cameras.places.shape[1], dtype=bool)
+    corner[cameras.corners[camera]] = True
+    return corner[cameras.corners].any(axis=1)
 
 
 def following_corners(polygons: Polygons) -> np.ndarray:
@@ -116,38 +131,39 @@ def following_corners(polygons: Polygons) -> np.ndarray:
     return following
 
 
-def _has_neighbour(tree: SceneTree, frames: SceneFrames, column: np.ndarray, side: np.ndarray) -> np.ndarray:
-    """Whether the scene edges opposite vertex `side` of triangles are shared by exactly two triangles with an area."""
+def _neighbour(tree: SceneTree, frames: SceneFrames, column: np.ndarray, side: np.ndarray) -> np.ndarray:
+    """The triangle with an area beyond the scene edge opposite vertex `side`, -1 where there is none or several."""
     row, mesh = np.arange(len(column)), tree.mesh
     vertices = frames.vertices[:, column]
     asked = np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row])), axis=0)
     touched = np.zeros(len(mesh.positions), dtype=bool)
     touched[asked] = True
-    triangles = mesh.triangles[tree.leaf_triangles]
-    triangles = triangles[touched[triangles].sum(axis=1) >= 2]
-    low = np.minimum(triangles, np.roll(triangles, -1, axis=1)).ravel()
-    high = np.maximum(triangles, np.roll(triangles, -1, axis=1)).ravel()
+    near = tree.leaf_triangles[touched[mesh.triangles[tree.leaf_triangles]].sum(axis=1) >= 2]
+    ends, _, edge = shared_edges(mesh.triangles[near])
+    uses, other = _uses(edge, near)
     count = len(mesh.positions)
-    edges, uses = np.unique(low * count + high, return_counts=True)
-    # a triangle that is asked about has an area itself: its edges are among them
-    return uses[np.searchsorted(edges, asked[0] * count + asked[1])] == 2
+    # the triangle that is asked about has an area itself: its edges are among them
+    here = np.searchsorted(ends[:, 0] * count + ends[:, 1], asked[0] * count + asked[1])
+    return np.where(uses[here] == 2, other[here] - frames.triangle[column], -1)
 
 
 def _across(cameras: Cameras, camera: np.ndarray, label: np.ndarray) -> np.ndarray:
     """The camera beyond the edge opposite corner `label`, -1 where there is none or more than one."""
     _, _, edge = shared_edges(cameras.corners)
-    uses = np.bincount(edge.ravel())
-    # the two cameras of an edge add up to the other one and this one
-    total = np.bincount(edge.ravel(), weights=np.repeat(np.arange(len(cameras), dtype=np.float64), 3))
+    uses, both = _uses(edge, np.arange(len(cameras)))
     here = edge[camera, (label + 1) % 3]
-    return np.where(uses[here] == 2, total[here].astype(np.int64) - camera, -1)
+    return np.where(uses[here] == 2, both[here] - camera, -1)
 
 
-def _beside(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray,
-            edge: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _uses(edge: np.ndarray, name: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """How many triangles have each of the edges (n, 3), and the sum of these triangles' names (n,)."""
+    total = np.bincount(edge.ravel(), weights=np.repeat(name, 3).astype(np.float64))
+    return np.bincount(edge.ravel()), total.astype(np.int64)
+
+
+def _beside(polygons: Polygons, corners: np.ndarray, edge: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Places along polygon edges (e,), on the side away from the polygon: which of the edges, and the pixel."""
     size = np.diff(polygons.start)
-    corners = pixels[node_of]
     polygon = np.repeat(np.arange(len(size)), size)[edge]
     middle = np.stack([corners[polygons.start[polygon] + k] for k in range(3)]).mean(axis=0)
     start, way = corners[edge], corners[following_corners(polygons)[edge]] - corners[edge]
@@ -160,8 +176,8 @@ def _beside(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray,
     return row, start[row] + share[:, None] * way[row] + BESIDE * across[row]
 
 
-def moved_into(view: View, mirror_map: MirrorMap, cameras: Cameras, camera: np.ndarray,
-               pixel: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _moved_into(view: View, mirror_map: MirrorMap, cameras: Cameras, camera: np.ndarray,
+                pixel: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pixels (n, 2) moved into the cameras' outlines, with the place (3, n) on the mirror and the ray from there."""
     corners = view.pixels(cameras.places.T)[cameras.corners[camera]]
     u, v, offset = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], pixel - corners[:, 0]
@@ -179,9 +195,10 @@ def moved_into(view: View, mirror_map: MirrorMap, cameras: Cameras, camera: np.n
     return pixel, place, mirror_map.rays(face, mirror_map.coordinates(face, place))
 
 
-def covered(cameras: Cameras, frames: SceneFrames, candidates: Candidates, polygons: Polygons, corner_pixels: np.ndarray,
-            camera: np.ndarray, column: np.ndarray, pixel: np.ndarray) -> np.ndarray:
-    """Whether a polygon of triangle `column` (n,), in `camera` (n,) or one that touches it, covers `pixel` (n, 2).
+def covered(cameras: Cameras, frames: SceneFrames, candidates: Candidates, polygons: Polygons,
+            corner_pixels: np.ndarray, camera: np.ndarray, column: np.ndarray, pixel: np.ndarray) -> np.ndarray:
+    """Whether a polygon of triangle `column` (n,), in `camera` (n,) or one that touches it, covers `pixel` (n, 2);
+    never where the column is -1.
 
     Parameters
     ----------
@@ -189,17 +206,15 @@ def covered(cameras: Cameras, frames: SceneFrames, candidates: Candidates, polyg
         Picture positions of the polygons' corners.
     """
     inside = np.zeros(len(camera), dtype=bool)
-    near = np.zeros(cameras.places.shape[1], dtype=bool)
-    near[cameras.corners[camera]] = True
     wanted = np.zeros(len(frames.triangle), dtype=bool)
-    wanted[column] = True
+    wanted[column[column >= 0]] = True
     of_camera, of_column = candidates.camera[polygons.pair], candidates.column[polygons.pair]
-    chosen = np.flatnonzero(near[cameras.corners[of_camera]].any(axis=1) & wanted[of_column])
+    chosen = np.flatnonzero(touching(cameras, camera)[of_camera] & wanted[of_column])
     key = (cameras.corners[of_camera[chosen]] * len(wanted) + of_column[chosen][:, None]).ravel()
     order = np.argsort(key, kind="stable")
     asked = (cameras.corners[camera] * len(wanted) + column[:, None]).ravel()
     first, last = (np.searchsorted(key[order], asked, side=side) for side in ("left", "right"))
-    entry, row = ranges(first, last - first)
+    entry, row = ranges(first, np.where(np.repeat(column >= 0, 3), last - first, 0))
     pairs = np.unique((row // 3) * len(polygons.pair) + chosen[order[entry] // 3])
     place, polygon = pairs // len(polygons.pair), pairs % len(polygons.pair)
     size = np.diff(polygons.start)[polygon]

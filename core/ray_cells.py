@@ -62,10 +62,9 @@ def ray_cells(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: SceneTr
     places = np.concatenate((cells.places[:, used], middle), axis=1)
     middle_rays = mirror_map.rays(cells.face, mirror_map.coordinates(cells.face, middle))
     column = first_hits(tree, frames, places, np.concatenate((cells.rays[:, used], middle_rays), axis=1))
-    missing = column >= 0
-    met = np.flatnonzero(missing)
-    missing[met] = ~covered(cameras, frames, candidates, polygons, corner_pixels,
-                            np.concatenate((owner, camera))[met], column[met], view.pixels(places[:, met].T))
+    pixel = view.pixels(places.T)
+    missing = (column >= 0) & ~covered(cameras, frames, candidates, polygons, corner_pixels,
+                                       np.concatenate((owner, camera)), column, pixel)
     # the middle first, then the corners
     probe = np.concatenate((len(used) + np.arange(len(cells))[:, None], corner), axis=1)
     kept = np.flatnonzero(missing[probe].any(axis=1))
