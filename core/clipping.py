@@ -36,6 +36,20 @@ class Polygons:
     before: np.ndarray
     after: np.ndarray
 
+    def select(self, chosen: np.ndarray) -> Polygons:
+        """The polygons `chosen` by a mask (q,)."""
+        size = np.diff(self.start)
+        corner = np.repeat(chosen, size)
+        return Polygons(self.pair[chosen], np.append(0, np.cumsum(size[chosen])), self.weights[:, corner],
+                        self.before[corner], self.after[corner])
+
+    def joined(self, more: Polygons) -> Polygons:
+        """These polygons and behind them `more`, of the same list of pairs."""
+        return Polygons(np.concatenate((self.pair, more.pair)),
+                        np.concatenate((self.start, more.start[1:] + self.start[-1])),
+                        np.concatenate((self.weights, more.weights), axis=1),
+                        np.concatenate((self.before, more.before)), np.concatenate((self.after, more.after)))
+
 
 def clip(candidates: Candidates) -> Polygons:
     """Polygons of the candidates that really overlap."""

@@ -6,9 +6,11 @@ camera shows that triangle, on corners that it shares with its neighbours (`fill
 
 All other polygons must meet without holes. Where they do not, rays say which triangle is missing in which camera
 (`openings`). If it was never cut to that camera, it is now, and its corners are the same nodes as its neighbours'.
-What is open even then is filled by cells of half a pixel (`ray_cells`).
+What is open even then is filled by cells of a pixel (`ray_cells`).
 """
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,7 +21,7 @@ from .cones import Cones
 from .images import VertexImages
 from .mirror_map import MirrorMap
 from .nodes import Nodes, polygon_nodes
-from .openings import Openings, find_openings, following_corners
+from .openings import Openings, find_openings, following_corners, touching
 from .ray_cells import Cells, ray_cells
 from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
@@ -57,16 +59,11 @@ def fill(mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames, candidate
     _, first = np.unique(camera[hit][order], return_index=True)
     shown = pairs[hit][order[first]]
 
-    size = np.diff(polygons.start)
-    kept = ~open_[candidates.camera[polygons.pair]]
-    corner = np.repeat(kept, size)
-    whole = np.array([2, 0, 1], dtype=np.int8)
-    size = np.concatenate((size[kept], np.full(len(shown), 3)))
-    return Polygons(
-        np.concatenate((polygons.pair[kept], shown)), np.append(0, np.cumsum(size)),
-        np.concatenate((polygons.weights[:, corner], np.tile(np.eye(3), (1, len(shown)))), axis=1),
-        np.concatenate((polygons.before[corner], np.tile(np.roll(whole, 1), len(shown)))),
-        np.concatenate((polygons.after[corner], np.tile(whole, len(shown))))), len(np.unique(camera))
+    kept = polygons.select(~open_[candidates.camera[polygons.pair]])
+    whole = np.tile(np.array([2, 0, 1], dtype=np.int8), len(shown))
+    filled = Polygons(shown, 3 * np.arange(len(shown) + 1), np.tile(np.eye(3), (1, len(shown))),
+                      np.tile(np.array([1, 2, 0], dtype=np.int8), len(shown)), whole)
+    return kept.joined(filled), len(np.unique(camera))
 
 
 def fill_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: SceneTree, frames: SceneFrames,
@@ -86,17 +83,19 @@ def fill_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
     counts : dict
         `unmatched`, edges without a partner; `openings`, places beside them at which rays found something missing,
         and `open`, how many are left; `filled`, polygons and cells added; `rays` traced; `filled_pixels`, their area;
-        `unfilled`, 1 where the bound on the cells was hit.
+        `unfilled`, 1 where a bound stopped the cells.
     """
-    def find(again: Openings | None = None) -> Openings:
-        found = find_openings(view, mirror_map, cameras, tree, frames, candidates, polygons, node_of, pixels, again)
+    def find() -> Openings:
+        found = find_openings(view, mirror_map, cameras, tree, frames, candidates, polygons, node_of, pixels, watched)
         counts["rays"] += found.rays
         return found
 
     counts = {"rays": 0, "unfilled": 0}
+    watched, celled = np.ones(len(cameras), dtype=bool), np.zeros(len(cameras), dtype=bool)
     pixels, before = view.pixels(nodes.place.T), len(polygons.pair)
     openings = find()
     counts["unmatched"], counts["openings"] = openings.edges, len(openings)
+    watched = touching(cameras, openings.camera)
     for _ in range(ROUNDS):
         if not len(openings):
             break
@@ -107,17 +106,21 @@ def fill_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
         nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, tree.mesh.positions, candidates, polygons,
                                        images)
         pixels = view.pixels(nodes.place.T)
-        openings = find(openings)
+        openings = find()
+        watched |= touching(cameras, openings.camera)
     for _ in range(ROUNDS):
-        if not len(openings):
+        left = openings.select(~celled[openings.camera])
+        if not len(left):
             break
-        cells = ray_cells(view, mirror_map, cameras, tree, frames, candidates, polygons, pixels[node_of], openings)
+        celled[left.camera] = True
+        cells = ray_cells(view, mirror_map, cameras, tree, frames, candidates, polygons, pixels[node_of], left)
         counts["rays"] += cells.rays
         counts["unfilled"] |= int(cells.limited)
         nodes, shown = _cell_nodes(view, frames, tree.mesh.positions, nodes, cells)
         candidates, polygons = _joined(candidates, polygons, *_as_polygons(cells))
         node_of, pixels = np.concatenate((node_of, shown)), view.pixels(nodes.place.T)
-        openings = find(openings)
+        openings = find()
+        watched |= touching(cameras, openings.camera)
     counts["open"], counts["filled"] = len(openings), len(polygons.pair) - before
     counts["filled_pixels"] = int(np.ceil(_area(polygons, pixels[node_of], before)))
     return candidates, polygons, nodes, node_of, counts
@@ -141,11 +144,8 @@ def _missing(cameras: Cameras, tree: SceneTree, frames: SceneFrames, candidates:
 def _joined(candidates: Candidates, polygons: Polygons, more: Candidates,
             pieces: Polygons) -> tuple[Candidates, Polygons]:
     """Both lists with `pieces` of the pairs `more` behind."""
-    return Candidates.joined((candidates, more)), Polygons(
-        np.concatenate((polygons.pair, pieces.pair + len(candidates))),
-        np.concatenate((polygons.start, pieces.start[1:] + polygons.start[-1])),
-        np.concatenate((polygons.weights, pieces.weights), axis=1),
-        np.concatenate((polygons.before, pieces.before)), np.concatenate((polygons.after, pieces.after)))
+    pieces = replace(pieces, pair=pieces.pair + len(candidates))
+    return Candidates.joined((candidates, more)), polygons.joined(pieces)
 
 
 def _cell_nodes(view: View, frames: SceneFrames, positions: np.ndarray, nodes: Nodes,

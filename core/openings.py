@@ -55,10 +55,13 @@ class Openings:
     def __len__(self) -> int:
         return len(self.camera)
 
+    def select(self, chosen: np.ndarray) -> Openings:
+        return Openings(self.camera[chosen], self.pixel[chosen], self.column[chosen], self.edges, self.rays)
+
 
 def find_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: SceneTree, frames: SceneFrames,
                   candidates: Candidates, polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray,
-                  again: Openings | None = None) -> Openings:
+                  watched: np.ndarray) -> Openings:
     """Openings beside the edges of the polygons that have no partner.
 
     Parameters
@@ -67,14 +70,13 @@ def find_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
         Node of each polygon corner.
     pixels : (n, 2) float64
         Picture positions of the nodes.
-    again : Openings, optional
-        Look only in their cameras and those that touch them.
+    watched : (n,) bool
+        Cameras to look in.
     """
     edge, camera, partner = unmatched_edges(cameras, tree, frames, candidates, polygons, node_of)
     edges, corners = len(edge), pixels[node_of]
-    if again is not None:
-        near = touching(cameras, again.camera)[camera]
-        edge, camera, partner = edge[near], camera[near], partner[near]
+    chosen = watched[camera]
+    edge, camera, partner = edge[chosen], camera[chosen], partner[chosen]
     row, pixel = _beside(polygons, corners, edge)
     camera, partner = camera[row], partner[row]
     pixel, place, ray = _moved_into(view, mirror_map, cameras, camera, pixel)

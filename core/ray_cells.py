@@ -1,4 +1,4 @@
-"""Cells: what clipping cannot cover is shown in cells of half a pixel, each with the triangle that its rays meet.
+"""Cells: what clipping cannot cover is shown in cells of less than a pixel, each with the triangle that its rays meet.
 
 The cameras beside openings are halved, on shared corners, until their parts are cells; parts that lie far from every
 opening are dropped on the way. A ray through each corner and each middle tells what should be seen there. A cell stays
@@ -25,8 +25,8 @@ from .vectors import ranges
 from .view import View
 
 LEVELS = 16
-LONGEST_EDGE = 0.5  # pixels, of a cell
-REACH = 2.0  # pixels round an opening within which cells are made at once
+LONGEST_EDGE = 1.0  # pixels, of a cell
+REACHES = 16.0, 8.0, 4.0, 2.0  # pixels round an opening within which cells are made: the first that is not too many
 MOST_CELLS = 200_000
 
 
@@ -40,7 +40,7 @@ class Cells:
     camera : (m,) int64, the camera that each lies in
     column : (m,) int64, the triangle in the frames that it shows
     rays : int, how many were traced
-    limited : bool, whether the bound on depth or count left cells larger than they should be
+    limited : bool, whether a bound left cells larger than they should be, or an opening that reaches further open
     """
 
     cells: Cameras
@@ -53,7 +53,7 @@ class Cells:
 def ray_cells(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: SceneTree, frames: SceneFrames,
               candidates: Candidates, polygons: Polygons, corner_pixels: np.ndarray, openings: Openings) -> Cells:
     """Cells round the openings that show what no polygon does; `corner_pixels` (k, 2) of the polygons' corners."""
-    cells, camera, limited = _small_cells(view, mirror_map, cameras, openings)
+    cells, camera, last, large = _small_cells(view, mirror_map, cameras, openings)
     used, corner = np.unique(cells.corners, return_inverse=True)
     corner = corner.reshape(-1, 3)
     owner = np.empty(len(used), dtype=np.int64)
@@ -69,34 +69,48 @@ def ray_cells(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: SceneTr
     probe = np.concatenate((len(used) + np.arange(len(cells))[:, None], corner), axis=1)
     kept = np.flatnonzero(missing[probe].any(axis=1))
     first = np.argmax(missing[probe[kept]], axis=1)
+    limited = large or bool(last[kept].any())
     return Cells(cells.select(kept), camera[kept], column[probe[kept, first]], len(column), limited)
 
 
 def _small_cells(view: View, mirror_map: MirrorMap, cameras: Cameras,
-                 openings: Openings) -> tuple[Cameras, np.ndarray, bool]:
-    """The parts of the open cameras near openings, the camera of each, and whether a bound left them too large."""
-    spot = np.floor(openings.pixel / REACH).astype(np.int64)
+                 openings: Openings) -> tuple[Cameras, np.ndarray, np.ndarray, bool]:
+    """The parts of the open cameras near openings; the camera of each; whether it is among the last ones within reach;
+    and whether a bound left them too large."""
+    # openings close together stand for one another
+    spot = np.floor(openings.pixel / REACHES[-1]).astype(np.int64)
     _, once = np.unique(np.stack((openings.camera, *spot.T)), axis=1, return_index=True)
     opening_camera, opening_pixel = openings.camera[once], openings.pixel[once]  # sorted by camera
-    camera = np.unique(opening_camera)
-    cells, limited = cameras.select(camera), False
+    camera, count = np.unique(opening_camera, return_counts=True)
+    cells = cameras.select(camera)
+    reach = _reach(view.pixels(cells.places.T)[cells.corners], count)
     for level in range(LEVELS + 1):
         pixels = view.pixels(cells.places.T)[cells.corners]
         middle = pixels.mean(axis=1)
         radius = np.linalg.norm(pixels - middle[:, None], axis=2).max(axis=1)
         start, stop = (np.searchsorted(opening_camera, camera, side=side) for side in ("left", "right"))
         opening, cell = ranges(start, stop - start)
-        near = np.zeros(len(cells), dtype=bool)
-        # a place in the same square of REACH may stand for an opening
-        near[cell[np.linalg.norm(opening_pixel[opening] - middle[cell], axis=1) <= radius[cell] + 2.0 * REACH]] = True
+        away = np.full(len(cells), np.inf)
+        np.minimum.at(away, cell, np.linalg.norm(opening_pixel[opening] - middle[cell], axis=1))
+        near = away <= radius + reach
         cells, camera, pixels = cells.select(near), camera[near], pixels[near]
         long = np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > LONGEST_EDGE
-        limited = bool(long.any())
-        if not limited or level == LEVELS or len(cells) > MOST_CELLS:
+        if not long.any() or level == LEVELS or len(cells) > MOST_CELLS:
             break
         ends, first, edge = shared_edges(cells.corners)
         marked = np.zeros(len(ends), dtype=bool)
         marked[edge[long]] = True
         cells, parent = split_at(cells, marked, edge, *edge_middles(mirror_map, cells, ends, first))
         camera = camera[parent]
-    return cells, camera, limited
+    return cells, camera, away[near] > reach - radius[near], bool(long.any())
+
+
+def _reach(corners: np.ndarray, openings: np.ndarray) -> float:
+    """The first of `REACHES` that makes no more than about `MOST_CELLS` in cameras with corners (n, 3, 2) in the
+    picture and so many openings (n,) each."""
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    area = 0.5 * np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+    for reach in REACHES:
+        if np.minimum(area, 4.0 * openings * reach**2).sum() < 0.125 * LONGEST_EDGE**2 * MOST_CELLS:
+            break
+    return reach
