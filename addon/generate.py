@@ -31,8 +31,10 @@ class Outcome:
         """One line on what was generated."""
         faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
         error = max(result.estimated_error for _, result in self.results)
+        filled = max(result.filled_share for _, result in self.results)
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
-        return f"{names}: {faces} faces, estimated error {error:.2f} px, {seconds:.2f} s"
+        return (f"{names}: {faces} faces, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
+                f"{seconds:.2f} s")
 
 
 def generation(context: bpy.types.Context, chosen: Participants,
@@ -69,6 +71,7 @@ def generation(context: bpy.types.Context, chosen: Participants,
             refused.append(f"{mirror.name}: The camera sees none of the diffuse objects in this mirror; move the "
                            "camera, the mirror or the objects.")
             continue
+        remarks += _limits(mirror.name, result)
         origin = origin_of(surface.mesh)
         prepared.append((mirror, origin, mesh_arrays(result, scene, surface.triangle, origin), result))
     if not prepared:
@@ -77,6 +80,17 @@ def generation(context: bpy.types.Context, chosen: Participants,
     results = [(write_object(context, mirror, chosen.diffuse, origin, arrays, result, view, settings.placement), result)
                for mirror, origin, arrays, result in prepared]
     return Outcome(results, remarks + refused)
+
+
+def _limits(name: str, result: core.ReflectionMesh) -> list[str]:
+    """Sentences on the bounds that the reflection in the mirror `name` has hit."""
+    limits = []
+    if result.counts["bounded"]:
+        limits.append(f"{name}: Refinement stopped at the largest number of faces, so that the error may exceed the "
+                      "tolerance; raise the tolerance.")
+    if result.counts["unfilled"]:
+        limits.append(f"{name}: Some openings are too large to be filled by rays; they show the mirror itself.")
+    return limits
 
 
 def _within(steps: Generator, name: str, index: int, count: int) -> Generator[tuple[float, str], None, object]:

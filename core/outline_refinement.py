@@ -26,7 +26,7 @@ SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
 
 def refine_for_outlines(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames,
                         candidates: Candidates, tolerance: float,
-                        maximum: int) -> tuple[Cameras, Candidates, np.ndarray]:
+                        maximum: int) -> tuple[Cameras, Candidates, np.ndarray, int]:
     """Cameras split until no outline in them misses the true one by more than `tolerance` pixels, or until there are
     `maximum` candidates.
 
@@ -37,6 +37,8 @@ def refine_for_outlines(view: View, mirror_map: MirrorMap, cameras: Cameras, fra
         The pairs that may really overlap.
     open_ : (n,) bool
         Cameras too small to be split in which some outline still does.
+    limited : int
+        Edges of cameras that the bound on depth or count left unsplit.
     """
     settled, open_ = candidates.select(np.zeros(0, dtype=np.int64)), np.zeros(len(cameras), dtype=bool)
     for level in range(LEVELS + 1):
@@ -54,7 +56,7 @@ def refine_for_outlines(view: View, mirror_map: MirrorMap, cameras: Cameras, fra
         open_ = open_[parent] & ~new
         candidates = overlapping(cameras, frames, *_children(settled, parent, new, before, len(frames.triangle)))
         settled = _renumbered(settled, now)
-    return cameras, settled, open_ | (bent.any(axis=1) & ~long.any(axis=1))
+    return cameras, settled, open_ | (bent.any(axis=1) & ~long.any(axis=1)), int((bent & long).sum())
 
 
 def _renumbered(candidates: Candidates, now: np.ndarray) -> Candidates:

@@ -125,10 +125,12 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
     candidates = overlapping(cameras, frames, camera, column)
     cameras, candidates, counts["contacts"] = drop_behind_contacts(view, mirror_map, cameras, frames,
                                                                    tree.mesh.positions, candidates)
-    cameras, candidates, open_ = refine_for_outlines(
+    bounded = len(cameras) > settings.maximum_faces
+    cameras, candidates, open_, outlines_limited = refine_for_outlines(
         view, mirror_map, cameras, frames, candidates, OUTLINE_SHARE * settings.tolerance, settings.maximum_faces)
     cones = Cones.around(cameras)
     counts["cameras"], counts["candidates"] = len(cameras), len(candidates)
+    bounded |= len(candidates) > settings.maximum_faces
     stages.done("cones")
 
     yield 0.4, "projection"
@@ -168,7 +170,9 @@ def reflection_steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | Sce
 
     yield 0.95, "depth order"
     mesh = assemble(view, mirror_map, cameras, frames, positions, nodes, faces, settings.placement)
-    counts["faces"], counts["limited"] = len(mesh.triangles), int(mirror_limited) + limited
+    counts["faces"], counts["limited"] = len(mesh.triangles), int(mirror_limited) + outlines_limited + limited
+    bounded |= limited > 0 and len(faces) + 2 * limited > settings.maximum_faces
+    counts["bounded"] = int(bounded)
     stages.done("placement")
     return replace(mesh, counts=counts, seconds=stages.seconds,
                    estimated_error=INSIDE * float(np.percentile(left, 99)))
