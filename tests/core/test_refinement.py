@@ -2,12 +2,16 @@
 import numpy as np
 import pytest
 
-from core import Settings, reflect
-from core.cameras import three_ray_cameras, visible_triangles
-from core.mirror_map import MirrorMap
+from core import SceneTree, Settings, reflect
 from core.camera_splitting import in_picture
 from core.camera_splitting import split_cameras
+from core.cameras import three_ray_cameras, visible_triangles
+from core.candidates import overlapping
+from core.cones import Cones
+from core.mirror_map import MirrorMap
 from core.mirror_refinement import refine_mirror
+from core.outline_refinement import refine_for_outlines
+from core.scene_frames import SceneFrames
 from tests.core.true_map import case_of, mesh_of, true_rays, truth_of, view_rays
 from tests.judge import compare
 
@@ -118,6 +122,22 @@ def test_the_bound_on_faces_is_kept_and_told():
     mesh = reflect(case.view, case.mirror, case.scene, Settings(tolerance=0.01, maximum_faces=12_000))
     free = reflect(case.view, case.mirror, case.scene, Settings(tolerance=0.05))
     assert len(free.triangles) > 30_000
-    assert mesh.counts["limited"] > 0
+    assert mesh.counts["limited"] > 0 and mesh.counts["bounded"] == 1
+    assert free.counts["bounded"] == 0
     assert len(mesh.triangles) < 40_000
     assert np.isfinite(mesh.positions).all()
+
+
+def test_the_bound_on_candidates_is_kept_and_told():
+    case = case_of("sphere")
+    mirror_map, cameras = cameras_of(case)
+    tree = SceneTree.build(case.scene)
+    camera, triangle, _ = tree.trace(Cones.around(cameras))
+    met, column = np.unique(triangle, return_inverse=True)
+    frames = SceneFrames.of(case.scene, met)
+    candidates = overlapping(cameras, frames, camera, column)
+    *_, free = refine_for_outlines(case.view, mirror_map, cameras, frames, candidates, 0.25, 1_000_000)
+    _, bounded, _, limited = refine_for_outlines(case.view, mirror_map, cameras, frames, candidates, 0.25, 1000)
+    assert free < limited
+    assert limited > 20
+    assert len(bounded) < len(candidates)
