@@ -82,8 +82,8 @@ def fill_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
         Node of each polygon corner.
     counts : dict
         `unmatched`, edges without a partner; `openings`, places beside them at which rays found something missing,
-        and `open`, how many are left; `filled`, polygons and cells added; `rays` traced; `filled_pixels`, their area;
-        `unfilled`, 1 where a bound stopped the cells.
+        and `open`, how many are left, narrower than a cell; `filled`, polygons and cells added; `filled_pixels`, their
+        area; `rays` traced; `unfilled`, 1 where a bound stopped the cells.
     """
     def find() -> Openings:
         found = find_openings(view, mirror_map, cameras, tree, frames, candidates, polygons, node_of, pixels, watched)
@@ -103,8 +103,8 @@ def fill_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
         if not len(pieces.pair):
             break
         candidates, polygons = _joined(candidates, polygons, missing, pieces)
-        nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, tree.mesh.positions, candidates, polygons,
-                                       images)
+        nodes, node_of = _piece_nodes(view, mirror_map, cameras, frames, tree.mesh.positions, candidates, polygons,
+                                      images, nodes, node_of)
         pixels = view.pixels(nodes.place.T)
         openings = find()
         watched |= touching(cameras, openings.camera)
@@ -139,6 +139,23 @@ def _missing(cameras: Cameras, tree: SceneTree, frames: SceneFrames, candidates:
     found = found[~np.isin(found, present)]
     missing = overlapping(cameras, frames, found // columns, found % columns)
     return missing, clip(missing)
+
+
+def _piece_nodes(view, mirror_map, cameras, frames, positions, candidates, polygons, images, nodes,
+                 node_of) -> tuple[Nodes, np.ndarray]:
+    """The nodes with those of the last polygons, which have none yet: the ones of polygons that touch them, and new."""
+    size, camera = np.diff(polygons.start), candidates.camera[polygons.pair]
+    piece = polygons.start[1:] > len(node_of)
+    near = touching(cameras, camera[piece])[camera]
+    found, found_of = polygon_nodes(view, mirror_map, cameras, frames, positions, candidates, polygons.select(near),
+                                    images)
+    of_piece = np.repeat(piece[near], size[near])
+    name = np.full(len(found.distance), -1)
+    name[found_of[~of_piece]] = node_of[np.repeat(near[~piece], size[~piece])]
+    new = name < 0
+    name[new] = len(nodes.distance) + np.arange(new.sum())
+    nodes = nodes.joined(found.place[:, new], found.point[:, new], found.distance[new])
+    return nodes, np.concatenate((node_of, name[found_of[of_piece]]))
 
 
 def _joined(candidates: Candidates, polygons: Polygons, more: Candidates,

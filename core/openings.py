@@ -73,10 +73,14 @@ def find_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
     watched : (n,) bool
         Cameras to look in.
     """
+    if not watched.all():
+        near = touching(cameras, np.flatnonzero(watched))[candidates.camera[polygons.pair]]
+        node_of = node_of[np.repeat(near, np.diff(polygons.start))]
+        polygons = polygons.select(near)
     edge, camera, partner = unmatched_edges(cameras, tree, frames, candidates, polygons, node_of)
-    edges, corners = len(edge), pixels[node_of]
     chosen = watched[camera]
     edge, camera, partner = edge[chosen], camera[chosen], partner[chosen]
+    edges, corners = len(edge), pixels[node_of]
     row, pixel = _beside(polygons, corners, edge)
     camera, partner = camera[row], partner[row]
     pixel, place, ray = _moved_into(view, mirror_map, cameras, camera, pixel)

