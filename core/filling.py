@@ -108,19 +108,21 @@ def fill_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
         pixels = view.pixels(nodes.place.T)
         openings = find()
         watched |= touching(cameras, openings.camera)
+    left = openings
     for _ in range(ROUNDS):
-        left = openings.select(~celled[openings.camera])
         if not len(left):
             break
         celled[left.camera] = True
         cells = ray_cells(view, mirror_map, cameras, tree, frames, candidates, polygons, pixels[node_of], left)
         counts["rays"] += cells.rays
-        counts["unfilled"] |= int(cells.limited)
+        counts["unfilled"] |= int(cells.large)
         nodes, shown = _cell_nodes(view, frames, tree.mesh.positions, nodes, cells)
         candidates, polygons = _joined(candidates, polygons, *_as_polygons(cells))
         node_of, pixels = np.concatenate((node_of, shown)), view.pixels(nodes.place.T)
         openings = find()
         watched |= touching(cameras, openings.camera)
+        left = openings.select(~celled[openings.camera]).joined(cells.rim)
+    counts["unfilled"] |= int(len(left) > 0)
     counts["open"], counts["filled"] = len(openings), len(polygons.pair) - before
     counts["filled_pixels"] = int(np.ceil(_area(polygons, pixels[node_of], before)))
     return candidates, polygons, nodes, node_of, counts

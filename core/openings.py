@@ -58,6 +58,10 @@ class Openings:
     def select(self, chosen: np.ndarray) -> Openings:
         return Openings(self.camera[chosen], self.pixel[chosen], self.column[chosen], self.edges, self.rays)
 
+    def joined(self, more: Openings) -> Openings:
+        return Openings(*(np.concatenate((getattr(self, name), getattr(more, name)))
+                          for name in ("camera", "pixel", "column")), self.edges, self.rays)
+
 
 def find_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: SceneTree, frames: SceneFrames,
                   candidates: Candidates, polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray,

@@ -40,14 +40,16 @@ class Cells:
     camera : (m,) int64, the camera that each lies in
     column : (m,) int64, the triangle in the frames that it shows
     rays : int, how many were traced
-    limited : bool, whether a bound left cells larger than they should be, or an opening that reaches further open
+    rim : Openings, where the cells reach as far from the openings as they may, and more may be open
+    large : bool, whether the bound on depth or count left cells larger than they should be
     """
 
     cells: Cameras
     camera: np.ndarray
     column: np.ndarray
     rays: int
-    limited: bool
+    rim: Openings
+    large: bool
 
 
 def ray_cells(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: SceneTree, frames: SceneFrames,
@@ -69,8 +71,9 @@ def ray_cells(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: SceneTr
     probe = np.concatenate((len(used) + np.arange(len(cells))[:, None], corner), axis=1)
     kept = np.flatnonzero(missing[probe].any(axis=1))
     first = np.argmax(missing[probe[kept]], axis=1)
-    limited = large or bool(last[kept].any())
-    return Cells(cells.select(kept), camera[kept], column[probe[kept, first]], len(column), limited)
+    shown, last = column[probe[kept, first]], last[kept]
+    rim = Openings(camera[kept][last], pixel[len(used):][kept][last], shown[last], 0, 0)
+    return Cells(cells.select(kept), camera[kept], shown, len(column), rim, large)
 
 
 def _small_cells(view: View, mirror_map: MirrorMap, cameras: Cameras,

@@ -7,7 +7,7 @@ import core.ray_cells
 import core.reflection
 from core import Settings, reflect
 from core.clipping import CONTACT, SCENE_EDGE, whole_triangles
-from core.openings import find_openings, unmatched_edges
+from core.openings import find_openings, following_corners, unmatched_edges
 from tests.core.true_map import case_of, mesh_of, truth_of
 from tests.judge import compare
 
@@ -163,6 +163,39 @@ def test_pairs_that_the_tree_loses_are_found_again(monkeypatch):
     before, mesh = numbers_of("bowl", mesh_of("bowl", PIXELS)), reflected("bowl")
     assert mesh.counts["filled"] > 10
     assert numbers_of("bowl", mesh)["uncovered"] < before["uncovered"] + 0.005
+
+
+@pytest.mark.parametrize("name", ["sphere", "bowl"])
+def test_polygons_with_a_corner_astray_are_found_and_filled(monkeypatch, name):
+    room = rooms(monkeypatch, name)
+    polygons, nodes, node_of = room["polygons"], room["nodes"], room["node_of"].copy()
+    pixels, size = room["view"].pixels(nodes.place.T), np.diff(polygons.start)
+    spots = pixels[node_of]
+    (x, y), (next_x, next_y) = spots.T, spots[following_corners(polygons)].T
+    area = 0.5 * np.abs(np.add.reduceat(x * next_y - y * next_x, polygons.start[:-1]))
+    large = np.flatnonzero((area > 10.0) & (area < 200.0) & (size == 3))
+    astray = polygons.start[np.random.default_rng(151).choice(large, 20, replace=False)]
+    # one corner of each goes to the middle of the two others, so that nothing is left of the polygon
+    ends = nodes.place[:, node_of[astray + 1]] + nodes.place[:, node_of[astray + 2]]
+    node_of[astray] = len(nodes.distance) + np.arange(20)
+    nodes = nodes.joined(0.5 * ends, nodes.point[:, room["node_of"][astray]], nodes.distance[room["node_of"][astray]])
+    broken = room | {"nodes": nodes, "node_of": node_of}
+    pair = polygons.pair[np.searchsorted(polygons.start, astray)]
+    pairs = np.stack((room["candidates"].camera[pair], room["candidates"].column[pair]))
+    found = openings_of(broken)
+    # some lie behind others: no ray meets them
+    hit = {tuple(one) for one in np.stack((found.camera, found.column)).T.tolist()} & {
+        tuple(one) for one in pairs.T.tolist()}
+    assert len(hit) >= 8
+    candidates, after, nodes, node_of, counts = core.filling.fill_openings(*broken.values())
+    assert counts["open"] <= 1 and counts["filled"] > 100 and counts["unfilled"] == 0
+    assert len(openings_of(broken | {"candidates": candidates, "polygons": after, "nodes": nodes,
+                                     "node_of": node_of})) <= 1
+    # cells that share a corner and a triangle share its node
+    cells = node_of[len(broken["node_of"]):].reshape(-1, 3)
+    assert len(np.unique(cells)) < 1.5 * len(cells)
+    lost = area[np.searchsorted(polygons.start, astray)].sum()
+    assert 0.3 * lost < counts["filled_pixels"] < 1.5 * lost
 
 
 def test_the_bound_on_cells_is_kept_and_told(monkeypatch):
