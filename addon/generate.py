@@ -34,8 +34,10 @@ class Outcome:
         faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
         size = f"{points} points" if points else f"{faces} faces"
         error = max(result.estimated_error for _, result in self.results)
+        filled = max(result.filled_share for _, result in self.results)
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
-        return f"{names}: {size}, estimated error {error:.2f} px, {seconds:.2f} s"
+        return (f"{names}: {size}, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
+                f"{seconds:.2f} s")
 
 
 def generation(context: bpy.types.Context, chosen: Participants,
@@ -73,6 +75,7 @@ def generation(context: bpy.types.Context, chosen: Participants,
             refused.append(f"{mirror.name}: The camera sees none of the diffuse objects in this mirror; move the "
                            "camera, the mirror or the objects.")
             continue
+        remarks += _limits(mirror.name, result)
         origin = origin_of(surface.mesh)
         if points:
             arrays = point_arrays(result, scene, surface.triangle, origin, view)
@@ -94,6 +97,17 @@ def _coarse(mirror: bpy.types.Object, result: core.ReflectionMesh) -> list:
         return []
     return [f"{mirror.name}: {result.counts['coarse']} of {len(result.positions)} points are too far from their "
             "neighbours to be discs without gaps: subdivide the diffuse objects, or choose the method General."]
+
+
+def _limits(name: str, result: core.ReflectionMesh) -> list[str]:
+    """Sentences on the bounds that the reflection in the mirror `name` has hit."""
+    limits = []
+    if result.counts.get("bounded"):
+        limits.append(f"{name}: Refinement stopped at the largest number of faces, so that the error may exceed the "
+                      "tolerance; raise the tolerance.")
+    if result.counts.get("unfilled"):
+        limits.append(f"{name}: Some openings are too large to be filled by rays; they show the mirror itself.")
+    return limits
 
 
 def _within(steps: Generator, name: str, index: int, count: int) -> Generator[tuple[float, str], None, object]:

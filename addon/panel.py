@@ -1,6 +1,8 @@
 """The tab "Reflection" of the 3D viewport's sidebar."""
 from __future__ import annotations
 
+import json
+
 import bpy
 
 
@@ -46,6 +48,10 @@ def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     box.label(text=f"Mirror: {mirror}", translate=False)
     size = f"{record.points} points" if record.points else f"{record.faces} faces"
     box.label(text=f"{count} source{'' if count == 1 else 's'}, {size}")
+    counts = json.loads(record.counts or "{}")
+    if "filled_pixels" in counts:
+        share = 100.0 * counts["filled_pixels"] / max(counts["mirror_pixels"], 1)
+        box.label(text=f"{share:.3f} % filled by rays")
     box.label(text=f"Error about {record.estimated_error:.2f} px at {record.resolution[0]} x {record.resolution[1]}")
 
 

@@ -10,12 +10,12 @@ import numpy as np
 from .cameras import Cameras
 from .candidates import overlapping
 from .caustics import split_at_caustics
-from .clipping import clip
+from .clipping import clip, whole_triangles
 from .cones import Cones
 from .connection import Faces, connect
 from .contacts import drop_behind_contacts
 from .face_refinement import FaceRefinement
-from .filling import fill
+from .filling import fill, fill_openings
 from .horizon import beyond_horizon
 from .images import vertex_images
 from .met_surfaces import MetSurfaces
@@ -91,23 +91,37 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     if first_bounce:
         cameras, candidates, contacts = drop_behind_contacts(view, mirror_map, cameras, frames, met.positions,
                                                              candidates)
-    cameras, candidates, open_ = refine_for_outlines(
+    cameras, candidates, open_, outlines_limited = refine_for_outlines(
         view, mirror_map, cameras, frames, candidates, OUTLINE_SHARE * tolerance, settings.maximum_faces, met)
+    bounded = max(len(cameras), len(candidates)) > settings.maximum_faces
     progress.done("cones", nodes_visited=visited, pairs=len(camera), contacts=contacts, cameras=len(cameras),
-                  candidates=len(candidates))
+                  candidates=len(candidates), limited=outlines_limited)
 
     yield 0.35, "clipping"
-    polygons, filled = fill(mirror_map, cameras, frames, candidates, clip(candidates), open_)
+    polygons, rays = fill(mirror_map, cameras, frames, candidates, clip(candidates), open_)
     if last:
         polygons = polygons.select(~met.shows_mirror(frames)[candidates.column[polygons.pair]])
     polygons, occluded = cut_behind_mirrors(cameras, frames, met, candidates, polygons)
-    progress.done("clipping", polygons=len(polygons.pair), filled=filled, occluded=occluded)
+    joined = whole_triangles(polygons)
+    progress.done("clipping", polygons=len(polygons.pair), joined=joined, cut=len(polygons.pair) - joined,
+                  occluded=occluded)
 
     yield 0.5, "projection"
     seen = candidates.select(np.unique(polygons.pair))
     images, image_counts = vertex_images(view, mirror_map, cameras, Cones.around(cameras), met.positions, frames, seen)
     nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, met.positions, candidates, polygons, images)
     progress.done("projection", **image_counts)
+
+    yield 0.65, "filling"
+    fill_counts = {"filled": 0, "rays": 0}
+    if first_bounce:
+        # what mirrors hide is no opening
+        watched = np.ones(len(cameras), dtype=bool)
+        watched[candidates.camera[met.shows_mirror(frames)[candidates.column]]] = False
+        candidates, polygons, nodes, node_of, fill_counts = fill_openings(
+            view, mirror_map, cameras, met.tree, frames, images, candidates, polygons, nodes, node_of, watched)
+    fill_counts["filled"], fill_counts["rays"] = fill_counts["filled"] + rays, fill_counts["rays"] + rays
+    progress.done("filling", **fill_counts)
 
     yield 0.75, "connection"
     faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))
@@ -118,7 +132,8 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     refinement = FaceRefinement(view, mirror_map, cameras, frames, beyond_horizon(mirror_map, cameras),
                                 settings.placement == "VIRTUAL")
     nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * tolerance, settings.maximum_faces)
-    progress.done("refinement", limited=limited)
+    bounded |= limited > 0 and len(faces) + 2 * limited > settings.maximum_faces
+    progress.done("refinement", limited=limited, bounded=bounded)
     return Bounce(mirror_map, cameras, frames, nodes, faces, left)
 
 

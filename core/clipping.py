@@ -16,8 +16,8 @@ from .candidates import Candidates
 from .vectors import ranges
 
 # Lines: 0 1 2 the camera's edges opposite its corners, 3 4 5 the triangle's edges opposite its vertices, 6 its plane.
-# 7 any line along which a nearer mirror begins.
-SCENE_EDGE, CONTACT, HIDDEN = 3, 6, 7
+# 7 any line along which a nearer mirror begins, 8 no line at all, round cells that rays filled.
+SCENE_EDGE, CONTACT, HIDDEN, FILLED = 3, 6, 7, 8
 SMALLEST = 1e-12  # of a camera: a smaller piece that cutting leaves is nothing
 
 
@@ -99,6 +99,15 @@ def clip(candidates: Candidates) -> Polygons:
     for label, corner_values in planes:
         weights, after, polygon = cut(weights, after, polygon, corner_values, label)
     return Polygons.of(np.arange(count), weights, after, polygon)
+
+
+def whole_triangles(polygons: Polygons) -> int:
+    """How many polygons hold their triangle whole: three corners, all of them scene vertices."""
+    vertex = (polygons.before >= SCENE_EDGE) & (polygons.after >= SCENE_EDGE) & (polygons.before < CONTACT) & (
+        polygons.after < CONTACT)
+    size = np.diff(polygons.start)
+    vertices = np.bincount(np.repeat(np.arange(len(size)), size), weights=vertex, minlength=len(size))
+    return int(((size == 3) & (vertices == 3)).sum())
 
 
 def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_values: np.ndarray,

@@ -11,6 +11,7 @@ from .cameras import Cameras
 from .candidates import Candidates
 from .cones import Cones
 from .mirror_surface import MirrorSurface
+from .point_tree import PointTree
 from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
@@ -30,6 +31,8 @@ class MetSurfaces:
 
     Attributes
     ----------
+    tree : SceneTree or PointTree
+        Of the diffuse scene.
     positions : (n, 3) float64
     triangles : (m, 3) int64
     diffuse : int
@@ -40,8 +43,8 @@ class MetSurfaces:
         Of the mirrors: the longest side of the box round them, in scene units.
     """
 
-    def __init__(self, tree: SceneTree, mirrors: TriangleMesh) -> None:
-        self._tree, self._mirror_tree = tree, SceneTree.build(mirrors)
+    def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh) -> None:
+        self.tree, self._mirror_tree = tree, SceneTree.build(mirrors)
         self._mirror_corners = rows(mirrors.positions[mirrors.triangles])
         self.size = float(np.ptp(mirrors.positions[mirrors.triangles.ravel()], axis=0).max())
         self.diffuse = len(tree.mesh.triangles)
@@ -53,7 +56,7 @@ class MetSurfaces:
     @property
     def bounds(self) -> tuple[np.ndarray, float]:
         """Centre (3,) and radius of a sphere round the diffuse scene."""
-        sphere = self._tree.spheres[0][:, 0]
+        sphere = self.tree.spheres[0][:, 0]
         return sphere[:3], float(sphere[3])
 
     def touched_by(self, mirror_map: ReflectionMap, cameras: Cameras, mirrors: bool) -> np.ndarray:
@@ -69,7 +72,7 @@ class MetSurfaces:
 
     def trace(self, mirror_map: ReflectionMap, cameras: Cameras, cones: Cones) -> tuple[np.ndarray, np.ndarray, int]:
         """Pairs of cameras and triangles that may be seen in them, and how many tree nodes were visited for that."""
-        camera, triangle, visited = self._tree.trace(cones)
+        camera, triangle, visited = self.tree.trace(cones)
         mirror_camera, mirror_triangle, more = self._mirror_tree.trace(cones)
         above = self._above(mirror_map, cameras, mirror_camera, mirror_triangle)
         return (np.concatenate((camera, mirror_camera[above])),

@@ -58,6 +58,11 @@ class DepthGrid:
         corner_seen[cameras.corners[shows | ~hides]] = True
         return grid, corner_seen[cameras.corners].any(axis=1)
 
+    @property
+    def mirror_pixels(self) -> int:
+        """About how many pixels see the mirror."""
+        return round(float(np.isfinite(self.nearest).sum()) / self.scale**2)
+
     def hides(self, places: np.ndarray, faces: np.ndarray) -> np.ndarray:
         """Which corners (m, 3) of faces between `places` (3, n) on the mirror lie in the picture and behind nearer
         parts of it: at all four samples round them the face's own plane does."""

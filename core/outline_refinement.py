@@ -28,7 +28,7 @@ CROWD = 6  # outlines of mirrors that a camera may hold: all that it sees is cut
 
 def refine_for_outlines(view: View, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames,
                         candidates: Candidates, tolerance: float, maximum: int,
-                        met: MetSurfaces) -> tuple[Cameras, Candidates, np.ndarray]:
+                        met: MetSurfaces) -> tuple[Cameras, Candidates, np.ndarray, int]:
     """Cameras split until no outline in them misses the true one by more than `tolerance` pixels, or until there are
     `maximum` candidates.
 
@@ -39,6 +39,8 @@ def refine_for_outlines(view: View, mirror_map: ReflectionMap, cameras: Cameras,
         The pairs that may really overlap.
     open_ : (n,) bool
         Cameras too small to be split in which some outline still does.
+    limited : int
+        Edges of cameras that the bound on depth or count left unsplit.
     """
     settled, open_ = candidates.select(np.zeros(0, dtype=np.int64)), np.zeros(len(cameras), dtype=bool)
     for level in range(LEVELS + 1):
@@ -58,7 +60,7 @@ def refine_for_outlines(view: View, mirror_map: ReflectionMap, cameras: Cameras,
         open_ = open_[parent] & ~new
         candidates = overlapping(cameras, frames, *_children(settled, parent, new, before, len(frames.triangle)))
         settled = _renumbered(settled, now)
-    return cameras, settled, open_ | (bent.any(axis=1) & ~long.any(axis=1))
+    return cameras, settled, open_ | (bent.any(axis=1) & ~long.any(axis=1)), int((bent & long).sum())
 
 
 def _renumbered(candidates: Candidates, now: np.ndarray) -> Candidates:

@@ -89,7 +89,7 @@ def reflection_steps(
     cameras, grid = without_hidden(view, cameras)
     cameras, occluded = without_occluded(view, mirror_map, mirror, cameras, grid)
     cameras = cut_at_horizon(view, mirror_map, cameras)
-    progress.done("cameras", mirror_triangles=len(cameras), self_occluded=occluded)
+    progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded)
 
     if settings.method == "POINTS":
         cameras = refined(view, mirror_map, cameras, met, settings, True, progress)

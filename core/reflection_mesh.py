@@ -34,7 +34,9 @@ class ReflectionMesh:
     mirror_face : (m,) int64
         Triangle of the mirror, -1 where a face spans several.
     counts : dict
-        How much of each part the scene needed (cameras, nodes visited, pairs, roots, pieces, ...): plain integers.
+        How much of each part the scene needed, plain integers: cameras, nodes visited, pairs, roots, `joined` polygons
+        that hold their whole triangle and `cut` ones, what was `filled` (`core.filling.fill_openings`), edges that a
+        bound on depth or count left too long (`limited`), whether it was the bound on count (`bounded`), and so on.
     seconds : dict
         Time by stage.
     estimated_error : float
@@ -64,3 +66,8 @@ class ReflectionMesh:
     def __post_init__(self) -> None:
         if self.bounces is None:
             object.__setattr__(self, "bounces", np.ones(len(self.triangles), dtype=np.int8))
+
+    @property
+    def filled_share(self) -> float:
+        """Share of the mirror's pixels that rays filled, in %."""
+        return 100.0 * self.counts.get("filled_pixels", 0) / max(self.counts.get("mirror_pixels", 0), 1)

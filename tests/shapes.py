@@ -106,6 +106,16 @@ def water(size, height, waves, cells):
     return sheet(surface, cells, cells, (-0.5 * size, 0.5 * size), (-0.5 * size, 0.5 * size))
 
 
+def saddle(centre, size, height, cells):
+    """A square whose height rises along x and falls along y, by `height` at the middles of its sides; smooth."""
+    def surface(x, y):
+        k = 4.0 * height / size**2
+        normals = np.stack([-2.0 * k * x, 2.0 * k * y, np.ones_like(x)], axis=1)
+        places = np.stack([x, y, k * (x**2 - y**2)], axis=1) + centre
+        return places, normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    return sheet(surface, cells, cells, (-0.5 * size, 0.5 * size), (-0.5 * size, 0.5 * size))
+
+
 def combine(*surfaces) -> TriangleMesh:
     """One mesh of several surfaces; those without normals are flat."""
     start, positions, triangles, normals = 0, [], [], []

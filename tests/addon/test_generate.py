@@ -243,3 +243,21 @@ def test_faces_of_other_materials_do_not_reflect(wall_scene):
 def test_the_parallel_method_runs(sphere_scene):
     general = len(parts.generate(method="GENERAL").data.polygons)
     assert len(parts.generate(method="PARALLEL").data.polygons) not in {0, general}
+
+
+def test_summary_tells_the_share_filled_by_rays_and_remarks_the_bounds_hit(sphere_scene, room):
+    sphere, cube, floor = sphere_scene
+    chosen = room("addon.roles").Participants([sphere], [cube, floor], [])
+    generate, settings = room("addon.generate").generation, room("core").Settings
+
+    def outcome(**options):
+        return room("addon.command_line")._announced(generate(bpy.context, chosen, settings(**options)))
+
+    free, bounded = outcome(), outcome(tolerance=0.02, maximum_faces=2000)
+    assert free.remarks == []
+    assert ", 0.000 % filled by rays, " in free.summary(1.0)
+    assert len(bounded.remarks) == 1
+    assert bounded.remarks[0].startswith("Ball: Refinement stopped at the largest number of faces")
+    counts = json.loads(bounded.results[0][0].reflection_mesh.counts)
+    assert counts["bounded"] == 1 and counts["limited"] > 0
+    assert counts["joined"] + counts["cut"] == counts["polygons"]

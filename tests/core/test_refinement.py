@@ -2,12 +2,17 @@
 import numpy as np
 import pytest
 
-from core import Settings, reflect
-from core.cameras import three_ray_cameras, visible_triangles
-from core.mirror_map import MirrorMap
+from core import SceneTree, Settings, reflect
 from core.camera_splitting import in_picture
 from core.camera_splitting import split_cameras
+from core.cameras import three_ray_cameras, visible_triangles
+from core.candidates import overlapping
+from core.cones import Cones
+from core.met_surfaces import MetSurfaces
+from core.mirror_map import MirrorMap
 from core.mirror_refinement import refine_mirror
+from core.outline_refinement import refine_for_outlines
+from core.scene_frames import SceneFrames
 from tests.core.true_map import case_of, mesh_of, true_rays, truth_of, view_rays
 from tests.judge import compare
 
@@ -118,7 +123,8 @@ def test_the_bound_on_faces_is_kept_and_told():
     mesh = reflect(case.view, case.mirror, case.scene, Settings(tolerance=0.01, maximum_faces=12_000))
     free = reflect(case.view, case.mirror, case.scene, Settings(tolerance=0.05))
     assert len(free.triangles) > 30_000
-    assert mesh.counts["limited"] > 0
+    assert mesh.counts["limited"] > 0 and mesh.counts["bounded"] == 1
+    assert free.counts["bounded"] == 0
     assert len(mesh.triangles) < 40_000
     assert np.isfinite(mesh.positions).all()
 
@@ -130,3 +136,18 @@ def test_no_edge_is_split_for_nothing(name):
     shortest = np.linalg.norm(pixels - np.roll(pixels, 1, axis=1), axis=2).min(axis=1)
     assert (shortest < 1e-4).sum() < 0.002 * len(mesh.triangles)
     assert mesh.counts["limited"] == 0
+
+
+def test_the_bound_on_candidates_is_kept_and_told():
+    case = case_of("sphere")
+    mirror_map, cameras = cameras_of(case)
+    tree = SceneTree.build(case.scene)
+    camera, triangle, _ = tree.trace(Cones.around(cameras))
+    seen, column = np.unique(triangle, return_inverse=True)
+    frames, met = SceneFrames.of(case.scene, seen), MetSurfaces(tree, case.mirror)
+    candidates = overlapping(cameras, frames, camera, column)
+    *_, free = refine_for_outlines(case.view, mirror_map, cameras, frames, candidates, 0.25, 1_000_000, met)
+    _, bounded, _, limited = refine_for_outlines(case.view, mirror_map, cameras, frames, candidates, 0.25, 1000, met)
+    assert free < limited
+    assert limited > 20
+    assert len(bounded) < len(candidates)
