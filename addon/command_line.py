@@ -56,11 +56,12 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--tolerance", type=float, default=0.5, metavar="PIXELS")
     parser.add_argument("--placement", choices=[item[0] for item in PLACEMENTS], default="LAYERED")
     parser.add_argument("--method", choices=[item[0] for item in METHODS], default="GENERAL")
+    parser.add_argument("--depth", type=int, default=1, metavar="BOUNCES", help="followed from mirror to mirror")
 
 
 def _settings(options: argparse.Namespace) -> core.Settings:
     try:
-        return core.Settings(options.tolerance, options.placement, options.method)
+        return core.Settings(options.tolerance, options.placement, options.method, options.depth)
     except ValueError as error:
         raise core.ReflectionError(str(error)) from error
 

@@ -13,7 +13,7 @@ from .compare_pictures import render_comparison
 from .compare_report import write_report
 from .cycles_scene import copied_scene
 from .generate import generation
-from .properties import method_property, placement_property, tolerance_property
+from .properties import depth_property, method_property, placement_property, tolerance_property
 from .read_view import read_view
 from .roles import Participants, participants, results_of
 
@@ -99,6 +99,7 @@ class REFLECTIONMESH_OT_compare(bpy.types.Operator):
     tolerance: tolerance_property()
     placement: placement_property()
     method: method_property()
+    depth: depth_property()
 
     def invoke(self, context, event):
         context.window_manager.fileselect_add(self)
@@ -113,8 +114,9 @@ class REFLECTIONMESH_OT_compare(bpy.types.Operator):
             return {"CANCELLED"}
         folder = os.path.abspath(bpy.path.abspath(self.filepath))
         try:
-            report = compare(context, folder, self.samples, Settings(self.tolerance, self.placement, self.method))
-        except ReflectionError as error:
+            settings = Settings(self.tolerance, self.placement, self.method, self.depth)
+            report = compare(context, folder, self.samples, settings)
+        except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         self.report({"INFO"}, summary(report, folder))

@@ -1,6 +1,8 @@
 """Dresses a copied scene for its renders: in codes that say what each pixel shows, and in its own materials."""
 from __future__ import annotations
 
+import json
+
 import bpy
 import numpy as np
 
@@ -24,11 +26,12 @@ def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: 
     reference, result : (height, width, 3) float32
         The pictures in linear light.
     """
-    cycles_render.prepare(copied.scene)
+    depth = max(json.loads(result.reflection_mesh.counts or "{}").get("depth", 1) for result in results)
+    cycles_render.prepare(copied.scene, depth)
     _code_results(copied, results, diffuse, _polygons(context, diffuse))
     own = [(slot, slot.material) for copy in copied.everything for slot in copy.material_slots]
     codes = CodedMaterials(copied, _lowest_corner(copied))
-    coded = _coded_pictures(copied, codes)
+    coded = _coded_pictures(copied, codes, depth)
     for slot, material in own:
         slot.material = material
     _dress([(copy, index) for copy, index in copied.mirrors if not _reflecting(copy)], codes.plain_mirror())
@@ -93,10 +96,10 @@ def _reflecting(copy: bpy.types.Object) -> set:
     return {index for index, slot in enumerate(copy.material_slots) if is_mirror(slot.material)}
 
 
-def _coded_pictures(copied: CopiedScene, codes: CodedMaterials) -> tuple:
+def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> tuple:
     """The mirror's pixels, those with a bent normal, the truth, and what is shown."""
     scene, origin = copied.scene, codes.origin
-    black, mirror = codes.black(), codes.mirror()
+    black, mirror = codes.black(), codes.mirror(depth)
     reflecting = {copy: _reflecting(copy) for copy, _ in copied.mirrors}
     shown_camera = {copy: copy.visible_camera for copy, _ in copied.mirrors}
     for copy, index in copied.diffuse:

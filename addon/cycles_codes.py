@@ -47,13 +47,17 @@ class CodedMaterials:
         tree.links.new(self._attribute(tree, name).outputs["Vector"], emission.inputs["Color"])
         return material
 
-    def mirror(self) -> bpy.types.Material:
-        """Reflects perfectly; a mirror seen in a mirror emits 1 in the first channel."""
+    def mirror(self, depth: int) -> bpy.types.Material:
+        """Reflects perfectly `depth` times; a mirror seen in the last of these emits 1 in the first channel."""
         material, tree, emission = self._material("Mirror")
         emission.inputs["Color"].default_value = (1.0, 0.0, 0.0, 1.0)
         glossy = _glossy(tree)
         mix = tree.nodes.new("ShaderNodeMixShader")
-        tree.links.new(tree.nodes.new("ShaderNodeLightPath").outputs["Is Glossy Ray"], mix.inputs[0])
+        reached = tree.nodes.new("ShaderNodeMath")
+        reached.operation = "GREATER_THAN"
+        reached.inputs[1].default_value = depth - 0.5
+        tree.links.new(tree.nodes.new("ShaderNodeLightPath").outputs["Glossy Depth"], reached.inputs[0])
+        tree.links.new(reached.outputs["Value"], mix.inputs[0])
         tree.links.new(glossy.outputs["BSDF"], mix.inputs[1])
         tree.links.new(emission.outputs["Emission"], mix.inputs[2])
         tree.links.new(mix.outputs["Shader"], tree.nodes["Output"].inputs["Surface"])

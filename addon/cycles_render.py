@@ -14,8 +14,8 @@ from ..core import ReflectionError
 SLOT = "Reflection Comparison"
 
 
-def prepare(scene: bpy.types.Scene) -> None:
-    """Set a temporary scene up for Cycles on the processor and lossless linear pictures.
+def prepare(scene: bpy.types.Scene, depth: int) -> None:
+    """Set a temporary scene up for Cycles on the processor, `depth` reflections and lossless linear pictures.
 
     Raises
     ------
@@ -40,9 +40,9 @@ def prepare(scene: bpy.types.Scene) -> None:
     cycles.blur_glossy = 0.0
     cycles.caustics_reflective = True
     cycles.seed = 0
-    cycles.max_bounces = 4
-    # one reflection: a mirror seen in a mirror is black
-    cycles.glossy_bounces = 1
+    cycles.max_bounces = 4 + depth
+    # as many reflections as the mesh follows: a mirror that is seen in the last one is black
+    cycles.glossy_bounces = depth
 
 
 def render_codes(scene: bpy.types.Scene) -> np.ndarray:

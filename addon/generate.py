@@ -9,7 +9,7 @@ import bpy
 
 from .. import core
 from .join_meshes import read_mirror, read_scene
-from .properties import method_property, placement_property, tolerance_property
+from .properties import depth_property, method_property, placement_property, tolerance_property
 from .read_view import read_view
 from .roles import Participants, choose
 from .stepped_operator import SteppedOperator
@@ -63,9 +63,10 @@ def generation(context: bpy.types.Context, chosen: Participants,
     yield 0.5 * READING, "Building the tree"
     points = settings.method == "POINTS"
     tree = (core.PointTree if points else core.SceneTree).build(scene.mesh)
+    mirrors = core.TriangleMesh.joined([surface.mesh for surface in surfaces])
     prepared, refused = [], []
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
-        steps = core.reflection_steps(view, surface.mesh, tree, settings)
+        steps = core.reflection_steps(view, surface.mesh, tree, settings, mirrors)
         try:
             result = yield from _within(steps, mirror.name, index, len(surfaces))
         except core.ReflectionError as error:
@@ -131,10 +132,14 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, bpy.types.Operator):
     tolerance: tolerance_property()
     placement: placement_property()
     method: method_property()
+    depth: depth_property()
 
     def steps(self, context: bpy.types.Context) -> Generator[tuple[float, str], None, None]:
         started = time.perf_counter()
-        settings = core.Settings(tolerance=self.tolerance, placement=self.placement, method=self.method)
+        try:
+            settings = core.Settings(self.tolerance, self.placement, self.method, self.depth)
+        except ValueError as error:
+            raise core.ReflectionError(str(error)) from error
         outcome = yield from generation(context, choose(context), settings)
         # the view layer knows new objects only from its next update on
         context.view_layer.update()

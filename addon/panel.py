@@ -26,6 +26,7 @@ class REFLECTION_MESH_PT_main(bpy.types.Panel):
         column.prop(settings, "tolerance")
         column.prop(settings, "placement")
         column.prop(settings, "method")
+        column.prop(settings, "depth")
         column = layout.column(align=True)
         generate = column.operator("reflection_mesh.generate", icon="MOD_MIRROR")
         compare = column.operator("reflection_mesh.compare", icon="IMAGE_DATA")
@@ -33,6 +34,7 @@ class REFLECTION_MESH_PT_main(bpy.types.Panel):
             operator.tolerance = settings.tolerance
             operator.placement = settings.placement
             operator.method = settings.method
+            operator.depth = settings.depth
         column.operator("reflection_mesh.clear", icon="TRASH")
 
 

@@ -37,6 +37,11 @@ def method_property() -> EnumProperty:
                         default="GENERAL", options=set())
 
 
+def depth_property() -> IntProperty:
+    return IntProperty(name="Depth", description="How many bounces from mirror to mirror are followed",
+                       default=1, min=1, soft_max=4, max=16, options=set())
+
+
 class ReflectionSource(bpy.types.PropertyGroup):
     """One diffuse object of a result."""
 
@@ -67,6 +72,7 @@ class ReflectionScene(bpy.types.PropertyGroup):
     tolerance: tolerance_property()
     placement: placement_property()
     method: method_property()
+    depth: depth_property()
 
 
 CLASSES = (ReflectionSource, ReflectionObject, ReflectionScene)

@@ -10,7 +10,7 @@ import numpy as np
 from .cameras import Cameras
 from .candidates import overlapping
 from .caustics import split_at_caustics
-from .clipping import clip, whole_triangles
+from .clipping import FILLED, Polygons, clip, whole_triangles
 from .cones import Cones
 from .connection import Faces, connect
 from .contacts import drop_behind_contacts
@@ -97,31 +97,37 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     progress.done("cones", nodes_visited=visited, pairs=len(camera), contacts=contacts, cameras=len(cameras),
                   candidates=len(candidates), limited=outlines_limited)
 
-    yield 0.35, "clipping"
-    polygons, rays = fill(mirror_map, cameras, frames, candidates, clip(candidates), open_)
-    if last:
-        polygons = polygons.select(~met.shows_mirror(frames)[candidates.column[polygons.pair]])
-    polygons, occluded = cut_behind_mirrors(cameras, frames, met, candidates, polygons)
-    joined = whole_triangles(polygons)
-    progress.done("clipping", polygons=len(polygons.pair), joined=joined, cut=len(polygons.pair) - joined,
-                  occluded=occluded)
-
-    yield 0.5, "projection"
-    seen = candidates.select(np.unique(polygons.pair))
-    images, image_counts = vertex_images(view, mirror_map, cameras, Cones.around(cameras), met.positions, frames, seen)
-    nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, met.positions, candidates, polygons, images)
+    yield 0.35, "projection"
+    images, image_counts = vertex_images(view, mirror_map, cameras, Cones.around(cameras), met.positions, frames,
+                                         candidates if not last else met.only_diffuse(frames, candidates))
     progress.done("projection", **image_counts)
 
-    yield 0.65, "filling"
-    fill_counts = {"filled": 0, "rays": 0}
+    yield 0.5, "clipping"
+    polygons, rays = fill(mirror_map, cameras, frames, candidates, clip(candidates), open_)
+    mirror = met.shows_mirror(frames)[candidates.column[polygons.pair]]
+    polygons, mirrors = polygons.select(~mirror), polygons.select(mirror & (not last))
+    nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, met.positions, candidates, polygons, images)
+    joined = whole_triangles(polygons)
+    progress.done("clipping", polygons=len(polygons.pair), joined=joined, cut=len(polygons.pair) - joined)
+
+    yield 0.6, "filling"
+    counts = {"filled": 0, "rays": 0}
     if first_bounce:
-        # what mirrors hide is no opening
-        watched = np.ones(len(cameras), dtype=bool)
-        watched[candidates.camera[met.shows_mirror(frames)[candidates.column]]] = False
-        candidates, polygons, nodes, node_of, fill_counts = fill_openings(
-            view, mirror_map, cameras, met.tree, frames, images, candidates, polygons, nodes, node_of, watched)
-    fill_counts["filled"], fill_counts["rays"] = fill_counts["filled"] + rays, fill_counts["rays"] + rays
-    progress.done("filling", **fill_counts)
+        candidates, polygons, nodes, node_of, counts = fill_openings(
+            view, mirror_map, cameras, met.tree, frames, images, candidates, polygons, nodes, node_of)
+    progress.done("filling", **counts | {"filled": counts["filled"] + rays, "rays": counts["rays"] + rays})
+
+    yield 0.7, "mirrors in the mirror"
+    occluded = 0
+    if met.shows_mirror(frames).any():
+        cells = polygons.after[polygons.start[:-1]] == FILLED
+        cell_nodes = node_of[np.repeat(cells, np.diff(polygons.start))]
+        cells, polygons = polygons.select(cells), Polygons.joined((polygons.select(~cells), mirrors))
+        polygons, occluded = cut_behind_mirrors(cameras, frames, met, candidates, polygons)
+        fresh, node_of = polygon_nodes(view, mirror_map, cameras, frames, met.positions, candidates, polygons, images)
+        node_of = np.concatenate((node_of, cell_nodes + len(fresh.distance)))
+        nodes, polygons = fresh.joined(nodes.place, nodes.point, nodes.distance), Polygons.joined((polygons, cells))
+    progress.done("occlusion", occluded=occluded)
 
     yield 0.75, "connection"
     faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))

@@ -68,15 +68,13 @@ def fill(mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, candi
 
 def fill_openings(view: View, mirror_map: ReflectionMap, cameras: Cameras, tree: SceneTree, frames: SceneFrames,
                   images: VertexImages, candidates: Candidates, polygons: Polygons, nodes: Nodes,
-                  node_of: np.ndarray, watched: np.ndarray) -> tuple[Candidates, Polygons, Nodes, np.ndarray, dict]:
+                  node_of: np.ndarray) -> tuple[Candidates, Polygons, Nodes, np.ndarray, dict]:
     """Polygons without openings, after the first bounce.
 
     Parameters
     ----------
     node_of : (k,) int64
         Node of each polygon corner.
-    watched : (n,) bool
-        Cameras in which openings are looked for.
 
     Returns
     -------
@@ -98,11 +96,11 @@ def fill_openings(view: View, mirror_map: ReflectionMap, cameras: Cameras, tree:
         return found
 
     counts = {"rays": 0, "unfilled": 0}
-    asked, celled = watched, np.zeros(len(cameras), dtype=bool)
+    watched, celled = np.ones(len(cameras), dtype=bool), np.zeros(len(cameras), dtype=bool)
     pixels, before = view.pixels(nodes.place.T), len(polygons.pair)
     openings = find()
     counts["unmatched"], counts["openings"] = openings.edges, len(openings)
-    watched = touching(cameras, openings.camera) & asked
+    watched = touching(cameras, openings.camera)
     for _ in range(ROUNDS):
         if not len(openings):
             break
@@ -114,7 +112,7 @@ def fill_openings(view: View, mirror_map: ReflectionMap, cameras: Cameras, tree:
                                       images, nodes, node_of)
         pixels = view.pixels(nodes.place.T)
         openings = find()
-        watched |= touching(cameras, openings.camera) & asked
+        watched |= touching(cameras, openings.camera)
     left = openings
     for _ in range(ROUNDS):
         if not len(left):
@@ -127,7 +125,7 @@ def fill_openings(view: View, mirror_map: ReflectionMap, cameras: Cameras, tree:
         candidates, polygons = _joined(candidates, polygons, *_as_polygons(cells))
         node_of, pixels = np.concatenate((node_of, shown)), view.pixels(nodes.place.T)
         openings = find()
-        watched |= touching(cameras, openings.camera) & asked
+        watched |= touching(cameras, openings.camera)
         left = openings.select(~celled[openings.camera]).joined(cells.rim)
     counts["unfilled"] |= int(len(left) > 0)
     counts["open"], counts["filled"] = len(openings), len(polygons.pair) - before

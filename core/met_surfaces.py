@@ -117,6 +117,11 @@ class MetSurfaces:
         """Which columns (t,) of the frames are triangles of mirrors."""
         return frames.triangle >= self.diffuse
 
+    def only_diffuse(self, frames: SceneFrames, candidates: Candidates) -> Candidates:
+        """Candidates without the mirrors' triangles."""
+        mirror = self.shows_mirror(frames)
+        return candidates.select(np.flatnonzero(~mirror[candidates.column])) if mirror.any() else candidates
+
     def hiding_something(self, frames: SceneFrames, candidates: Candidates) -> Candidates:
         """Candidates without the mirrors' triangles in cameras that see nothing else, which hide nothing."""
         mirror = self.shows_mirror(frames)[candidates.column]

@@ -13,7 +13,7 @@ from .candidates import Candidates
 from .clipping import CONTACT, HIDDEN, SCENE_EDGE, Polygons, clip
 from .met_surfaces import MetSurfaces
 from .scene_frames import SceneFrames
-from .vectors import groups, ranges
+from .vectors import dot, groups, ranges
 
 LINES = 16  # outlines that cut one camera; with more, what is left of a polygon is hidden or not by its middle
 NEARER = 1e-9  # of the distance: what is nearer by less is the same surface
@@ -117,21 +117,20 @@ def _beside(candidates: Candidates, other: np.ndarray, polygons: Polygons, seen:
 
 def _behind(candidates: Candidates, other: np.ndarray, polygon: np.ndarray,
             polygons: Polygons) -> tuple[np.ndarray, np.ndarray]:
-    """Which pairs of a polygon and a mirror's candidate `other` have a place where the mirror hides it, of the corners,
-    a little inward, and the middle; and which polygons (q,) are hidden in their middles."""
+    """Which pairs of a polygon and a mirror's candidate `other` that may cross have a place where the mirror hides it,
+    of the corners, a little inward; and which polygons (q,) are hidden in their middles."""
     size = np.diff(polygons.start)
     middle = np.add.reduceat(polygons.weights, polygons.start[:-1], axis=1) / size if len(size) else polygons.weights
-    own, found = polygons.pair[polygon], np.zeros(len(other), dtype=bool)
-    middle_hidden = np.zeros(len(size), dtype=bool)
-    for corner in range(-1, int(size.max(initial=0))):
-        at = middle
-        if corner >= 0:
-            spot = polygons.weights[:, polygons.start[:-1] + np.minimum(corner, size - 1)]
-            at = (1.0 - INWARD) * spot + INWARD * middle
-        hidden = _hides(candidates, other, own, at[:, polygon])
-        found |= hidden
-        if corner < 0:
-            middle_hidden[polygon[hidden]] = True
+    own, middle_hidden = polygons.pair[polygon], np.zeros(len(size), dtype=bool)
+    middle_hidden[polygon[_hides(candidates, other, own, middle[:, polygon])]] = True
+    # only where the planes meet in the camera may one side of a polygon lie before the mirror, and one behind
+    order = _depth_order(candidates, other, own)
+    mixed = np.flatnonzero((order < 0.0).any(axis=0) & (order > 0.0).any(axis=0))
+    found = np.zeros(len(other), dtype=bool)
+    for corner in range(int(size.max(initial=0))):
+        spot = polygons.weights[:, polygons.start[:-1] + np.minimum(corner, size - 1)]
+        at = (1.0 - INWARD) * spot + INWARD * middle
+        found[mixed] |= _hides(candidates, other[mixed], own[mixed], at[:, polygon[mixed]])
     return found, middle_hidden
 
 
@@ -148,11 +147,15 @@ def _changes_sign(polygons: Polygons, corner_values: np.ndarray) -> np.ndarray:
 def _hides(candidates: Candidates, other: np.ndarray, own: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Whether rays at `weights` (3, n) of the cameras meet the mirror triangles of the candidates `other` (n,) before
     they meet the planes of the candidates `own`."""
-    sides = (candidates.sides[:, :, other] * weights).sum(axis=1)
-    reach, own_reach = (((candidates.ahead[:, pair] * weights).sum(axis=0)) for pair in (other, own))
-    own_rate = ((candidates.sides[:, :, own].sum(axis=0)) * weights).sum(axis=0)
-    nearer = reach * own_rate * (1.0 + NEARER) < own_reach * sides.sum(axis=0) * (1.0 - NEARER)
-    return (sides >= 0.0).all(axis=0) & (reach >= 0.0) & nearer & (other != own)
+    sides = [dot(side[:, other], weights) for side in candidates.sides]
+    inside = (sides[0] >= 0.0) & (sides[1] >= 0.0) & (sides[2] >= 0.0) & (other != own)
+    met = np.flatnonzero(inside)
+    other, own, weights = other[met], own[met], weights[:, met]
+    rate = sides[0][met] + sides[1][met] + sides[2][met]
+    own_rate = sum(dot(side[:, own], weights) for side in candidates.sides)
+    reach, own_reach = dot(candidates.ahead[:, other], weights), dot(candidates.ahead[:, own], weights)
+    inside[met] = (reach >= 0.0) & (reach * own_rate * (1.0 + NEARER) < own_reach * rate * (1.0 - NEARER))
+    return inside
 
 
 def _depth_order(candidates: Candidates, other: np.ndarray, own: np.ndarray) -> np.ndarray:

@@ -47,14 +47,15 @@ def refine_for_outlines(view: View, mirror_map: ReflectionMap, cameras: Cameras,
         candidates, lines = _really_overlapping(candidates)
         lines &= ~met.inner_sides(cameras, frames, candidates)
         bent, long = _bent_edges(view, cameras, candidates, lines, tolerance)
-        bent |= _crowded(cameras, candidates, lines & met.shows_mirror(frames)[candidates.column])[:, None]
         bent &= ~beyond_horizon(mirror_map, cameras)[:, None]
+        crowded = _crowded(cameras, candidates, lines & met.shows_mirror(frames)[candidates.column])
+        split = (bent | crowded[:, None]) & long
         settled = Candidates.joined((settled, candidates))
-        if level == LEVELS or not (bent & long).any() or len(settled) > maximum:
+        if level == LEVELS or not split.any() or len(settled) > maximum:
             break
         open_ |= (bent & ~long).any(axis=1)
         before = len(cameras)
-        cameras, parent, new = split_cameras(view, mirror_map, cameras, bent & long)
+        cameras, parent, new = split_cameras(view, mirror_map, cameras, split)
         now = np.full(before, -1)
         now[parent[~new]] = np.flatnonzero(~new)
         open_ = open_[parent] & ~new

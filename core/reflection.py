@@ -112,7 +112,7 @@ def reflection_steps(
 
     yield 0.95, "depth order"
     mesh = assemble(view, bounces, met, settings.placement)
-    progress.done("placement", faces=len(mesh.triangles))
+    progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
     left = np.concatenate([bounce.left for bounce in bounces])
     return replace(mesh, counts=progress.counts, seconds=progress.seconds,
                    estimated_error=INSIDE * float(np.percentile(left, 99)))

@@ -1,6 +1,7 @@
 """Triangles with shading normals: what both the mirror and the diffuse scene are made of."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,6 +51,16 @@ class TriangleMesh:
             flat = self.face_normals()[:, None, :]
             normals = np.where(length > 0.0, normals / np.where(length > 0.0, length, 1.0), flat)
         object.__setattr__(self, "corner_normals", normals)
+
+    @staticmethod
+    def joined(meshes: Sequence[TriangleMesh]) -> TriangleMesh:
+        """One mesh of several, their triangles one behind another."""
+        if len(meshes) == 1:
+            return meshes[0]
+        starts = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])
+        return TriangleMesh(np.concatenate([mesh.positions for mesh in meshes]),
+                            np.concatenate([mesh.triangles + start for mesh, start in zip(meshes, starts)]),
+                            np.concatenate([mesh.corner_normals for mesh in meshes]))
 
     def face_normals(self) -> np.ndarray:
         """Unit normals (m, 3) of the flat triangles, zero where a triangle has no area."""

@@ -128,14 +128,6 @@ def combine(*surfaces) -> TriangleMesh:
     return TriangleMesh(np.concatenate(positions), np.concatenate(triangles), np.concatenate(normals))
 
 
-def joined(*meshes) -> TriangleMesh:
-    """One mesh of several, their triangles one behind another."""
-    starts = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])
-    return TriangleMesh(np.concatenate([mesh.positions for mesh in meshes]),
-                        np.concatenate([mesh.triangles + start for mesh, start in zip(meshes, starts)]),
-                        np.concatenate([mesh.corner_normals for mesh in meshes]))
-
-
 def _outward(positions, triangles):
     a, b, c = (positions[triangles[:, k]] for k in range(3))
     inward = np.einsum("ni,ni->n", np.cross(b - a, c - a), a) < 0.0

@@ -7,7 +7,6 @@ import numpy as np
 
 from core import TriangleMesh, View
 from tests.ray_hits import first_hits
-from tests.shapes import joined
 from tests.truth import reflected_rays
 
 OFF = 0.02  # pixels between the rays whose difference tells the motion per pixel
@@ -60,7 +59,7 @@ def trace_bounces(view: View, mirror: TriangleMesh, scene: TriangleMesh, mirrors
 
 
 def _trace(view, mirror, scene, mirrors, depth, pixels):
-    everything = joined(scene, mirrors)
+    everything = TriangleMesh.joined([scene, mirrors])
     count, diffuse = len(pixels), len(scene.triangles)
     origin, direction = view.rays(pixels)
     first, distance = first_hits(mirror, origin, direction)

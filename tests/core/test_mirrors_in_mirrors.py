@@ -43,7 +43,7 @@ def case_of(name: str, orthographic: bool = False):
     mirror, others = CASES[name]
     view = View.looking_at((-0.9, -6.0, 2.3), (0.0, 1.0, 1.3), (PIXELS, PIXELS), field_of_view=0.6,
                            orthographic_scale=4.4 if orthographic else 0.0)
-    return view, mirror, _scene(), shapes.joined(mirror, *others)
+    return view, mirror, _scene(), TriangleMesh.joined([mirror, *others])
 
 
 @cache

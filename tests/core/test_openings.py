@@ -28,8 +28,7 @@ def rooms(monkeypatch, name, settings=Settings()):
     monkeypatch.setattr(core.bounce, "fill_openings", keep)
     case = case_of(name)
     reflect(case.view, case.mirror, case.scene, settings)
-    names = ("view", "mirror_map", "cameras", "tree", "frames", "images", "candidates", "polygons", "nodes", "node_of",
-             "watched")
+    names = ("view", "mirror_map", "cameras", "tree", "frames", "images", "candidates", "polygons", "nodes", "node_of")
     return dict(zip(names, given, strict=True))
 
 
@@ -60,7 +59,7 @@ def losing(share, seed):
 
 
 def unfilled(*arguments):
-    return *arguments[6:10], {"filled": 0, "rays": 0}
+    return *arguments[6:], {"filled": 0, "rays": 0}
 
 
 def numbers_of(name, mesh):
