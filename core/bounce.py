@@ -78,10 +78,11 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     """All that the cameras see, in steps: yields (share of the bounce done, stage that comes next); `last` tells that
     light which meets a mirror goes no further."""
     tolerance, first_bounce = settings.tolerance, cameras.origins is cameras.places
-    cameras = refined(view, mirror_map, cameras, met, settings, last, progress)
+    showing = met.showing_mirrors(mirror_map, cameras)
+    cameras = refined(view, mirror_map, cameras, met, None if last else showing, settings, progress)
 
     yield 0.1, "cones through the tree"
-    camera, triangle, visited = met.trace(mirror_map, cameras, Cones.around(cameras))
+    camera, triangle, visited = met.trace(mirror_map, cameras, showing)
     seen, column = np.unique(triangle, return_inverse=True)
     frames = SceneFrames.of(met, seen)
     candidates = met.without_touching(mirror_map, cameras, frames, overlapping(cameras, frames, camera, column))
@@ -122,11 +123,13 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     if met.shows_mirror(frames).any():
         cells = polygons.after[polygons.start[:-1]] == FILLED
         cell_nodes = node_of[np.repeat(cells, np.diff(polygons.start))]
-        cells, polygons = polygons.select(cells), Polygons.joined((polygons.select(~cells), mirrors))
-        polygons, occluded = cut_behind_mirrors(cameras, frames, met, candidates, polygons)
-        fresh, node_of = polygon_nodes(view, mirror_map, cameras, frames, met.positions, candidates, polygons, images)
-        node_of = np.concatenate((node_of, cell_nodes + len(fresh.distance)))
-        nodes, polygons = fresh.joined(nodes.place, nodes.point, nodes.distance), Polygons.joined((polygons, cells))
+        clipped = Polygons.joined((polygons.select(~cells), mirrors))
+        seen, occluded = cut_behind_mirrors(cameras, frames, met, candidates, clipped)
+        if occluded or len(mirrors.pair):
+            fresh, node_of = polygon_nodes(view, mirror_map, cameras, frames, met.positions, candidates, seen, images)
+            node_of = np.concatenate((node_of, cell_nodes + len(fresh.distance)))
+            nodes, polygons = fresh.joined(nodes.place, nodes.point, nodes.distance), Polygons.joined(
+                (seen, polygons.select(cells)))
     progress.done("occlusion", occluded=occluded)
 
     yield 0.75, "connection"
@@ -143,10 +146,14 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     return Bounce(mirror_map, cameras, frames, nodes, faces, left)
 
 
-def refined(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces, settings: Settings, last: bool,
-            progress: Progress) -> Cameras:
-    """The cameras that may see something, split where their rays stray from the true map."""
-    cameras = cameras.select(met.touched_by(mirror_map, cameras, not last))
+def refined(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces, showing: np.ndarray | None,
+            settings: Settings, progress: Progress) -> Cameras:
+    """The cameras that may see the diffuse scene, or a mirror where the faces `showing` one are told, split where their
+    rays stray from the true map."""
+    seeing = met.showing_scene(cameras)
+    if showing is not None:
+        seeing |= showing[cameras.face]
+    cameras = cameras.select(seeing)
     centre, radius = met.bounds
     reach = float(norm(cameras.origins - centre[:, None]).max(initial=0.0) + radius)
     cameras, limited = refine_mirror(view, mirror_map, cameras, MIRROR_SHARE * settings.tolerance, reach,

@@ -59,32 +59,44 @@ class MetSurfaces:
         sphere = self.tree.spheres[0][:, 0]
         return sphere[:3], float(sphere[3])
 
-    def touched_by(self, mirror_map: ReflectionMap, cameras: Cameras, mirrors: bool) -> np.ndarray:
-        """Which cameras (n,) may see the diffuse scene, or, if they are asked for, `mirrors`."""
-        cones = Cones.around(cameras)
+    def showing_mirrors(self, mirror_map: ReflectionMap, cameras: Cameras) -> np.ndarray:
+        """Which faces of the map, by their number, may show a mirror in any of the cameras."""
+        camera, _, _ = self._mirrors_in(mirror_map, cameras)
+        found = np.zeros(int(cameras.face.max(initial=-1)) + 1, dtype=bool)
+        found[cameras.face[camera]] = True
+        return found
+
+    def showing_scene(self, cameras: Cameras) -> np.ndarray:
+        """Which cameras (n,) may show the diffuse scene."""
         centre, radius = self.bounds
         count = len(cameras)
-        seeing = cones.touch(np.arange(count), np.repeat(centre[:, None], count, axis=1), np.full(count, radius))
-        if mirrors:
-            camera, triangle, _ = self._mirror_tree.trace(cones)
-            seeing[camera[self._above(mirror_map, cameras, camera, triangle)]] = True
-        return seeing
+        return Cones.around(cameras).touch(np.arange(count), np.repeat(centre[:, None], count, axis=1),
+                                           np.full(count, radius))
 
-    def trace(self, mirror_map: ReflectionMap, cameras: Cameras, cones: Cones) -> tuple[np.ndarray, np.ndarray, int]:
-        """Pairs of cameras and triangles that may be seen in them, and how many tree nodes were visited for that."""
-        camera, triangle, visited = self.tree.trace(cones)
-        mirror_camera, mirror_triangle, more = self._mirror_tree.trace(cones)
-        above = self._above(mirror_map, cameras, mirror_camera, mirror_triangle)
-        return (np.concatenate((camera, mirror_camera[above])),
-                np.concatenate((triangle, mirror_triangle[above] + self.diffuse)), visited + more)
+    def trace(self, mirror_map: ReflectionMap, cameras: Cameras,
+              showing: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
+        """Pairs of cameras and triangles that may be seen in them, and how many tree nodes were visited for that;
+        mirrors are looked for on the faces that `showing_mirrors` found."""
+        camera, triangle, visited = self.tree.trace(Cones.around(cameras))
+        chosen = np.flatnonzero(showing[cameras.face])
+        mirror_camera, mirror_triangle, more = self._mirrors_in(mirror_map, cameras.select(chosen))
+        return (np.concatenate((camera, chosen[mirror_camera])),
+                np.concatenate((triangle, mirror_triangle + self.diffuse)), visited + more)
 
-    def hides(self, mirror_map: ReflectionMap, cameras: Cameras, cones: Cones, camera: np.ndarray, places: np.ndarray,
+    def _mirrors_in(self, mirror_map: ReflectionMap, cameras: Cameras) -> tuple[np.ndarray, np.ndarray, int]:
+        """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited."""
+        if not len(cameras):
+            return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), 0
+        camera, triangle, visited = self._mirror_tree.trace(Cones.around(cameras))
+        above = self._above(mirror_map, cameras, camera, triangle)
+        return camera[above], triangle[above], visited
+
+    def hides(self, mirror_map: ReflectionMap, cameras: Cameras, camera: np.ndarray, places: np.ndarray,
               points: np.ndarray) -> np.ndarray:
         """Which of the `points` (3, n), seen at `places` (3, n) in the cameras (n,), lie behind a mirror."""
-        owner, triangle, _ = self._mirror_tree.trace(cones)
-        above = self._above(mirror_map, cameras, owner, triangle)
-        order = np.argsort(owner[above], kind="stable")
-        owner, triangle = owner[above][order], triangle[above][order]
+        owner, triangle, _ = self._mirrors_in(mirror_map, cameras)
+        order = np.argsort(owner, kind="stable")
+        owner, triangle = owner[order], triangle[order]
         start = np.searchsorted(owner, camera)
         entry, image = ranges(start, np.searchsorted(owner, camera, side="right") - start)
         a, b, c = np.moveaxis(np.take(self._mirror_corners, triangle[entry], axis=1), 2, 0)

@@ -35,6 +35,8 @@ def cut_behind_mirrors(cameras: Cameras, frames: SceneFrames, met: MetSurfaces, 
         return polygons, 0
     pieces = _along_outlines(cameras, frames, met, candidates, mirror, polygons.select(asked))
     pieces, hidden = _before_mirrors(candidates, mirror, pieces)
+    if not hidden:
+        return polygons, 0
     return Polygons.joined((polygons.select(~asked), pieces)), hidden
 
 

@@ -59,7 +59,7 @@ def reflected_points(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, ca
     images = VertexImages(images.vertex, images.camera, distance, place, view.pixels(place.T))
     # of one image, that which stands for most is kept
     order = np.lexsort((images.camera, -reach, images.vertex))
-    hidden = met.hides(mirror_map, cameras, cones, images.camera, place, positions[images.vertex].T)
+    hidden = met.hides(mirror_map, cameras, images.camera, place, positions[images.vertex].T)
     order = order[(real & ~hidden)[order]]
     order = order[~repeated(images.select(order))]
     images, reach, face, uv = images.select(order), reach[order], face[order], uv[:, order]

@@ -92,7 +92,7 @@ def reflection_steps(
     progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded)
 
     if settings.method == "POINTS":
-        cameras = refined(view, mirror_map, cameras, met, settings, True, progress)
+        cameras = refined(view, mirror_map, cameras, met, None, settings, progress)
         mesh = yield from reflected_points(view, mirror, mirror_map, cameras, tree, met, settings.placement)
         progress.done("points", **mesh.counts)
         return replace(mesh, counts=progress.counts, seconds=progress.seconds)

@@ -87,7 +87,7 @@ def test_the_mesh_shows_what_a_ray_tracer_shows(name, depth, orthographic):
     assert np.percentile(displacement[measured], 99) < 0.5
     same = measured & (displacement < 0.5)
     bounces = mesh.bounces[shown.triangle]
-    assert (bounces[same] == truth.bounces[same]).mean() > 0.999
+    assert (bounces[same] == truth.bounces[same]).mean() > 0.995
 
 
 @pytest.mark.parametrize("name", ["corner", "parallel", "ball_in_wall", "wall_in_ball", "bowl"])
