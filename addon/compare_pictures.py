@@ -26,7 +26,7 @@ def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: 
     reference, result : (height, width, 3) float32
         The pictures in linear light.
     """
-    depth = max(json.loads(result.reflection_mesh.counts or "{}").get("depth", 1) for result in results)
+    depth = max((json.loads(result.reflection_mesh.counts or "{}").get("depth", 1) for result in results), default=1)
     cycles_render.prepare(copied.scene, depth)
     _code_results(copied, results, diffuse, _polygons(context, diffuse))
     own = [(slot, slot.material) for copy in copied.everything for slot in copy.material_slots]

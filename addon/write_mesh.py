@@ -41,6 +41,7 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, triangle: np.ndarra
             ("image_parity", "INT", "POINT", "value", result.image_parity.astype(np.int32)),
             ("source_object", "INT", "FACE", "value", scene.source_object[source].astype(np.int32)),
             ("source_face", "INT", "FACE", "value", scene.source_face[source].astype(np.int32)),
+            ("bounces", "INT", "FACE", "value", result.bounces.astype(np.int32)),
             ("mirror_face", "INT", "FACE", "value",
              np.where(spans, -1, triangle[np.where(spans, 0, mirror_face)]).astype(np.int32)),
         ),
