@@ -24,7 +24,8 @@ ROWS = ("sample", "vertices", "faces", "median px", "p95 px", "p99 px", "max px"
 
 def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("scenes", nargs="*", default=["sphere", "flat_mirror", "cylinder", "water", "bowl", "suzanne"])
+    parser.add_argument("scenes", nargs="*", help="NAME:DEPTH follows more than one bounce", default=[
+        "sphere", "flat_mirror", "cylinder", "water", "bowl", "suzanne", "mirrors", "mirrors:2"])
     parser.add_argument("--tolerance", type=float, default=0.5)
     parser.add_argument("--placement", default="LAYERED")
     parser.add_argument("--runs", type=int, default=3)
@@ -35,9 +36,11 @@ def main(arguments: list[str]) -> int:
         _quietly(lambda: extension_zip.install(extension_zip.build(Path(scratch))))
         rows = []
         for scene in options.scenes:
+            scene, _, depth = scene.partition(":")
             path = Path(scene) if scene.endswith(".blend") else extension_zip.ROOT / "sample_blends" / f"{scene}.blend"
-            folder = (options.folder or Path(scratch)).resolve() / path.stem
-            rows.append(_quietly(lambda path=path, folder=folder: measure(path.resolve(), folder, options)))
+            folder = (options.folder or Path(scratch)).resolve() / (path.stem + depth)
+            rows.append(_quietly(lambda path=path, folder=folder, depth=int(depth or 1):
+                                 measure(path.resolve(), folder, depth, options)))
             print(f"{path.stem}: done", file=sys.stderr, flush=True)
         _quietly(extension_zip.switch_off)
     import bpy
@@ -46,7 +49,7 @@ def main(arguments: list[str]) -> int:
     return 0
 
 
-def measure(path: Path, folder: Path, options: argparse.Namespace) -> list:
+def measure(path: Path, folder: Path, depth: int, options: argparse.Namespace) -> list:
     """One row of the table; leaves the comparison's pictures and report in `folder`."""
     import bpy
     bpy.ops.wm.open_mainfile(filepath=str(path))
@@ -56,7 +59,7 @@ def measure(path: Path, folder: Path, options: argparse.Namespace) -> list:
         bpy.ops.wm.open_mainfile(filepath=str(path))
         bpy.context.evaluated_depsgraph_get()
         started = time.perf_counter()
-        bpy.ops.reflection_mesh.generate(tolerance=options.tolerance, placement=options.placement)
+        bpy.ops.reflection_mesh.generate(tolerance=options.tolerance, placement=options.placement, depth=depth)
         generate.append(time.perf_counter() - started)
     results = [obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"]
     sources = {source.object for result in results for source in result.reflection_mesh.sources}
@@ -64,7 +67,8 @@ def measure(path: Path, folder: Path, options: argparse.Namespace) -> list:
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     moved, share = report["displacement_px"], report["coverage_percent"]
     seconds, reference = statistics.median(generate), statistics.median(cycles)
-    return [path.stem, sum(len(obj.data.vertices) for obj in sources if obj.type == "MESH"),
+    name = path.stem if depth == 1 else f"{path.stem}, depth {depth}"
+    return [name, sum(len(obj.data.vertices) for obj in sources if obj.type == "MESH"),
             sum(len(result.data.polygons) for result in results),
             *(moved[key] for key in ("median", "p95", "p99", "max")),
             *(share[key] for key in ("hole", "spill", "wrong_layer", "all")), report["picture"]["mirror"]["rmse"],

@@ -31,13 +31,18 @@ def main(folder: Path) -> None:
         edges = _edges(scratch / "sphere", extension_zip.ROOT / "sample_blends" / "sphere.blend")
         _save(folder / "sphere.jpg", [scratch / "sphere" / "reference.png", scratch / "sphere" / "result.png", edges],
               columns=3, crop=(212, 183, 772, 743))
+        mirrors = extension_zip.ROOT / "sample_blends" / "mirrors.blend"
+        for depth in (1, 2, 3):
+            _compare(mirrors, scratch / f"mirrors{depth}", depth)
+        _save(folder / "mirrors.jpg", [scratch / "mirrors3" / "reference.png", *(
+            scratch / f"mirrors{depth}" / "result.png" for depth in (1, 2, 3))], columns=2, crop=(0, 200, 1024, 1024))
         extension_zip.switch_off()
 
 
-def _compare(path: Path, folder: Path) -> None:
+def _compare(path: Path, folder: Path, depth: int = 1) -> None:
     import bpy
     bpy.ops.wm.open_mainfile(filepath=str(path))
-    bpy.ops.reflection_mesh.generate()
+    bpy.ops.reflection_mesh.generate(depth=depth)
     bpy.ops.reflection_mesh.compare(filepath=str(folder), samples=32)
 
 

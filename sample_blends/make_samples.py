@@ -329,7 +329,24 @@ def suzanne() -> tuple:
     return mirror, ()
 
 
-SCENES = {scene.__name__: scene for scene in (sphere, flat_mirror, bowl, water, cylinder, suzanne)}
+def mirrors() -> tuple:
+    """Two walls in a corner and a ball, all mirrors: each is seen in the others, as often as the depth allows."""
+    wall = add("plane", "Wall Mirror", (0, 1.8, 1.6), mirror_material("Mirror"), size=2, scale=(2.2, 1.6, 1),
+               rotation=(pi / 2, 0, 0))
+    add("plane", "Side Mirror", (2.2, -0.2, 1.6), mirror_material("Side Mirror"), size=2, scale=(1.6, 1.9, 1),
+        rotation=(0, -pi / 2, 0))
+    add("uv_sphere", "Ball Mirror", (-1.0, 0.4, 0.8), mirror_material("Ball Mirror", metallic=True), radius=0.7,
+        segments=64, ring_count=32, smooth=True)
+    add("plane", "Floor", (0, 0, 0), picture("Floor", checks(512, 16, (0.10, 0.18, 0.24), (0.90, 0.90, 0.86), [
+        (-1.0, 0.4, 0.7), (0.7, -0.4, 0.7), (-0.2, -1.6, 0.5), (-3.0, -3.0, 0.9)], 6.0)), size=12)
+    add("monkey", "Suzanne", (0.7, -0.4, 0.75), ORANGE, size=1.2, rotation=(-0.3, 0, pi - 0.6), smooth=True)
+    add("cube", "Red Cube", (-0.2, -1.6, 0.36), RED, size=0.7, rotation=(0, 0, 0.6))
+    add("cone", "Green Cone", (-3.0, -3.0, 1.5), GREEN, radius1=0.8, depth=3.0, vertices=32)
+    eye((-2.6, -5.2, 2.6), (0.5, 0.9, 1.1), 36)
+    return wall, []
+
+
+SCENES = {scene.__name__: scene for scene in (sphere, flat_mirror, bowl, water, cylinder, suzanne, mirrors)}
 
 
 def write(name: str, folder: Path) -> Path:
