@@ -2,8 +2,9 @@
 
     python benchmarks/pictures.py [folder]
 
-Leaves `sphere.jpg` (Cycles, the reflection mesh before a mirror that reflects the sky alone, the mesh's edges) and
-`samples.jpg` (the reflection mesh in each sample) in the folder, docs/ by default.
+Leaves `sphere.jpg` (Cycles, the reflection mesh before a mirror that reflects the sky alone, the mesh's edges),
+`samples.jpg` (the reflection mesh in each sample) and `mirrors.jpg` (mirrors in mirrors, by Cycles and to a depth of
+1, 2 and 3) in the folder, docs/ by default.
 """
 from __future__ import annotations
 
@@ -27,7 +28,7 @@ def main(folder: Path) -> None:
         samples = sorted((extension_zip.ROOT / "sample_blends").glob("*.blend"))
         for path in samples:
             _compare(path, scratch / path.stem)
-        _save(folder / "samples.jpg", [scratch / path.stem / "result.png" for path in samples], columns=3)
+        _save(folder / "samples.jpg", [scratch / path.stem / "result.png" for path in samples], columns=4)
         edges = _edges(scratch / "sphere", extension_zip.ROOT / "sample_blends" / "sphere.blend")
         _save(folder / "sphere.jpg", [scratch / "sphere" / "reference.png", scratch / "sphere" / "result.png", edges],
               columns=3, crop=(212, 183, 772, 743))
@@ -35,7 +36,7 @@ def main(folder: Path) -> None:
         for depth in (1, 2, 3):
             _compare(mirrors, scratch / f"mirrors{depth}", depth)
         _save(folder / "mirrors.jpg", [scratch / "mirrors3" / "reference.png", *(
-            scratch / f"mirrors{depth}" / "result.png" for depth in (1, 2, 3))], columns=2, crop=(0, 200, 1024, 1024))
+            scratch / f"mirrors{depth}" / "result.png" for depth in (1, 2, 3))], columns=2, crop=(100, 200, 924, 1024))
         extension_zip.switch_off()
 
 
