@@ -59,6 +59,10 @@ def _generated(sample: str) -> tuple:
     """Open the sample and reflect it: the object and core's mesh, whose faces it has in the same order."""
     import bpy
     bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{sample}.blend"))
+    for modifier in (modifier for obj in bpy.context.scene.objects for modifier in obj.modifiers):
+        if modifier.type == "SUBSURF":
+            # what is reflected is the viewport's mesh: a render shows no finer one
+            modifier.render_levels = modifier.levels
     chosen = _room("addon.roles").choose(bpy.context)
     steps = _room("addon.generate").generation(bpy.context, chosen, _room("core").Settings())
     while True:
@@ -77,8 +81,8 @@ def _room(name: str):
 @contextmanager
 def _nothing_filled() -> Iterator[None]:
     """Leave the step `filling` out of the method: what it would fill stays as clipping left it."""
-    reflection = _room("core.reflection")
-    find_and_fill = getattr(reflection, "fill_openings", None)
+    bounce = _room("core.bounce")
+    find_and_fill = bounce.fill_openings
 
     def fill(mirror_map, cameras, frames, candidates, polygons, open_):
         return polygons, 0
@@ -88,7 +92,7 @@ def _nothing_filled() -> Iterator[None]:
         # candidates, polygons, nodes and the nodes of the polygons as they came
         return *given[-4:], dict.fromkeys(counts, 0)
 
-    with mock.patch.multiple(reflection, create=True, fill=fill, fill_openings=fill_openings):
+    with mock.patch.multiple(bounce, fill=fill, fill_openings=fill_openings):
         yield
 
 

@@ -142,22 +142,25 @@ class MetSurfaces:
         return candidates.select(np.flatnonzero(~mirror | diffuse[candidates.camera]))
 
     def inner_sides(self, cameras: Cameras, frames: SceneFrames, candidates: Candidates) -> np.ndarray:
-        """(3, p): sides of the candidates over which a mirror goes on behind the same side of the camera's rays. They
-        bound nothing that is seen, as outlines do."""
+        """(3, p): sides of the candidates over which a mirror goes on, seen from anywhere in the camera. They bound
+        nothing that is seen, as outlines do."""
         inner = np.zeros((3, len(candidates)), dtype=bool)
         pair = np.flatnonzero(self.shows_mirror(frames)[candidates.column])
         if not len(pair):
             return inner
         triangle = frames.triangle[candidates.column[pair]] - self.diffuse
         corners = cameras.corners[candidates.camera[pair]]
-        origin = cameras.origins[:, corners].mean(axis=2)
+        origins = np.moveaxis(cameras.origins[:, corners], 2, 0)
         own = np.take(self._mirror_corners, triangle, axis=1)
         for side in range(3):
             beyond = np.take(self._beyond[:, :, side], triangle, axis=1)
             start, end = own[:, :, (side + 1) % 3], own[:, :, (side + 2) % 3]
-            # bundles of rays are thin: the ray through the side's middle stands for them
-            plane = cross(end - start, 0.5 * (start + end) - origin)
-            inner[side, pair] = dot(plane, own[:, :, side] - start) * dot(plane, beyond - start) < 0.0
+            # a corner's place beside the plane through the side and a ray's origin is linear in the origin: three
+            # corners of a camera speak for all of it
+            planes = [cross(end - start, start - origin) for origin in origins]
+            near, far = (np.sign([dot(plane, corner - start) for plane in planes]).sum(axis=0)
+                         for corner in (own[:, :, side], beyond))
+            inner[side, pair] = near * far == -9.0
         return inner
 
     def without_touching(self, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames,

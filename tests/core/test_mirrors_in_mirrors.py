@@ -31,6 +31,9 @@ CASES = {
                      [shapes.combine(shapes.icosphere((0.9, 0.6, 1.2), 0.6, 3))]),
     "wall_in_ball": (shapes.combine(shapes.icosphere((-0.2, 0.9, 1.2), 0.8, 3)),
                      [_wall((1.9, -0.4, 1.5), (-0.6, 1.2, 0.0))]),
+    # a side of the box is an outline for one end of the wall, and none for the other
+    "box_in_wall": (_wall((0.0, 2.0, 1.5), (2.2, 0.3, 0.0)),
+                    [shapes.combine(shapes.box((0.4, 1.2, 1.1), (0.7, 0.5, 1.0), 0.5))]),
     "bowl": (shapes.combine(shapes.bowl((0.0, 3.0, 1.2), 1.6, 1.3, 24, 8)), []),
 }
 CASES["bowl"] = (TriangleMesh(CASES["bowl"][0].positions[:, [0, 2, 1]] * [1.0, -1.0, 1.0] + [0.0, 4.0, -1.6],
@@ -90,7 +93,7 @@ def test_the_mesh_shows_what_a_ray_tracer_shows(name, depth, orthographic):
     assert (bounces[same] == truth.bounces[same]).mean() > 0.995
 
 
-@pytest.mark.parametrize("name", ["corner", "parallel", "ball_in_wall", "wall_in_ball", "bowl"])
+@pytest.mark.parametrize("name", ["corner", "parallel", "ball_in_wall", "wall_in_ball", "box_in_wall", "bowl"])
 def test_mirrors_hide_what_lies_behind_them(name):
     _, shown, truth = shown_and_truth(name, 1)
     ends = truth.seen & ~truth.bent & (truth.source == -2)
