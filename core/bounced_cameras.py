@@ -12,7 +12,7 @@ from .view import View
 
 SAME_RAY = 1e-7  # of its length: rays at one node that differ by less are one ray
 PATCHES = 8  # smooth patches of a mirror that meet in a node; more share no corners
-SMALLEST = 1e-9  # square pixels: a smaller image of a mirror shows nothing
+SMALLEST = 1e-4  # square pixels: a smaller image of a mirror shows nothing
 
 
 def bounced_cameras(view: View, bounce: Bounce, met: MetSurfaces) -> tuple[BouncedMap, Cameras]:

@@ -64,8 +64,7 @@ class BouncedMap(ReflectionMap):
     def _distance(self, face: np.ndarray, origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
         triangle = self.triangle[face]
         flat = self.surface.face_normal[:, triangle]
-        falling = dot(ray, flat)
-        falling = np.where(np.abs(falling) > 1e-300, falling, 1e-300)
+        falling = _falling(ray, flat)
         # the plane behind the ray's origin is seen by rounding alone, where both touch
         return np.maximum(dot(self.surface.a[:, triangle] - origin, flat) / falling, 0.0)
 
@@ -99,8 +98,7 @@ class BouncedMap(ReflectionMap):
         origin, ray, moves = self.before.linearise(self.face_before[face], uv, *ways)
         s = self._distance(face, origin, ray)
         flat = self.surface.face_normal[:, triangle]
-        falling = dot(ray, flat)
-        falling = np.where(np.abs(falling) > 1e-300, falling, 1e-300)
+        falling = _falling(ray, flat)
         place, direction = origin + s * ray, ray if self.orthographic else (1.0 + s) * ray
         places, changes = [], []
         for move, change in moves:
@@ -120,3 +118,9 @@ class BouncedMap(ReflectionMap):
                 after, before = (self.rays(near[0], near[1] + sign * step) for sign in (1.0, -1.0))
                 change[:, part] = (after - before) / (2.0 * DIFFERENCE)
         return place, leaving, list(zip(places, turned))
+
+
+def _falling(rays: np.ndarray, flat: np.ndarray) -> np.ndarray:
+    """How fast rays (3, n) come nearer to planes with unit normals; never so slowly that it is rounding alone."""
+    falling, least = dot(rays, flat), 1e-14 * norm(rays) + 1e-150
+    return np.where(np.abs(falling) > least, falling, least)

@@ -24,6 +24,8 @@ from .settings import Settings
 from .triangle_mesh import TriangleMesh
 from .view import View
 
+CAMERAS_OF_A_PIXEL = 4  # of a later bounce: more show nothing that could be seen
+FACES_OF_A_CAMERA = 16  # what a camera of a later bounce is counted as against the bound on faces
 INSIDE = 4.0 / 3.0  # a quadratic that is zero at a triangle's corners exceeds its values at the edges' middles by this
 
 
@@ -106,8 +108,11 @@ def reflection_steps(
         if not last:
             mirror_map, cameras = bounced_cameras(view, bounces[-1], met)
             cameras = cut_at_horizon(view, mirror_map, cameras)
-            progress.done("cameras", bounced_cameras=len(cameras))
-            if not len(cameras):
+            # mirrors that scatter what they show would be followed without an end
+            many = len(cameras) > min(settings.maximum_faces // FACES_OF_A_CAMERA,
+                                      CAMERAS_OF_A_PIXEL * grid.mirror_pixels + 1000)
+            progress.done("cameras", bounced_cameras=len(cameras), bounded=many)
+            if many or not len(cameras):
                 break
 
     yield 0.95, "depth order"

@@ -314,7 +314,8 @@ def suzanne() -> tuple:
     """Suzanne as the mirror, rounded by a modifier: convex, concave and seeing herself."""
     mirror = add("monkey", "Suzanne", (0, 0, 1.3), mirror_material("Mirror"), size=2.4, rotation=(-0.15, 0, 0.35),
                  smooth=True)
-    mirror.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    rounding = mirror.modifiers.new("Subdivision", "SUBSURF")
+    rounding.levels = rounding.render_levels = 1
     add("grid", "Floor", (0, -1, 0), picture("Floor", checks(512, 14, (0.42, 0.09, 0.07), (0.93, 0.87, 0.74), [
         (0, 1, 1.2), (-1.9, 0.4, 0.8), (1.9, 0.8, 0.8), (-2.8, -4.6, 0.8), (2.8, -4.6, 0.8)], 8.0)), size=16,
         x_subdivisions=16, y_subdivisions=16)

@@ -150,6 +150,18 @@ UGLY = {
 }
 
 
+@pytest.mark.parametrize("kind", UGLY)
+def test_ugly_mirrors_in_mirrors_give_a_finite_mesh(kind):
+    view = View.looking_at((0.3, -5.0, 1.5), (0.0, 0.0, 0.5), (80, 60))
+    mirrors = TriangleMesh.joined([UGLY[kind](BALL), PLATE])
+    for method in ("GENERAL", "PARALLEL"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            mesh = reflect(view, mirrors, BOX, Settings(method=method, depth=2))
+        assert_sane(mesh, mirrors, BOX)
+        assert mesh.bounces.max(initial=1) <= 2
+
+
 @pytest.mark.parametrize("orthographic", [False, True])
 @pytest.mark.parametrize("ball", [False, True])
 @pytest.mark.parametrize("kind", UGLY)
