@@ -7,6 +7,7 @@ import pytest
 from core import Settings, TriangleMesh, View, reflect
 from tests import shapes
 from tests.raster import rasterise
+from tests.ray_hits import first_hits
 from tests.truth_bounces import trace_bounces
 
 PIXELS = 256
@@ -144,3 +145,17 @@ def test_convex_mirrors_never_see_themselves():
     assert once.counts["occluded"] == 0
     np.testing.assert_array_equal(once.positions, thrice.positions)
     np.testing.assert_array_equal(once.triangles, thrice.triangles)
+
+
+@pytest.mark.parametrize("name", ["corner", "ball_in_wall"])
+def test_points_behind_mirrors_are_left_out(name):
+    view, mirror, scene, mirrors = case_of(name)
+    scene = TriangleMesh.joined([scene, shapes.combine(shapes.icosphere((3.2, -0.2, 1.2), 0.5, 3)),
+                                 shapes.combine(shapes.icosphere((1.2, -0.6, 1.2), 0.4, 3))])
+    alone, among = (reflect(view, mirror, scene, Settings(method="POINTS"), seen) for seen in (None, mirrors))
+    assert 100 < len(among.positions) < len(alone.positions)
+    way = among.reflected_position - among.mirror_position
+    length = np.linalg.norm(way, axis=1)
+    # the mirror's own triangles are the first of all
+    _, distance = first_hits(mirrors, among.mirror_position, way / length[:, None], leaving=among.discs.mirror_face)
+    assert (distance > length * (1.0 - 1e-9)).all()
