@@ -61,8 +61,8 @@ class Bounce:
     frames : SceneFrames
     nodes : Nodes
     faces : Faces
-    left : (e,) float64
-        Displacements estimated on the edges, in pixels.
+    left : (2, e) float64
+        Displacements estimated on the edges, and the lengths of the edges, in pixels.
     """
 
     mirror_map: ReflectionMap

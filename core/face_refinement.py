@@ -45,8 +45,8 @@ class FaceRefinement:
         Returns
         -------
         nodes, faces
-        left : (e,) float64
-            The displacements estimated on the edges that stay, in pixels.
+        left : (2, e) float64
+            The displacements estimated on the edges that stay, and the lengths of these, in pixels.
         limited : int
             Edges that the bound on depth or count left unsplit.
         """
@@ -59,7 +59,7 @@ class FaceRefinement:
             stop = level == LEVELS or sum(map(len, finished)) + len(faces) + 2 * marked.sum() > maximum
             if stop or not marked.any():
                 finished.append(faces)
-                return nodes, Faces.joined(finished), np.concatenate((*left, straying)), int(marked.sum())
+                return nodes, Faces.joined(finished), np.concatenate((*left, straying), axis=1), int(marked.sum())
             left.append(straying)
             new = np.full(len(ends), -1)
             new[choice] = np.arange(marked.sum()) + len(nodes.distance)
@@ -68,7 +68,8 @@ class FaceRefinement:
             resting = done.all(axis=1)
             finished.append(faces.select(resting))
             faces, done = faces.select(~resting), done[~resting]
-        return nodes, Faces.joined(finished) if finished else faces, np.concatenate((*left, np.zeros(1))), 0
+        left = np.concatenate((*left, np.zeros((2, 1))), axis=1)
+        return nodes, Faces.joined(finished) if finished else faces, left, 0
 
     def _marked(self, nodes: Nodes, faces: Faces, done: np.ndarray, tolerance: float):
         """Edges to split, what all edges stray by, and the nodes in their middles."""
@@ -108,7 +109,7 @@ class FaceRefinement:
             point[:, along], place[:, along], distance[along] = target[:, good], spot[:, good], s[good]
         marked[open_] = chosen
         place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]
-        return marked, straying[~chosen], (ends, edge, marked, (place, point, distance))
+        return marked, np.stack((straying, length))[:, ~chosen], (ends, edge, marked, (place, point, distance))
 
     def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Where on the mirror the middle of a drawn edge is seen."""
