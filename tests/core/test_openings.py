@@ -14,6 +14,8 @@ from tests.judge import compare
 PIXELS = 512
 SCENES = ["sphere", "sphere_ortho", "bowl", "torus", "water", "cylinder", "flat"]
 LOST = 0.02
+# the ring sees itself: cameras beside what it hides are small, and a few lost in a row leave no edge to be missed
+BESIDE_MIRRORS = {"torus": 0.01}
 
 
 def rooms(monkeypatch, name, settings=Settings()):
@@ -129,7 +131,7 @@ def test_lost_polygons_are_found_by_rays_and_joined_on_the_same_nodes(monkeypatc
     broken = numbers_of(name, reflected(name))
     before, after = numbers_of(name, whole), numbers_of(name, again)
     assert broken["uncovered"] > 10.0 * before["uncovered"]
-    assert after["uncovered"] < before["uncovered"] + 0.01
+    assert after["uncovered"] < before["uncovered"] + BESIDE_MIRRORS.get(name, 0.005)
     assert after["p99"] < 0.5
     assert again.counts["openings"] > 0 and again.counts["open"] == 0 and again.counts["filled"] > 0
     assert 0.2 < again.filled_share < 5.0
@@ -147,7 +149,7 @@ def test_cells_fill_what_no_clip_gives(monkeypatch, name):
     before, mesh = numbers_of(name, mesh_of(name, PIXELS)), reflected(name)
     after = numbers_of(name, mesh)
     assert mesh.counts["filled"] > 500 and mesh.counts["unfilled"] == 0
-    assert after["hole"] < before["hole"] + 0.015
+    assert after["hole"] < before["hole"] + 0.005 + BESIDE_MIRRORS.get(name, 0.005)
     assert after["spill"] < before["spill"] + 0.02
     assert after["wrong_layer"] < before["wrong_layer"] + 0.02
     assert after["p99"] < 0.5
@@ -162,7 +164,7 @@ def test_pairs_that_the_tree_loses_are_found_again(monkeypatch):
     monkeypatch.setattr(core.bounce, "refine_for_outlines", lossy)
     before, mesh = numbers_of("bowl", mesh_of("bowl", PIXELS)), reflected("bowl")
     assert mesh.counts["filled"] > 10
-    assert numbers_of("bowl", mesh)["uncovered"] < before["uncovered"] + 0.01
+    assert numbers_of("bowl", mesh)["uncovered"] < before["uncovered"] + 0.005
 
 
 @pytest.mark.parametrize("name", ["sphere", "bowl"])
