@@ -14,11 +14,19 @@ def rows(points: np.ndarray) -> np.ndarray:
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    total = a[0] * b[0]
+    total += a[1] * b[1]
+    total += a[2] * b[2]
+    return total
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.stack((a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]))
+    first = a[1] * b[2]
+    product = np.empty((3, *first.shape))
+    np.subtract(first, a[2] * b[1], out=product[0])
+    np.subtract(a[2] * b[0], a[0] * b[2], out=product[1])
+    np.subtract(a[0] * b[1], a[1] * b[0], out=product[2])
+    return product
 
 
 def norm(a: np.ndarray) -> np.ndarray:

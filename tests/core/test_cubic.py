@@ -1,17 +1,22 @@
 """Positive roots of cubics, against roots known beforehand."""
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
-from core.cubic import UNIT, positive_roots
+from core.monotone_roots import monotone_roots
+from core.rounding import UNIT
+from core.simple_roots import simple_roots
+from tests.core import exact
 
 
 def _solve(coefficients, low=0.0, high=np.inf):
     """(roots, signs) of each of the cubics (n, 4), whose coefficients are taken as exact."""
     c = np.array(coefficients, dtype=np.float64).T
-    roots, degenerate = positive_roots(c, np.zeros_like(c), np.full(c.shape[1], low), np.full(c.shape[1], high))
+    roots, degenerate = monotone_roots(c, np.zeros_like(c), np.full(c.shape[1], low), np.full(c.shape[1], high))
     with np.errstate(divide="ignore"):
         values = np.where(roots.reversed, 1.0 / roots.value, roots.value)
-    assert (np.diff(roots.cubic) >= 0).all() and (roots.value >= 0.0).all() and (roots.value <= 1.0).all()
+    assert (roots.value >= 0.0).all() and (roots.value[roots.reversed] <= 1.0).all()
     return [(values[roots.cubic == k], roots.sign[roots.cubic == k].tolist()) for k in range(c.shape[1])], degenerate
 
 
@@ -95,8 +100,8 @@ def test_backward_error_at_close_roots():
 def test_noise_at_the_ends_makes_no_roots():
     """Outer coefficients within their bounds: roots near 0 and near infinity are not there."""
     c = np.array([[1e-18, 1.0, -1.0, 1e-18], [-1e-18, 1.0, -1.0, -1e-18], [1e-18, -1e-18, 1e-18, 1e-18]]).T
-    roots, degenerate = positive_roots(c, np.full_like(c, 1e-16), np.zeros(3), np.full(3, np.inf))
-    assert roots.cubic.tolist() == [0, 1]
+    roots, degenerate = monotone_roots(c, np.full_like(c, 1e-16), np.zeros(3), np.full(3, np.inf))
+    assert sorted(roots.cubic.tolist()) == [0, 1]
     np.testing.assert_allclose(roots.value, 1.0)
     assert degenerate.tolist() == [False, False, True]
 
@@ -104,14 +109,65 @@ def test_noise_at_the_ends_makes_no_roots():
 def test_only_between_the_given_ends():
     c = [_expanded(1, 1, 2, 4)] * 5
     coefficients = np.array(c).T
-    roots, _ = positive_roots(coefficients, np.zeros((4, 5)), np.array([0, 1.5, 3, 2.5, 5.0]),
+    roots, _ = monotone_roots(coefficients, np.zeros((4, 5)), np.array([0, 1.5, 3, 2.5, 5.0]),
                               np.array([1.5, np.inf, 5, 3, 1.0]))
     values = np.where(roots.reversed, 1.0 / roots.value, roots.value)
-    np.testing.assert_allclose(values, [1, 2, 4, 4], rtol=1e-14)
-    assert roots.cubic.tolist() == [0, 1, 1, 2]
+    order = np.argsort(roots.cubic, kind="stable")
+    np.testing.assert_allclose(values[order], [1, 2, 4, 4], rtol=1e-14)
+    assert roots.cubic[order].tolist() == [0, 1, 1, 2]
+
+
+def _ordinary(rng, n):
+    """Random cubics, and cubics of random roots, whose sizes differ by some orders of magnitude."""
+    c = rng.normal(size=(n, 4)) * 10.0 ** rng.uniform(-3, 3, (n, 4))
+    roots = rng.normal(size=(n // 2, 3)) * 10.0 ** rng.uniform(-2, 2, (n // 2, 3))
+    c[: n // 2] = [_expanded(*lead, *three) for lead, three in zip(rng.normal(size=(n // 2, 1)), roots)]
+    return c
+
+
+def test_certified_roots_against_sturm():
+    """The roots of ordinary cubics are all there, none else, and each within its error of the exact one."""
+    c = _ordinary(np.random.default_rng(4), 2000)
+    uncertain, roots = simple_roots(c.T, 8.0 * UNIT * np.abs(c.T))
+    assert uncertain.mean() < 0.1
+    for k in np.flatnonzero(~uncertain):
+        f = [Fraction(float(x)) for x in c[k]]
+        mine = np.flatnonzero(roots.cubic == k)
+        scale = max(x.denominator for x in f)
+        assert len(exact._roots([int(x * scale) for x in f])) == len(mine)
+        values, errors = roots.value[mine], roots.error[mine]
+        assert (errors < 1e-6 * values).all() and (np.diff(values) > 0.0).all()
+        for value, error, sign in zip(values, errors, roots.sign[mine]):
+            below, above = (exact._value(f, Fraction(value) + way * Fraction(error)) for way in (-1, 1))
+            assert below * above < 0 and (above > 0) == (sign > 0)
+
+
+def test_certified_roots_are_those_of_monotone_intervals():
+    c = _ordinary(np.random.default_rng(5), 20000).T
+    bounds = 8.0 * UNIT * np.abs(c)
+    uncertain, certified = simple_roots(c, bounds)
+    others, _ = monotone_roots(c, bounds, np.zeros(c.shape[1]), np.full(c.shape[1], np.inf))
+    chosen = np.flatnonzero(~uncertain[others.cubic])
+    order = np.argsort(certified.cubic, kind="stable")
+    np.testing.assert_array_equal(certified.cubic[order], others.cubic[chosen])
+    values = np.where(others.reversed, 1.0 / others.value, others.value)[chosen]
+    np.testing.assert_allclose(certified.value[order], values, rtol=1e-7)
+    np.testing.assert_array_equal(certified.sign[order], others.sign[chosen])
+    assert uncertain.mean() < 0.1
+
+
+@pytest.mark.parametrize("coefficients", [
+    [0, 1, -1, 1], [-2, 1, -1, 0], [1, -2, 1, 1e-17], _expanded(1, 1, 1, 2), _expanded(1, 2, 2, 2), [0, 0, 0, 0],
+    [np.inf, 1, 1, 1], [1e-320, -1e-320, 1e-320, -1e-320]])
+def test_nothing_else_is_certified(coefficients):
+    c = np.array([coefficients], dtype=np.float64).T
+    uncertain, roots = simple_roots(c, np.full_like(c, 64.0 * UNIT))
+    assert uncertain.all() and not len(roots.cubic)
 
 
 def test_none():
     empty = np.zeros((4, 0))
-    roots, degenerate = positive_roots(empty, empty, np.zeros(0), np.zeros(0))
+    roots, degenerate = monotone_roots(empty, empty, np.zeros(0), np.zeros(0))
     assert len(roots.cubic) == len(degenerate) == 0
+    uncertain, roots = simple_roots(empty, empty)
+    assert len(roots.cubic) == len(uncertain) == 0

@@ -1,12 +1,10 @@
-"""Positive roots of many cubics at once, each with the rounding error of its coefficients in view."""
+"""Roots of cubics by monotone intervals: safe for every degree, for multiple roots and for vanishing coefficients."""
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 
-UNIT = 2.0 ** -53
-"""Unit roundoff of float64."""
+from .roots import Roots
+from .rounding import UNIT, derivatives, horner, slope_bound, value_bound
 
 _FAR = 2.0 ** 300
 """Extrema beyond this count as infinitely far: their cubes still fit a float64."""
@@ -16,40 +14,9 @@ _QUICK_STEPS, _MOST_STEPS = 5, 160
 step even at a triple root, or halve their bracket instead."""
 
 
-@dataclass(frozen=True)
-class Roots:
-    """Roots s > 0, in rising order for each cubic.
-
-    A root up to 1 is `value`; one above 1 is 1 / `value`, found as a root of the reversed cubic, so that neither
-    infinitely large numbers nor vanishing leading coefficients need care.
-
-    Attributes
-    ----------
-    cubic : (m,) int64
-        Which cubic, sorted.
-    value : (m,) float64
-        In [0, 1].
-    reversed : (m,) bool
-        Whether the root is 1 / `value`.
-    sign : (m,) int8
-        Sign of the cubic's derivative by s at the root, 0 where rounding cannot tell it from a multiple root.
-    error : (m,) float64
-        Bound on the error of `value`, to first order in the unit roundoff.
-    spread : (m,) float64
-        How far from `value` the separate roots may lie that count as one multiple root; `error` for a simple one.
-    """
-
-    cubic: np.ndarray
-    value: np.ndarray
-    reversed: np.ndarray
-    sign: np.ndarray
-    error: np.ndarray
-    spread: np.ndarray
-
-
-def positive_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray,
+def monotone_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray,
                    high: np.ndarray) -> tuple[Roots, np.ndarray]:
-    """Every root s > 0 of c0 + c1 s + c2 s^2 + c3 s^3 between `low` and `high`.
+    """Every root between `low` and `high`, whatever the cubic.
 
     Coefficients at either end that rounding cannot tell from zero are taken as zero: their roots lie at 0 or at
     infinity as far as anyone can know, and are no positive roots. What is left is split at the extrema into monotone
@@ -58,12 +25,9 @@ def positive_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray
 
     Parameters
     ----------
-    coefficients : (4, n) float64
-        c0 to c3. Scaled so that the roots of interest are of the order of 1.
-    bounds : (4, n) float64
-        Bounds on the absolute errors of the coefficients.
+    coefficients, bounds : (4, n) float64
+        c0 to c3, and bounds on their absolute errors.
     low, high : (n,) float64
-        From 0 to infinity. Roots that rounding cannot tell from either may be left out.
 
     Returns
     -------
@@ -145,8 +109,8 @@ def _monotone_intervals(c: np.ndarray, bounds: np.ndarray, first: np.ndarray, la
     ends[0], ends[3] = low, np.where(high < _FAR, high, np.inf)
     signs = np.empty((4, c.shape[1]), dtype=np.int8)
     # A zero at an end is no root that is looked for, so either sign will do there.
-    signs[0] = np.where(np.where(low > 0.0, _horner(c, np.minimum(low, _FAR)), first) < 0.0, -1, 1)
-    signs[3] = np.where(np.where(high < _FAR, _horner(c, np.minimum(high, _FAR)), last) < 0.0, -1, 1)
+    signs[0] = np.where(np.where(low > 0.0, horner(c, np.minimum(low, _FAR)), first) < 0.0, -1, 1)
+    signs[3] = np.where(np.where(high < _FAR, horner(c, np.minimum(high, _FAR)), last) < 0.0, -1, 1)
 
     discriminant = c[2] * c[2] - 3.0 * c[3] * c[1]
     q = np.sqrt(np.maximum(discriminant, 0.0))
@@ -159,7 +123,7 @@ def _monotone_intervals(c: np.ndarray, bounds: np.ndarray, first: np.ndarray, la
     if len(near):
         part = c[:, near]
         inflection = -part[2] / (3.0 * part[3])
-        level = np.abs(_derivatives(part, inflection)[1]) <= _slope_bound(part, bounds[:, near], inflection)
+        level = np.abs(derivatives(part, inflection)[1]) <= slope_bound(part, bounds[:, near], inflection)
         near = near[level]
         one[near] = other[near] = inflection[level]
         real[near] = True
@@ -185,33 +149,33 @@ def _sign_at_extremum(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.nd
     bound D. So the root is within d of x (see `_shift`), and the value here at most B + D d. As D d is seldom above
     3 B, this is looked at closely up to 4 B.
     """
-    value, bound = _horner(c, x), _evaluation_bound(c, bounds, x)
+    value, bound = horner(c, x), value_bound(c, bounds, x)
     size = np.abs(value)
     near = np.flatnonzero((size > bound) & (size <= 4.0 * bound))
     if len(near):
         part, at = c[:, near], x[near]
-        slope = _slope_bound(part, bounds[:, near], at)
-        bound[near] += slope * _shift(part, slope, at)
+        level = slope_bound(part, bounds[:, near], at)
+        bound[near] += level * _shift(part, level, at)
     return _sign(value, bound)
 
 
-def _shift(c: np.ndarray, slope_bound: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """How far an extremum at x may move where the slope f' is off by no more than its bound D: D / |f''|, and where
-    that vanishes sqrt(D / |3 c3|)."""
+def _shift(c: np.ndarray, level: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """How far an extremum at x may move where the slope f' is off by no more than its bound D (`level`): D / |f''|, and
+    where that vanishes sqrt(D / |3 c3|)."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.fmin(slope_bound / np.abs(2.0 * c[2] + 6.0 * c[3] * x), np.sqrt(slope_bound / np.abs(3.0 * c[3])))
+        return np.fmin(level / np.abs(2.0 * c[2] + 6.0 * c[3] * x), np.sqrt(level / np.abs(3.0 * c[3])))
 
 
 def _bracketed_root(c: np.ndarray, low: np.ndarray, high: np.ndarray, low_sign: np.ndarray) -> np.ndarray:
     """The root of each cubic (4, n) in [low, high], a part of [0, 1], where it is monotone and changes sign."""
-    at_low, at_high = _horner(c, low), _horner(c, high)
+    at_low, at_high = horner(c, low), horner(c, high)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         x = low + (high - low) * (at_low / (at_low - at_high))
         for _ in range(_QUICK_STEPS):
-            value, slope, bend = _derivatives(c, x)
+            value, slope, bend = derivatives(c, x)
             x = np.minimum(np.maximum(x - value * slope / (slope * slope - value * bend), low), high)
     x = np.where(x >= 0.0, x, 0.5 * (low + high))
-    active = np.flatnonzero(~(np.abs(_horner(c, x)) <= 2.0 * UNIT * _horner(np.abs(c), x)))
+    active = np.flatnonzero(~(np.abs(horner(c, x)) <= 2.0 * UNIT * horner(np.abs(c), x)))
     c, y, low, high, low_sign = c[:, active], x[active], low[active], high[active], low_sign[active].astype(np.float64)
     for _ in range(_MOST_STEPS):
         y, moved = _bracketed_step(c, y, low, high, low_sign)
@@ -225,7 +189,7 @@ def _bracketed_root(c: np.ndarray, low: np.ndarray, high: np.ndarray, low_sign: 
 def _bracketed_step(c, x, low, high, low_sign):
     """One step of Halley's, or a halving where that leaves the bracket or, for want of slope, rests at an extremum;
     narrows `low` and `high` in place. Also whether rounding still allows another step."""
-    value, slope, bend = _derivatives(c, x)
+    value, slope, bend = derivatives(c, x)
     below = value * low_sign > 0.0
     np.copyto(low, x, where=below)
     np.copyto(high, x, where=~below)
@@ -233,15 +197,8 @@ def _bracketed_step(c, x, low, high, low_sign):
         new = x - value * slope / (slope * slope - value * bend)
     useful = (new >= low) & (new <= high) & (slope * slope >= np.abs(value * bend))
     new = np.where(useful, new, 0.5 * (low + high))
-    open_ = np.abs(value) > 2.0 * UNIT * _horner(np.abs(c), x)
+    open_ = np.abs(value) > 2.0 * UNIT * horner(np.abs(c), x)
     return np.where(open_, new, x), open_ & (np.abs(new - x) > 2.0 * UNIT * x)
-
-
-def _derivatives(c, x):
-    """The cubic, its slope and half its second derivative."""
-    value = c[3] * x
-    bend = 3.0 * value + c[2]
-    return ((value + c[2]) * x + c[1]) * x + c[0], (bend + c[2]) * x + c[1], bend
 
 
 def _root_errors(c: np.ndarray, bounds: np.ndarray, x: np.ndarray,
@@ -253,38 +210,19 @@ def _root_errors(c: np.ndarray, bounds: np.ndarray, x: np.ndarray,
     true value up to 2 B, so f'' d^2 / 2 (1 - 2/3 d / D) = 2 B gives a spread d <= sqrt(12 B / |f''|) as far as the
     other extremum, at the distance D; at a triple root c3 d^3 = 2 B.
     """
-    bound = _evaluation_bound(c, bounds, x)
-    steep = np.abs(_derivatives(c, x)[1])
-    slope_bound = _slope_bound(c, bounds, x)
-    sign[steep <= slope_bound] = 0
+    bound = value_bound(c, bounds, x)
+    steep = np.abs(derivatives(c, x)[1])
+    level = slope_bound(c, bounds, x)
+    sign[steep <= level] = 0
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         error = 2.0 * bound / steep + 4.0 * UNIT * x
         spread = error.copy()
         flat = np.flatnonzero(sign == 0)
         c, bound, at = c[:, flat], bound[flat], x[flat]
-        error[flat] = _shift(c, slope_bound[flat], at) + 4.0 * UNIT * at
+        error[flat] = _shift(c, level[flat], at) + 4.0 * UNIT * at
         spread[flat] = np.fmin(np.sqrt(12.0 * bound / np.abs(2.0 * c[2] + 6.0 * c[3] * at)),
                                np.cbrt(2.0 * bound / np.abs(c[3]))) + error[flat]
     return error, spread
-
-
-def _horner(c: np.ndarray, x: np.ndarray) -> np.ndarray:
-    value = c[-1]
-    for row in c[-2::-1]:
-        value = value * x + row
-    return value
-
-
-def _evaluation_bound(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Bound on the error of `_horner`: twice the coefficients' errors, for an outer one that was taken as zero while
-    its true value may be as large, and the 2 k roundings of Horner's rule of degree k (Higham 2002, section 5.1)."""
-    return _horner(2.0 * bounds + 6.0 * UNIT * np.abs(c), x)
-
-
-def _slope_bound(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """The same of the derivative, whose coefficients are the cubic's times 1, 2, 3."""
-    factors = [[1.0], [2.0], [3.0]]
-    return _evaluation_bound(c[1:] * factors, bounds[1:] * factors, x)
 
 
 def _sign(value: np.ndarray, bound) -> np.ndarray:

@@ -1,0 +1,41 @@
+"""What solving a cubic gives: its positive roots, each with bounds on its error."""
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Roots:
+    """Roots s > 0 of many cubics, in rising order for each, but in no order of the cubics.
+
+    A large one may be told as 1 / `value`, found as a root of the reversed cubic, so that neither infinitely large
+    numbers nor vanishing leading coefficients need care.
+
+    Attributes
+    ----------
+    cubic : (m,) int64
+        Which cubic.
+    value : (m,) float64
+        At least 0, and at most 1 where reversed.
+    reversed : (m,) bool
+        Whether the root is 1 / `value`.
+    sign : (m,) int8
+        Sign of the cubic's derivative by s at the root, 0 where rounding cannot tell it from a multiple root.
+    error : (m,) float64
+        Bound on the error of `value`, to first order in the unit roundoff.
+    spread : (m,) float64
+        How far from `value` the separate roots may lie that count as one multiple root; `error` for a simple one.
+    """
+
+    cubic: np.ndarray
+    value: np.ndarray
+    reversed: np.ndarray
+    sign: np.ndarray
+    error: np.ndarray
+    spread: np.ndarray
+
+    def select(self, chosen: np.ndarray) -> Roots:
+        """Those of the indices `chosen`."""
+        return Roots(*(getattr(self, field.name).take(chosen) for field in fields(self)))

@@ -1,0 +1,117 @@
+"""The ordinary cubic: simple roots by the closed form, each certified; and which cubics are not ordinary."""
+from __future__ import annotations
+
+import numpy as np
+
+from .roots import Roots
+from .rounding import UNIT, horner
+
+_KNOWN = 2.0 ** 30
+"""A coefficient this many times its bound is known to 1e-9: enough for the closed form to begin with."""
+
+_APART = 2.0 ** -24
+"""The discriminant of an ordinary cubic, as a part of its terms: over 50 times what errors of 1e-9 make of it."""
+
+_SHARP = 2.0 ** -20
+"""Error of an ordinary root, as a part of it."""
+
+
+def simple_roots(c: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, Roots]:
+    """The roots s > 0 of those cubics whose roots are certain.
+
+    With t = y - A, A = c2 / 3 c3, a cubic is y^3 - 3 q y + 2 r = 0, with three real roots where D = q^3 - r^2 > 0 and
+    one where D < 0 [1]_. It is ordinary where every coefficient is far above its bound and D far from zero beside its
+    terms. All roots are then simple, and how many of them are positive is known: all real ones by Descartes' rule,
+    which is exact where all three are real, or the one, by the signs of c0 and c3. The closed form must find as many;
+    one step of Newton's makes them sharp. Around each there is then a root within 3 (|f| + B) / |f'|, with B the
+    bound on the value's error [2]_: that is the error told.
+
+    Parameters
+    ----------
+    c, bounds : (4, n) float64
+        Coefficients c0 to c3, and bounds on their absolute errors, 8 u |c| at least.
+
+    Returns
+    -------
+    uncertain : (n,) bool
+        Cubics that are not ordinary; they have no roots here.
+    roots : Roots
+
+    References
+    ----------
+    .. [1] W. Press et al., "Numerical Recipes", 3rd ed. 2007, section 5.6.
+    .. [2] P. Henrici, "Applied and Computational Complex Analysis", vol. 1, 1974, theorem 6.4g.
+    """
+    ordinary = (np.abs(c) > _KNOWN * bounds).all(axis=0)
+    with np.errstate(all="ignore"):
+        places, many, apart = _closed_form(c)
+        ordinary &= apart
+        below, positive = c < 0.0, places > 0.0
+        changes = (below[:-1] ^ below[1:]).view(np.int8)
+        expected = (changes[0] + changes[1] + changes[2]) & (1 + 2 * many.view(np.int8))
+        found = positive.view(np.int8)
+        ordinary &= found[0] + found[1] + found[2] == expected
+        positive &= ordinary
+        at = [np.flatnonzero(row) for row in positive]
+        cubic, value = np.concatenate(at), np.concatenate([row.take(k) for row, k in zip(places, at)])
+        c, bounds = c.take(cubic, axis=1), bounds.take(cubic, axis=1)
+        value -= horner(c, value) / _slope(c, value)
+        slope = _slope(c, value)
+        # twice the bounds cover those of the value's own roundings, 6 u |c|
+        error = np.abs(horner(c, value)) + 2.0 * horner(bounds, value)
+        error *= 3.0 / np.abs(slope)
+        error += 4.0 * UNIT * value
+        blurred = ~(error < _SHARP * value)
+    if blurred.any():
+        ordinary[cubic[blurred]] = False
+        kept = ordinary[cubic]
+        cubic, value, slope, error = cubic[kept], value[kept], slope[kept], error[kept]
+    sign = 1 - 2 * (slope < 0.0).view(np.int8)
+    return ~ordinary, Roots(cubic, value, np.zeros(len(cubic), dtype=bool), sign, error, error)
+
+
+def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Roots (3, n) in rising order, not a number where there is none; whether there are three, and lie apart."""
+    third, b, d = c[2] / c[3], c[1] / c[3], c[0] / c[3]
+    third *= 1.0 / 3.0
+    b *= 1.0 / 3.0
+    d *= 0.5
+    square = third * third
+    q = square - b
+    r = third * (square - 1.5 * b)
+    r += d
+    discriminant = q * q
+    discriminant *= q
+    discriminant -= r * r
+    size, most = np.abs(b, out=b), np.abs(d, out=d)
+    size += square
+    most += np.abs(third) * (1.5 * size)
+    least = size * size
+    least *= size
+    least += most * most
+    least *= _APART
+    apart = np.abs(discriminant) > least
+    many = discriminant > 0.0
+
+    # Three: with 3 phi the arc cosine of r / q^1.5, -2 sqrt(q) cos(phi) and those a third of a turn to either side;
+    # tan(phi / 2) gives cosine and sine at once.
+    roots = np.empty((3, c.shape[1]))
+    scale = np.sqrt(q)
+    half = np.tan(np.arccos(r / (scale * q)) * (1.0 / 6.0))
+    square = half * half
+    scale /= 1.0 + square
+    cosine, sine = scale * (1.0 - square), scale * half
+    sine *= 2.0 * 3.0 ** 0.5
+    np.subtract(-2.0 * cosine, third, out=roots[0])
+    cosine -= third
+    np.subtract(cosine, sine, out=roots[1])
+    np.add(cosine, sine, out=roots[2])
+    # One: the sum of the two cube roots of -r +- sqrt(-D), without the difference.
+    y = np.cbrt(np.abs(r) + np.sqrt(-discriminant))
+    y += q / y
+    np.copyto(roots[0], -np.copysign(y, r) - third, where=~many)
+    return roots, many, apart
+
+
+def _slope(c: np.ndarray, x: np.ndarray) -> np.ndarray:
+    return (3.0 * c[3] * x + 2.0 * c[2]) * x + c[1]
