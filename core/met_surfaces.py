@@ -44,7 +44,7 @@ class MetSurfaces:
     """
 
     def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh) -> None:
-        self.tree, self._mirror_tree = tree, SceneTree.build(mirrors)
+        self.tree, self._mirror_tree = tree, SceneTree.of_ordered(mirrors)
         self._mirror_corners = rows(mirrors.positions[mirrors.triangles])
         self.size = float(np.ptp(mirrors.positions[mirrors.triangles.ravel()], axis=0).max())
         self.diffuse = len(tree.mesh.triangles)

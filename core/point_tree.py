@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .canonical_order import Order, ordered
 from .cones import Cones
 from .magnification import Magnification
 from .scene_tree import FIRST_LEVEL, STRIDE, median_leaves, node_spheres
@@ -49,6 +50,9 @@ class PointTree:
     Attributes
     ----------
     mesh : TriangleMesh
+        The scene in its canonical order, which all that follows names.
+    given : Order
+        Where its parts are in the mesh that was given.
     depth : int
         The leaves are the 2**depth nodes of the last level.
     spheres : list of (4, 2**level) float64
@@ -64,6 +68,7 @@ class PointTree:
     """
 
     mesh: TriangleMesh
+    given: Order
     depth: int
     spheres: list
     order: np.ndarray
@@ -73,6 +78,8 @@ class PointTree:
 
     @classmethod
     def build(cls, mesh: TriangleMesh) -> PointTree:
+        """The tree of a mesh whose vertices and triangles may come in any order."""
+        mesh, given = ordered(mesh, shading=False)
         used, normal, reach = _surface(mesh)
         depth = max(0, int(np.ceil(np.log2(max(len(used), 1) / BUCKET))))
         leaf = median_leaves(mesh.positions[used], depth)
@@ -85,7 +92,7 @@ class PointTree:
             # vertices without faces: what a leaf holds is spread evenly over a disc of the leaf's size
             count = np.maximum(np.diff(leaf_start), 1)
             reach[order] = np.repeat(2.0 * np.maximum(spheres[-1][3], 0.0) / np.sqrt(count), np.diff(leaf_start))
-        return cls(mesh, depth, spheres, order, leaf_start, normal, reach)
+        return cls(mesh, given, depth, spheres, order, leaf_start, normal, reach)
 
     def __len__(self) -> int:
         return len(self.order)

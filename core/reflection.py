@@ -10,6 +10,7 @@ from .assembly import assemble
 from .bounce import Bounce, Progress, bounce_steps, refined
 from .bounced_cameras import bounced_cameras
 from .camera_splitting import in_picture
+from .canonical_order import in_given_order, ordered
 from .cameras import three_ray_cameras, visible_triangles
 from .horizon import cut_at_horizon
 from .met_surfaces import MetSurfaces
@@ -79,7 +80,8 @@ def reflection_steps(
     tree = scene if isinstance(scene, kind) else kind.build(getattr(scene, "mesh", scene))
     if not len(tree):
         raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
-    met = MetSurfaces(tree, mirror if mirrors is None else mirrors)
+    mirror, given = ordered(mirror, shading=True)
+    met = MetSurfaces(tree, mirror if mirrors is None else ordered(mirrors, shading=True)[0])
     progress.done("tree")
 
     yield 0.1, "cameras"
@@ -97,7 +99,7 @@ def reflection_steps(
         cameras = refined(view, mirror_map, cameras, met, None, settings, progress)
         mesh = yield from reflected_points(view, mirror, mirror_map, cameras, tree, met, settings.placement)
         progress.done("points", **mesh.counts)
-        return replace(mesh, counts=progress.counts, seconds=progress.seconds)
+        return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds)
 
     bounces = []
     for number in range(settings.depth):
@@ -116,7 +118,7 @@ def reflection_steps(
                 break
 
     yield 0.95, "depth order"
-    mesh = assemble(view, bounces, met, settings.placement)
+    mesh = in_given_order(assemble(view, bounces, met, settings.placement), tree.given, given)
     progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
     left = np.concatenate([bounce.left for bounce in bounces], axis=1)
     return replace(mesh, counts=progress.counts, seconds=progress.seconds,

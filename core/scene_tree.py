@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .canonical_order import Order, ordered
 from .cones import Cones
 from .triangle_mesh import TriangleMesh
 from .vectors import ranges, rows
@@ -28,6 +29,9 @@ class SceneTree:
     Attributes
     ----------
     mesh : TriangleMesh
+        The scene in its canonical order, which all that follows names.
+    given : Order or None
+        Where its parts are in the mesh that was given; None for one that came in order.
     depth : int
         The leaves are the 2**depth nodes of the last level.
     spheres : list of (4, 2**level) float64
@@ -40,6 +44,7 @@ class SceneTree:
     """
 
     mesh: TriangleMesh
+    given: Order | None
     depth: int
     spheres: list
     leaf_start: np.ndarray
@@ -48,6 +53,12 @@ class SceneTree:
 
     @classmethod
     def build(cls, mesh: TriangleMesh) -> SceneTree:
+        """The tree of a mesh whose vertices and triangles may come in any order."""
+        return cls.of_ordered(*ordered(mesh, shading=False))
+
+    @classmethod
+    def of_ordered(cls, mesh: TriangleMesh, given: Order | None = None) -> SceneTree:
+        """The tree of a mesh that is in its canonical order."""
         corners = rows(mesh.positions[mesh.triangles])
         low, high = corners.min(axis=2), corners.max(axis=2)
         centre = 0.5 * (low + high)
@@ -64,7 +75,7 @@ class SceneTree:
         leaf_start = np.searchsorted(leaf[order], np.arange(2**depth + 1))
         leaf_triangles = areal[order]
         spheres = node_spheres(low[:, leaf_triangles], high[:, leaf_triangles], leaf_start, depth)
-        return cls(mesh, depth, spheres, leaf_start, leaf_triangles, np.concatenate((centre, radius[None])))
+        return cls(mesh, given, depth, spheres, leaf_start, leaf_triangles, np.concatenate((centre, radius[None])))
 
     def __len__(self) -> int:
         return len(self.leaf_triangles)

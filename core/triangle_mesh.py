@@ -62,6 +62,13 @@ class TriangleMesh:
                             np.concatenate([mesh.triangles + start for mesh, start in zip(meshes, starts)]),
                             np.concatenate([mesh.corner_normals for mesh in meshes]))
 
+    def like(self, positions: np.ndarray, triangles: np.ndarray, corner_normals: np.ndarray) -> TriangleMesh:
+        """A mesh of this one's parts in another order, which need not be checked again."""
+        mesh = object.__new__(TriangleMesh)
+        for name, value in (("positions", positions), ("triangles", triangles), ("corner_normals", corner_normals)):
+            object.__setattr__(mesh, name, value)
+        return mesh
+
     def face_normals(self) -> np.ndarray:
         """Unit normals (m, 3) of the flat triangles, zero where a triangle has no area."""
         a, b, c = (self.positions[self.triangles[:, k]] for k in range(3))

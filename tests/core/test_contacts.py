@@ -33,9 +33,9 @@ def cameras_before_and_after(view, mirror, scene):
     tree = SceneTree.build(scene)
     camera, triangle, _ = tree.trace(Cones.around(cameras))
     met, column = np.unique(triangle, return_inverse=True)
-    frames = SceneFrames.of(scene, met)
+    frames = SceneFrames.of(tree.mesh, met)
     candidates = overlapping(cameras, frames, camera, column)
-    return cameras, drop_behind_contacts(view, mirror_map, cameras, frames, scene.positions, candidates)
+    return cameras, drop_behind_contacts(view, mirror_map, cameras, frames, tree.mesh.positions, candidates)
 
 
 def hidden(view, places, scene):

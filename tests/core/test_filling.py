@@ -21,9 +21,9 @@ def rooms():
     tree = SceneTree.build(case.scene)
     camera, triangle, _ = tree.trace(Cones.around(cameras))
     met, column = np.unique(triangle, return_inverse=True)
-    frames = SceneFrames.of(case.scene, met)
+    frames = SceneFrames.of(tree.mesh, met)
     candidates = overlapping(cameras, frames, camera, column)
-    return case, mirror_map, cameras, frames, candidates, clip(candidates)
+    return tree.mesh, mirror_map, cameras, frames, candidates, clip(candidates)
 
 
 def first_triangle(scene, origin, ray):
@@ -37,7 +37,7 @@ def first_triangle(scene, origin, ray):
 
 
 def test_an_open_camera_shows_the_triangle_that_its_middle_ray_meets_first():
-    case, mirror_map, cameras, frames, candidates, polygons = rooms()
+    scene, mirror_map, cameras, frames, candidates, polygons = rooms()
     rng = np.random.default_rng(127)
     open_ = rng.random(len(cameras)) < 0.5
     filled, rays = fill(mirror_map, cameras, frames, candidates, polygons, open_)
@@ -49,7 +49,7 @@ def test_an_open_camera_shows_the_triangle_that_its_middle_ray_meets_first():
     seen = 0
     for number in np.flatnonzero(open_):
         shown = triangle[camera == number].tolist()
-        expected = first_triangle(case.scene, middle[:, number], ray[:, number])
+        expected = first_triangle(scene, middle[:, number], ray[:, number])
         assert shown == ([] if expected < 0 else [expected])
         seen += expected >= 0
     assert seen > 100

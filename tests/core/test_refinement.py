@@ -144,7 +144,7 @@ def test_the_bound_on_candidates_is_kept_and_told():
     tree = SceneTree.build(case.scene)
     camera, triangle, _ = tree.trace(Cones.around(cameras))
     seen, column = np.unique(triangle, return_inverse=True)
-    frames, met = SceneFrames.of(case.scene, seen), MetSurfaces(tree, case.mirror)
+    frames, met = SceneFrames.of(tree.mesh, seen), MetSurfaces(tree, case.mirror)
     candidates = overlapping(cameras, frames, camera, column)
     *_, free = refine_for_outlines(case.view, mirror_map, cameras, frames, candidates, 0.25, 1_000_000, met)
     _, bounded, _, limited = refine_for_outlines(case.view, mirror_map, cameras, frames, candidates, 0.25, 1000, met)
