@@ -7,7 +7,7 @@ from .roots import Roots
 from .rounding import UNIT, horner
 
 _KNOWN = 2.0 ** 30
-"""A coefficient this many times its bound is known to 1e-9: enough for the closed form to begin with."""
+"""Coefficients this many times their bounds are known to 1e-9: enough to tell the sign of the discriminant."""
 
 _APART = 2.0 ** -24
 """The discriminant of an ordinary cubic, as a part of its terms: over 50 times what errors of 1e-9 make of it."""
@@ -20,21 +20,23 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, Roots]:
     """The roots s > 0 of those cubics whose roots are certain.
 
     With t = y - A, A = c2 / 3 c3, a cubic is y^3 - 3 q y + 2 r = 0, with three real roots where D = q^3 - r^2 > 0 and
-    one where D < 0 [1]_. It is ordinary where every coefficient is far above its bound and D far from zero beside its
-    terms. All roots are then simple, and how many of them are positive is known: all real ones by Descartes' rule,
-    which is exact where all three are real, or the one, by the signs of c0 and c3. The closed form must find as many;
-    one step of Newton's makes them sharp. Around each there is then a root within 3 (|f| + B) / |f'|, with B the
-    bound on the value's error [2]_: that is the error told.
+    one where D < 0 [1]_. Where the signs of all coefficients are certain, Descartes' rule tells how many roots are
+    positive: none or one where there are so few changes of sign, or else, where D is far enough from zero, as many as
+    there are changes if all are real, and one or none by their parity if one is. The closed form must find as many; one
+    step of Newton's makes them sharp. Around each there is then a root within 3 (|f| + B) / |f'|, with B the bound on
+    the value's error [2]_: that is the error told.
 
     Parameters
     ----------
-    c, bounds : (4, n) float64
-        Coefficients c0 to c3, and bounds on their absolute errors, 8 u |c| at least.
+    c : (4, n) float64
+        Coefficients c0 to c3.
+    bounds : (4, n) float64
+        Bounds on their absolute errors, and on 8 u |c|.
 
     Returns
     -------
     uncertain : (n,) bool
-        Cubics that are not ordinary; they have no roots here.
+        Cubics of which that cannot be said; they have no roots here.
     roots : Roots
 
     References
@@ -42,15 +44,18 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, Roots]:
     .. [1] W. Press et al., "Numerical Recipes", 3rd ed. 2007, section 5.6.
     .. [2] P. Henrici, "Applied and Computational Complex Analysis", vol. 1, 1974, theorem 6.4g.
     """
-    ordinary = (np.abs(c) > _KNOWN * bounds).all(axis=0)
+    size = np.abs(c)
     with np.errstate(all="ignore"):
         places, many, apart = _closed_form(c)
-        ordinary &= apart
         below, positive = c < 0.0, places > 0.0
         changes = (below[:-1] ^ below[1:]).view(np.int8)
-        expected = (changes[0] + changes[1] + changes[2]) & (1 + 2 * many.view(np.int8))
+        changes = changes[0] + changes[1] + changes[2]
         found = positive.view(np.int8)
-        ordinary &= found[0] + found[1] + found[2] == expected
+        ordinary = found[0] + found[1] + found[2] == changes & (1 + 2 * many.view(np.int8))
+        for row, bound in zip(size, bounds):
+            ordinary &= row > bound
+            apart &= row > _KNOWN * bound
+        ordinary &= apart | (changes < 2)
         positive &= ordinary
         at = [np.flatnonzero(row) for row in positive]
         cubic, value = np.concatenate(at), np.concatenate([row.take(k) for row, k in zip(places, at)])
@@ -64,7 +69,7 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, Roots]:
         blurred = ~(error < _SHARP * value)
     if blurred.any():
         ordinary[cubic[blurred]] = False
-        kept = ordinary[cubic]
+        kept = np.flatnonzero(ordinary[cubic])
         cubic, value, slope, error = cubic[kept], value[kept], slope[kept], error[kept]
     sign = 1 - 2 * (slope < 0.0).view(np.int8)
     return ~ordinary, Roots(cubic, value, np.zeros(len(cubic), dtype=bool), sign, error, error)

@@ -1,0 +1,90 @@
+"""Images in ordinary pairs: those about which rough bounds leave no doubt.
+
+Most pairs are far from every limit: the signs that decide anything are far above the rounding that the largest
+coordinates alone allow. (Such tests are called floating-point filters in computational geometry.) What is doubtful is
+left to the closer look of `doubtful_pairs`. Nothing that is decided of one pair depends on the others.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from . import coplanarity
+from .rounding import UNIT
+from .simple_roots import simple_roots
+from .vectors import cross, dot
+
+_SHORT, _LONG = 2.0 ** -75, 2.0 ** 75
+"""Lengths between these, and their ratios, are safe to the twelfth power."""
+
+
+def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
+    """Images in the pairs (n) of a camera and a point that leave no doubt.
+
+    Returns
+    -------
+    pair : (m,) int64
+        Of each image, in no order, but rising in distance for each pair.
+    distance : (m,) float64
+    weights : (m, 3) float64
+    sign : (m,) int8
+        Of the cubic's derivative.
+    side : (m,) float64
+        Positive where the rays leave on the side of the triangle's normal by its winding.
+    doubtful : (n,) bool
+        Pairs that were left out.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        still, moving = coplanarity.differences(vertices, rays, points)
+        lengths = x, e, r, d = _rough_lengths(still, moving)
+        ee, ed, dd = e * e, e * d, d * d
+        bounds = np.stack((x * ee, 2.0 * x * ed + r * ee, x * dd + 2.0 * r * ed, r * dd))
+        bounds *= 12.0 * UNIT
+        doubtful, roots = simple_roots(coplanarity.coefficients(still, moving), bounds)
+    if lengths.size and not _SHORT <= lengths.min() <= lengths.max() <= _LONG:
+        strange = (lengths.min(axis=0) < _SHORT) | (lengths.max(axis=0) > _LONG)
+        doubtful |= strange
+        roots = roots.select(np.flatnonzero(~strange[roots.cubic]))
+    pair, t = roots.cubic, roots.value
+    place, velocity = (part.reshape(9, -1).take(pair, axis=1) for part in (still, moving))
+    velocity *= t
+    place += velocity
+    p, a, b = place.reshape(3, 3, -1)
+    normal = cross(a, b)
+    square = dot(normal, normal)
+    second, third = dot(cross(b, p), normal), dot(cross(p, a), normal)
+    # All three weights are off by less than this, times the square: see `doubtful_pairs`.
+    x, e, r, d = lengths.take(pair, axis=1)
+    both = e + t * d
+    both *= 2.0
+    margin = (both + (x + t * r)) * (8.0 * UNIT)
+    margin += roots.error * (r + 2.0 * d)
+    margin *= both
+    margin *= np.sqrt(square)
+    least = np.minimum(second, third)
+    np.minimum(least, square - second - third, out=least)
+    inside = least > margin
+    open_ = ~inside
+    open_ &= ~((least < -margin) & (margin < square))
+    if open_.any():
+        doubtful[pair[open_]] = True
+        inside &= ~doubtful[pair]
+    inside = np.flatnonzero(inside)
+    pair = pair.take(inside)
+    weights = np.empty((len(inside), 3))
+    square = square.take(inside)
+    np.divide(second.take(inside), square, out=weights[:, 1])
+    np.divide(third.take(inside), square, out=weights[:, 2])
+    weights[:, 0] = 1.0 - weights[:, 1] - weights[:, 2]
+    side = dot(3.0 * moving[0] + moving[1] + moving[2], cross(still[1], still[2])).take(pair)
+    return pair, t.take(inside), weights, roots.sign.take(inside), side, doubtful
+
+
+def _rough_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
+    """Bounds (4, n) on |p|, on |a| and |b|, on |r|, and on |u| and |v|, from their largest coordinates."""
+    lengths = np.empty((4, still.shape[2]))
+    for (first, edges), part in zip((lengths[:2], lengths[2:]), (np.abs(still), np.abs(moving))):
+        np.maximum(np.maximum(part[0, 0], part[0, 1]), part[0, 2], out=first)
+        part[1] = np.maximum(part[1], part[2])
+        np.maximum(np.maximum(part[1, 0], part[1, 1]), part[1, 2], out=edges)
+    lengths *= 3.0 ** 0.5 + 2.0 ** -50
+    return lengths

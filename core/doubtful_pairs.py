@@ -1,0 +1,91 @@
+"""Images in doubtful pairs: the closest look, with bounds for each pair alone, whatever its cubic."""
+from __future__ import annotations
+
+import numpy as np
+
+from . import coplanarity
+from .monotone_roots import monotone_roots
+from .rounding import UNIT
+from .vectors import cross, dot
+
+_HIDDEN = 2.0 ** 20
+"""A coefficient this many times its bound owes none of its size to loose bounds."""
+
+_FURTHEST = 0.5
+"""Rounding may not move a weight by more: `coplanarity.reach` goes no further."""
+
+
+def doubtful_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
+    """Images in pairs (n) of a camera and a point, as `certain_images` tells them, and which cubics vanish: (n,) bool.
+
+    What rounding cannot decide counts as equal.
+    """
+    still, moving = coplanarity.differences(vertices, rays, points)
+    length, speed = coplanarity.scale(still, moving)
+    still, moving = still * length, moving * speed
+    lengths = coplanarity.lengths(still, moving)
+    cubics, bounds = coplanarity.coefficients(still, moving), coplanarity.length_bounds(lengths)
+    # Where the cubic is so small beside the lengths that their bounds could hide it, closer ones are worth their price.
+    small = np.flatnonzero((np.abs(cubics) < _HIDDEN * bounds).all(axis=0))
+    if len(small):
+        bounds[:, small] = coplanarity.term_bounds(still[:, :, small], moving[:, :, small])
+        small = small[(np.abs(cubics[:, small]) <= bounds[:, small]).all(axis=0)]
+    if len(small):
+        part = (vertices[small] * length[small, None, None], rays[small] * speed[small, None, None],
+                points[small] * length[small, None])
+        cubics[:, small], bounds[:, small] = coplanarity.long_coefficients(*part)
+    roots, degenerate = monotone_roots(cubics, bounds, *coplanarity.reach(still, moving, lengths))
+    with np.errstate(divide="ignore"):
+        distance = np.where(roots.reversed, 1.0 / roots.value, roots.value) * (speed / length)[roots.cubic]
+    return _images(still, moving, lengths, roots, distance), degenerate
+
+
+def _images(still, moving, lengths, roots, distance):
+    """What `certain_images` returns of each image."""
+    at, count = roots.cubic, still.shape[2]
+    place, velocity = still.reshape(9, count).take(at, axis=1), moving.reshape(9, count).take(at, axis=1)
+    # The reversed cubic is that of the same triangle with places and velocities exchanged: p + s r = s (r + p / s).
+    turned = np.flatnonzero(roots.reversed)
+    place[:, turned], velocity[:, turned] = velocity[:, turned], place[:, turned]
+    velocity *= roots.value
+    place += velocity
+    p, a, b = place.reshape(3, 3, -1)
+    normal = cross(a, b)
+    square, weights = dot(normal, normal), np.empty((3, len(at)))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        np.divide(dot(cross(b, p), normal), square, out=weights[1])
+        np.divide(dot(cross(p, a), normal), square, out=weights[2])
+    np.subtract(1.0, weights[1], out=weights[0])
+    weights[0] -= weights[2]
+    near = np.flatnonzero(np.minimum(np.minimum(weights[0], weights[1]), weights[2]) >= -_FURTHEST)
+    at, roots, weights = at.take(near), roots.select(near), weights.take(near, axis=1)
+    lengths, turned = lengths.take(at, axis=1), np.flatnonzero(roots.reversed)
+    lengths[:3, turned], lengths[3:, turned] = lengths[3:, turned], lengths[:3, turned]
+    inside = np.flatnonzero(_inside(weights, np.sqrt(square.take(near)), lengths, roots))
+    at, weights = at.take(inside), np.maximum(weights.take(inside, axis=1), 0.0)
+    weights /= weights[0] + weights[1] + weights[2]
+    side = dot(3.0 * moving[0] + moving[1] + moving[2], cross(still[1], still[2])).take(at)
+    return at, distance.take(near.take(inside)), weights.T, roots.sign.take(inside), side
+
+
+def _inside(weights, area, lengths, roots):
+    """Whether P may lie in the moved triangle as far as rounding goes, and the triangle surely is more than a line.
+
+    p + W_B a + W_C b = 0. Through p, a, b and the products the weight of a corner is off by at most 8 u times the
+    lengths that go into them, over the triangle's height at that corner; through the root's error, by the way that P
+    moves in that time against the triangle, over the height.
+    """
+    x, e1, e2, r, d1, d2 = lengths
+    t = roots.value
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        long1, long2 = e1 + t * d1, e2 + t * d2
+        both = long1 + long2
+        still, moving = 8.0 * UNIT * (x + t * r + both) / area, (r + d1 + d2) / area
+        # Off by a whole height: the triangle is a line as far as anyone can know.
+        inside = area > 10.0 * UNIT * long1 * long2 + (d1 * long2 + long1 * d2) * roots.error
+        inside &= (still + moving * roots.error) * both < 1.0
+        height = -(still + moving * roots.spread)
+        inside &= weights[0] >= height * both
+        inside &= weights[1] >= height * long2
+        inside &= weights[2] >= height * long1
+    return inside
