@@ -17,6 +17,7 @@ _SHORT, _LONG = 2.0 ** -75, 2.0 ** 75
 """Lengths between these, and their ratios, are safe to the twelfth power."""
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
 def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
     """Images in the pairs (n) of a camera and a point that leave no doubt.
 
@@ -33,13 +34,12 @@ def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
     doubtful : (n,) bool
         Pairs that were left out.
     """
-    with np.errstate(over="ignore", invalid="ignore"):
-        still, moving = coplanarity.differences(vertices, rays, points)
-        lengths = x, e, r, d = _rough_lengths(still, moving)
-        ee, ed, dd = e * e, e * d, d * d
-        bounds = np.stack((x * ee, 2.0 * x * ed + r * ee, x * dd + 2.0 * r * ed, r * dd))
-        bounds *= 12.0 * UNIT
-        doubtful, roots = simple_roots(coplanarity.coefficients(still, moving), bounds)
+    still, moving = coplanarity.differences(vertices, rays, points)
+    lengths = x, e, r, d = _rough_lengths(still, moving)
+    ee, ed, dd = e * e, e * d, d * d
+    bounds = np.stack((x * ee, 2.0 * x * ed + r * ee, x * dd + 2.0 * r * ed, r * dd))
+    bounds *= 12.0 * UNIT
+    doubtful, roots = simple_roots(coplanarity.coefficients(still, moving), bounds)
     if lengths.size and not _SHORT <= lengths.min() <= lengths.max() <= _LONG:
         strange = (lengths.min(axis=0) < _SHORT) | (lengths.max(axis=0) > _LONG)
         doubtful |= strange

@@ -11,6 +11,9 @@ from .vectors import cross, dot
 _HIDDEN = 2.0 ** 20
 """A coefficient this many times its bound owes none of its size to loose bounds."""
 
+_BLURRED = 2.0 ** 10
+"""A coefficient this many times its bound is good to three digits."""
+
 _FURTHEST = 0.5
 """Rounding may not move a weight by more: `coplanarity.reach` goes no further."""
 
@@ -29,15 +32,22 @@ def doubtful_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
     small = np.flatnonzero((np.abs(cubics) < _HIDDEN * bounds).all(axis=0))
     if len(small):
         bounds[:, small] = coplanarity.term_bounds(still[:, :, small], moving[:, :, small])
-        small = small[(np.abs(cubics[:, small]) <= bounds[:, small]).all(axis=0)]
-    if len(small):
-        part = (vertices[small] * length[small, None, None], rays[small] * speed[small, None, None],
-                points[small] * length[small, None])
-        cubics[:, small], bounds[:, small] = coplanarity.long_coefficients(*part)
+    drowned = np.flatnonzero(_drowned(np.abs(cubics), bounds))
+    if len(drowned):
+        part = (vertices[drowned] * length[drowned, None, None], rays[drowned] * speed[drowned, None, None],
+                points[drowned] * length[drowned, None])
+        cubics[:, drowned], bounds[:, drowned] = coplanarity.long_coefficients(*part)
     roots, degenerate = monotone_roots(cubics, bounds, *coplanarity.reach(still, moving, lengths))
     with np.errstate(divide="ignore"):
         distance = np.where(roots.reversed, 1.0 / roots.value, roots.value) * (speed / length)[roots.cubic]
     return _images(still, moving, lengths, roots, distance), degenerate
+
+
+def _drowned(size, bounds):
+    """Which cubics (n,) are worth twice the digits: those that may vanish, and those of which a coefficient stands out
+    of the noise, but not by much."""
+    known = size > bounds
+    return ~known.any(axis=0) | (known & (size < _BLURRED * bounds)).any(axis=0)
 
 
 def _images(still, moving, lengths, roots, distance):

@@ -23,7 +23,8 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, Roots]:
     one where D < 0 [1]_. Where the signs of all coefficients are certain, Descartes' rule tells how many roots are
     positive: none or one where there are so few changes of sign, or else, where D is far enough from zero, as many as
     there are changes if all are real, and one or none by their parity if one is. The closed form must find as many; one
-    step of Newton's makes them sharp. Around each there is then a root within 3 (|f| + B) / |f'|, with B the bound on
+    step of Newton's must bring their values down to the
+    noise of the evaluation. Around each there is then a root within 3 (|f| + B) / |f'|, with B the bound on
     the value's error [2]_: that is the error told.
 
     Parameters
@@ -62,11 +63,13 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, Roots]:
         c, bounds = c.take(cubic, axis=1), bounds.take(cubic, axis=1)
         value -= horner(c, value) / _slope(c, value)
         slope = _slope(c, value)
+        error = np.abs(horner(c, value))
+        blurred = ~(error <= 6.0 * UNIT * horner(np.abs(c), value))
         # twice the bounds cover those of the value's own roundings, 6 u |c|
-        error = np.abs(horner(c, value)) + 2.0 * horner(bounds, value)
+        error += 2.0 * horner(bounds, value)
         error *= 3.0 / np.abs(slope)
         error += 4.0 * UNIT * value
-        blurred = ~(error < _SHARP * value)
+        blurred |= ~(error < _SHARP * value)
     if blurred.any():
         ordinary[cubic[blurred]] = False
         kept = np.flatnonzero(ordinary[cubic])
