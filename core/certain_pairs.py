@@ -37,9 +37,16 @@ def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
     still, moving = coplanarity.differences(vertices, rays, points)
     lengths = x, e, r, d = _rough_lengths(still, moving)
     ee, ed, dd = e * e, e * d, d * d
+
+    def noise(pair, t):
+        """The sum of the bounds times powers of t, and as much again for the roundings of the sum: 6 u |c|."""
+        x, e, r, d = lengths.take(pair, axis=1)
+        edge = e + t * d
+        return (x + t * r) * (edge * edge) * (24.0 * UNIT)
+
     bounds = np.stack((x * ee, 2.0 * x * ed + r * ee, x * dd + 2.0 * r * ed, r * dd))
     bounds *= 12.0 * UNIT
-    doubtful, roots = simple_roots(coplanarity.coefficients(still, moving), bounds)
+    doubtful, roots = simple_roots(coplanarity.coefficients(still, moving), bounds, noise)
     if lengths.size and not _SHORT <= lengths.min() <= lengths.max() <= _LONG:
         strange = (lengths.min(axis=0) < _SHORT) | (lengths.max(axis=0) > _LONG)
         doubtful |= strange

@@ -8,7 +8,7 @@ import numpy as np
 from .certain_pairs import certain_images
 from .doubtful_pairs import doubtful_images
 
-_CHUNK = 8192
+CHUNK = 8192
 """Pairs that are worked on at once: their arrays stay in the cache."""
 
 
@@ -89,14 +89,14 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facin
     degenerate = np.zeros(count, dtype=bool)
     facing = None if facing is None else np.where(facing < 0, -1.0, 1.0)
     found, left = [], []
-    for start in range(0, max(count, 1), _CHUNK):
-        part = slice(start, start + _CHUNK)
+    for start in range(0, max(count, 1), CHUNK):
+        part = slice(start, start + CHUNK)
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part])
         found.append(_turned(pair + start, *images, facing))
         left.append(np.flatnonzero(doubtful) + start)
     left = np.concatenate(left)
-    for start in range(0, len(left), _CHUNK):
-        part = left[start:start + _CHUNK]
+    for start in range(0, len(left), CHUNK):
+        part = left[start:start + CHUNK]
         (pair, *images), degenerate[part] = doubtful_images(vertices[part], rays[part], points[part])
         found.append(_turned(part[pair], *images, facing))
     pair, distance, weights, parity = (np.concatenate(column) for column in zip(*found))

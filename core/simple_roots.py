@@ -1,10 +1,12 @@
 """The ordinary cubic: simple roots by the closed form, each certified; and which cubics are not ordinary."""
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from .roots import Roots
-from .rounding import UNIT, horner
+from .rounding import UNIT, derivatives
 
 _KNOWN = 2.0 ** 30
 """Coefficients this many times their bounds are known to 1e-9: enough to tell the sign of the discriminant."""
@@ -12,27 +14,33 @@ _KNOWN = 2.0 ** 30
 _APART = 2.0 ** -24
 """The discriminant of an ordinary cubic, as a part of its terms: over 50 times what errors of 1e-9 make of it."""
 
+_CLOSE = 2.0 ** -10
+"""Newton's method gains ten bits or more with every step where its first one is so small beside slope over bend."""
+
 _SHARP = 2.0 ** -20
 """Error of an ordinary root, as a part of it."""
 
 
-def simple_roots(c: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, Roots]:
+def simple_roots(c: np.ndarray, bounds: np.ndarray,
+                 noise: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> tuple[np.ndarray, Roots]:
     """The roots s > 0 of those cubics whose roots are certain.
 
     With t = y - A, A = c2 / 3 c3, a cubic is y^3 - 3 q y + 2 r = 0, with three real roots where D = q^3 - r^2 > 0 and
     one where D < 0 [1]_. Where the signs of all coefficients are certain, Descartes' rule tells how many roots are
     positive: none or one where there are so few changes of sign, or else, where D is far enough from zero, as many as
-    there are changes if all are real, and one or none by their parity if one is. The closed form must find as many; one
-    step of Newton's must bring their values down to the
-    noise of the evaluation. Around each there is then a root within 3 (|f| + B) / |f'|, with B the bound on
-    the value's error [2]_: that is the error told.
+    there are changes if all are real, and one or none by their parity if one is. The closed form must find as many, and
+    one step d = f / f' of Newton's makes them sharp: by Taylor's theorem it leaves |f| <= |f''| d^2 / 2 and the noise B
+    of its evaluation. There is a root within 3 |f| / |f'| [2]_, so that 3.1 (|f''| d^2 / 2 + B) / |f'| bounds its error
+    where d is too small for f' to change by much.
 
     Parameters
     ----------
     c : (4, n) float64
         Coefficients c0 to c3.
     bounds : (4, n) float64
-        Bounds on their absolute errors, and on 8 u |c|.
+        Bounds on their absolute errors.
+    noise : function of cubics (m,) and values (m,)
+        Bound on the error of these cubics' values there, rounding included.
 
     Returns
     -------
@@ -53,21 +61,24 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, Roots]:
         changes = changes[0] + changes[1] + changes[2]
         found = positive.view(np.int8)
         ordinary = found[0] + found[1] + found[2] == changes & (1 + 2 * many.view(np.int8))
-        for row, bound in zip(size, bounds):
-            ordinary &= row > bound
-            apart &= row > _KNOWN * bound
+        for row in size > bounds:
+            ordinary &= row
+        for row in size > _KNOWN * bounds:
+            apart &= row
         ordinary &= apart | (changes < 2)
         positive &= ordinary
         at = [np.flatnonzero(row) for row in positive]
         cubic, value = np.concatenate(at), np.concatenate([row.take(k) for row, k in zip(places, at)])
-        c, bounds = c.take(cubic, axis=1), bounds.take(cubic, axis=1)
-        value -= horner(c, value) / _slope(c, value)
-        slope = _slope(c, value)
-        error = np.abs(horner(c, value))
-        blurred = ~(error <= 6.0 * UNIT * horner(np.abs(c), value))
-        # twice the bounds cover those of the value's own roundings, 6 u |c|
-        error += 2.0 * horner(bounds, value)
-        error *= 3.0 / np.abs(slope)
+        residual, slope, bend = derivatives(c.take(cubic, axis=1), value)
+        step = residual / slope
+        value -= step
+        rest = np.abs(step * (bend / slope))
+        blurred = ~(rest < _CLOSE)
+        rest *= np.abs(step)
+        blurred |= ~(rest <= 2.0 * UNIT * value)
+        error = noise(cubic, value) / np.abs(slope)
+        error += rest
+        error *= 3.1
         error += 4.0 * UNIT * value
         blurred |= ~(error < _SHARP * value)
     if blurred.any():
@@ -119,7 +130,3 @@ def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     y += q / y
     np.copyto(roots[0], -np.copysign(y, r) - third, where=~many)
     return roots, many, apart
-
-
-def _slope(c: np.ndarray, x: np.ndarray) -> np.ndarray:
-    return (3.0 * c[3] * x + 2.0 * c[2]) * x + c[1]

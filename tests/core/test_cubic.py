@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from core.monotone_roots import monotone_roots
-from core.rounding import UNIT
+from core.rounding import UNIT, value_bound
 from core.simple_roots import simple_roots
 from tests.core import exact
 
@@ -18,6 +18,10 @@ def _solve(coefficients, low=0.0, high=np.inf):
         values = np.where(roots.reversed, 1.0 / roots.value, roots.value)
     assert (roots.value >= 0.0).all() and (roots.value[roots.reversed] <= 1.0).all()
     return [(values[roots.cubic == k], roots.sign[roots.cubic == k].tolist()) for k in range(c.shape[1])], degenerate
+
+
+def _certified(c, bounds):
+    return simple_roots(c, bounds, lambda cubic, value: value_bound(c[:, cubic], bounds[:, cubic], value))
 
 
 def _expanded(lead, *roots):
@@ -128,7 +132,7 @@ def _ordinary(rng, n):
 def test_certified_roots_against_sturm():
     """The roots of ordinary cubics are all there, none else, and each within its error of the exact one."""
     c = _ordinary(np.random.default_rng(4), 2000)
-    uncertain, roots = simple_roots(c.T, 8.0 * UNIT * np.abs(c.T))
+    uncertain, roots = _certified(c.T, 8.0 * UNIT * np.abs(c.T))
     assert uncertain.mean() < 0.1
     for k in np.flatnonzero(~uncertain):
         f = [Fraction(float(x)) for x in c[k]]
@@ -145,7 +149,7 @@ def test_certified_roots_against_sturm():
 def test_certified_roots_are_those_of_monotone_intervals():
     c = _ordinary(np.random.default_rng(5), 20000).T
     bounds = 8.0 * UNIT * np.abs(c)
-    uncertain, certified = simple_roots(c, bounds)
+    uncertain, certified = _certified(c, bounds)
     others, _ = monotone_roots(c, bounds, np.zeros(c.shape[1]), np.full(c.shape[1], np.inf))
     chosen = np.flatnonzero(~uncertain[others.cubic])
     order = np.argsort(certified.cubic, kind="stable")
@@ -162,7 +166,7 @@ def test_certified_roots_are_those_of_monotone_intervals():
     [1e-320, -1e-320, 1e-320, -1e-320]])
 def test_nothing_else_is_certified(coefficients):
     c = np.array([coefficients], dtype=np.float64).T
-    uncertain, roots = simple_roots(c, np.full_like(c, 64.0 * UNIT))
+    uncertain, roots = _certified(c, np.full_like(c, 64.0 * UNIT))
     assert uncertain.all() and not len(roots.cubic)
 
 
@@ -170,5 +174,5 @@ def test_none():
     empty = np.zeros((4, 0))
     roots, degenerate = monotone_roots(empty, empty, np.zeros(0), np.zeros(0))
     assert len(roots.cubic) == len(degenerate) == 0
-    uncertain, roots = simple_roots(empty, empty)
+    uncertain, roots = _certified(empty, empty)
     assert len(roots.cubic) == len(uncertain) == 0
