@@ -1,218 +1,210 @@
-"""An oracle for projection: the roots of a camera/point cubic in exact integer arithmetic, isolated by Sturm's theorem.
+"""Positive roots of cubics with integer coefficients, exactly: an oracle for the solver, with which it shares nothing.
 
-It shares nothing with the code it judges: the cubic is expanded from the determinant, its roots are counted by sign
-variations of the Sturm chain and halved down to 2^-180, and weights are evaluated there with integers.
+All numbers are Python integers, in NumPy arrays of objects, so that one line works on all cubics at once. Descartes'
+rule of signs and the discriminant tell how many positive roots there are; between two simple ones lies an extremum,
+whose place an integer square root gives to as many bits as it takes for the cubic to have the sign there that it must
+have between its roots; Newton's method in a bracket then finds each root to 2^-120, with a change of sign as its
+certificate.
 """
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 
-_BITS = 180
+BITS = 120
+"""Roots are known to a relative error of 2^-120."""
+
+bit_length = np.frompyfunc(int.bit_length, 1, 1)
+square_root = np.frompyfunc(math.isqrt, 1, 1)
 
 
 @dataclass(frozen=True)
-class ExactRoot:
-    """A root s > 0: its multiplicity, the sign of f', the weights there, whether the triangle is a line (weights None),
-    and how far s (relative) and the weights move, per unit of relative error in the three factors of the cubic."""
+class ExactRoots:
+    """Roots `numerator` / 2^`shift` > 0 (to 2^-120), in rising order for each cubic.
 
-    distance: float
-    multiplicity: int
-    sign: int
-    weights: tuple[float, float, float] | None
-    distance_condition: float
-    weight_condition: float
+    `cubic` (m,) is the cubic of each, `multiplicity` (m,) 1 to 3, and `sign` (m,) the sign of the derivative, 0 where
+    the root is multiple.
+    """
 
-
-def exact_roots(vertices, rays, point) -> list[ExactRoot] | None:
-    """All roots s > 0 of one pair, rising; None where the cubic vanishes identically."""
-    (v, p), places = _integers([*np.ravel(vertices)], [*np.ravel(point)])
-    (m,), speeds = _integers([*np.ravel(rays)])
-    x = [[[v[3 * i + k] - p[k], m[3 * i + k]] for k in range(3)] for i in range(3)]
-    f = _dot(x[0], _cross(x[1], x[2]))
-    while f and f[-1] == 0:
-        f.pop()
-    if not f:
-        return None
-    lowest = next(k for k, c in enumerate(f) if c)
-    unit = Fraction(2) ** (speeds - places)
-    return [_describe(f, x, t, multiplicity, unit) for t, multiplicity in _roots(f[lowest:])]
+    cubic: np.ndarray
+    numerator: np.ndarray
+    shift: np.ndarray
+    multiplicity: np.ndarray
+    sign: np.ndarray
 
 
-def _describe(f, x, t, multiplicity, unit) -> ExactRoot:
-    a = [_sum(x[1][k], x[0][k], -1) for k in range(3)]
-    b = [_sum(x[2][k], x[0][k], -1) for k in range(3)]
-    at = [[_value(poly, t) for poly in vector] for vector in (x[0], a, b)]
-    (p, u, v), normal = at, _cross_numbers(at[1], at[2])
-    square = _dot_numbers(normal, normal)
-    slope = _value([k * c for k, c in enumerate(f)][1:] or [0], t)
-    size = [_length([poly[0] for poly in vector]) for vector in (x[0], a, b)]
-    speed = [_length([poly[1] for poly in vector]) for vector in (x[0], a, b)]
-    reach = [size[k] + t * speed[k] for k in range(3)]
-    line = square <= (reach[1] * reach[2]) ** 2 / 2 ** 200
-    weights, bend = None, float("inf")
-    if not line:
-        second = _dot_numbers(_cross_numbers(v, p), normal) / square
-        third = _dot_numbers(_cross_numbers(p, u), normal) / square
-        weights = (float(1 - second - third), float(second), float(third))
-    drift = float("inf")
-    if slope and multiplicity == 1:
-        drift = abs(float(reach[0] * reach[1] * reach[2] / slope / t))
-        if not line:
-            step = sum(reach) + sum(speed) * reach[0] * reach[1] * reach[2] / abs(slope)
-            bend = float(step * (reach[1] + reach[2])) / float(square) ** 0.5 if square < 1e300 else \
-                float(step * (reach[1] + reach[2]) / _root(square))
-    sign = 0 if multiplicity > 1 else (slope > 0) - (slope < 0)
-    return ExactRoot(float(t * unit), multiplicity, sign, weights, drift, bend)
-
-
-def _roots(f) -> list[tuple[Fraction, int]]:
-    """Positive roots, rising, with multiplicity; f[0] != 0."""
-    chain = [f, [k * c for k, c in enumerate(f)][1:]]
-    while len(chain[-1]) > 1:
-        rest = _remainder(chain[-2], chain[-1])
-        if not rest:
-            break
-        chain.append([-c for c in rest])
-    if not chain[-1]:
-        return []
-    if len(chain[-1]) > 1:
-        return _rational_roots(f, chain[-1])
-    high = max(abs(c) for c in f).bit_length() - abs(f[-1]).bit_length() + 2
-    low = -(max(abs(c) for c in f).bit_length() - abs(f[0]).bit_length() + 2)
-    found = []
-    pending = [(Fraction(2) ** low, Fraction(2) ** high)]
-    while pending:
-        a, b = pending.pop()
-        inside = _variations(chain, a) - _variations(chain, b)
-        if inside == 1 and b <= 2 * a:
-            found.append((_halved(f, a, b), 1))
-        elif inside:
-            if b > 2 * a:
-                exponent = (a.numerator.bit_length() - a.denominator.bit_length()
-                            + b.numerator.bit_length() - b.denominator.bit_length()) // 2
-                middle = Fraction(2) ** exponent
-                middle = middle if a < middle < b else (a + b) / 2
-            else:
-                middle = (a + b) / 2
-            pending += [(middle, b), (a, middle)]
-    return sorted(found)
-
-
-def _rational_roots(f, shared) -> list[tuple[Fraction, int]]:
-    """Where f and f' share a factor, the cubic's (or quadratic's) roots are all rational."""
-    degree = len(f) - 1
-    many = len(shared)
-    multiple = Fraction(-shared[-2], shared[-1] * (many - 1))
-    roots = [(multiple, many)]
-    if degree > many:
-        roots.append((-Fraction(f[-2], f[-1]) - many * multiple, 1))
-    return sorted(root for root in roots if root[0] > 0)
-
-
-def _halved(f, a: Fraction, b: Fraction) -> Fraction:
-    """The root in (a, b], b <= 2 a, to 2^-180."""
-    if _value(f, b) == 0:
-        return b
-    bits = max(a.denominator.bit_length(), b.denominator.bit_length()) - 1 + _BITS
-    low, high = a * 2 ** bits, b * 2 ** bits
-    low, high = int(low), int(high)
-    scaled = [c << (bits * (len(f) - 1 - k)) for k, c in enumerate(f)]
-    positive = _integer_value(scaled, high) > 0
-    steps = _BITS + 8
-    while steps and high - low > 1:
-        middle = (low + high) >> 1
-        value = _integer_value(scaled, middle)
-        if value == 0:
-            return Fraction(middle, 1 << bits)
-        if (value > 0) == positive:
-            high = middle
-        else:
-            low = middle
-        steps -= 1
-    return Fraction(low + high, 2 << bits)
-
-
-def _variations(chain, t: Fraction) -> int:
-    signs = [value > 0 for value in (_value(poly, t) for poly in chain) if value]
-    return sum(one != other for one, other in zip(signs, signs[1:]))
-
-
-def _remainder(f, g):
-    """Pseudo-remainder of f by g with a positive factor, without its content."""
-    f, lead = list(f), g[-1]
-    while len(f) >= len(g):
-        top, shift = f[-1], len(f) - len(g)
-        f = [c * abs(lead) for c in f]
-        for k, c in enumerate(g):
-            f[k + shift] -= c * top * (1 if lead > 0 else -1)
-        while f and f[-1] == 0:
-            f.pop()
-    return f
-
-
-def _integers(*groups):
-    """The floats of each group times one power of two that makes them all integers, and that power's exponent."""
-    ratios = [[float(number).as_integer_ratio() for number in group] for group in groups]
-    exponent = max(d.bit_length() - 1 for group in ratios for _, d in group)
-    return [[n << (exponent - d.bit_length() + 1) for n, d in group] for group in ratios], exponent
-
-
-def _integer_value(f, t):
-    value = 0
-    for c in reversed(f):
-        value = value * t + c
-    return value
-
-
-def _value(f, t: Fraction) -> Fraction:
-    n, d = t.numerator, t.denominator
-    value, power = 0, 1
-    for c in reversed(f):
-        value, power = value * n + c * power, power * d
-    return Fraction(value, power // d)
-
-
-def _sum(f, g, factor=1):
-    length = max(len(f), len(g))
-    return [(f[k] if k < len(f) else 0) + factor * (g[k] if k < len(g) else 0) for k in range(length)]
-
-
-def _product(f, g):
-    out = [0] * (len(f) + len(g) - 1)
-    for i, c in enumerate(f):
-        for k, d in enumerate(g):
-            out[i + k] += c * d
+def integers(values) -> np.ndarray:
+    """Python integers, in an array of the same shape."""
+    values = np.asarray(values, dtype=object)
+    out = np.empty(values.shape, dtype=object)
+    out.ravel()[:] = [int(value) for value in values.ravel()]
     return out
 
 
-def _cross(a, b):
-    return [_sum(_product(a[i], b[k]), _product(a[k], b[i]), -1) for i, k in ((1, 2), (2, 0), (0, 1))]
+def sign(numbers: np.ndarray) -> np.ndarray:
+    return (numbers > 0).astype(np.int64) - (numbers < 0).astype(np.int64)
 
 
-def _dot(a, b):
-    total = [0]
-    for f, g in zip(a, b):
-        total = _sum(total, _product(f, g))
-    return total
+def to_float(numbers: np.ndarray, exponents) -> np.ndarray:
+    """numbers * 2^exponents as float64, to a relative error of 2^-52, for numbers of any length."""
+    if not numbers.size:
+        return np.zeros(numbers.shape)
+    excess = np.maximum(bit_length(numbers).astype(np.int64) - 62, 0)
+    power = np.clip(np.asarray(exponents, dtype=np.int64) + excess, -4000, 4000)
+    with np.errstate(over="ignore", under="ignore"):
+        return np.ldexp((numbers >> excess.astype(object)).astype(np.int64).astype(np.float64), power.astype(np.int32))
 
 
-def _cross_numbers(a, b):
-    return [a[i] * b[k] - a[k] * b[i] for i, k in ((1, 2), (2, 0), (0, 1))]
+def positive_roots(c: np.ndarray) -> ExactRoots:
+    """Every positive root of c0 + c1 s + c2 s^2 + c3 s^3, of integers (4, n); of those that are all zero, none."""
+    cubic = np.flatnonzero((c != 0).any(axis=0))
+    c = c[:, cubic]
+    for _ in range(3):                                   # roots at 0 are not positive
+        at = np.flatnonzero(c[0] == 0)
+        c[:, at] = np.roll(c[:, at], -1, axis=0)
+    degree = 3 - np.argmax(c[::-1] != 0, axis=0)
+    signs = sign(c)
+    for k in (1, 2, 3):                                  # a zero takes the sign before it, which changes no count
+        signs[k] = np.where(signs[k] == 0, signs[k - 1], signs[k])
+    changes = (signs[1:] != signs[:-1]).sum(axis=0)
+    parts = []
+    for some, roots in ((changes == 1, _only_one), ((changes > 1) & (degree == 2), _of_quadratics),
+                        ((changes > 1) & (degree == 3), _of_cubics)):
+        some = np.flatnonzero(some)
+        if len(some):
+            parts += [(some[which], *rest) for which, *rest in roots(c[:, some], changes[some])]
+    if not parts:
+        none = np.zeros(0, dtype=np.int64)
+        return ExactRoots(none, none.astype(object), none.astype(object), none, none)
+    which, rank, *rest = (np.concatenate(column) for column in zip(*parts))
+    order = np.lexsort((rank, which))
+    numerator, shift, multiplicity, slope = (column[order] for column in rest)
+    return ExactRoots(cubic[which[order]], numerator, shift, multiplicity.astype(np.int64), slope.astype(np.int64))
 
 
-def _dot_numbers(a, b):
-    return sum(x * y for x, y in zip(a, b))
+def _only_one(c, changes):
+    yield _simple(c, np.arange(c.shape[1]), 0, *_ends(c, 0), -sign(c[0]))
 
 
-def _root(square: Fraction) -> Fraction:
-    """A square root good to a few bits, for condition numbers."""
-    exponent = (square.numerator.bit_length() - square.denominator.bit_length()) // 2
-    return Fraction(float(square / Fraction(4) ** exponent) ** 0.5) * Fraction(2) ** exponent
+def _of_quadratics(c, changes):
+    """Two changes of sign: both roots are positive, or none is real."""
+    discriminant = c[1] * c[1] - 4 * c[0] * c[2]
+    yield _rational(np.flatnonzero(discriminant == 0), 0, 2, 0, -c[1], 2 * c[2])
+    yield from _separated(c, np.flatnonzero(discriminant > 0),
+                          lambda c, bits: [(-c[1] << bits) // (2 * c[2])])
 
 
-def _length(vector) -> Fraction:
-    square = Fraction(_dot_numbers(vector, vector))
-    return _root(square) if square else Fraction(0)
+def _of_cubics(c, changes):
+    """Two or three changes of sign: as many positive roots, counted with multiplicity, or two less."""
+    c0, c1, c2, c3 = c
+    a, b, d = c2 * c2 - 3 * c1 * c3, 9 * c0 * c3 - c1 * c2, c1 * c1 - 3 * c0 * c2
+    discriminant = 4 * a * d - b * b                     # three times the usual one
+    yield _rational(np.flatnonzero((discriminant == 0) & (a == 0)), 0, 3, 0, -c2, 3 * c3)
+    # A double root at b / 2a, a > 0, and a simple one; f'' at the double one tells which is the smaller.
+    double = (discriminant == 0) & (a != 0)
+    later = np.where((3 * b * c3 + 2 * a * c2) * sign(c3) > 0, 1, 0)
+    yield _rational(np.flatnonzero(double), later, 2, 0, b, 2 * a)
+    yield _rational(np.flatnonzero(double & (changes == 3)), 1 - later, 1, sign(c3),
+                    4 * c1 * c2 * c3 - 9 * c0 * c3 * c3 - c2 * c2 * c2, a * c3)
+    one = np.flatnonzero((discriminant < 0) & (changes == 3))
+    if len(one):
+        yield _simple(c[:, one], one, 0, *_ends(c[:, one], 0), -sign(c0[one]))
+
+    def extrema(c, bits):
+        q = square_root((c[2] * c[2] - 3 * c[1] * c[3]) << 2 * bits) * sign(c[3])
+        return [((-c[2] << bits) - q) // (3 * c[3]), ((-c[2] << bits) + q) // (3 * c[3])]
+
+    yield from _separated(c, np.flatnonzero(discriminant > 0), extrema)
+
+
+def _separated(c, which, extrema):
+    """Positive ones of as many simple real roots as the degree, between the extrema, found to as many bits as it takes
+    for the cubic to have the signs there that it has between its roots."""
+    more = BITS
+    while len(which):
+        part = c[:, which]
+        low, high, bits = _ends(part, more)
+        inner = extrema(part, bits)
+        outer = sign(part[len(inner) + 1])
+        signs = [sign(_values(part, x, bits)) for x in inner]
+        expected = [outer * (-1) ** (len(inner) - k) for k in range(len(inner))]
+        sure = np.all([one == other for one, other in zip(signs, expected)], axis=0)
+        ends, signs = [low], [sign(part[0])]
+        for x, level in zip(inner, expected):
+            ends.append(np.where(x > low, x, low))
+            signs.append(np.where(x > low, level, signs[0]))
+        ends.append(high)
+        signs.append(outer)
+        for rank in range(len(inner) + 1):
+            at = np.flatnonzero(sure & (signs[rank] != signs[rank + 1]))
+            if len(at):
+                yield _simple(part[:, at], which[at], rank, ends[rank][at], ends[rank + 1][at], bits[at],
+                              signs[rank + 1][at])
+        which, more = which[~sure], 2 * more
+
+
+def _ends(c, more):
+    """Powers of two below and above all positive roots, over 2^bits; the larger the `more`, the finer."""
+    length = bit_length(abs(c)).astype(np.int64)
+    longest = length.max(axis=0)
+    last = length[3 - np.argmax(c[::-1] != 0, axis=0), np.arange(c.shape[1])]
+    low, high = length[0] - longest - 2, longest - last + 2
+    bits = (more - low).astype(object)
+    return 1 << (bits + low), 1 << (bits + high), bits
+
+
+def _values(c, x, bits):
+    """The cubic at x / 2^bits, times a positive number."""
+    return ((c[3] * x + (c[2] << bits)) * x + (c[1] << 2 * bits)) * x + (c[0] << 3 * bits)
+
+
+def _rational(which, rank, multiplicity, slope, numerator, denominator):
+    n, d = abs(numerator[which]), abs(denominator[which])
+    shift = BITS + bit_length(d) - bit_length(n)
+    rank, slope = (np.broadcast_to(x, numerator.shape)[which] for x in (rank, slope))
+    return (which, rank, (n << np.maximum(shift, 0)) // (d << np.maximum(-shift, 0)), shift,
+            np.full(len(which), multiplicity), slope)
+
+
+def _simple(c, which, rank, low, high, bits, rising):
+    """The one root between low and high, over 2^bits, where the cubic changes to the sign `rising`."""
+    while True:
+        wide = np.flatnonzero(high > 2 * low)
+        if not len(wide):
+            break
+        middle = 1 << (bit_length(low[wide]) + bit_length(high[wide]) - 1) // 2
+        above = sign(_values(c[:, wide], middle, bits[wide])) == rising[wide]
+        high[wide[above]], low[wide[~above]] = middle[above], middle[~above]
+    extra = np.maximum(BITS + 1 - bit_length(low), 0)
+    low, high, bits = low << extra, high << extra, bits + extra
+    root = (low + high) >> 1
+    f0, f1, f2, f3 = c[0] << 3 * bits, c[1] << 2 * bits, c[2] << bits, c[3]
+    parts = np.arange(len(root)), root, low, high, rising, f0, f1, f2, f3
+    while len(parts[0]):
+        at, x, low, high, side, f0, f1, f2, f3 = parts
+        value = ((f3 * x + f2) * x + f1) * x + f0
+        slope = (3 * f3 * x + 2 * f2) * x + f1
+        _narrow(low, high, x, sign(value) * side)
+        new = x - value // np.where(slope == 0, 1, slope)
+        close = np.flatnonzero((abs(new - x) <= 1) & (slope != 0))
+        for x in (new[close] - 2, new[close] + 2):
+            value = ((f3[close] * x + f2[close]) * x + f1[close]) * x + f0[close]
+            part_low, part_high = low[close], high[close]
+            _narrow(part_low, part_high, x, sign(value) * side[close])
+            low[close], high[close] = part_low, part_high
+        x = np.where((low < new) & (new < high), new, (low + high) >> 1)
+        root[at] = x
+        parts = [part[high - low > 4] for part in (at, x, low, high, side, f0, f1, f2, f3)]
+    # A root of up to 117 bits is itself among the few numbers left.
+    short = root + 4 >> 3 << 3
+    root = np.where(_values(c, short, bits) == 0, short, root)
+    return which, np.full(len(which), rank), root, bits, np.ones(len(which)), rising
+
+
+def _narrow(low, high, x, side):
+    """Move an end of the bracket to x, by the side of the root on which it lies; both to a root itself."""
+    inside = (low <= x) & (x <= high)
+    np.copyto(low, x, where=inside & (side <= 0))
+    np.copyto(high, x, where=inside & (side >= 0))

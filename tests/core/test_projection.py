@@ -1,180 +1,32 @@
-"""Projection against exact integer arithmetic, and against mirrors whose reflections are known in closed form."""
+"""Projection against mirrors whose reflections are known in closed form; test_families.py has exact arithmetic."""
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from core import project
-from tests.core.exact import exact_roots
-
-UNIT = 2.0 ** -53
-
-
-def seen(vertices, rays, weights, distance):
-    """P = Q(W) + s R(W)."""
-    return np.einsum("nk,nkc->nc", weights, vertices + distance[:, None, None] * rays)
-
-
-def mirrored(vertices, normals, eye):
-    """The cameras' rays R = d - 2 (d . n) n of an eye."""
-    d = vertices - eye
-    return d - 2.0 * (d * normals).sum(axis=-1, keepdims=True) * normals
-
-
-def random_pairs(rng, n):
-    vertices, rays = rng.normal(size=(2, n, 3, 3))
-    weights, distance = rng.dirichlet([1.0, 1.0, 1.0], n), rng.uniform(0.01, 3.0, n)
-    return vertices, rays, weights, distance
-
-
-def family(name, n=1000):
-    """Pairs (vertices, rays, points) of one kind."""
-    rng = np.random.default_rng(sum(map(ord, name)))
-    v, r, w, s = random_pairs(rng, n)
-    if name == "outside":
-        return v, r, rng.normal(size=(n, 3))
-    if name == "thin triangle":
-        along = v[:, 0] + (v[:, 1] - v[:, 0]) * rng.uniform(0, 1, (n, 1))
-        v[:, 2] = along + rng.normal(size=(n, 3)) * 10.0 ** -rng.uniform(2, 10, (n, 1))
-    if name == "small triangle":
-        v, r = v[:, :1] + v * 1e-6, r[:, :1] + r * 1e-6
-    if name == "far from the origin":
-        v = v + [1e6, -3e6, 2e6]
-    if name == "close to the mirror":
-        s = 10.0 ** -rng.uniform(2, 14, n)
-    if name == "far away":
-        s = 10.0 ** rng.uniform(2, 12, n)
-    p = seen(v, r, w, s)
-    if name == "nearly coplanar":
-        flat = 10.0 ** -rng.uniform(2, 16, n)
-        v[:, :, 2] *= flat[:, None]
-        r[:, :, 2] *= flat[:, None]
-        p[:, 2] *= flat
-    if name == "tiny":
-        v, p = v * 1e-130, p * 1e-130
-    if name == "huge":
-        v, r, p = v * 1e130, r * 1e-20, p * 1e130
-    if name == "few digits":
-        v, r, p = (np.round(4.0 * a) for a in (v, r, p))
-    return v, r, p
-
-
-@pytest.mark.parametrize("name", [
-    "random", "outside", "nearly coplanar", "thin triangle", "small triangle", "tiny", "huge", "far from the origin",
-    "close to the mirror", "far away", "few digits"])
-def test_against_exact_arithmetic(name):
-    """Images are the exact ones, wherever a hundred units of rounding in the data could not change that."""
-    vertices, rays, points = family(name)
-    images = project(vertices, rays, points)
-    normals = np.cross(vertices[:, 1] - vertices[:, 0], vertices[:, 2] - vertices[:, 0])
-    side = np.sign(np.einsum("nc,nkc->n", normals, rays))
-    compared = 0
-    for k, exact in enumerate(map(exact_roots, vertices, rays, points)):
-        mine = np.flatnonzero(images.pair == k)
-        assert images.degenerate[k] == (exact is None)
-        if exact is None:
-            assert len(mine) == 0
-            continue
-        sure = True
-        for root in exact:
-            if root.weights is None or root.multiplicity > 1:
-                sure = False
-                continue
-            loose_s, loose_w = 100 * UNIT * root.distance_condition, 200 * UNIT * root.weight_condition
-            if max(loose_s, loose_w) > 1e-3:
-                sure = False
-                continue
-            near = mine[np.abs(images.distance[mine] - root.distance) <= (loose_s + 4 * UNIT) * root.distance]
-            assert len(near) == 1 or abs(min(root.weights)) <= loose_w or min(root.weights) < 0.0
-            assert len(near) == 0 or min(root.weights) >= -loose_w
-            assert len(near) <= 1
-            np.testing.assert_allclose(images.weights[near], np.array([root.weights] * len(near)).reshape(-1, 3),
-                                       rtol=0, atol=loose_w + 8 * UNIT)
-            assert side[k] == 0 or (images.parity[near] == root.sign * side[k]).all()
-            compared += 1
-        if sure:
-            inside = sum(min(root.weights) >= -200 * UNIT * root.weight_condition for root in exact)
-            assert len(mine) <= inside
-    assert compared > len(points) // 3
-    assert (np.diff(images.pair) >= 0).all() and images.pair.dtype == np.int64 and images.parity.dtype == np.int8
-    assert (images.weights >= 0.0).all() and (images.distance > 0.0).all()
-    np.testing.assert_allclose(images.weights.sum(axis=1), 1.0, rtol=4 * UNIT)
-
-
-def sheared(rng, vertices, rays, points):
-    """The same pairs under integer maps of determinant 1 and shifts, still exact."""
-    n = len(points)
-    lower, upper = np.tile(np.eye(3, dtype=int), (2, n, 1, 1))
-    for i, k in ((1, 0), (2, 0), (2, 1)):
-        lower[:, i, k], upper[:, k, i] = rng.integers(-2, 3, (2, n))
-    turn, shift = np.swapaxes(lower @ upper, 1, 2), rng.integers(-50, 51, (n, 1, 3))
-    return tuple(map(np.float64, (vertices @ turn + shift, rays @ turn, (points[:, None] @ turn + shift)[:, 0])))
-
-
-def folds(rng, n):
-    """Points exactly on the caustic: at s0 the moved triangle holds the origin, and the ray there lies in its plane."""
-    w = rng.integers(1, 6, (n, 3))
-    w[:, 2] = 1
-    a, b = rng.integers(-9, 10, (2, n, 3))
-    ra, rb = rng.integers(-5, 6, (2, n, 3))
-    ka, kb = rng.integers(-3, 4, (2, n, 1))
-    c, rc = -w[:, :1] * a - w[:, 1:2] * b, ka * a + kb * b - w[:, :1] * ra - w[:, 1:2] * rb
-    s = rng.choice([1, 2, 4], n)
-    moved, rays = np.stack((a, b, c), axis=1), np.stack((ra, rb, rc), axis=1)
-    pairs = sheared(rng, moved - s[:, None, None] * rays, rays, np.zeros((n, 3), dtype=int))
-    return *pairs, w / w.sum(axis=1, keepdims=True), s
+from tests.core.exact_pairs import ExactPairs
+from tests.core.family_tools import mirrored, random_pairs, seen
+from tests.core.integer_families import cusps, folds
 
 
 @pytest.mark.parametrize("scale", [1.0, 2.0 ** -30, 2.0 ** 20])
-def test_exact_caustic_points_are_one_image_of_parity_zero(scale):
-    v, r, p, w, s = folds(np.random.default_rng(5), 1200)
+@pytest.mark.parametrize("multiplicity, kind", [(2, folds), (3, cusps)])
+def test_exact_caustic_points_are_one_image_of_parity_zero(multiplicity, kind, scale):
+    v, r, p, w, s = kind(np.random.default_rng(5), 1200)
     images = project(v * scale, r, p * scale)
     near = (np.abs(images.distance / scale - s[images.pair]) < 1e-3) & \
         (np.abs(images.weights - w[images.pair]).max(axis=1) < 1e-2)
     count = np.bincount(images.pair[near & (images.parity == 0)], minlength=len(p))
-    kinds = np.zeros(4, dtype=int)
-    for k, exact in enumerate(map(exact_roots, v, r, p)):
-        if exact is None:
-            assert images.degenerate[k]
-            continue
-        multiple = [root for root in exact if root.multiplicity > 1 and root.weights is not None]
-        if multiple:
-            assert count[k] == 1
-            kinds[multiple[0].multiplicity] += 1
-            assert (images.pair == k).sum() <= len(exact)
-    assert kinds[2] > 1000 and kinds[3] >= 1
-
-
-@pytest.mark.parametrize("offset", [0.0, 1e6, 2.0 ** 40])
-def test_points_on_edges_and_vertices_are_seen(offset):
-    rng = np.random.default_rng(6)
-    vertices, rays = rng.integers(-64, 65, (2, 3000, 3, 3)).astype(float)
-    kinds = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.25, 0.75], [0.75, 0, 0.25]])
-    weights, distance = kinds[rng.integers(0, 6, 3000)], rng.choice([0.5, 1.0, 2.0, 4.0], 3000)
-    points = seen(vertices, rays, weights, distance)
-    images = project(vertices + offset, rays, points + offset)
-    near = (np.abs(images.distance / distance[images.pair] - 1.0) < 1e-9) & \
-        (np.abs(images.weights - weights[images.pair]).max(axis=1) < 1e-9)
-    np.testing.assert_array_equal(np.bincount(images.pair[near], minlength=3000), 1)
-
-
-def test_points_on_the_mirror_are_not_seen_there():
-    rng = np.random.default_rng(7)
-    vertices, rays = rng.integers(-64, 65, (2, 2000, 3, 3)).astype(float)
-    weights = np.array([[0.25, 0.25, 0.5], [0.5, 0.5, 0.0], [1.0, 0.0, 0.0]])[rng.integers(0, 3, 2000)]
-    images = project(vertices, rays, seen(vertices, rays, weights, np.zeros(2000)))
-    assert len(images.pair) and images.distance.min() > 1e-6 and not images.degenerate.any()
-
-
-def test_coplanar_motion_is_degenerate_and_its_like_is_not():
-    rng = np.random.default_rng(8)
-    v, r, p = (rng.integers(-64, 65, shape) for shape in ((500, 3, 3), (500, 3, 3), (500, 3)))
-    v[..., 2] = r[..., 2] = p[..., 2] = 0
-    images = project(*sheared(rng, v, r, p))
-    assert images.degenerate.all() and len(images.pair) == 0
-    p[:, 2] = 1
-    assert not project(*sheared(rng, v, r, p)).degenerate.any()
+    # Not where the moved triangle is thinner than what its corners move in the time by which a triple root may be off.
+    roots = ExactPairs(v, r, p).roots()
+    some = np.unique(roots.cubic[roots.multiplicity == multiplicity])
+    a, b, c = np.moveaxis(v + s[:, None, None] * r, 1, 0)
+    ways = 3e-4 * s * np.linalg.norm(r, axis=2).sum(axis=1)
+    wide = np.linalg.norm(np.cross(b - a, c - a), axis=1) > ways * np.linalg.norm((b - a, c - a), axis=2).sum(axis=0)
+    some = some[wide[some]]
+    assert len(some) > 1000
+    np.testing.assert_array_equal(count[some], 1)
+    assert (np.bincount(images.pair, minlength=len(p))[some] <= 2).all()
 
 
 def test_triangle_that_shrinks_to_a_point_or_a_line_is_no_image():
@@ -318,21 +170,6 @@ def test_winding_and_facing():
         np.testing.assert_allclose(images.weights[:, order], other.weights, atol=1e-7)
     np.testing.assert_array_equal(project(v, r, p, facing=side).parity, images.parity)
     np.testing.assert_array_equal(project(v, r, p, facing=-side).parity, -images.parity)
-
-
-@settings(max_examples=150, deadline=None, derandomize=True)
-@given(st.lists(st.integers(-3, 3), min_size=21, max_size=21))
-def test_small_integers(numbers):
-    """Small integers meet every degenerate case there is; what is reported must be an image, what is an image found."""
-    numbers = np.array(numbers, dtype=float)
-    v, r, p = numbers[:9].reshape(3, 3), numbers[9:18].reshape(3, 3), numbers[18:]
-    images, exact = project(v[None], r[None], p[None]), exact_roots(v, r, p)
-    assert images.degenerate[0] == (exact is None)
-    expected = [root for root in exact or [] if root.weights is not None and min(root.weights) >= -1e-12]
-    assert len(images.pair) == len(expected)
-    for k, root in enumerate(expected):
-        assert abs(images.distance[k] - root.distance) <= 1e-4 * root.distance
-        assert (images.parity[k] == 0) == (root.multiplicity > 1)
 
 
 def test_chunks_and_order_do_not_matter():
