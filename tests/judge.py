@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from core import ReflectionMesh, TriangleMesh, View
-from tests.raster import Raster, rasterise
+from tests.raster import rasterise
 from tests.truth import Truth, trace
 
 # Another source triangle further away than this is another surface.
@@ -81,17 +81,39 @@ def compare(view: View, mirror: TriangleMesh, mesh: ReflectionMesh, truth: Truth
     if placement == "LAYERED":
         hidden = np.minimum(truth.mirror_depth, truth.scene_depth)
     shows = (drawn.triangle >= 0) & (drawn.depth < hidden)
+    position = np.where(shows[:, None], drawn.interpolate(mesh.reflected_position, mesh.triangles), 0.0)
+    source = np.where(shows, mesh.source_face[np.maximum(drawn.triangle, 0)], -1) if len(mesh.source_face) \
+        else np.full(len(shows), -1)
+    shown = np.where(shows, drawn.triangle, -1)
+    return _compared(view, truth, shows, source, position, shown, drawn.triangle >= 0)
 
+
+def compare_picture(view: View, truth: Truth, triangle: np.ndarray, position: np.ndarray) -> Judgement:
+    """Judge any picture of a reflection as a mesh is judged.
+
+    Parameters
+    ----------
+    triangle : (height, width) int64
+        The scene's triangle that each pixel shows, negative where it shows none; rows from below.
+    position : (height, width, 3) float64
+        The point on it.
+    """
+    source, position = triangle.reshape(-1), position.reshape(-1, 3)
+    shows = source >= 0
+    return _compared(view, truth, shows, source, np.where(shows[:, None], position, 0.0), np.where(shows, source, -1),
+                     shows)
+
+
+def _compared(view: View, truth: Truth, shows: np.ndarray, source: np.ndarray, position: np.ndarray,
+              shown: np.ndarray, drawn: np.ndarray) -> Judgement:
+    mirror_seen = truth.mirror_triangle >= 0
     left_out = mirror_seen & (truth.sees_itself | truth.bent)
     counted = mirror_seen & ~left_out
     sees = counted & (truth.source_triangle >= 0)
     both = sees & shows
-    position = np.where(shows[:, None], drawn.interpolate(mesh.reflected_position, mesh.triangles), 0.0)
     displacement = np.full(len(shows), np.nan)
     displacement[both] = np.linalg.norm(position[both] - truth.position[both], axis=1) / truth.motion[both]
-    another = both.copy()
-    another[both] = mesh.source_face[drawn.triangle[both]] != truth.source_triangle[both]
-    wrong = another & (displacement > NEIGHBOUR)
+    wrong = both & (source != truth.source_triangle) & (displacement > NEIGHBOUR)
 
     kind = np.full(len(shows), NOTHING, dtype=np.uint8)
     kind[both] = SAME
@@ -99,12 +121,11 @@ def compare(view: View, mirror: TriangleMesh, mesh: ReflectionMesh, truth: Truth
     kind[sees & ~shows] = HOLE
     kind[shows & ~sees] = SPILL
     kind[left_out] = LEFT_OUT
-    shown = np.where(shows, drawn.triangle, -1)
     numbers = _numbers(view, truth, drawn, kind, displacement, mirror_seen, left_out)
     return Judgement(kind, displacement, shown, position, int(counted.sum()), numbers)
 
 
-def _numbers(view: View, truth: Truth, drawn: Raster, kind, displacement, mirror_seen, left_out) -> dict:
+def _numbers(view: View, truth: Truth, drawn: np.ndarray, kind, displacement, mirror_seen, left_out) -> dict:
     same = np.flatnonzero(kind == SAME)
     pixels = displacement[same]
     median, p95, p99, maximum = np.percentile(pixels, (50, 95, 99, 100)) if len(pixels) else (np.nan,) * 4
@@ -117,7 +138,7 @@ def _numbers(view: View, truth: Truth, drawn: Raster, kind, displacement, mirror
         "worst_pixel": (int(worst % view.resolution[0]), int(worst // view.resolution[0])),
         "hole": hole, "spill": spill, "wrong_layer": wrong, "uncovered": hole + spill + wrong,
         "spill_outside": share * float(((kind == SPILL) & ~mirror_seen).sum()),
-        "sunk": share * float(((kind == HOLE) & (drawn.triangle >= 0)).sum()),
+        "sunk": share * float(((kind == HOLE) & drawn).sum()),
         "mirror_pixels": counted, "compared": len(same),
         "sees_itself": 100.0 * float((mirror_seen & truth.sees_itself).sum()) / max(int(mirror_seen.sum()), 1),
         "bent": 100.0 * float((mirror_seen & truth.bent).sum()) / max(int(mirror_seen.sum()), 1),

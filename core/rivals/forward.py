@@ -1,0 +1,82 @@
+"""The method itself in the same ring: reflection meshes and points drawn by the z-buffer that the rivals share."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..reflection import reflect
+from ..reflection_mesh import ReflectionMesh
+from ..settings import Settings
+from ..triangle_mesh import TriangleMesh
+from ..view import View
+from .primary_hits import PrimaryHits
+from .rival_picture import RivalPicture, Work
+from .tessellation import quartered, tessellated
+from .z_buffer import draw
+
+UNREFINED = 1e9  # pixels: no displacement is larger, and nothing is split
+DEFAULT = 0.5  # pixels
+SIDES = 6  # of the polygon that stands for a disc
+
+
+def refined(view: View, mirror: TriangleMesh, scene: TriangleMesh, tolerance: float, hits: PrimaryHits) -> RivalPicture:
+    """The general three-ray camera with refinement to a tolerance in pixels."""
+    work = Work()
+    return _drawn(view, reflect(view, mirror, scene, Settings(tolerance)), None, hits, work)
+
+
+def unrefined(view: View, mirror: TriangleMesh, scene: TriangleMesh, times: int, hits: PrimaryHits) -> RivalPicture:
+    """The general three-ray camera without refinement, on a mirror whose triangles were quartered `times` times."""
+    work = Work()
+    finer = quartered(mirror, times)
+    return _drawn(view, reflect(view, finer, scene, Settings(UNREFINED)), None, hits, work)
+
+
+def parallel(view: View, mirror: TriangleMesh, scene: TriangleMesh, times: int, hits: PrimaryHits) -> RivalPicture:
+    """The parallel three-ray camera, on a mirror whose triangles were quartered `times` times."""
+    work = Work()
+    finer = quartered(mirror, times)
+    return _drawn(view, reflect(view, finer, scene, Settings(DEFAULT, method="PARALLEL")), None, hits, work)
+
+
+def points(view: View, mirror: TriangleMesh, scene: TriangleMesh, vertices: int, hits: PrimaryHits) -> RivalPicture:
+    """Every image of about `vertices` points of the diffuse surface as a flat disc."""
+    work = Work()
+    finer, source = tessellated(scene, vertices)
+    triangle_of = np.zeros(len(finer.positions), dtype=np.int64)
+    triangle_of[finer.triangles.ravel()] = np.repeat(source, 3)
+    work.done("tessellation")
+    return _drawn(view, reflect(view, mirror, finer, Settings(DEFAULT, method="POINTS")), triangle_of, hits, work)
+
+
+def _drawn(view: View, mesh: ReflectionMesh, triangle_of: np.ndarray | None, hits: PrimaryHits,
+           work: Work) -> RivalPicture:
+    """The picture of a mesh, or of discs where `triangle_of` tells the scene's triangle of each vertex."""
+    work.done("reflection")
+    work.seconds.pop("reflection")
+    work.seconds.update(mesh.seconds)
+    cameras = mesh.counts.get("cameras", mesh.counts["mirror_triangles"])
+    work.count(projections=mesh.counts["projections"], traversals=cameras, nodes=mesh.counts["nodes_visited"],
+               rays=mesh.counts.get("rays", 0))
+    if triangle_of is None:
+        positions, triangles, source, point = mesh.positions, mesh.triangles, mesh.source_face, mesh.reflected_position
+    else:
+        positions, triangles = _polygons(mesh)
+        source = np.repeat(triangle_of[mesh.discs.source_vertex], SIDES - 2)
+        point = np.repeat(mesh.reflected_position, SIDES, axis=0)
+    drawn = draw(view, positions, triangles)
+    # the mirror hides what lies behind it, and so does the scene before it
+    pixel = np.flatnonzero(drawn.depth < np.minimum(hits.mirror_depth, hits.scene_depth).ravel())
+    position = drawn.interpolate(point, triangles, pixel)
+    triangle = source[drawn.triangle[pixel]]
+    work.count(triangles=len(triangles))
+    work.done("drawing")
+    return work.picture(view.resolution, pixel, triangle, position)
+
+
+def _polygons(mesh: ReflectionMesh) -> tuple[np.ndarray, np.ndarray]:
+    """Every disc as a fan of the regular polygon around it."""
+    angle = 2.0 * np.pi * np.arange(SIDES) / SIDES
+    ring = np.stack((np.cos(angle), np.sin(angle)), axis=1) / np.cos(np.pi / SIDES)
+    corners = mesh.positions[:, None] + np.einsum("ck,nkx->ncx", ring, mesh.discs.axes)
+    fan = np.array([[0, k, k + 1] for k in range(1, SIDES - 1)])
+    return corners.reshape(-1, 3), (SIDES * np.arange(len(corners))[:, None, None] + fan).reshape(-1, 3)

@@ -1,0 +1,115 @@
+"""What the eye sees of the mirror: given to every rival alike, timed and counted apart from them."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..mirror_map import MirrorMap
+from ..reflection import ReflectionError
+from ..scene_tree import SceneTree
+from ..triangle_mesh import TriangleMesh
+from ..vectors import dot, unit
+from ..view import View
+from .cluster_cones import cones_around
+from .rival_picture import Work
+from .z_buffer import draw
+
+ABOVE = 1e-9  # of the mirror's size: what rises less above a plane touches it by rounding
+TOUCHING = 1e-7  # of a mesh's size: a hit nearer than this is the surface that the ray starts on
+
+
+@dataclass(frozen=True)
+class PrimaryHits:
+    """Pixels (n) that show the mirror at their centre, along the rows from below, and the rays that leave it there.
+
+    Attributes
+    ----------
+    pixel : (n,) int64
+        Row times width plus column, sorted.
+    face : (n,) int64
+        Triangle of the mirror.
+    place : (3, n) float64
+        Q.
+    ray : (3, n) float64
+        Unit reflected directions, lifted where they would enter the flat triangle, as Cycles does.
+    meets_mirror : (n,) bool
+        Whether the ray may meet the mirror again; certainly not where False.
+    mirror_depth, scene_depth : (height, width) float64
+        Distances from the eye's plane of the mirror and of the scene as seen without it, infinite where none is.
+    seconds, counts : dict
+        As in a `RivalPicture`.
+    """
+
+    pixel: np.ndarray
+    face: np.ndarray
+    place: np.ndarray
+    ray: np.ndarray
+    meets_mirror: np.ndarray
+    mirror_depth: np.ndarray
+    scene_depth: np.ndarray
+    seconds: dict
+    counts: dict
+
+    def shows_mirror(self) -> np.ndarray:
+        """(height, width) bool"""
+        found = np.zeros(self.mirror_depth.shape, dtype=bool)
+        found.ravel()[self.pixel] = True
+        return found
+
+
+def primary_hits(view: View, mirror: TriangleMesh, scene: TriangleMesh) -> PrimaryHits:
+    """Where the rays from the eye through the pixels' centres first hit the mirror, by a z-buffer.
+
+    Raises
+    ------
+    ReflectionError
+        Where no pixel shows the mirror, or there is nothing to be reflected.
+    """
+    work = Work()
+    width, height = view.resolution
+    if not (np.linalg.norm(scene.face_normals(), axis=1) > 0.0).any():
+        raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
+    on_mirror, on_scene = (draw(view, mesh.positions, mesh.triangles) for mesh in (mirror, scene))
+    work.count(projections=len(mirror.positions) + len(scene.positions))
+    pixel = np.flatnonzero(on_mirror.depth < on_scene.depth)
+    if not len(pixel):
+        raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
+    work.done("drawing")
+    face = on_mirror.triangle[pixel]
+    mirror_map = MirrorMap(view, mirror)
+    place, ray = mirror_map.leave(face, on_mirror.weights[1:, pixel])
+    ray = unit(ray)
+    work.done("reflection")
+    meets = _may_meet_mirror(mirror, face, place, ray)
+    work.done("mirror in mirror")
+    depths = [drawn.depth.reshape(height, width) for drawn in (on_mirror, on_scene)]
+    return PrimaryHits(pixel, face, place, ray, meets, *depths, work.seconds, work.counts)
+
+
+def by_face(face: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Order (n,) that brings rays of one face together, the runs' starts (c,), and the face of each run."""
+    order = np.argsort(face, kind="stable")
+    start = np.flatnonzero(np.diff(face[order], prepend=-1))
+    return order, start, face[order[start]]
+
+
+def _may_meet_mirror(mirror: TriangleMesh, face: np.ndarray, place: np.ndarray, ray: np.ndarray) -> np.ndarray:
+    """Which rays (n,) leave a face over whose plane another triangle of the mirror rises within their cone."""
+    order, start, owner = by_face(face)
+    tree = SceneTree.build(mirror)
+    run, triangle, _ = tree.trace(cones_around(place[:, order], ray[:, order], start))
+    triangle = tree.given.triangle[triangle]
+    normal = mirror.face_normals().T
+    # rays of one run leave on one side, up to rounding
+    side = np.sign(np.add.reduceat(dot(ray, normal[:, face])[order], start))
+    size = np.ptp(mirror.positions[mirror.triangles.ravel()], axis=0).max()
+    above = np.zeros(len(run), dtype=bool)
+    plane = normal[:, owner] * side
+    base = mirror.positions[mirror.triangles[owner, 0]].T
+    for corner in range(3):
+        offset = mirror.positions[mirror.triangles[triangle, corner]].T - base[:, run]
+        above |= dot(offset, plane[:, run]) > ABOVE * size
+    meets = np.zeros(len(mirror.triangles), dtype=bool)
+    meets[owner[run[above & (owner[run] != triangle)]]] = True
+    return meets[face]
