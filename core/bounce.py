@@ -31,6 +31,7 @@ from .view import View
 
 MIRROR_SHARE = 0.8  # of the tolerance: what the rays of a camera may stray
 OUTLINE_SHARE = 0.5  # of the tolerance: what a straight outline in a camera may miss
+PAIRS_OF_A_FACE, LEAST_PAIRS = 16, 1 << 24  # of cameras and triangles that may be seen: more are refused
 FACE_SHARE = 0.8  # of the tolerance: what the interpolation inside a face may stray
 
 
@@ -78,11 +79,12 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     """All that the cameras see, in steps: yields (share of the bounce done, stage that comes next); `last` tells that
     light which meets a mirror goes no further."""
     tolerance, first_bounce = settings.tolerance, cameras.origins is cameras.places
-    showing = met.showing_mirrors(mirror_map, cameras)
+    most = max(PAIRS_OF_A_FACE * settings.maximum_faces, LEAST_PAIRS)
+    showing = met.showing_mirrors(mirror_map, cameras, most)
     cameras = refined(view, mirror_map, cameras, met, None if last else showing, settings, progress)
 
     yield 0.1, "cones through the tree"
-    camera, triangle, visited = met.trace(mirror_map, cameras, showing)
+    camera, triangle, visited = met.trace(mirror_map, cameras, showing, most)
     seen, column = np.unique(triangle, return_inverse=True)
     frames = SceneFrames.of(met, seen)
     candidates = met.without_touching(mirror_map, cameras, frames, overlapping(cameras, frames, camera, column))
@@ -91,7 +93,7 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     contacts = 0
     if first_bounce:
         cameras, candidates, contacts = drop_behind_contacts(view, mirror_map, cameras, frames, met.positions,
-                                                             candidates)
+                                                             candidates, settings.maximum_faces)
     cameras, candidates, open_, outlines_limited = refine_for_outlines(
         view, mirror_map, cameras, frames, candidates, OUTLINE_SHARE * tolerance, settings.maximum_faces, met)
     bounded = max(len(cameras), len(candidates)) > settings.maximum_faces

@@ -69,7 +69,7 @@ def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
     towards = -np.einsum("ij,ij->i", view.directions(corners[:, 0]), normals)
     visible = areal & (towards != 0.0)
     if _closed(mirror.triangles[areal]):
-        volume = np.einsum("ij,ij->", corners[:, 0] - mirror.positions.mean(axis=0), normals)
+        volume = np.einsum("ij,ij->", corners[:, 0] - corners.mean(axis=(0, 1)), normals)
         outside = view.orthographic or abs(_winding_number(view.eye, corners[areal])) < 0.5
         visible &= towards * volume > 0.0 if outside else towards * volume < 0.0
     return np.flatnonzero(visible)

@@ -25,8 +25,10 @@ SMALLEST = 1e-12  # of a camera: smaller pieces are nothing
 
 
 def drop_behind_contacts(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames,
-                         positions: np.ndarray, candidates: Candidates) -> tuple[Cameras, Candidates, int]:
-    """Cameras without the parts right behind triangles that cut through them; how many were cut."""
+                         positions: np.ndarray, candidates: Candidates,
+                         maximum: int) -> tuple[Cameras, Candidates, int]:
+    """Cameras without the parts right behind triangles that cut through them, or at least those that `maximum` cameras
+    allow; how many were cut."""
     across = (candidates.ahead < 0.0).any(axis=0) & (candidates.ahead > 0.0).any(axis=0)
     pairs = np.unique(candidates.camera[across] * len(frames.triangle) + candidates.column[across])
     camera, column = pairs // len(frames.triangle), pairs % len(frames.triangle)
@@ -35,7 +37,7 @@ def drop_behind_contacts(view: View, mirror_map: MirrorMap, cameras: Cameras, fr
         sides = hidden_sides(view, cameras, frames, positions, camera, column)
         meeting = _meets(cameras, frames, camera, column) & sides[1]
         camera, column, sides = camera[meeting], column[meeting], sides[0][:, :, meeting]
-        if not len(camera):
+        if not len(camera) or len(cameras) > maximum:
             break
         chosen, first = np.unique(camera, return_index=True)
         parent, weights = _pieces(sides[:, :, first])

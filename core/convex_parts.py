@@ -84,15 +84,16 @@ class Lines:
         return Lines(self.camera[chosen], self.values[:, chosen], self.start[:, chosen], self.stop[:, chosen])
 
 
-def divide(cameras: np.ndarray, lines: Lines) -> tuple[np.ndarray, ConvexParts]:
-    """The pieces into which the lines cut the cameras, and for each its camera's place among them."""
+def divide(cameras: np.ndarray, lines: Lines, most: int) -> tuple[np.ndarray, ConvexParts]:
+    """The pieces into which the lines cut the cameras, not many more than `most`, and for each its camera's place
+    among them."""
     of_line = np.searchsorted(cameras, lines.camera)
     pieces, owner = ConvexParts.whole(len(cameras)), np.arange(len(cameras))
     line, piece = np.arange(len(of_line)), of_line
     for _ in range(PASSES):
         crossing = _crosses(pieces, lines, line, piece)
         line, piece = line[crossing], piece[crossing]
-        if not len(line):
+        if not len(line) or len(owner) > most:
             break
         order = np.argsort(piece, kind="stable")
         line, piece = line[order], piece[order]

@@ -15,7 +15,7 @@ from .cameras import Cameras
 from .connection import Faces
 from .reflection_map import ReflectionMap
 from .nodes import Nodes
-from .scene_frames import SceneFrames
+from .scene_frames import SceneFrames, falling
 from .subdivision import shared_edges
 from .vectors import dot, norm
 from .view import View
@@ -54,13 +54,13 @@ class FaceRefinement:
         for level in range(LEVELS + 1):
             if not len(faces):
                 break
-            marked, straying, middle = self._marked(nodes, faces, done, tolerance)
+            marked, straying, chosen, middle = self._marked(nodes, faces, done, tolerance)
             ends, edge, choice, middle_nodes = middle
             stop = level == LEVELS or sum(map(len, finished)) + len(faces) + 2 * marked.sum() > maximum
             if stop or not marked.any():
                 finished.append(faces)
                 return nodes, Faces.joined(finished), np.concatenate((*left, straying), axis=1), int(marked.sum())
-            left.append(straying)
+            left.append(straying[:, ~chosen])
             new = np.full(len(ends), -1)
             new[choice] = np.arange(marked.sum()) + len(nodes.distance)
             nodes = nodes.joined(*middle_nodes)
@@ -72,7 +72,8 @@ class FaceRefinement:
         return nodes, Faces.joined(finished) if finished else faces, left, 0
 
     def _marked(self, nodes: Nodes, faces: Faces, done: np.ndarray, tolerance: float):
-        """Edges to split, what all edges stray by, and the nodes in their middles."""
+        """Edges to split; of those that no neighbour has settled yet, what they stray by, their lengths, and whether
+        they are to be split; and the nodes in their middles."""
         ends, first, edge = shared_edges(faces.nodes)
         face = first // 3
         open_ = np.flatnonzero(~done.reshape(-1)[first])
@@ -109,7 +110,7 @@ class FaceRefinement:
             point[:, along], place[:, along], distance[along] = target[:, good], spot[:, good], s[good]
         marked[open_] = chosen
         place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]
-        return marked, np.stack((straying, length))[:, ~chosen], (ends, edge, marked, (place, point, distance))
+        return marked, np.stack((straying, length)), chosen, (ends, edge, marked, (place, point, distance))
 
     def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Where on the mirror the middle of a drawn edge is seen."""
@@ -130,12 +131,11 @@ class FaceRefinement:
         s = np.maximum(self.frames.distance(column, origin, ray), 0.0)
         point = origin + s * ray
         normal = np.take(self.frames.normal, column, axis=1)
-        falling = dot(normal, ray)
-        falling = np.where(falling != 0.0, falling, 1e-300)
+        speed = falling(normal, ray)
         moving = []
         for move, change in moves:
             free = move + s * change
-            moving.append(free - dot(normal, free) / falling * ray)
+            moving.append(free - dot(normal, free) / speed * ray)
         (a, c), (b, d) = (self.frames.directions(column, along)[:2] for along in moving)
         right = self.frames.directions(column, shown - point)[:2]
         x, y = _solve(a, b, c, d, *right)
@@ -144,15 +144,17 @@ class FaceRefinement:
         drift = np.hypot(*(x * seen_u + y * seen_v))
         motion = [norm(x * moving[0] + y * moving[1]) for x, y in
                   (_solve(seen_u[0], seen_v[0], seen_u[1], seen_v[1], *step) for step in ((1.0, 0.0), (0.0, 1.0)))]
-        coarse = norm(shown - point) / np.maximum(np.maximum(*motion), 1e-300)
-        return drift, np.minimum(drift, STRETCH * coarse), point, s
+        with np.errstate(over="ignore"):
+            coarse = norm(shown - point) / np.maximum(np.maximum(*motion), 1e-300)
+            return drift, np.minimum(drift, STRETCH * coarse), point, s
 
 
 def _solve(a, b, c, d, right_x, right_y):
-    """x, y with a x + b y = right_x and c x + d y = right_y."""
+    """x, y with a x + b y = right_x and c x + d y = right_y; zero where a, b, c and d are."""
     straight, crossed = a * d, b * c
     determinant = straight - crossed
     # a map that rounding cannot tell from singular moves far, but not infinitely far
-    least = 1e-14 * (np.abs(straight) + np.abs(crossed)) + 1e-150
+    least = 1e-14 * (np.abs(straight) + np.abs(crossed))
     determinant = np.where(np.abs(determinant) > least, determinant, least)
-    return (d * right_x - b * right_y) / determinant, (a * right_y - c * right_x) / determinant
+    inverse = np.divide(1.0, determinant, out=np.zeros_like(determinant), where=np.abs(determinant) > 1e-150)
+    return (d * right_x - b * right_y) * inverse, (a * right_y - c * right_x) * inverse

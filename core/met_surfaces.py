@@ -5,11 +5,14 @@ asked for it is the next mirror. Convex mirrors never see themselves: their tria
 """
 from __future__ import annotations
 
+from dataclasses import fields
+
 import numpy as np
 
 from .cameras import Cameras
 from .candidates import Candidates
 from .cones import Cones
+from .errors import ReflectionError
 from .mirror_surface import MirrorSurface
 from .point_tree import PointTree
 from .reflection_map import ReflectionMap
@@ -20,8 +23,8 @@ from .subdivision import shared_edges
 from .vectors import cross, dot, norm, ranges, rows
 
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
+PAIRS_AT_ONCE, SMALLEST_SHARE = 1 << 22, 256  # of cones and triangles; of cones
 BEHIND = 0.02  # of a triangle's size
-FAR = 1e12  # viewing distances: a ray that meets a plane only there is parallel to it
 
 _PROBES = np.array([(i, j, 4 - i - j) for i in range(5) for j in range(5 - i)]).T / 4.0
 
@@ -59,9 +62,10 @@ class MetSurfaces:
         sphere = self.tree.spheres[0][:, 0]
         return sphere[:3], float(sphere[3])
 
-    def showing_mirrors(self, mirror_map: ReflectionMap, cameras: Cameras) -> np.ndarray:
-        """Which faces of the map, by their number, may show a mirror in any of the cameras."""
-        camera, _, _ = self._mirrors_in(mirror_map, cameras)
+    def showing_mirrors(self, mirror_map: ReflectionMap, cameras: Cameras, most: int) -> np.ndarray:
+        """Which faces of the map, by their number, may show a mirror in any of the cameras; more than `most` pairs of
+        cameras and triangles are refused."""
+        camera, _, _ = self._mirrors_in(mirror_map, cameras, most)
         found = np.zeros(int(cameras.face.max(initial=-1)) + 1, dtype=bool)
         found[cameras.face[camera]] = True
         return found
@@ -73,23 +77,23 @@ class MetSurfaces:
         return Cones.around(cameras).touch(np.arange(count), np.repeat(centre[:, None], count, axis=1),
                                            np.full(count, radius))
 
-    def trace(self, mirror_map: ReflectionMap, cameras: Cameras,
-              showing: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
+    def trace(self, mirror_map: ReflectionMap, cameras: Cameras, showing: np.ndarray,
+              most: int) -> tuple[np.ndarray, np.ndarray, int]:
         """Pairs of cameras and triangles that may be seen in them, and how many tree nodes were visited for that;
-        mirrors are looked for on the faces that `showing_mirrors` found."""
-        camera, triangle, visited = self.tree.trace(Cones.around(cameras))
+        mirrors are looked for on the faces that `showing_mirrors` found. More than `most` pairs are refused."""
+        camera, triangle, visited = _traced(self.tree, Cones.around(cameras), most)
         chosen = np.flatnonzero(showing[cameras.face])
-        mirror_camera, mirror_triangle, more = self._mirrors_in(mirror_map, cameras.select(chosen))
+        mirror_camera, mirror_triangle, more = self._mirrors_in(mirror_map, cameras.select(chosen), most)
         return (np.concatenate((camera, chosen[mirror_camera])),
                 np.concatenate((triangle, mirror_triangle + self.diffuse)), visited + more)
 
-    def _mirrors_in(self, mirror_map: ReflectionMap, cameras: Cameras) -> tuple[np.ndarray, np.ndarray, int]:
+    def _mirrors_in(self, mirror_map: ReflectionMap, cameras: Cameras,
+                    most: float = np.inf) -> tuple[np.ndarray, np.ndarray, int]:
         """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited."""
         if not len(cameras):
             return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), 0
-        camera, triangle, visited = self._mirror_tree.trace(Cones.around(cameras))
-        above = self._above(mirror_map, cameras, camera, triangle)
-        return camera[above], triangle[above], visited
+        return _traced(self._mirror_tree, Cones.around(cameras), most,
+                       lambda camera, triangle: self._above(mirror_map, cameras, camera, triangle))
 
     def hides(self, mirror_map: ReflectionMap, cameras: Cameras, camera: np.ndarray, places: np.ndarray,
               points: np.ndarray) -> np.ndarray:
@@ -106,8 +110,8 @@ class MetSurfaces:
         with np.errstate(divide="ignore", invalid="ignore"):
             share = dot(offset, normal) / facing
             second, third = dot(turned, c - a) / facing, -dot(turned, b - a) / facing
+            hit = (second >= 0.0) & (third >= 0.0) & (second + third <= 1.0)
         length = norm(way)
-        hit = (second >= 0.0) & (third >= 0.0) & (second + third <= 1.0)
         hit &= (share * length > ABOVE * self.size) & ((1.0 - share) * length > ABOVE * self.size)
         hidden = np.zeros(len(camera), dtype=bool)
         hidden[image[hit]] = True
@@ -180,7 +184,7 @@ class MetSurfaces:
         origins, rays = (np.einsum("xkn,kp->xpn", np.take(values, corners, axis=1), _PROBES).reshape(3, -1)
                          for values in (cameras.origins, cameras.rays))
         column = np.tile(candidates.column[pair], _PROBES.shape[1])
-        s = np.minimum(frames.distance(column, origins, rays), FAR)
+        s = frames.distance(column, origins, rays)
         near = np.full(len(pair), ABOVE * self.size)
         if cameras.origins is not cameras.places:
             # later cameras follow the sides of their triangles only nearly, and may begin a little behind the next
@@ -192,6 +196,26 @@ class MetSurfaces:
             return candidates
         kept[pair] = seen.reshape(-1, len(pair)).any(axis=0)
         return candidates.select(kept)
+
+
+def _traced(tree: SceneTree, cones: Cones, most: float, wanted=None) -> tuple[np.ndarray, np.ndarray, int]:
+    """Pairs of cones and triangles, those that are `wanted`, and tree nodes visited; cones go through the tree in
+    shares that fit the memory even if each meets all triangles."""
+    found, visited, total, count = [], 0, 0, cones.centre.shape[1]
+    share = max(SMALLEST_SHARE, PAIRS_AT_ONCE // max(len(tree), 1))
+    for start in range(0, max(count, 1), share):
+        part = Cones(*(getattr(cones, field.name)[..., start:start + share] for field in fields(Cones)))
+        cone, triangle, more = tree.trace(part)
+        cone, visited = cone + start, visited + more
+        if wanted is not None:
+            kept = wanted(cone, triangle)
+            cone, triangle = cone[kept], triangle[kept]
+        found.append((cone, triangle))
+        total += len(cone)
+        if total > most:
+            raise ReflectionError("Too much of the mirrors and the diffuse objects lies over one another for the "
+                                  "maximum number of faces; simplify them or raise it.")
+    return *(np.concatenate(side) for side in zip(*found)), visited
 
 
 def _opposite(mesh: TriangleMesh) -> np.ndarray:

@@ -11,10 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from .cameras import Cameras
-from .vectors import ranges
+from .vectors import ranges, shares
 from .view import View
 
 SAMPLES = 256  # across the wider side of the picture
+SAMPLES_AT_ONCE = 1 << 21
+MOST_SAMPLES, LEAST_SAMPLES = 1 << 24, 32  # on all cameras, else the grid is made coarser; across the picture
 SURFACE = 2e-4  # relative difference of depth up to which two samples lie on one surface
 
 
@@ -40,19 +42,32 @@ class DepthGrid:
     @classmethod
     def of(cls, view: View, cameras: Cameras) -> tuple[DepthGrid, np.ndarray]:
         """The grid of cameras (n,), and which of them the eye may see."""
-        scale = SAMPLES / max(view.resolution)
-        width, height = (int(side) for side in np.ceil(np.array(view.resolution) * scale))
         depth = view.depths(cameras.places.T)
+        depths, pixels = depth[cameras.corners], view.pixels(cameras.places.T)[cameras.corners]
+        scale = SAMPLES / max(view.resolution)
+        while True:
+            width, height = (int(side) for side in np.ceil(np.array(view.resolution) * scale))
+            runs = _runs(pixels * scale, (depths > 0.0).all(axis=1), (width, height))
+            if runs[2].sum() <= MOST_SAMPLES or max(width, height) <= LEAST_SAMPLES:
+                break
+            scale *= 0.5
         room = SURFACE * max(float(np.ptp(depth)), 1e-300) if view.orthographic else SURFACE
         grid = cls(view, np.full((height, width), -np.inf), np.zeros((height, width), dtype=np.int64), scale, room)
-        camera, x, y, weights = grid._samples(view.pixels(cameras.places.T)[cameras.corners] * scale,
-                                              (depth[cameras.corners] > 0.0).all(axis=1))
-        depth = depth[cameras.corners[camera]].T
-        nearness = -(weights * depth).sum(axis=0) if view.orthographic else (weights / depth).sum(axis=0)
-        np.maximum.at(grid.nearest, (y, x), nearness)
-        np.add.at(grid.layers, (y, x), 1)
-        seen = nearness + grid._margin(nearness) >= grid.nearest[y, x]
-        shows, hides = (np.bincount(camera[state], minlength=len(cameras)) > 0 for state in (seen, ~seen))
+        pixels = pixels * scale
+        parts = shares(runs[2], SAMPLES_AT_ONCE)
+        shows, hides = np.zeros(len(cameras), dtype=bool), np.zeros(len(cameras), dtype=bool)
+        kept = None
+        for marking in (True, False):
+            for part in parts:
+                # one share, as nearly always, is worked out once; of more only one is held at a time
+                camera, x, y, nearness = kept if kept and len(parts) == 1 else grid._samples(pixels, depths, runs, part)
+                kept = camera, x, y, nearness
+                if marking:
+                    np.maximum.at(grid.nearest, (y, x), nearness)
+                    np.add.at(grid.layers, (y, x), 1)
+                else:
+                    seen = nearness + grid._margin(nearness) >= grid.nearest[y, x]
+                    shows[camera[seen]], hides[camera[~seen]] = True, True
         hides = grid.hides(cameras.places, cameras.corners).all(axis=1) & (hides | ~shows)
         corner_seen = np.zeros(cameras.places.shape[1], dtype=bool)
         corner_seen[cameras.corners[shows | ~hides]] = True
@@ -91,22 +106,33 @@ class DepthGrid:
     def _margin(self, nearness: np.ndarray):
         return self.room if self.view.orthographic else self.room * nearness
 
-    def _samples(self, corners: np.ndarray, before: np.ndarray):
-        """Camera, column, row and barycentric coordinates of the samples inside triangles (n, 3, 2)."""
-        size = self.nearest.shape[::-1]
+    def _samples(self, corners: np.ndarray, depths: np.ndarray, runs, part: slice):
+        """Camera, column, row and nearness of the samples inside triangles (n, 3, 2) with `depths` (n, 3) at their
+        corners, those of a `part` of the runs."""
+        camera, y, length = (run[part] for run in runs)
         corners = np.nan_to_num(corners)
-        low = np.clip(np.ceil(corners.min(axis=1) - 0.5), 0, size).astype(np.int64)
-        high = np.clip(np.floor(corners.max(axis=1) - 0.5) + 1, 0, size).astype(np.int64)
-        extent = np.where(before[:, None], np.maximum(high - low, 0), 0)
-        y, row = ranges(low[:, 1], extent[:, 1])
-        x, run = ranges(low[row, 0], extent[row, 0])
-        camera, y = row[run], y[run]
+        start = np.clip(np.ceil(corners[camera, :, 0].min(axis=1) - 0.5), 0, self.nearest.shape[1]).astype(np.int64)
+        x, run = ranges(start, length)
+        camera, y = camera[run], y[run]
         dx, dy = corners[camera, :, 0] - x[:, None] - 0.5, corners[camera, :, 1] - y[:, None] - 0.5
         area = np.stack([dx[:, i] * dy[:, j] - dx[:, j] * dy[:, i] for i, j in ((1, 2), (2, 0), (0, 1))])
         total = area.sum(axis=0)
         weights = area / np.where(total != 0.0, total, -np.inf)
         inside = (weights >= 0.0).all(axis=0) & (total != 0.0)
-        return camera[inside], x[inside], y[inside], weights[:, inside]
+        camera, weights = camera[inside], weights[:, inside]
+        depth = depths[camera].T
+        nearness = -(weights * depth).sum(axis=0) if self.view.orthographic else (weights / depth).sum(axis=0)
+        return camera, x[inside], y[inside], nearness
+
+
+def _runs(corners: np.ndarray, before: np.ndarray, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Runs of samples over the boxes of triangles (n, 3, 2): the triangle, the row, and how many."""
+    corners = np.nan_to_num(corners)
+    low = np.clip(np.ceil(corners.min(axis=1) - 0.5), 0, size).astype(np.int64)
+    high = np.clip(np.floor(corners.max(axis=1) - 0.5) + 1, 0, size).astype(np.int64)
+    extent = np.where(before[:, None], np.maximum(high - low, 0), 0)
+    y, camera = ranges(low[:, 1], extent[:, 1])
+    return camera, y, extent[camera, 0]
 
 
 def without_hidden(view: View, cameras: Cameras) -> tuple[Cameras, DepthGrid]:

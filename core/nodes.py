@@ -137,7 +137,7 @@ def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     start, end = places[:, mirror_edge[:, 0]], places[:, mirror_edge[:, 1]]
     place = corners.guess(chosen)
     way = end - start
-    t = dot(place - start, way) / dot(way, way)
+    t = _share(place - start, way)
     uv_start, uv_end = mirror_map.coordinates(face, start), mirror_map.coordinates(face, end)
     seen, seen_s = corners.seen(chosen, place)
     point = corners.positions[scene_edge[:, 0]].T
@@ -146,8 +146,14 @@ def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     met = start + np.clip(t, 0.0, 1.0) * way
     near = corners.near(met, place) & (s >= 0.0)
     # just beyond an end of the edge, by no more than straight outlines miss, the end stands in
-    along = np.clip(np.where(near, along, dot(seen - point, edge) / dot(edge, edge)), 0.0, 1.0)
+    along = np.clip(np.where(near, along, _share(seen - point, edge)), 0.0, 1.0)
     return (np.where(near, met, place), point + along * edge, np.where(near, s, seen_s)), group
+
+
+def _share(offset: np.ndarray, way: np.ndarray) -> np.ndarray:
+    """The part of the `way` (3, n) that an offset goes along it; none of a way without a length."""
+    square = dot(way, way)
+    return np.divide(dot(offset, way), square, out=np.zeros_like(square), where=square > 0.0)
 
 
 def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):

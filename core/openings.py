@@ -9,6 +9,7 @@ triangle that its ray meets first.
 """
 from __future__ import annotations
 
+from collections.abc import Generator
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,8 +27,11 @@ from .view import View
 
 BESIDE = 0.25  # pixels from an edge at which rays look for what should be there
 SPACING = 4.0  # pixels between rays along an edge
+FRAME = 16.0  # pixels round the picture in which they look
 MOST_PLACES = 32  # along one edge
 SHORTEST_EDGE = 0.25  # pixels: an edge as long as an outline may miss opens nothing
+PAIRS_AT_ONCE = 1 << 20
+CELL, CELLS = 4.0, 4096  # pixels; cells across all that is told apart
 MARGIN = 0.1  # pixels by which a polygon may end before the place that it covers
 
 
@@ -88,7 +92,8 @@ def find_openings(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: Sce
     row, pixel = _beside(polygons, corners, edge)
     camera, partner = camera[row], partner[row]
     pixel, place, ray = _moved_into(view, mirror_map, cameras, camera, pixel)
-    doubtful = np.isfinite(place).all(axis=0)
+    outside = np.maximum(-pixel, pixel - view.resolution).max(axis=1) > FRAME
+    doubtful = np.isfinite(place).all(axis=0) & ~outside
     doubtful &= ~covered(cameras, frames, candidates, polygons, corners, camera, partner, pixel)
     camera, pixel = camera[doubtful], pixel[doubtful]
     column = first_hits(tree, frames, place[:, doubtful], ray[:, doubtful])
@@ -220,13 +225,17 @@ def covered(cameras: Cameras, frames: SceneFrames, candidates: Candidates, polyg
     wanted[column[column >= 0]] = True
     of_camera, of_column = candidates.camera[polygons.pair], candidates.column[polygons.pair]
     chosen = np.flatnonzero(touching(cameras, camera)[of_camera] & wanted[of_column])
-    key = (cameras.corners[of_camera[chosen]] * len(wanted) + of_column[chosen][:, None]).ravel()
-    order = np.argsort(key, kind="stable")
-    asked = (cameras.corners[camera] * len(wanted) + column[:, None]).ravel()
-    first, last = (np.searchsorted(key[order], asked, side=side) for side in ("left", "right"))
-    entry, row = ranges(first, np.where(np.repeat(column >= 0, 3), last - first, 0))
-    pairs = np.unique((row // 3) * len(polygons.pair) + chosen[order[entry] // 3])
-    place, polygon = pairs // len(polygons.pair), pairs % len(polygons.pair)
+    pairs = np.zeros(0, dtype=np.int64)
+    if len(chosen):
+        low, high = (bound.reduceat(corner_pixels, polygons.start[:-1], axis=0)[chosen] + room
+                     for bound, room in ((np.minimum, -MARGIN), (np.maximum, MARGIN)))
+        shown = cameras.corners[of_camera[chosen]] * len(wanted) + of_column[chosen][:, None]
+        asked = np.flatnonzero(column >= 0)
+        wished = cameras.corners[camera[asked]] * len(wanted) + column[asked][:, None]
+        for own, place in _in_one_cell(shown, low, high, wished, pixel[asked]):
+            near = ((pixel[asked[place]] >= low[own]) & (pixel[asked[place]] <= high[own])).all(axis=1)
+            pairs = np.union1d(pairs, asked[place[near]] * len(polygons.pair) + chosen[own[near]])
+    place, polygon = pairs // max(len(polygons.pair), 1), pairs % max(len(polygons.pair), 1)
     size = np.diff(polygons.start)[polygon]
     corner, run = ranges(polygons.start[polygon], size)
     if not len(run):
@@ -245,3 +254,41 @@ def covered(cameras: Cameras, frames: SceneFrames, candidates: Candidates, polyg
     within |= np.minimum.reduceat(away, begin) <= MARGIN
     inside[place[within]] = True
     return inside
+
+
+def _in_one_cell(shown: np.ndarray, low: np.ndarray, high: np.ndarray, wished: np.ndarray,
+                 pixel: np.ndarray) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
+    """Pairs of a box, from `low` to `high` (n, 2), and a place `pixel` (m, 2) with a name in common among the three
+    that each has, `shown` (n, 3) and `wished` (m, 3); some of them twice, in shares that fit the memory.
+
+    Thousands of small boxes may have one name: they and the places are told apart by cells of the picture.
+    """
+    first, last = _cells(low), _cells(high)
+    small = (last - first <= 1).all(axis=1)
+    names = np.unique(shown)
+    # a large box has a cell of its own, of which every place asks as well
+    large, number = CELLS * CELLS, np.arange(len(shown))
+    parts = [(number[~small], np.full(np.count_nonzero(~small), large))]
+    for dx, dy in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        other = number[small & (first + (dx, dy) <= last).all(axis=1)]
+        parts.append((other, (first[other, 0] + dx) * CELLS + first[other, 1] + dy))
+    box, cell = (np.concatenate(part) for part in zip(*parts))
+    key = (np.searchsorted(names, shown[box]) * (large + 1) + cell[:, None]).ravel()
+    order = np.argsort(key, kind="stable")
+    key, box = key[order], box[order // 3]
+    place, wish = np.repeat(np.arange(len(wished)), 3), np.searchsorted(names, wished.ravel())
+    known = names[np.minimum(wish, len(names) - 1)] == wished.ravel()
+    place, wish = place[known], wish[known]
+    spot = _cells(pixel[place])
+    for cell in (large, spot[:, 0] * CELLS + spot[:, 1]):
+        start, stop = (np.searchsorted(key, wish * (large + 1) + cell, side=side) for side in ("left", "right"))
+        before = np.append(0, np.cumsum(stop - start))
+        cuts = np.searchsorted(before, np.arange(0, before[-1] + PAIRS_AT_ONCE, PAIRS_AT_ONCE))
+        for begin, end in zip(cuts[:-1], cuts[1:]):
+            entry, row = ranges(start[begin:end], (stop - start)[begin:end])
+            yield box[entry], place[begin:end][row]
+
+
+def _cells(pixel: np.ndarray) -> np.ndarray:
+    """Cells (n, 2) of the picture, the outermost without an end."""
+    return np.clip(np.nan_to_num(pixel) // CELL + CELLS // 2, 0, CELLS - 1).astype(np.int64)

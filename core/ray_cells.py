@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .backward_rays import first_hits
-from .camera_splitting import edge_middles, split_at
+from .camera_splitting import edge_middles, in_picture, split_at
 from .cameras import Cameras
 from .candidates import Candidates
 from .clipping import Polygons
@@ -95,7 +95,7 @@ def _small_cells(view: View, mirror_map: MirrorMap, cameras: Cameras,
         opening, cell = ranges(start, stop - start)
         away = np.full(len(cells), np.inf)
         np.minimum.at(away, cell, np.linalg.norm(opening_pixel[opening] - middle[cell], axis=1))
-        near = away <= radius + reach
+        near = (away <= radius + reach) & in_picture(view, cells)
         cells, camera, pixels = cells.select(near), camera[near], pixels[near]
         long = np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > LONGEST_EDGE
         if not long.any() or level == LEVELS or len(cells) > MOST_CELLS:

@@ -12,10 +12,12 @@ from .bounced_cameras import bounced_cameras
 from .camera_splitting import in_picture
 from .canonical_order import in_given_order, ordered
 from .cameras import three_ray_cameras, visible_triangles
+from .errors import ReflectionError
 from .horizon import cut_at_horizon
 from .met_surfaces import MetSurfaces
 from .mirror_map import MirrorMap
 from .mirror_visibility import without_hidden
+from .near_origin import far_corner, moved_mesh, moved_surface, moved_view
 from .point_tree import PointTree
 from .points import reflected_points
 from .reflection_mesh import ReflectionMesh
@@ -28,10 +30,6 @@ from .view import View
 CAMERAS_OF_A_PIXEL = 4  # of a later bounce: more show nothing that could be seen
 FACES_OF_A_CAMERA = 16  # what a camera of a later bounce is counted as against the bound on faces
 INSIDE = 4.0 / 3.0  # a quadratic that is zero at a triangle's corners exceeds its values at the edges' middles by this
-
-
-class ReflectionError(ValueError):
-    """The input cannot give a reflection; the message is one sentence for the user."""
 
 
 def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree,
@@ -59,7 +57,8 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
     Raises
     ------
     ReflectionError
-        Where the mirror or the scene is empty, the mirror is not in the picture, or the eye lies on it.
+        Where the mirror or the scene is empty, the mirror is not in the picture, or the eye lies on it; or where so
+        much lies over one another that the settings' `maximum_faces` is exceeded many times over.
     """
     steps = reflection_steps(view, mirror, scene, settings, mirrors)
     while True:
@@ -75,6 +74,17 @@ def reflection_steps(
     """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end."""
     progress = Progress()
     _check(view, mirror, scene, settings.method)
+    corner = far_corner(mirror)
+    if corner is None:
+        return (yield from _steps(view, mirror, scene, settings, mirrors, progress))
+    mirror, scene, mirrors = (part if part is None else moved_surface(part, -corner)
+                              for part in (mirror, scene, mirrors))
+    mesh = yield from _steps(moved_view(view, -corner), mirror, scene, settings, mirrors, progress)
+    return moved_mesh(mesh, corner)
+
+
+def _steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
+           mirrors: TriangleMesh | None, progress: Progress) -> Generator[tuple[float, str], None, ReflectionMesh]:
     yield 0.0, "k-d tree"
     kind = PointTree if settings.method == "POINTS" else SceneTree
     tree = scene if isinstance(scene, kind) else kind.build(getattr(scene, "mesh", scene))
@@ -91,9 +101,10 @@ def reflection_steps(
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
     cameras, grid = without_hidden(view, cameras)
-    cameras, occluded = without_occluded(view, mirror_map, mirror, cameras, grid)
+    cameras, occluded, crowded = without_occluded(view, mirror_map, mirror, cameras, grid)
     cameras = cut_at_horizon(view, mirror_map, cameras)
-    progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded)
+    progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
+                  limited=crowded)
 
     if settings.method == "POINTS":
         cameras = refined(view, mirror_map, cameras, met, None, settings, progress)

@@ -23,11 +23,14 @@ class ReflectionMap(ABC):
     ----------
     parallel : bool
         Every face sends all its rays along one direction; the map jumps between faces.
+    orthographic : bool
+        Rays are unit vectors, and s is a length.
     grazing : (m,) bool
         Faces on which some ray may be lifted.
     """
 
     parallel: bool
+    orthographic: bool
     grazing: np.ndarray
 
     @abstractmethod
@@ -106,7 +109,9 @@ class ReflectionMap(ABC):
         """Whether the ray at (u, v) really passes through `points` (3, n) at s > 0: that Newton's method arrived."""
         origin, ray = self.leave(face, uv)
         miss = norm(origin + s * ray - points)
-        return (s >= 0.0) & (miss <= ARRIVED * (norm(points - origin) + norm(ray)))
+        # without a viewing distance the mirror triangle's size stands in
+        way = sum(map(norm, self.spans(face))) if self.orthographic else norm(ray)
+        return (s >= 0.0) & (miss <= ARRIVED * (norm(points - origin) + way))
 
     def turned(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray) -> np.ndarray:
         """How the map magnifies at distance s: the moved triangle's area across the ray over the area at s = 0.

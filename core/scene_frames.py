@@ -6,7 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from .triangle_mesh import TriangleMesh
-from .vectors import cross, dot, rows
+from .vectors import cross, dot, norm, rows
+
+PARALLEL = 2.0 ** -53  # sine: rays that fall less steeply fall by rounding alone
+
+
+def falling(normal: np.ndarray, rays: np.ndarray) -> np.ndarray:
+    """How fast rays (3, n) move along normals, never so slowly that it is rounding alone."""
+    speed, least = dot(normal, rays), np.maximum(PARALLEL * norm(normal) * norm(rays), 1e-150)
+    return np.where(np.abs(speed) > least, speed, least)
 
 
 @dataclass(frozen=True)
@@ -37,7 +45,9 @@ class SceneFrames:
         u, v = a - c, b - c
         normal = cross(u, v)
         area = dot(normal, normal)
-        return cls(triangle, vertices, c, cross(v, normal) / area, cross(normal, u) / area, normal / area**0.75)
+        size = np.sqrt(area)
+        return cls(triangle, vertices, c, cross(v, normal) / area, cross(normal, u) / area,
+                   normal / (size * np.sqrt(size)))
 
     def columns(self, triangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Column of each of the scene's triangles, and whether there is one."""
@@ -59,10 +69,10 @@ class SceneFrames:
         return np.stack((first, second, 1.0 - first - second))
 
     def distance(self, column: np.ndarray, places: np.ndarray, rays: np.ndarray) -> np.ndarray:
-        """s at which the rays Q + s R, (3, n) each, meet the planes of the frames."""
-        _, _, height = self.coordinates(column, places)
-        _, _, falling = self.directions(column, rays)
-        return -height / np.where(falling != 0.0, falling, 1e-300)
+        """s at which the rays Q + s R, (3, n) each, meet the planes of the frames: far away, but not infinitely far,
+        where they are parallel."""
+        normal = self._take(self.normal, column, places)
+        return -dot(normal, places - self._take(self.origin, column, places)) / falling(normal, rays)
 
     @staticmethod
     def _take(row: np.ndarray, column: np.ndarray, like: np.ndarray) -> np.ndarray:

@@ -17,91 +17,76 @@ from .mirror_map import MirrorMap
 from .mirror_visibility import DepthGrid
 from .scene_frames import SceneFrames
 from .triangle_mesh import TriangleMesh
-from .vectors import cross, dot, groups, norm, ranges, rows
+from .picture_pairs import pairs_in_picture
+from .vectors import cross, dot, groups, norm, ranges, rows, shares
 from .view import View
 
-PAIRS_AT_ONCE = 1 << 20
+PAIRS_AT_ONCE = 1 << 17
+MOST_PIECES = 1 << 20  # as many as cameras are cut into altogether
+MOST_HIDING = 64  # triangles that each hide a part of one camera; with more it is left whole
 DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden places lie; doubled faces hide nothing
 
 
 def without_occluded(view: View, mirror_map: MirrorMap, mirror: TriangleMesh, cameras: Cameras,
-                     grid: DepthGrid) -> tuple[Cameras, int]:
-    """Cameras without the parts that other triangles of the mirror hide; how many were cut."""
+                     grid: DepthGrid) -> tuple[Cameras, int, int]:
+    """Cameras without the parts that other triangles of the mirror hide; how many were cut, and how many are left
+    whole, hidden parts and all, for too much of the mirror lies over them."""
     frames = SceneFrames.of(mirror, np.unique(cameras.face))
-    camera, column = _pairs_in_picture(view, cameras, frames, mirror, grid)
-    camera, column, sides = _hiding(view, cameras, frames, mirror.positions, camera, column)
-    hidden, sides, camera, column = _hidden_parts(sides, camera, column)
-    if not len(camera):
-        return cameras, 0
-    lines = _outlines(view, frames, mirror.positions, hidden, sides, camera, column)
-    cut_cameras = np.unique(camera)
-    owner, pieces = divide(cut_cameras, lines)
-    parent, triangles = _seen_pieces(cut_cameras, owner, pieces, camera, sides)
-    whole = np.ones(len(cameras), dtype=bool)
-    whole[cut_cameras] = False
-    return with_pieces(mirror_map, cameras, whole, parent, triangles)[0], len(cut_cameras)
+    shown = np.ones(len(cameras), dtype=bool)
+    parts = [_hidden_parts(*_hiding(view, cameras, frames, mirror.positions, *pairs), shown)
+             for pairs in pairs_in_picture(view, cameras, frames, mirror, grid, PAIRS_AT_ONCE)]
+    if not parts:
+        return cameras, 0, 0
+    count = sum(np.bincount(part[2], minlength=len(cameras)) for part in parts)
+    crowded = shown & (count > MOST_HIDING)
+    hidden, sides, camera, column = _joined(parts, shown & ~crowded)
+    whole = shown.copy()
+    if len(camera):
+        lines = _outlines(view, frames, mirror.positions, hidden, sides, camera, column)
+        cut_cameras = np.unique(camera)
+        owner, pieces = divide(cut_cameras, lines, MOST_PIECES)
+        parent, triangles = _seen_pieces(cut_cameras, owner, pieces, camera, sides)
+        whole[cut_cameras] = False
+        cut = with_pieces(mirror_map, cameras, whole, parent, triangles)[0]
+    else:
+        cut = cameras.select(whole)
+    return cut, int((count > 0).sum() - crowded.sum()), int(crowded.sum())
 
 
-def _pairs_in_picture(view: View, cameras: Cameras, frames: SceneFrames, mirror: TriangleMesh,
-                      grid: DepthGrid) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of cameras and columns of other triangles whose boxes in the picture overlap where the mirror lies several
-    times over, by the cells of the grid."""
-    height, width = grid.layers.shape
-    several = np.pad(grid.layers > 1, 1)
-    several = np.logical_or.reduce([several[y:y + height, x:x + width] for y in range(3) for x in range(3)])
-    pairs = np.zeros(0, dtype=np.int64)
-    if not several.any():
-        return pairs, pairs
-    (low, high, cell, camera), (other_low, other_high, other_cell, column) = (
-        _cells(view, corners, several, grid.scale) for corners in
-        (cameras.places[:, cameras.corners], rows(mirror.positions[mirror.triangles[frames.triangle]])))
-    order = np.argsort(other_cell, kind="stable")
-    column = column[order]
-    start, stop = (np.searchsorted(other_cell[order], cell, side=side) for side in ("left", "right"))
-    before = np.append(0, np.cumsum(stop - start))
-    cuts = np.searchsorted(before, np.arange(0, before[-1] + PAIRS_AT_ONCE, PAIRS_AT_ONCE))
-    for first, last in zip(cuts[:-1], cuts[1:]):
-        entry, run = ranges(start[first:last], (stop - start)[first:last])
-        near, far = camera[first:last][run], column[entry]
-        meet = ((low[near] < other_high[far]) & (other_low[far] < high[near])).all(axis=1)
-        meet &= cameras.face[near] != frames.triangle[far]
-        pairs = np.union1d(pairs, near[meet] * len(frames.triangle) + far[meet])
-    return pairs // len(frames.triangle), pairs % len(frames.triangle)
-
-
-def _cells(view: View, corners: np.ndarray, several: np.ndarray, scale: float) -> tuple:
-    """Boxes `low` and `high` (n, 2) of triangles (3, n, 3) before the eye, in cells; the cells of `several` that they
-    touch, and for each of these the triangle."""
-    height, width = several.shape
-    flat = corners.reshape(3, -1).T
-    before = (view.depths(flat) > 0.0).reshape(-1, 3).all(axis=1)
-    pixels = np.nan_to_num(view.pixels(flat)).reshape(-1, 3, 2) * scale
-    low, high = pixels.min(axis=1), pixels.max(axis=1)
-    first = np.clip(np.floor(low), 0, (width, height)).astype(np.int64)
-    extent = np.clip(np.floor(high) + 1, 0, (width, height)).astype(np.int64) - first
-    y, row = ranges(first[:, 1], np.where(before, np.maximum(extent[:, 1], 0), 0))
-    x, run = ranges(first[row, 0], np.maximum(extent[row, 0], 0))
-    cell, triangle = y[run] * width + x, row[run]
-    taken = several.ravel()[cell]
-    return low, high, cell[taken], triangle[taken]
+def _joined(parts: list, kept: np.ndarray):
+    """The hidden parts of the cameras `kept` (n,), joined."""
+    hidden, start = [], 0
+    for part, _, camera, _ in parts:
+        part = part.select(kept[camera])
+        hidden.append((part.weights, part.after, part.polygon + start))
+        start += int(kept[camera].sum())
+    weights, after, polygon = (np.concatenate(side, axis=-1) for side in zip(*hidden))
+    chosen = [kept[part[2]] for part in parts]
+    sides, camera, column = (np.concatenate([part[k][..., own] for part, own in zip(parts, chosen)], axis=-1)
+                             for k in (1, 2, 3))
+    return ConvexParts(weights, after, polygon), sides, camera, column
 
 
 def _hiding(view, cameras, frames, positions, camera, column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The pairs in which the triangle may hide a part of the camera, and its four functions; see `hidden_sides`."""
+    """The pairs in which the triangle may hide a part of the camera, behind its four functions; see `hidden_sides`."""
     sides, solid = hidden_sides(view, cameras, frames, positions, camera, column)
     size = np.ptp(cameras.places, axis=1).max()
     sides[3] -= DEEPER * size * norm(frames.normal)[column]
     chosen = np.flatnonzero(solid & (sides.max(axis=1) > 0.0).all(axis=0))
     camera, column, sides = camera[chosen], column[chosen], sides[:, :, chosen]
-    return camera, column, sides
+    return sides, camera, column
 
 
-def _hidden_parts(sides, camera, column):
-    """What each pair's triangle hides of its camera, without the pairs in which that is nothing."""
+def _hidden_parts(sides, camera, column, shown):
+    """What each pair's triangle hides of its camera, without the pairs in which that is nothing; takes the cameras of
+    which one triangle hides all from those `shown` (n,)."""
     hidden = ConvexParts.whole(len(camera))
     for label, values in zip((SCENE_EDGE, SCENE_EDGE + 1, SCENE_EDGE + 2, CONTACT), sides):
         hidden = hidden.cut(values, label)
-    real = hidden.areas(len(camera)) > SMALLEST
+    area = hidden.areas(len(camera))
+    real = area > SMALLEST
+    shown[camera[area > 1.0 - SMALLEST]] = False
+    real &= shown[camera]
     return hidden.select(real), sides[:, :, real], camera[real], column[real]
 
 
@@ -138,11 +123,12 @@ def _seen_pieces(cameras, owner, pieces: ConvexParts, camera, sides) -> tuple[np
     middle /= np.maximum(count, 1)
     order = np.argsort(camera, kind="stable")
     start, stop = (np.searchsorted(camera[order], cameras[owner], side=side) for side in ("left", "right"))
-    entry, piece = ranges(start, stop - start)
-    functions = sides[:, :, order[entry]]
-    behind = ((functions * middle[:, piece]).sum(axis=1) > 0.0).all(axis=0)
     seen = np.ones(len(owner), dtype=bool)
-    seen[piece[behind]] = False
+    for part in shares(stop - start, PAIRS_AT_ONCE):
+        entry, piece = ranges(start[part], (stop - start)[part])
+        piece += part.start
+        behind = ((sides[:, :, order[entry]] * middle[:, piece]).sum(axis=1) > 0.0).all(axis=0)
+        seen[piece[behind]] = False
     seen &= pieces.areas(len(owner)) > SMALLEST
     piece, weights = pieces.select(seen).triangles(int(seen.sum()))
     return cameras[owner[seen][piece]], weights

@@ -55,6 +55,13 @@ def ranges(starts: np.ndarray, lengths: np.ndarray) -> tuple[np.ndarray, np.ndar
     return np.arange(len(run)) - np.repeat(before - starts, lengths), run
 
 
+def shares(lengths: np.ndarray, most: int) -> list[slice]:
+    """Parts of runs of `lengths` (n,) that have about `most` entries each, and no run in two of them."""
+    before = np.append(0, np.cumsum(lengths))
+    cuts = np.unique(np.append(np.searchsorted(before, np.arange(0, before[-1], most)), len(lengths)))
+    return [slice(start, stop) for start, stop in zip(cuts[:-1], cuts[1:])]
+
+
 def groups(*keys: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Rows of several keys (n,) of integers >= 0, each distinct one once: where it first occurs; each row's group."""
     group = keys[0]

@@ -42,6 +42,8 @@ class View:
         """An eye at `eye` that looks at `target`; `field_of_view` in radians over the wider side of the picture, or
         `orthographic_scale` > 0 for the width, in scene units, of an orthographic picture."""
         eye, target, up = (np.asarray(value, dtype=np.float64) for value in (eye, target, up))
+        if (eye == target).all():
+            raise ValueError("The eye is where it looks; move one of them.")
         back = (eye - target) / np.linalg.norm(eye - target)
         right = np.cross(up, back)
         if np.linalg.norm(right) < 1e-9:

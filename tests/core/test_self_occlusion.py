@@ -45,7 +45,7 @@ def cameras_before_and_after(view, mirror):
     mirror_map = MirrorMap(view, mirror)
     cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
     after, grid = without_hidden(view, cameras)
-    after, count = without_occluded(view, mirror_map, mirror, after, grid)
+    after, count, crowded = without_occluded(view, mirror_map, mirror, after, grid)
     return cameras, after, count
 
 
