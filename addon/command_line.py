@@ -47,6 +47,8 @@ def _parser() -> argparse.ArgumentParser:
     compare = verbs.add_parser("compare", help="compare with a Cycles render of the same view")
     _add_settings(compare)
     compare.add_argument("--samples", type=int, default=16, metavar="N", help="samples per pixel of the pictures")
+    compare.add_argument("--scene-samples", action="store_true",
+                         help="sampling, denoising and bounces of the pictures as the scene is set")
     compare.add_argument("--output", metavar="FOLDER", help="where pictures and numbers go (else beside the file)")
     compare.set_defaults(work=_compare)
     return parser
@@ -117,7 +119,8 @@ def _compare(context: bpy.types.Context, options: argparse.Namespace) -> None:
     if options.samples < 1:
         raise core.ReflectionError("A comparison takes at least one sample: raise --samples.")
     folder = os.path.abspath(folder)
-    print(comparison(compare(context, folder, options.samples, _settings(options)), folder))
+    samples = 0 if options.scene_samples else options.samples
+    print(comparison(compare(context, folder, samples, _settings(options)), folder))
 
 
 def register() -> None:

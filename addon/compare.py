@@ -8,14 +8,17 @@ import bpy
 import numpy as np
 
 from ..core import ReflectionError, Settings
-from .compare_numbers import measure, picture_error
+from .clear import clear
+from .compare_numbers import measure, without_packing
 from .compare_pictures import render_comparison
 from .compare_report import write_report
 from .cycles_scene import copied_scene
 from .generate import generation
+from .picture_metrics import picture_errors
 from .properties import depth_property, method_property, placement_property, tolerance_property
 from .read_view import read_view
 from .roles import Participants, participants, results_of
+from .show_comparison import load_pictures, remember, show_picture
 
 # Blender 4.5 and newer want to be told that a path may start with "//"; older ones do not know the word
 RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
@@ -33,7 +36,7 @@ def compare(context: bpy.types.Context, folder: str, samples: int = 16, settings
     folder : str
         Absolute path; made where it does not exist.
     samples : int
-        Samples per pixel of the two pictures.
+        Samples per pixel of the two pictures; 0 takes the scene's own sampling, denoising, clamping and bounces.
     settings : core.Settings
         For reflections that are still to be generated.
 
@@ -45,7 +48,7 @@ def compare(context: bpy.types.Context, folder: str, samples: int = 16, settings
     Raises
     ------
     ReflectionError
-        Where nothing can be compared; before anything has changed.
+        Where nothing can be compared, or a render is cancelled; nothing has changed then.
     """
     if context.mode != "OBJECT":
         raise ReflectionError("Reflections are compared in Object Mode: leave the present mode first.")
@@ -67,17 +70,33 @@ def compare(context: bpy.types.Context, folder: str, samples: int = 16, settings
         for _ in generation(context, Participants(missing, diffuse, []), settings):
             pass
     results = [result for mirror in mirrors for result in results_of(context, mirror)]
-    with copied_scene(context, mirrors, diffuse, results) as copied:
-        mirror, bent, truth, shown, reference, result = render_comparison(context, copied, diffuse, results, samples)
-        measurement = measure(mirror, bent, truth, shown)
+    try:
+        return _judged(context, Participants(mirrors, diffuse, []), results, folder, samples, started)
+    except BaseException:
+        # an error or ESC leaves no reflection behind that was made for this comparison alone
+        clear(context, [result for result in results if result not in earlier])
+        raise
+
+
+def _judged(context: bpy.types.Context, chosen: Participants, results: list, folder: str, samples: int,
+            started: float) -> dict:
+    """Render, measure and write the report of what stands in the file."""
+    with copied_scene(context, chosen.mirrors, chosen.diffuse, results) as copied:
+        renders = render_comparison(context, copied, chosen.diffuse, results, samples)
+        mirror, reference, result = renders.mirror, renders.reference, renders.result
+        measurement = measure(mirror, renders.bent, renders.truth, renders.shown)
         report = {
             "blender": bpy.app.version_string,
             "resolution": [mirror.shape[1], mirror.shape[0]],
-            "mirrors": [obj.name for obj in mirrors], "diffuse": [obj.name for obj in diffuse],
+            "mirrors": [obj.name for obj in chosen.mirrors], "diffuse": [obj.name for obj in chosen.diffuse],
             "results": [obj.name for obj in results],
             **measurement.numbers,
-            "picture": {"mirror": picture_error(reference, result, measurement.judged),
-                        "all": picture_error(reference, result, np.ones_like(mirror)), "samples": samples},
+            "without_packed_normals": renders.exact and without_packing(
+                mirror, renders.bent, renders.truth, renders.exact, renders.shown),
+            "picture": {**picture_errors(reference, result, {"mirror": measurement.judged,
+                                                             "all": np.ones_like(mirror)}), "samples": samples},
+            "generate_seconds": sum(obj.reflection_mesh.seconds for obj in results),
+            "render_seconds": renders.seconds,
             "seconds": time.perf_counter() - started,
         }
         write_report(folder, copied.scene, reference, result, mirror, measurement, report)
@@ -94,8 +113,8 @@ class REFLECTIONMESH_OT_compare(bpy.types.Operator):
     filepath: bpy.props.StringProperty(name="Folder", description="Folder for the pictures and the report",
                                        default="//reflection comparison", subtype="FILE_PATH",
                                        options=RELATIVE_PATH)
-    samples: bpy.props.IntProperty(name="Samples", description="Samples per pixel of the two pictures", default=16,
-                                   min=1, soft_max=1024)
+    samples: bpy.props.IntProperty(name="Samples", default=16, min=0, soft_max=1024,
+                                   description="Samples per pixel of the two pictures; 0: as the scene is set")
     tolerance: tolerance_property()
     placement: placement_property()
     method: method_property()
@@ -119,6 +138,9 @@ class REFLECTIONMESH_OT_compare(bpy.types.Operator):
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        remember(context.scene, report, folder)
+        if not bpy.app.background:
+            show_picture(context.window_manager, load_pictures(folder)[-1])
         self.report({"INFO"}, summary(report, folder))
         return {"FINISHED"}
 

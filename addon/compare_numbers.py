@@ -116,17 +116,31 @@ def measure(mirror: np.ndarray, bent: np.ndarray, truth: CodedPicture, shown: Co
     return Measurement(displacement, judged, hole, spill, wrong, numbers)
 
 
+def without_packing(mirror: np.ndarray, bent: np.ndarray, packed: CodedPicture, exact: CodedPicture,
+                    shown: CodedPicture) -> dict:
+    """The reflection's own error, told apart from what rounded normals do to the ray tracer.
+
+    Parameters
+    ----------
+    packed, exact : CodedPicture
+        The truth with the ray tracer's rounded normals, and with normals as they are.
+
+    Returns
+    -------
+    numbers : dict
+        `displacement_px` and `coverage_percent` against the exact truth, and `shift_px`: how far rounding moves the
+        truth itself, in units of the exact truth's motion per pixel.
+    """
+    numbers = measure(mirror, bent, exact, shown).numbers
+    same = mirror & ~bent & (exact.source >= 0) & (exact.source == packed.source) & (exact.face == packed.face)
+    shift = np.linalg.norm(packed.position - exact.position, axis=2) / motion_per_pixel(exact)
+    shift = shift[same & np.isfinite(shift)]
+    return {"displacement_px": numbers["displacement_px"], "coverage_percent": numbers["coverage_percent"],
+            "shift_px": _distribution(shift)}
+
+
 def _distribution(values: np.ndarray) -> dict:
     if not len(values):
         return {"median": None, "p95": None, "p99": None, "max": None}
     median, p95, p99 = np.percentile(values, (50, 95, 99))
     return {"median": float(median), "p95": float(p95), "p99": float(p99), "max": float(values.max())}
-
-
-def picture_error(reference: np.ndarray, result: np.ndarray, pixels: np.ndarray) -> dict:
-    """RMSE and PSNR (dB, for a peak of 1) of two linear pictures (height, width, 3) over `pixels` (height, width)."""
-    if not pixels.any():
-        return {"rmse": None, "psnr": None}
-    difference = reference[pixels].astype(np.float64) - result[pixels]
-    rmse = float(np.sqrt(np.mean(difference ** 2)))
-    return {"rmse": rmse, "psnr": float(-20.0 * np.log10(rmse)) if rmse > 0.0 else None}

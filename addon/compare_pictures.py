@@ -2,30 +2,50 @@
 from __future__ import annotations
 
 import json
+import time
+from typing import NamedTuple
 
 import bpy
 import numpy as np
 
-from . import cycles_render
+from . import compat, cycles_codes, cycles_render
 from .compare_numbers import ITSELF, NOTHING, CodedPicture
 from .cycles_codes import CodedMaterials
 from .cycles_scene import CopiedScene
 from .mirror_materials import is_mirror
 
 
-def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: list, results: list,
-                      samples: int) -> tuple:
+
+class Renders(NamedTuple):
     """All renders of a comparison.
 
-    Returns
-    -------
+    Attributes
+    ----------
     mirror, bent : (height, width) bool
         Pixels in which the eye sees a mirror, and those of them where Cycles bends the shading normal.
     truth, shown : CodedPicture
         What the mirror shows, and what the reflection mesh shows.
+    exact : CodedPicture or None
+        What the mirror would show if Cycles did not round its normals; None where Cycles does not.
     reference, result : (height, width, 3) float32
         The pictures in linear light.
+    seconds : dict
+        Time that Cycles took for the two pictures, by their names.
     """
+
+    mirror: np.ndarray
+    bent: np.ndarray
+    truth: CodedPicture
+    shown: CodedPicture
+    exact: CodedPicture | None
+    reference: np.ndarray
+    result: np.ndarray
+    seconds: dict
+
+
+def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: list, results: list,
+                      samples: int) -> Renders:
+    """Render the copied scene in codes and in its own materials; `samples` as in `compare`."""
     depth = max((json.loads(result.reflection_mesh.counts or "{}").get("depth", 1) for result in results), default=1)
     cycles_render.prepare(copied.scene, depth)
     _code_results(copied, results, diffuse, _polygons(context, diffuse))
@@ -35,7 +55,7 @@ def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: 
     for slot, material in own:
         slot.material = material
     _dress([(copy, index) for copy, index in copied.mirrors if not _reflecting(copy)], codes.plain_mirror())
-    return *coded, *_pictures(copied, context.scene, samples)
+    return Renders(*coded, *_pictures(copied, context.scene, samples))
 
 
 def _polygons(context: bpy.types.Context, diffuse: list) -> list:
@@ -78,9 +98,8 @@ def _code_results(copied: CopiedScene, results: list, diffuse: list, polygons: l
 
 def _dress(part: list, material: bpy.types.Material) -> None:
     """Put one material on every face of the copies."""
-    for copy, _ in part:
-        for slot in copy.material_slots:
-            slot.material = material
+    for slot in (slot for copy, _ in part for slot in copy.material_slots):
+        slot.material = material
 
 
 def _dress_mirrors(copied: CopiedScene, material: bpy.types.Material, other: bpy.types.Material,
@@ -97,9 +116,9 @@ def _reflecting(copy: bpy.types.Object) -> set:
 
 
 def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> tuple:
-    """The mirror's pixels, those with a bent normal, the truth, and what is shown."""
+    """The first five of `Renders`."""
     scene, origin = copied.scene, codes.origin
-    black, mirror = codes.black(), codes.mirror(depth)
+    black = codes.black()
     reflecting = {copy: _reflecting(copy) for copy, _ in copied.mirrors}
     shown_camera = {copy: copy.visible_camera for copy, _ in copied.mirrors}
     for copy, index in copied.diffuse:
@@ -117,11 +136,17 @@ def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> t
     seen = facing[..., 2] > 0.5
     bent = seen & (facing[..., 0] - 2.0 < np.minimum(0.9 * (facing[..., 1] - 2.0), 0.01))
 
-    _dress_mirrors(copied, mirror, black, reflecting)
-    _dress(copied.diffuse, codes.identity())
-    identity = cycles_render.render_codes(scene)
-    _dress(copied.diffuse, codes.position())
-    truth = _decode(identity, cycles_render.render_codes(scene), origin, seen, face_start=0)
+    mirrors = [codes.mirror(depth)]
+    if compat.packs_normals():
+        cycles_codes.carry_normals(copied)
+        mirrors.append(codes.mirror(depth, cycles_codes.MIRROR_NORMAL))
+    reflected: list = []
+    for mirror in mirrors:
+        _dress_mirrors(copied, mirror, black, reflecting)
+        _dress(copied.diffuse, codes.identity())
+        identity = cycles_render.render_codes(scene)
+        _dress(copied.diffuse, codes.position())
+        reflected.append(_decode(identity, cycles_render.render_codes(scene), origin, seen, face_start=0))
 
     for copy, _ in copied.mirrors:
         copy.visible_camera = shown_camera[copy]
@@ -132,7 +157,7 @@ def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> t
     identity = cycles_render.render_codes(scene)
     _dress(copied.results, codes.attribute_position("reflected_position"))
     shown = _decode(identity, cycles_render.render_codes(scene), origin, True, face_start=1)
-    return seen, bent, truth, shown
+    return seen, bent, reflected[0], shown, reflected[1] if len(reflected) > 1 else None
 
 
 def _lowest_corner(copied: CopiedScene) -> tuple:
@@ -155,18 +180,21 @@ def _decode(identity: np.ndarray, position: np.ndarray, origin: tuple, where, fa
     return CodedPicture(source, face, position.astype(np.float64) + np.array(origin))
 
 
-def _pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) -> tuple[np.ndarray, np.ndarray]:
-    """What Cycles shows, and what it shows with the reflection mesh before a mirror that reflects the world alone."""
+def _pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) -> tuple[np.ndarray, np.ndarray, dict]:
+    """What Cycles shows, what it shows with the mesh before a mirror that reflects the world alone, and its times."""
     scene = copied.scene
     scene.world = user.world
     visible = [(copy, copy.visible_camera, copy.visible_glossy) for copy in copied.everything]
     for copy, _ in copied.mirrors:
         copy.visible_camera = True
     _show(copied.results, False)
-    reference = cycles_render.render_picture(scene, samples)
+    started = time.perf_counter()
+    reference = cycles_render.render_picture(scene, samples, user)
+    between = time.perf_counter()
     for copy, camera, glossy in visible:
         copy.visible_camera, copy.visible_glossy = camera, glossy
     for copy, _ in copied.diffuse:
         copy.visible_glossy = False
     _show(copied.results, True)
-    return reference, cycles_render.render_picture(scene, samples)
+    result, ended = cycles_render.render_picture(scene, samples, user), time.perf_counter()
+    return reference, result, {"reference": between - started, "result": ended - between}

@@ -12,6 +12,11 @@ def uses_nodes(material: bpy.types.Material) -> bool:
     return material.use_nodes and material.node_tree is not None
 
 
+def packs_normals() -> bool:
+    """Whether Cycles rounds shading normals to 2 x 16 bits, which moves what curved mirrors show; from 5.0 on."""
+    return bpy.app.version >= (5, 0, 0)
+
+
 def smooth_faces_take_vertex_normals(mesh: bpy.types.Mesh) -> bool:
     """Whether Cycles shades smooth faces beside flat ones with the vertices' normals, flat faces included.
 

@@ -1,9 +1,14 @@
 """Materials that emit numbers instead of light: a render in them says what each pixel shows."""
 from __future__ import annotations
 
+from collections import Counter
+
 import bpy
+import numpy as np
 
 from .cycles_scene import CopiedScene
+
+MIRROR_NORMAL = "reflection_mesh_normal"
 
 
 class CodedMaterials:
@@ -47,11 +52,16 @@ class CodedMaterials:
         tree.links.new(self._attribute(tree, name).outputs["Vector"], emission.inputs["Color"])
         return material
 
-    def mirror(self, depth: int) -> bpy.types.Material:
-        """Reflects perfectly `depth` times; a mirror seen in the last of these emits 1 in the first channel."""
+    def mirror(self, depth: int, normal: str = "") -> bpy.types.Material:
+        """Reflects perfectly `depth` times; a mirror seen in the last of these emits 1 in the first channel.
+
+        Where `normal` names an attribute, in the object's space, it takes the place of Cycles' own shading normals.
+        """
         material, tree, emission = self._material("Mirror")
         emission.inputs["Color"].default_value = (1.0, 0.0, 0.0, 1.0)
         glossy = _glossy(tree)
+        if normal:
+            tree.links.new(self._world_normal(tree, normal), glossy.inputs["Normal"])
         mix = tree.nodes.new("ShaderNodeMixShader")
         reached = tree.nodes.new("ShaderNodeMath")
         reached.operation = "GREATER_THAN"
@@ -114,12 +124,43 @@ class CodedMaterials:
         node.attribute_type, node.attribute_name = "GEOMETRY", name
         return node
 
+    def _world_normal(self, tree: bpy.types.NodeTree, name: str) -> bpy.types.NodeSocket:
+        """The normal that the mesh carries as the attribute `name`, in world space, on the side that is seen."""
+        transform = tree.nodes.new("ShaderNodeVectorTransform")
+        transform.vector_type, transform.convert_from, transform.convert_to = "NORMAL", "OBJECT", "WORLD"
+        tree.links.new(self._attribute(tree, name).outputs["Vector"], transform.inputs["Vector"])
+        side = tree.nodes.new("ShaderNodeMath")
+        side.operation = "MULTIPLY_ADD"
+        tree.links.new(tree.nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"], side.inputs[0])
+        side.inputs[1].default_value, side.inputs[2].default_value = -2.0, 1.0
+        turned = tree.nodes.new("ShaderNodeVectorMath")
+        turned.operation = "SCALE"
+        tree.links.new(transform.outputs["Vector"], turned.inputs["Vector"])
+        tree.links.new(side.outputs["Value"], turned.inputs["Scale"])
+        return turned.outputs["Vector"]
+
     def _from_origin(self, tree: bpy.types.NodeTree, socket, emission: bpy.types.Node) -> None:
         subtract = tree.nodes.new("ShaderNodeVectorMath")
         subtract.operation = "SUBTRACT"
         subtract.inputs[1].default_value = self.origin
         tree.links.new(socket, subtract.inputs[0])
         tree.links.new(subtract.outputs["Vector"], emission.inputs["Color"])
+
+
+def carry_normals(copied: CopiedScene) -> None:
+    """Write the mirrors' shading normals into the attribute `MIRROR_NORMAL`, which Cycles does not round.
+
+    Cycles interpolates them as unit vectors in world space, or in the object's where several objects share a mesh.
+    """
+    places = {copy.data: np.array(copy.matrix_world, dtype=np.float64)[:3, :3] for copy, _ in copied.mirrors}
+    users = Counter(copy.data for copy in copied.everything)
+    for mesh, place in places.items():
+        normals = np.empty((len(mesh.loops), 3), dtype=np.float32)
+        mesh.corner_normals.foreach_get("vector", normals.reshape(-1))
+        if users[mesh] == 1 and abs(np.linalg.det(place)) > 0.0:
+            length = np.linalg.norm(normals @ np.linalg.inv(place), axis=1, keepdims=True)
+            normals = (normals / np.where(length > 0.0, length, 1.0)).astype(np.float32)
+        mesh.attributes.new(MIRROR_NORMAL, "FLOAT_VECTOR", "CORNER").data.foreach_set("vector", normals.reshape(-1))
 
 
 def _glossy(tree: bpy.types.NodeTree) -> bpy.types.Node:

@@ -12,6 +12,10 @@ import numpy as np
 from ..core import ReflectionError
 
 SLOT = "Reflection Comparison"
+OWN_SETTINGS = ("samples", "use_adaptive_sampling", "adaptive_threshold", "adaptive_min_samples", "use_denoising",
+                "denoiser", "sample_clamp_direct", "sample_clamp_indirect", "blur_glossy", "film_exposure",
+                "pixel_filter_type", "filter_width", "caustics_reflective", "caustics_refractive", "max_bounces",
+                "diffuse_bounces", "glossy_bounces", "transmission_bounces", "transparent_max_bounces", "seed")
 
 
 def prepare(scene: bpy.types.Scene, depth: int) -> None:
@@ -53,10 +57,18 @@ def render_codes(scene: bpy.types.Scene) -> np.ndarray:
     return _render(scene)
 
 
-def render_picture(scene: bpy.types.Scene, samples: int) -> np.ndarray:
-    """The picture in linear light, (height, width, 3) float32 from the lowest row up."""
+def render_picture(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> np.ndarray:
+    """The picture in linear light, (height, width, 3) float32 from the lowest row up.
+
+    With 0 samples, sampling, denoising, clamping, filter and bounces are those of the scene `user`.
+    """
     cycles = scene.cycles
-    cycles.samples, cycles.pixel_filter_type, cycles.filter_width = samples, "BLACKMAN_HARRIS", 1.5
+    if samples:
+        cycles.samples, cycles.pixel_filter_type, cycles.filter_width = samples, "BLACKMAN_HARRIS", 1.5
+    else:
+        for name in OWN_SETTINGS:
+            if hasattr(user.cycles, name):
+                setattr(cycles, name, getattr(user.cycles, name))
     return _render(scene)
 
 
@@ -65,7 +77,9 @@ def _render(scene: bpy.types.Scene) -> np.ndarray:
     with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as folder, _slot_of_its_own():
         path = os.path.join(folder, "render.exr")
         scene.render.filepath = path
-        bpy.ops.render.render(write_still=True, scene=scene.name)
+        _write_still(scene)
+        if not os.path.exists(path):
+            raise ReflectionError("The render was cancelled: the comparison is left out, nothing has changed.")
         image = bpy.data.images.load(path)
         try:
             image.colorspace_settings.name = "Non-Color"
@@ -75,6 +89,11 @@ def _render(scene: bpy.types.Scene) -> np.ndarray:
             return pixels.reshape(height, width, -1)[..., :3].copy()
         finally:
             bpy.data.images.remove(image)
+
+
+def _write_still(scene: bpy.types.Scene) -> None:
+    """Render to the scene's path; ESC ends it without a file."""
+    bpy.ops.render.render(write_still=True, scene=scene.name)
 
 
 @contextmanager

@@ -54,6 +54,7 @@ def generation(context: bpy.types.Context, chosen: Participants,
     """
     if context.mode != "OBJECT":
         raise core.ReflectionError("Reflections are generated in Object Mode: leave the present mode first.")
+    started = time.perf_counter()
     yield 0.0, "Reading the scene"
     remarks = [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
     view = read_view(context)
@@ -89,6 +90,8 @@ def generation(context: bpy.types.Context, chosen: Participants,
     yield 1.0, "Writing"
     results = [(write_object(context, mirror, chosen.diffuse, origin, arrays, result, view, settings.placement), result)
                for mirror, origin, arrays, result in prepared]
+    for obj, _ in results:
+        obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
     return Outcome(results, remarks + refused)
 
 

@@ -5,6 +5,8 @@ import json
 
 import bpy
 
+from . import show_comparison
+
 
 class REFLECTION_MESH_PT_main(bpy.types.Panel):
     """Roles, settings and the operators"""
@@ -36,6 +38,7 @@ class REFLECTION_MESH_PT_main(bpy.types.Panel):
             operator.method = settings.method
             operator.depth = settings.depth
         column.operator("reflection_mesh.clear", icon="TRASH")
+        _draw_comparison(layout, context.scene)
 
 
 def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
@@ -55,6 +58,19 @@ def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
         share = 100.0 * counts["filled_pixels"] / max(counts["mirror_pixels"], 1)
         box.label(text=f"{share:.3f} % filled by rays")
     box.label(text=f"Error about {record.estimated_error:.2f} px at {record.resolution[0]} x {record.resolution[1]}")
+
+
+def _draw_comparison(layout: bpy.types.UILayout, scene: bpy.types.Scene) -> None:
+    """The numbers of the last comparison, and the way to its page."""
+    told = show_comparison.lines(scene)
+    if not told:
+        return
+    box = layout.box()
+    for line in told:
+        box.label(text=line, translate=False)
+    address = show_comparison.page_address(scene)
+    if address:
+        box.operator("wm.url_open", text="Open the Report", icon="URL").url = address
 
 
 def register() -> None:

@@ -57,6 +57,7 @@ class ReflectionObject(bpy.types.PropertyGroup):
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
     estimated_error: FloatProperty(name="Estimated Error", description="99th percentile of the displacement, in pixels")
+    seconds: FloatProperty(name="Seconds", description="Time that it took to generate, this mirror's share")
     counts: StringProperty(name="Counts", description="How much of each part of the method was needed, as JSON")
     resolution: IntVectorProperty(name="Resolution", size=2,
                                   description="Size in pixels of the picture that this reflection was made for")
@@ -73,6 +74,7 @@ class ReflectionScene(bpy.types.PropertyGroup):
     placement: placement_property()
     method: method_property()
     depth: depth_property()
+    comparison: StringProperty(name="Comparison", description="Numbers of the last comparison with Cycles, as JSON")
 
 
 CLASSES = (ReflectionSource, ReflectionObject, ReflectionScene)

@@ -12,8 +12,6 @@ import pytest
 FOLDER = Path(__file__).resolve().parents[2] / "sample_blends"
 SAMPLES = sorted(path.stem for path in FOLDER.glob("*.blend"))
 PROMISED = ("sphere", "flat_mirror", "cylinder", "water")
-# Cycles packs shading normals from 5.0 on and so moves its own reflections, by up to 0.8 px: not the mesh's error
-PACKED_NORMALS = 0.8 if bpy.app.version >= (5, 0, 0) else 0.0
 
 
 def opened(name: str) -> None:
@@ -50,8 +48,10 @@ def test_a_sample_is_reflected_as_cycles_shows_it(name, tmp_path):
     assert bpy.ops.reflection_mesh.compare(filepath=str(tmp_path), samples=1) == {"FINISHED"}
     report = json.loads((tmp_path / "report.json").read_text())
     assert report["mirror_pixels"] > 100_000 and report["measured_pixels"] > 50_000
-    assert report["displacement_px"]["p99"] < 0.5 + PACKED_NORMALS
-    assert report["coverage_percent"]["all"] < 0.1 + PACKED_NORMALS
+    # from 5.0 on Cycles rounds shading normals and so moves its own reflections: not the mesh's error
+    own = report["without_packed_normals"] or report
+    assert own["displacement_px"]["p99"] < 0.5
+    assert own["coverage_percent"]["all"] < 0.1
 
 
 def test_the_script_writes_a_sample(tmp_path):

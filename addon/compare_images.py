@@ -1,0 +1,115 @@
+"""The pictures of a comparison, as files and as parts of its page."""
+from __future__ import annotations
+
+import os
+import tempfile
+
+import bpy
+import numpy as np
+
+from .colour_map import heat_map
+from .compare_numbers import Measurement
+from .png_file import png_bytes
+from .report_data import Picture
+
+# what a pixel of holes.png is, and its colour: of M. Okabe and K. Ito's set, safe for all kinds of colour vision
+KINDS = {"no mirror": (20, 20, 20), "left out": (62, 62, 68), "right": (130, 130, 130), "hole": (213, 94, 0),
+         "spill": (0, 114, 178), "wrong layer": (240, 228, 66)}
+DIFFERENCE, DISPLACEMENT = (0.001, 1.0), (0.01, 10.0)       # ends of the scales: linear light, pixels
+
+
+def comparison_pictures(folder: str, scene: bpy.types.Scene, reference: np.ndarray, result: np.ndarray,
+                        mirror: np.ndarray, measurement: Measurement) -> tuple[Picture, ...]:
+    """Write five PNG files into the folder; returns them as they are shown in a page.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        A temporary scene whose view settings are those of the user; its image settings are changed.
+    reference, result : (height, width, 3) float32
+        Linear pictures, from the lowest row up.
+    """
+    difference = np.abs(reference.astype(np.float64) - result).mean(axis=2)
+    coverage = coverage_picture(mirror, measurement)
+    for name, data in _maps(difference, measurement.displacement, coverage).items():
+        with open(os.path.join(folder, f"{name}.png"), "wb") as file:
+            file.write(data)
+    # the page shows of the maps what is round the mirrors alone, and so larger
+    box = surroundings(mirror)
+    maps = _maps(difference[box], measurement.displacement[box], coverage[box])
+    small = {}
+    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as scratch:
+        for name, linear in (("reference", reference), ("result", result)):
+            _save(os.path.join(folder, f"{name}.png"), scene, linear, "PNG")
+            path = os.path.join(scratch, f"{name}.jpg")
+            _save(path, scene, linear, "JPEG")
+            with open(path, "rb") as file:
+                small[name] = file.read()
+    return (
+        Picture("reference", "Cycles", "The mirror is traced.", small["reference"], "image/jpeg"),
+        Picture("result", "With the reflection mesh", "The mesh lies before a mirror that reflects the world alone.",
+                small["result"], "image/jpeg"),
+        Picture("displacement", "Displacement", "How far each point of the reflection lies from where Cycles shows it, "
+                "in pixels. Grey: not measured. The three maps show what is round the mirror.", maps["displacement"]),
+        Picture("difference", "Difference of the pictures", "Mean over the channels, in linear light (white is 1); the "
+                "noise of both renders included.", maps["difference"]),
+        Picture("holes", "Holes", "Orange: the mesh shows nothing where Cycles shows the scene; blue: the reverse; "
+                "yellow: another surface; dark: left out. Wrong pixels are drawn enlarged.", maps["holes"]))
+
+
+def _maps(difference: np.ndarray, displacement: np.ndarray, coverage: np.ndarray) -> dict:
+    """PNG files by name."""
+    return {"difference": heat_map(difference, *DIFFERENCE),
+            "displacement": heat_map(displacement, *DISPLACEMENT, unit="px"),
+            "holes": png_bytes(coverage[::-1], np.array(list(KINDS.values())))}
+
+
+def surroundings(mirror: np.ndarray) -> tuple[slice, slice]:
+    """The box of the mirror's pixels with a margin of a twentieth; the whole picture where there are none."""
+    if not mirror.any():
+        return slice(None), slice(None)
+    box = []
+    for axis in (0, 1):
+        found = np.flatnonzero(mirror.any(axis=1 - axis))
+        margin = 2 + (found[-1] - found[0]) // 20
+        box.append(slice(max(int(found[0]) - margin, 0), int(found[-1]) + 1 + margin))
+    return box[0], box[1]
+
+
+def coverage_picture(mirror: np.ndarray, measurement: Measurement) -> np.ndarray:
+    """(height, width) uint8 entries of `KINDS`; wrong pixels are drawn larger where the picture is large."""
+    names = list(KINDS)
+    picture = np.full(mirror.shape, names.index("no mirror"), dtype=np.uint8)
+    picture[mirror] = names.index("left out")
+    picture[measurement.judged] = names.index("right")
+    for name, mask in (("spill", measurement.spill), ("wrong layer", measurement.wrong_layer),
+                       ("hole", measurement.hole)):
+        picture[_enlarged(mask, mirror.shape[1] // 400)] = names.index(name)
+    return picture
+
+
+def _enlarged(mask: np.ndarray, reach: int) -> np.ndarray:
+    """Every pixel within `reach` rows and columns of one of the mask."""
+    for axis in (0, 1):
+        pad = [(0, 0), (0, 0)]
+        pad[axis] = (reach, reach)
+        padded, length = np.moveaxis(np.pad(mask, pad), axis, 0), mask.shape[axis]
+        mask = np.moveaxis(np.any([padded[k:k + length] for k in range(2 * reach + 1)], axis=0), 0, axis)
+    return mask
+
+
+def _save(path: str, scene: bpy.types.Scene, linear: np.ndarray, kind: str) -> None:
+    """Write a linear picture as the scene's view settings show it."""
+    settings = scene.render.image_settings
+    settings.file_format, settings.color_mode, settings.quality = kind, "RGB", 92
+    if kind == "PNG":
+        settings.color_depth = "8"
+    height, width, _ = linear.shape
+    image = bpy.data.images.new("Reflection Comparison", width, height, float_buffer=True)
+    try:
+        rgba = np.ones((height, width, 4), dtype=np.float32)
+        rgba[..., :3] = linear
+        image.pixels.foreach_set(rgba.ravel())
+        image.save_render(path, scene=scene)
+    finally:
+        bpy.data.images.remove(image)

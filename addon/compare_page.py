@@ -1,0 +1,81 @@
+"""The words of a comparison's page: its answer, its facts, and how they were measured."""
+from __future__ import annotations
+
+from .report_data import Picture, Scene, number
+
+NOTES = (
+    "Displacement: the scene is rendered once in materials that emit positions, in the mirror and on the mesh. How "
+    "far the two points of a pixel lie apart is divided by how far the true point moves from one pixel to the next.",
+    "Holes: Cycles shows the scene and the mesh nothing. Spill: the reverse, or the mesh reaches outside the "
+    "mirror. Wrong layer: another surface, more than two pixels off. Pixels are left out where a mirror is seen in "
+    "the mirror beyond the depth that was followed, and where Cycles bends the normal.",
+    "RMSE, PSNR (for a peak of 1) and relative MSE (squared difference over squared reference plus 0.01) are taken "
+    "in linear light. SSIM (Wang et al. 2004) and FLIP (Andersson et al. 2020, 67 pixels per degree) are taken on "
+    "sRGB values at exposure 0, clipped to 0..1. They contain the noise of both renders; displacement and holes do "
+    "not.",
+    "From Blender 5.0 on, Cycles rounds shading normals to 2 x 16 bits, which moves its own reflections. The errors"
+    " without rounding are measured against Cycles with the same normals handed to it unrounded, as an attribute.",
+)
+
+
+def scene_of(name: str, report: dict, pictures: tuple[Picture, ...]) -> Scene:
+    """A comparison's report and pictures as a part of a page."""
+    return Scene(name, summary(report), facts(report), pictures)
+
+
+def summary(report: dict) -> tuple[str, ...]:
+    """The answer first, then what stands behind it."""
+    if not report["judged_pixels"]:
+        return ("The camera sees no mirror whose reflection could be judged.",)
+    displacement, coverage = report["displacement_px"], report["coverage_percent"]
+    seconds = report["render_seconds"]
+    made = f"It took {report['generate_seconds']:.2f} s to make. " if report["generate_seconds"] else ""
+    if displacement["p99"] is None:
+        close = "The reflection shows nothing that could be measured. "
+    else:
+        right = max(100.0 - coverage["all"], 0.0)
+        close = (f"{right:.2f} % of the mirror shows the right surface, 99 % of it within {displacement['p99']:.2f} px "
+                 f"of where Cycles shows it and half within {displacement['median']:.2f} px. ")
+    samples = report["picture"]["samples"]
+    quality = f", at {samples} sample{'' if samples == 1 else 's'} a pixel." if samples else "."
+    times = (f"Cycles renders the picture in {seconds['reference']:.1f} s with the mirror and in "
+             f"{seconds['result']:.1f} s with the reflection mesh" + quality)
+    wrong = round(coverage["all"] * report["judged_pixels"] / 100.0)
+    flip = number(report, "picture.mirror.flip")
+    return (close + made + times,
+            f"Holes, spill and wrong layers together are {wrong} of {report['judged_pixels']} pixels." + (
+                "" if flip is None else f" To the eye the pictures differ by a FLIP of {flip:.3f}, from 0 for equal to "
+                "1, noise included."))
+
+
+def facts(report: dict) -> dict:
+    """Numbers by label."""
+    shown = {"objects": f"{', '.join(report['mirrors'])} reflect {', '.join(report['diffuse'])}",
+             "displacement (px): median, 95 %, 99 %, largest": _distribution(report["displacement_px"])}
+    exact = report.get("without_packed_normals")
+    if exact:
+        shown["the same without Cycles' rounded normals"] = _distribution(exact["displacement_px"])
+        shown["what rounding moves in Cycles itself"] = _distribution(exact["shift_px"])
+    coverage = report["coverage_percent"]
+    shown["hole, spill, wrong layer (%)"] = ", ".join(f"{coverage[name]:.4f}"
+                                                      for name in ("hole", "spill", "wrong_layer"))
+    for where, label in (("mirror", "over the mirror"), ("all", "over the picture")):
+        errors = report["picture"][where]
+        if errors["rmse"] is not None:
+            psnr = "none (equal)" if errors["psnr"] is None else f"{errors['psnr']:.2f} dB"
+            shown[label] = (f"RMSE {errors['rmse']:.5f}, PSNR {psnr}, relative MSE {errors['relative_mse']:.6f}, "
+                            f"SSIM {errors['ssim']:.5f}, FLIP {errors['flip']:.5f}")
+    return shown
+
+
+def environment(report: dict) -> dict:
+    """Where and how it was measured."""
+    width, height = report["resolution"]
+    samples = report["picture"]["samples"]
+    return {"Blender": report["blender"], "resolution": f"{width} x {height}",
+            "samples per pixel": samples if samples else "as the scene is set"}
+
+
+def _distribution(values: dict) -> str:
+    shown = (values[name] for name in ("median", "p95", "p99", "max"))
+    return ", ".join("none" if value is None else f"{value:.3f}" for value in shown)

@@ -1,0 +1,94 @@
+"""The report as one HTML page that needs nothing else: no network, no scripts, pictures and plots inside."""
+from __future__ import annotations
+
+import base64
+from html import escape
+
+from .report_data import Report, Run, Scene, number
+from .report_plots import cost_table, growth_plots, scene_plots, styles_of
+from .report_style import STYLE
+
+# what the overview and the table of methods show: a heading, the path of the number, its format
+COLUMNS = (("displacement, median (px)", "displacement_px.median", ".3f"),
+           ("99 % (px)", "displacement_px.p99", ".3f"),
+           ("holes, spill, wrong layer (%)", "coverage_percent.all", ".4f"),
+           ("PSNR (dB)", "picture.mirror.psnr", ".1f"), ("SSIM", "picture.mirror.ssim", ".4f"),
+           ("FLIP", "picture.mirror.flip", ".4f"))
+
+
+def page(report: Report) -> str:
+    """The whole page."""
+    styles = styles_of(report)
+    body = [f"<h1>{escape(report.title)}</h1>"]
+    if len(report.scenes) > 1:
+        body.append(_overview(report))
+    for index, scene in enumerate(report.scenes):
+        body.append(_scene(scene, index, styles, heading=len(report.scenes) > 1))
+    if report.growths:
+        body.append("<h2>How it grows</h2>" + growth_plots(report.growths, styles))
+    if report.costs:
+        body.append("<h2>Work, counted</h2>" + cost_table(report.costs, report.cost_setting))
+    body.append("<h2>How to read this</h2>" + "".join(f"<p>{escape(note)}</p>" for note in report.notes))
+    body.append(_facts(report.environment))
+    return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">'
+            f"<title>{escape(report.title)}</title><style>{STYLE}</style></head><body><main>"
+            + "\n".join(body) + "</main></body></html>\n")
+
+
+def _overview(report: Report) -> str:
+    """One row for each scene: its answer, linked to its section."""
+    rows = "".join(f'<tr><th scope="row"><a href="#scene{index}">{escape(scene.name)}</a></th>'
+                   f"<td>{escape(scene.summary[0] if scene.summary else '')}</td></tr>"
+                   for index, scene in enumerate(report.scenes))
+    return f'<table class="overview"><tbody>{rows}</tbody></table>'
+
+
+def _scene(scene: Scene, index: int, styles: dict, heading: bool) -> str:
+    parts = [f'<section id="scene{index}">']
+    if heading:
+        parts.append(f"<h2>{escape(scene.name)}</h2>")
+    if scene.summary:
+        parts.append(f'<p class="answer">{escape(scene.summary[0])}</p>')
+        parts += [f"<p>{escape(sentence)}</p>" for sentence in scene.summary[1:]]
+    parts.append(_pictures(scene.pictures[:2], "pair") + _facts(scene.facts) + _pictures(scene.pictures[2:], "maps"))
+    if scene.runs:
+        parts.append(scene_plots(scene, styles) + _table(scene.runs))
+    return "".join(parts) + "</section>"
+
+
+def _pictures(pictures: tuple, kind: str) -> str:
+    if not pictures:
+        return ""
+    figures = []
+    for picture in pictures:
+        data = base64.b64encode(picture.data).decode("ascii")
+        figures.append(f'<figure><img alt="{escape(picture.title)}" src="data:{picture.kind};base64,{data}">'
+                       f"<figcaption><b>{escape(picture.title)}.</b> {escape(picture.caption)}</figcaption></figure>")
+    return f'<div class="{kind}">{"".join(figures)}</div>'
+
+
+def _facts(facts: dict) -> str:
+    if not facts:
+        return ""
+    rows = "".join(f'<tr><th scope="row">{escape(str(name))}</th><td>{escape(str(value))}</td></tr>'
+                   for name, value in facts.items())
+    return f'<table class="facts"><tbody>{rows}</tbody></table>'
+
+
+def _table(runs: tuple) -> str:
+    """Every run with its seconds and errors, in the order given."""
+    kinds = list(dict.fromkeys(kind for run in runs for kind in run.counts))
+    heads = "".join(f"<th>{escape(name)}</th>"
+                    for name in ["method", "seconds", *(column[0] for column in COLUMNS), *kinds])
+    return (f'<div class="wide"><table class="numbers"><thead><tr>{heads}</tr></thead><tbody>'
+            + "".join(_row(run, kinds) for run in runs) + "</tbody></table></div>")
+
+
+def _row(run: Run, kinds: list) -> str:
+    cells = [f"{run.total:.3g}"]
+    for _, path, form in COLUMNS:
+        value = number(run.numbers, path)
+        cells.append("–" if value is None else format(value, form))
+    cells += [f"{run.counts[kind]:,}".replace(",", " ") if kind in run.counts else "–" for kind in kinds]
+    return f'<tr><th scope="row">{escape(run.label)}</th>' + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
