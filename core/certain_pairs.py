@@ -13,8 +13,8 @@ from .rounding import UNIT
 from .simple_roots import simple_roots
 from .vectors import cross, dot
 
-_SHORT, _LONG = 2.0 ** -75, 2.0 ** 75
-"""Lengths between these, and their ratios, are safe to the twelfth power."""
+_SHORT, _LONG = 2.0 ** -200, 2.0 ** 200
+"""Lengths between these neither overflow nor lose digits when four are multiplied."""
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")

@@ -14,6 +14,9 @@ _KNOWN = 2.0 ** 30
 _APART = 2.0 ** -24
 """The discriminant of an ordinary cubic, as a part of its terms: over 50 times what errors of 1e-9 make of it."""
 
+_TINY = 2.0 ** -960
+"""Products below this may have lost digits."""
+
 _CLOSE = 2.0 ** -10
 """Newton's method gains ten bits or more with every step where its first one is so small beside slope over bend."""
 
@@ -109,7 +112,7 @@ def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     least *= size
     least += most * most
     least *= _APART
-    apart = np.abs(discriminant) > least
+    apart = np.abs(discriminant) > np.maximum(least, _TINY)
     many = discriminant > 0.0
 
     # Three: with 3 phi the arc cosine of r / q^1.5, -2 sqrt(q) cos(phi) and those a third of a turn to either side;
