@@ -10,13 +10,14 @@ RUN = $(VENV)/bin/python
 READY = $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help environment demo measure numerics work pictures test lint test-core test-addon zip samples clean
+.PHONY: help environment demo measure numerics rate work pictures test lint test-core test-addon zip samples clean
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/"
 	@echo "make test     style, the method's tests, the extension's tests"
 	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
 	@echo "make numerics the table and the plot of docs/numerics.md: the solver against exact arithmetic"
+	@echo "make rate     pairs a second: the solver beside the plain closed form, in one run"
 	@echo "make work     what each method counts on the setting of the talk's cost model"
 	@echo "make zip      the extension as a zip in dist/, to install in Blender"
 	@echo "make pictures the pictures of the documents, in docs/"
@@ -46,6 +47,9 @@ measure: environment
 
 numerics: environment
 	$(RUN) -m benchmarks.numerics
+
+rate: environment
+	$(RUN) -m benchmarks.solver_rate
 
 work: environment
 	$(RUN) -m benchmarks.work

@@ -1,25 +1,40 @@
 """Images in ordinary pairs: those about which rough bounds leave no doubt.
 
 Most pairs are far from every limit: the signs that decide anything are far above the rounding that the largest
-coordinates alone allow. (Such tests are called floating-point filters in computational geometry.) What is doubtful is
-left to the closer look of `doubtful_pairs`. Nothing that is decided of one pair depends on the others.
+coordinates alone allow. (Such tests are called floating-point filters in computational geometry.) The first bounds are
+those of the largest coordinates of all pairs together, which cost next to nothing; pairs that they leave open get
+their own, and what is still doubtful is left to the closer look of `doubtful_pairs`. What the first bounds decide, the
+second would decide alike: nothing that is told of one pair depends on the others.
 """
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 
 from . import coplanarity
 from .rounding import UNIT
 from .simple_roots import simple_roots
-from .vectors import cross, dot
+from .vectors import columns, cross, dot
 
 _SHORT, _LONG = 2.0 ** -200, 2.0 ** 200
 """Lengths between these neither overflow nor lose digits when four are multiplied."""
 
+_ROUND = 3.0 ** 0.5 + 2.0 ** -50
+"""A vector is at most this many times as long as its largest coordinate."""
+
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")
-def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
+def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray,
+                   lengths_of: Callable[[np.ndarray, np.ndarray], np.ndarray]):
     """Images in the pairs (n) of a camera and a point that leave no doubt.
+
+    Parameters
+    ----------
+    vertices, rays : (n, 3, 3) float64
+    points : (n, 3) float64
+    lengths_of : function of places and velocities
+        `common_lengths` or `own_lengths`.
 
     Returns
     -------
@@ -35,24 +50,27 @@ def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
         Pairs that were left out.
     """
     still, moving = coplanarity.differences(vertices, rays, points)
-    lengths = x, e, r, d = _rough_lengths(still, moving)
+    lengths = lengths_of(still, moving)
+    x, e, r, d = lengths
     ee, ed, dd = e * e, e * d, d * d
+
+    def own(pair):
+        return lengths if lengths.shape[1] == 1 else columns(lengths, pair)
 
     def noise(pair, t):
         """The sum of the bounds times powers of t, and as much again for the roundings of the sum: 6 u |c|."""
-        x, e, r, d = lengths.take(pair, axis=1)
+        x, e, r, d = own(pair)
         edge = e + t * d
-        return (x + t * r) * (edge * edge) * (24.0 * UNIT)
+        edge *= edge
+        edge *= x + t * r
+        edge *= 24.0 * UNIT
+        return edge
 
     bounds = np.stack((x * ee, 2.0 * x * ed + r * ee, x * dd + 2.0 * r * ed, r * dd))
     bounds *= 12.0 * UNIT
     doubtful, roots = simple_roots(coplanarity.coefficients(still, moving), bounds, noise)
-    if lengths.size and not _SHORT <= lengths.min() <= lengths.max() <= _LONG:
-        strange = (lengths.min(axis=0) < _SHORT) | (lengths.max(axis=0) > _LONG)
-        doubtful |= strange
-        roots = roots.select(np.flatnonzero(~strange[roots.cubic]))
     pair, t = roots.cubic, roots.value
-    place, velocity = (part.reshape(9, -1).take(pair, axis=1) for part in (still, moving))
+    place, velocity = (columns(part.reshape(9, -1), pair) for part in (still, moving))
     velocity *= t
     place += velocity
     p, a, b = place.reshape(3, 3, -1)
@@ -60,10 +78,14 @@ def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
     square = dot(normal, normal)
     second, third = dot(cross(b, p), normal), dot(cross(p, a), normal)
     # All three weights are off by less than this, times the square: see `doubtful_pairs`.
-    x, e, r, d = lengths.take(pair, axis=1)
-    both = e + t * d
+    x, e, r, d = own(pair)
+    both = t * d
+    both += e
     both *= 2.0
-    margin = (both + (x + t * r)) * (8.0 * UNIT)
+    margin = t * r
+    margin += x
+    margin += both
+    margin *= 8.0 * UNIT
     margin += roots.error * (r + 2.0 * d)
     margin *= both
     margin *= np.sqrt(square)
@@ -86,12 +108,22 @@ def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
     return pair, t.take(inside), weights, roots.sign.take(inside), side, doubtful
 
 
-def _rough_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
-    """Bounds (4, n) on |p|, on |a| and |b|, on |r|, and on |u| and |v|, from their largest coordinates."""
+def own_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
+    """Bounds (4, n) on |p|, on |a| and |b|, on |r|, and on |u| and |v|, from their largest coordinates; not a number
+    for pairs outside the limits."""
     lengths = np.empty((4, still.shape[2]))
     for (first, edges), part in zip((lengths[:2], lengths[2:]), (np.abs(still), np.abs(moving))):
-        np.maximum(np.maximum(part[0, 0], part[0, 1]), part[0, 2], out=first)
-        part[1] = np.maximum(part[1], part[2])
-        np.maximum(np.maximum(part[1, 0], part[1, 1]), part[1, 2], out=edges)
-    lengths *= 3.0 ** 0.5 + 2.0 ** -50
+        part[0].max(axis=0, out=first)
+        part[1:].max(axis=(0, 1), out=edges)
+    lengths *= _ROUND
+    # comparisons with what is not a number are false, so that it leaves every doubt
+    lengths[:, ~((lengths.min(axis=0) >= _SHORT) & (lengths.max(axis=0) <= _LONG))] = np.nan
     return lengths
+
+
+def common_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
+    """The same (4, 1) for all pairs together, well inside the limits."""
+    parts = (still[0], still[1:], moving[0], moving[1:])
+    lengths = np.array([[max(part.max(), -part.min())] for part in parts]) if still.size else np.ones((4, 1))
+    lengths *= _ROUND
+    return lengths if (lengths >= _SHORT ** 0.5).all() and (lengths <= _LONG ** 0.5).all() else lengths * np.nan

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .certain_pairs import certain_images
+from .certain_pairs import certain_images, common_lengths, own_lengths
 from .doubtful_pairs import doubtful_images
 
-CHUNK = 8192
-"""Pairs that are worked on at once: their arrays stay in the cache."""
+CHUNK = 12288
+"""Pairs that are worked on at once: their arrays stay in the caches."""
 
 
 @dataclass(frozen=True)
@@ -80,29 +80,40 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facin
     count = len(points)
     if points.shape != (count, 3) or vertices.shape != (count, 3, 3) or rays.shape != (count, 3, 3):
         raise ValueError("project needs vertices (n, 3, 3), rays (n, 3, 3) and points (n, 3) of the same n.")
-    if not all(np.isfinite(given).all() for given in (vertices, rays, points)):
-        raise ValueError("Vertices, rays and points must be finite numbers; repair or leave out the others.")
     if facing is not None:
         facing = np.asarray(facing)
         if facing.shape != (count,):
             raise ValueError("project needs one facing sign for each pair.")
     degenerate = np.zeros(count, dtype=bool)
     facing = None if facing is None else np.where(facing < 0, -1.0, 1.0)
+    # The C library maps large arrays anew each time, and clears their pages, until it has freed a larger one once.
+    np.empty(64 * CHUNK)
     found, left = [], []
     for start in range(0, max(count, 1), CHUNK):
         part = slice(start, start + CHUNK)
-        pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part])
+        pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], common_lengths)
         found.append(_turned(pair + start, *images, facing))
         left.append(np.flatnonzero(doubtful) + start)
-    left = np.concatenate(left)
-    for start in range(0, len(left), CHUNK):
-        part = left[start:start + CHUNK]
+    left, doubtful_left = np.concatenate(left), []
+    # a number that is not finite leaves every doubt
+    if not all(np.isfinite(given[left]).all() for given in (vertices, rays, points)):
+        raise ValueError("Vertices, rays and points must be finite numbers; repair or leave out the others.")
+    for part in _chunks(left):
+        pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], own_lengths)
+        found.append(_turned(part[pair], *images, facing))
+        doubtful_left.append(part[doubtful])
+    for part in _chunks(np.concatenate(doubtful_left)):
         (pair, *images), degenerate[part] = doubtful_images(vertices[part], rays[part], points[part])
         found.append(_turned(part[pair], *images, facing))
     pair, distance, weights, parity = (np.concatenate(column) for column in zip(*found))
     # stable, since the images of one pair already come by rising distance
     order = np.argsort(pair, kind="stable")
     return Images(pair[order], distance[order], weights[order], parity[order], degenerate)
+
+
+def _chunks(pairs: np.ndarray):
+    """At least one part, which may be empty."""
+    return (pairs[start:start + CHUNK] for start in range(0, max(len(pairs), 1), CHUNK))
 
 
 def _turned(pair, distance, weights, sign, side, facing):

@@ -7,12 +7,13 @@ import numpy as np
 
 from .roots import Roots
 from .rounding import UNIT, derivatives
+from .vectors import columns
 
-_KNOWN = 2.0 ** 30
-"""Coefficients this many times their bounds are known to 1e-9: enough to tell the sign of the discriminant."""
+_KNOWN = 2.0 ** 27
+"""Coefficients this many times their bounds have certain signs, and are known to 1e-8."""
 
-_APART = 2.0 ** -24
-"""The discriminant of an ordinary cubic, as a part of its terms: over 50 times what errors of 1e-9 make of it."""
+_APART = 2.0 ** -21
+"""The discriminant of an ordinary cubic, as a part of its terms: over 50 times what errors of 1e-8 make of it."""
 
 _TINY = 2.0 ** -960
 """Products below this may have lost digits."""
@@ -29,7 +30,7 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray,
     """The roots s > 0 of those cubics whose roots are certain.
 
     With t = y - A, A = c2 / 3 c3, a cubic is y^3 - 3 q y + 2 r = 0, with three real roots where D = q^3 - r^2 > 0 and
-    one where D < 0 [1]_. Where the signs of all coefficients are certain, Descartes' rule tells how many roots are
+    one where D < 0 [1]_. Where all coefficients stand out of their noise, Descartes' rule tells how many roots are
     positive: none or one where there are so few changes of sign, or else, where D is far enough from zero, as many as
     there are changes if all are real, and one or none by their parity if one is. The closed form must find as many, and
     one step d = f / f' of Newton's makes them sharp: by Taylor's theorem it leaves |f| <= |f''| d^2 / 2 and the noise B
@@ -56,7 +57,6 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray,
     .. [1] W. Press et al., "Numerical Recipes", 3rd ed. 2007, section 5.6.
     .. [2] P. Henrici, "Applied and Computational Complex Analysis", vol. 1, 1974, theorem 6.4g.
     """
-    size = np.abs(c)
     with np.errstate(all="ignore"):
         places, many, apart = _closed_form(c)
         below, positive = c < 0.0, places > 0.0
@@ -64,15 +64,17 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray,
         changes = changes[0] + changes[1] + changes[2]
         found = positive.view(np.int8)
         ordinary = found[0] + found[1] + found[2] == changes & (1 + 2 * many.view(np.int8))
-        for row in size > bounds:
+        for row in np.abs(c) > _KNOWN * bounds:
             ordinary &= row
-        for row in size > _KNOWN * bounds:
-            apart &= row
         ordinary &= apart | (changes < 2)
         positive &= ordinary
-        at = [np.flatnonzero(row) for row in positive]
-        cubic, value = np.concatenate(at), np.concatenate([row.take(k) for row, k in zip(places, at)])
-        residual, slope, bend = derivatives(c.take(cubic, axis=1), value)
+        cubic = np.flatnonzero(positive)
+        value = places.ravel().take(cubic)
+        count = c.shape[1]
+        second, third = np.searchsorted(cubic, (count, 2 * count))
+        cubic[second:third] -= count
+        cubic[third:] -= 2 * count
+        residual, slope, bend = derivatives(columns(c, cubic), value)
         step = residual / slope
         value -= step
         rest = np.abs(step * (bend / slope))
@@ -131,5 +133,5 @@ def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     # One: the sum of the two cube roots of -r +- sqrt(-D), without the difference.
     y = np.cbrt(np.abs(r) + np.sqrt(-discriminant))
     y += q / y
-    np.copyto(roots[0], -np.copysign(y, r) - third, where=~many)
+    roots[0] = np.where(many, roots[0], -np.copysign(y, r) - third)
     return roots, many, apart

@@ -29,6 +29,11 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return product
 
 
+def columns(a: np.ndarray, index: np.ndarray) -> np.ndarray:
+    """a[:, index] (k, m) for valid indices: NumPy gathers twice as fast where it need not say which one is wrong."""
+    return a.take(index, axis=1, mode="wrap")
+
+
 def norm(a: np.ndarray) -> np.ndarray:
     return np.sqrt(dot(a, a))
 

@@ -184,6 +184,29 @@ def test_chunks_and_order_do_not_matter():
     assert np.abs(seen(v[whole.pair], r[whole.pair], whole.weights, whole.distance) - p[whole.pair]).max() < 1e-9
 
 
+@pytest.mark.parametrize("size", [2.0 ** -90, 2.0 ** 90, 2.0 ** -210, 2.0 ** 210])
+def test_pairs_of_other_sizes_change_nothing(size):
+    v, r, w, s = random_pairs(np.random.default_rng(16), 2000)
+    p = seen(v, r, w, s)
+    for grown in (1.0, size):
+        together = project(np.concatenate((v, size * v)), np.concatenate((r, grown * r)), np.concatenate((p, size * p)))
+        alone, others = project(v, r, p), project(size * v, grown * r, size * p)
+        for name in ("distance", "weights", "parity", "degenerate"):
+            expected = np.concatenate((getattr(alone, name), getattr(others, name)))
+            np.testing.assert_array_equal(getattr(together, name), expected)
+
+
+def test_what_is_not_finite_is_told_wherever_it_stands():
+    v, r, w, s = random_pairs(np.random.default_rng(17), 300)
+    p = seen(v, r, w, s)
+    for k in range(3):
+        for strange in (np.nan, np.inf, -np.inf):
+            given = [v.copy(), r.copy(), p.copy()]
+            given[k][k + 7, ..., k] = strange
+            with pytest.raises(ValueError, match="finite"):
+                project(*given)
+
+
 @pytest.mark.parametrize("n", [1, 2, 100])
 def test_arguments_stay_as_they_were(n):
     v, r, w, s = random_pairs(np.random.default_rng(15), n)
