@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from functools import cached_property
 
 import numpy as np
 
@@ -49,6 +50,11 @@ class Candidates:
     def joined(parts: Sequence[Candidates]) -> Candidates:
         return Candidates(*(np.concatenate([getattr(part, field.name) for part in parts], axis=-1)
                             for field in fields(Candidates)))
+
+    @cached_property
+    def rate(self) -> np.ndarray:
+        """(3, p): b at the cameras' corners."""
+        return self.sides.sum(axis=0)
 
     @property
     def room(self) -> np.ndarray:

@@ -13,12 +13,13 @@ from .candidates import Candidates
 from .clipping import CONTACT, HIDDEN, SCENE_EDGE, Polygons, clip
 from .met_surfaces import MetSurfaces
 from .scene_frames import SceneFrames
-from .vectors import dot, groups, ranges
+from .vectors import dot, groups, ranges, shares
 
 LINES = 16  # outlines that cut one camera; with more, what is left of a polygon is hidden or not by its middle
 NEARER = 1e-9  # of the distance: what is nearer by less is the same surface
 CONTACTS = 8  # triangles of mirrors that one polygon passes through
 CROSSING = 1e-6  # of the largest depth in a camera: a smaller one is none
+PAIRS_AT_ONCE = 1 << 19
 INWARD = 0.05  # how far from its corners towards its middle a polygon is asked
 
 
@@ -86,21 +87,24 @@ def _before_mirrors(candidates: Candidates, mirror: np.ndarray, polygons: Polygo
     order = mirror[np.argsort(candidates.camera[mirror], kind="stable")]
     seen, hidden = [], 0
     for _ in range(CONTACTS):
-        camera = candidates.camera[polygons.pair]
-        start = np.searchsorted(candidates.camera[order], camera)
-        entry, polygon = ranges(start, np.searchsorted(candidates.camera[order], camera, side="right") - start)
-        covered, middle = _behind(candidates, order[entry], polygon, polygons)
-        other, polygon = order[entry][covered], polygon[covered]
-        crossing = _changes_sign(polygons.select(polygon), _depth_order(candidates, other, polygons.pair[polygon]))
-        passing, first = np.unique(polygon[crossing], return_index=True)
-        resting = np.ones(len(camera), dtype=bool)
-        resting[passing] = False
-        seen.append(polygons.select(resting & ~middle))
-        hidden += int((middle | ~resting).sum())
-        if not len(passing):
-            return Polygons.joined(seen), hidden
-        part, other = polygons.select(passing), other[crossing][first]
-        polygons = Polygons.joined((*_beside(candidates, other, part, seen),))
+        asked, polygons = polygons, []
+        camera = candidates.camera[asked.pair]
+        start, stop = (np.searchsorted(candidates.camera[order], camera, side=side) for side in ("left", "right"))
+        for part in shares(stop - start, PAIRS_AT_ONCE):
+            entry, polygon = ranges(start[part], (stop - start)[part])
+            some = asked.select(np.arange(part.start, part.stop))
+            covered, middle = _behind(candidates, order[entry], polygon, some)
+            other, polygon = order[entry][covered], polygon[covered]
+            crossing = _changes_sign(some.select(polygon), _depth_order(candidates, other, some.pair[polygon]))
+            passing, first = np.unique(polygon[crossing], return_index=True)
+            resting = np.ones(len(some.pair), dtype=bool)
+            resting[passing] = False
+            seen.append(some.select(resting & ~middle))
+            hidden += int((middle | ~resting).sum())
+            polygons += _beside(candidates, other[crossing][first], some.select(passing), seen)
+        polygons = Polygons.joined(polygons)
+        if not len(polygons.pair):
+            break
     return Polygons.joined((*seen, polygons)), hidden
 
 
@@ -122,6 +126,8 @@ def _behind(candidates: Candidates, other: np.ndarray, polygon: np.ndarray,
     """Which pairs of a polygon and a mirror's candidate `other` that may cross have a place where the mirror hides it,
     of the corners, a little inward; and which polygons (q,) are hidden in their middles."""
     size = np.diff(polygons.start)
+    near = _near(candidates, other, polygon, polygons)
+    other, polygon = other[near], polygon[near]
     middle = np.add.reduceat(polygons.weights, polygons.start[:-1], axis=1) / size if len(size) else polygons.weights
     own, middle_hidden = polygons.pair[polygon], np.zeros(len(size), dtype=bool)
     middle_hidden[polygon[_hides(candidates, other, own, middle[:, polygon])]] = True
@@ -129,11 +135,26 @@ def _behind(candidates: Candidates, other: np.ndarray, polygon: np.ndarray,
     order = _depth_order(candidates, other, own)
     mixed = np.flatnonzero((order < 0.0).any(axis=0) & (order > 0.0).any(axis=0))
     found = np.zeros(len(other), dtype=bool)
+    covered = np.zeros(len(near), dtype=bool)
     for corner in range(int(size.max(initial=0))):
         spot = polygons.weights[:, polygons.start[:-1] + np.minimum(corner, size - 1)]
         at = (1.0 - INWARD) * spot + INWARD * middle
         found[mixed] |= _hides(candidates, other[mixed], own[mixed], at[:, polygon[mixed]])
-    return found, middle_hidden
+    covered[near] = found
+    return covered, middle_hidden
+
+
+def _near(candidates: Candidates, other: np.ndarray, polygon: np.ndarray, polygons: Polygons) -> np.ndarray:
+    """Which mirror triangles have no side that keeps the box of the polygon's weights outside."""
+    if not len(other):
+        return np.zeros(0, dtype=bool)
+    low, high = (bound.reduceat(polygons.weights, polygons.start[:-1], axis=1)[:, polygon]
+                 for bound in (np.minimum, np.maximum))
+    near = np.ones(len(other), dtype=bool)
+    for side in candidates.sides:
+        values = side[:, other]
+        near &= np.maximum(values * low, values * high).sum(axis=0) >= 0.0
+    return near
 
 
 def _changes_sign(polygons: Polygons, corner_values: np.ndarray) -> np.ndarray:
@@ -154,7 +175,7 @@ def _hides(candidates: Candidates, other: np.ndarray, own: np.ndarray, weights: 
     met = np.flatnonzero(inside)
     other, own, weights = other[met], own[met], weights[:, met]
     rate = sides[0][met] + sides[1][met] + sides[2][met]
-    own_rate = sum(dot(side[:, own], weights) for side in candidates.sides)
+    own_rate = dot(candidates.rate[:, own], weights)
     reach, own_reach = dot(candidates.ahead[:, other], weights), dot(candidates.ahead[:, own], weights)
     inside[met] = (reach >= 0.0) & (reach * own_rate * (1.0 + NEARER) < own_reach * rate * (1.0 - NEARER))
     return inside
@@ -162,5 +183,5 @@ def _hides(candidates: Candidates, other: np.ndarray, own: np.ndarray, weights: 
 
 def _depth_order(candidates: Candidates, other: np.ndarray, own: np.ndarray) -> np.ndarray:
     """(3, n): at the cameras' corners, positive where the planes of `own` are met before those of `other`."""
-    rate, own_rate = (candidates.sides[:, :, pair].sum(axis=0) for pair in (other, own))
-    return candidates.ahead[:, other] * own_rate - candidates.ahead[:, own] * rate
+    return (candidates.ahead[:, other] * candidates.rate[:, own]
+            - candidates.ahead[:, own] * candidates.rate[:, other])
