@@ -17,8 +17,13 @@ from .rounding import UNIT
 from .simple_roots import simple_roots
 from .vectors import columns, cross, dot
 
-_SHORT, _LONG = 2.0 ** -200, 2.0 ** 200
-"""Lengths between these neither overflow nor lose digits when four are multiplied."""
+_LONGEST, _UNLIKE = 2.0 ** 100, 2.0 ** 100
+"""Places and velocities whose longest is between the inverse of this and this, and at most so many times as long as
+the shortest, neither overflow nor lose digits when four are multiplied."""
+
+_COMMON = 2.0 ** 35
+"""Common lengths between the inverse of this and this: a pair whose coefficients stand out of the noise of these has
+lengths of its own within the wider limits above."""
 
 _ROUND = 3.0 ** 0.5 + 2.0 ** -50
 """A vector is at most this many times as long as its largest coordinate."""
@@ -117,13 +122,19 @@ def own_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
         part[1:].max(axis=(0, 1), out=edges)
     lengths *= _ROUND
     # comparisons with what is not a number are false, so that it leaves every doubt
-    lengths[:, ~((lengths.min(axis=0) >= _SHORT) & (lengths.max(axis=0) <= _LONG))] = np.nan
+    lengths[:, ~(_ordinary(*lengths[:2]) & _ordinary(*lengths[2:]))] = np.nan
     return lengths
 
 
+def _ordinary(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Which lengths (n,), of places or of velocities, are neither too long nor too short nor too unlike."""
+    longest, shortest = np.maximum(one, other), np.minimum(one, other)
+    return (longest >= 1.0 / _LONGEST) & (longest <= _LONGEST) & (longest <= _UNLIKE * shortest)
+
+
 def common_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
-    """The same (4, 1) for all pairs together, well inside the limits."""
+    """The same (4, 1) for all pairs together, well inside the limits; or not numbers."""
     parts = (still[0], still[1:], moving[0], moving[1:])
     lengths = np.array([[max(part.max(), -part.min())] for part in parts]) if still.size else np.ones((4, 1))
     lengths *= _ROUND
-    return lengths if (lengths >= _SHORT ** 0.5).all() and (lengths <= _LONG ** 0.5).all() else lengths * np.nan
+    return lengths if (lengths >= 1.0 / _COMMON).all() and (lengths <= _COMMON).all() else np.full((4, 1), np.nan)

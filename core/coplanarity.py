@@ -11,6 +11,8 @@ from . import double_double as long
 from .rounding import UNIT
 from .vectors import cross, dot
 
+_LEAST = 2.0 ** -1000
+
 
 def differences(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Places and velocities (3, 3, n), the vector before the component: p, a, b and r, u, v.
@@ -28,15 +30,17 @@ def differences(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray) -> t
 
 def scale(still: np.ndarray, moving: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Powers of two (n,), (n,) that bring the largest place to 1 to 2 and the largest velocity to 4 to 8, so that most
-    roots are below 1. Times them, nothing is rounded."""
+    roots are below 1. Times them, nothing is rounded, and numbers of which not even the largest is a normal one leave
+    room for products."""
     return 1.0 / _power_of_two(still), 4.0 / _power_of_two(moving)
 
 
 def _power_of_two(numbers: np.ndarray) -> np.ndarray:
-    """The largest power of two (n,) not above the largest number of each column of (3, 3, n), 1 where that is zero."""
+    """The largest power of two (n,) not above the largest number of each column of (3, 3, n), 1 where that is zero,
+    but at least `_LEAST`, whose inverse is finite."""
     largest = np.abs(numbers).max(axis=(0, 1))
     power = (largest.view(np.int64) & 0x7FF0000000000000).view(np.float64)
-    return np.where(power > 0.0, power, 1.0)
+    return np.where(largest > 0.0, np.maximum(power, _LEAST), 1.0)
 
 
 def lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
@@ -76,17 +80,19 @@ def term_bounds(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
     return 12.0 * UNIT * np.stack(_expanded(dot, _absolute_cross, np.abs(still), np.abs(moving)))
 
 
-def long_coefficients(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def long_coefficients(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, length: np.ndarray,
+                      speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """c0 to c3 once more with twice the digits, for cubics that drown in rounding, and bounds on their errors.
 
-    The differences are exact, and a coefficient is off by at most 10 roundings of a double-double number, of its terms.
-    Numbers must be of the order of 1.
+    The differences, times their `scale`, are exact, and a coefficient is off by at most 10 roundings of a double-double
+    number, of its terms.
     """
     vertices, rays, points = (np.moveaxis(given, 0, -1) for given in (vertices, rays, points))
     zero = np.zeros_like(points)
     still = [long.difference(vertices[0], points)] + [long.difference(vertices[k], vertices[0]) for k in (1, 2)]
     moving = [(rays[0], zero)] + [long.difference(rays[k], rays[0]) for k in (1, 2)]
-    still, moving = ([[(high[k], low[k]) for k in range(3)] for high, low in part] for part in (still, moving))
+    still, moving = ([[(high[k] * unit, low[k] * unit) for k in range(3)] for high, low in part]
+                     for part, unit in ((still, length), (moving, speed)))
     (p, a, b), (r, u, v) = still, moving
     n0, n2 = long.cross(a, b), long.cross(u, v)
     n1 = [long.add(one, other) for one, other in zip(long.cross(a, v), long.cross(u, b))]

@@ -5,6 +5,7 @@ import numpy as np
 
 from . import coplanarity
 from .monotone_roots import monotone_roots
+from .roots import joined
 from .rounding import UNIT
 from .vectors import cross, dot
 
@@ -16,6 +17,12 @@ _BLURRED = 2.0 ** 10
 
 _FURTHEST = 0.5
 """Rounding may not move a weight by more: `coplanarity.reach` goes no further."""
+
+_ROUGH = 2.0 ** -30
+"""A simple root that is off by more than this part of itself is worth twice the digits."""
+
+_LEAST = 2.0 ** -1000
+"""Smaller coefficients may have lost digits, of lengths of the order of 1."""
 
 
 def doubtful_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
@@ -32,22 +39,50 @@ def doubtful_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
     small = np.flatnonzero((np.abs(cubics) < _HIDDEN * bounds).all(axis=0))
     if len(small):
         bounds[:, small] = coplanarity.term_bounds(still[:, :, small], moving[:, :, small])
-    drowned = np.flatnonzero(_drowned(np.abs(cubics), bounds))
-    if len(drowned):
-        part = (vertices[drowned] * length[drowned, None, None], rays[drowned] * speed[drowned, None, None],
-                points[drowned] * length[drowned, None])
-        cubics[:, drowned], bounds[:, drowned] = coplanarity.long_coefficients(*part)
-    roots, degenerate = monotone_roots(cubics, bounds, *coplanarity.reach(still, moving, lengths))
+    reach = coplanarity.reach(still, moving, lengths)
+
+    def sharpen(pairs):
+        cubics[:, pairs], long_bounds = coplanarity.long_coefficients(
+            vertices[pairs], rays[pairs], points[pairs], length[pairs], speed[pairs])
+        bounds[:, pairs] = np.maximum(long_bounds, _LEAST)
+
+    np.maximum(bounds, _LEAST, out=bounds)
+    drowned = _drowned(np.abs(cubics), bounds)
+    if drowned.any():
+        sharpen(np.flatnonzero(drowned))
+    roots, degenerate = monotone_roots(cubics, bounds, *reach)
+    rough = (roots.error > _ROUGH * roots.value) & (roots.sign != 0) & ~drowned[roots.cubic]
+    if rough.any():
+        pairs = np.unique(roots.cubic[rough])
+        sharpen(pairs)
+        again, degenerate[pairs] = monotone_roots(cubics[:, pairs], bounds[:, pairs], reach[0][pairs], reach[1][pairs])
+        roots = joined(roots.select(np.flatnonzero(~np.isin(roots.cubic, pairs))), again.of(pairs))
+    roots = roots.select(np.flatnonzero(~_may_have_met(roots, cubics, bounds)))
     with np.errstate(divide="ignore"):
         distance = np.where(roots.reversed, 1.0 / roots.value, roots.value) * (speed / length)[roots.cubic]
     return _images(still, moving, lengths, roots, distance), degenerate
 
 
 def _drowned(size, bounds):
-    """Which cubics (n,) are worth twice the digits: those that may vanish, and those of which a coefficient stands out
-    of the noise, but not by much."""
+    """Which cubics (n,) are worth twice the digits: those that may vanish, those of which a coefficient stands out of
+    the noise, but not by much, and those that are all small beside the noise of one that does not."""
     known = size > bounds
-    return ~known.any(axis=0) | (known & (size < _BLURRED * bounds)).any(axis=0)
+    small = size.max(axis=0) < _BLURRED * bounds.max(axis=0)
+    return small | ~known.any(axis=0) | (known & (size < _BLURRED * bounds)).any(axis=0)
+
+
+def _may_have_met(roots, cubics, bounds):
+    """Which roots lie beside a coefficient that counts as zero and are hardly known: they may have met the root that
+    went with it, at 0 or at infinity.
+
+    Between 0 and a root x of slope f', f rises to |f' x| / 4 or, from a double root at 0, to 4/27 of it: more than its
+    bound B if the error 2 B / |f'| is below a quarter of x.
+    """
+    unsure = (roots.error > 0.25 * roots.value) & (roots.sign != 0)
+    at = np.flatnonzero(unsure)
+    end = np.where(roots.reversed[at], 3, 0), roots.cubic[at]
+    unsure[at] = np.abs(cubics[end]) <= bounds[end]
+    return unsure
 
 
 def _images(still, moving, lengths, roots, distance):
@@ -65,8 +100,7 @@ def _images(still, moving, lengths, roots, distance):
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         np.divide(dot(cross(b, p), normal), square, out=weights[1])
         np.divide(dot(cross(p, a), normal), square, out=weights[2])
-    np.subtract(1.0, weights[1], out=weights[0])
-    weights[0] -= weights[2]
+        np.subtract(1.0, weights[1] + weights[2], out=weights[0])
     near = np.flatnonzero(np.minimum(np.minimum(weights[0], weights[1]), weights[2]) >= -_FURTHEST)
     at, roots, weights = at.take(near), roots.select(near), weights.take(near, axis=1)
     lengths, turned = lengths.take(at, axis=1), np.flatnonzero(roots.reversed)

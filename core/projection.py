@@ -7,6 +7,7 @@ import numpy as np
 
 from .certain_pairs import certain_images, common_lengths, own_lengths
 from .doubtful_pairs import doubtful_images
+from .ordinary_size import of_ordinary_size, strange_sizes
 
 CHUNK = 12288
 """Pairs that are worked on at once: their arrays stay in the caches."""
@@ -76,16 +77,9 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facin
     ----------
     .. [1] C. Mei, V. Popescu, E. Sacks, "A Hybrid Backward-Forward Method for Interactive Reflections", GRAPP 2007.
     """
-    vertices, rays, points = (np.asarray(given, dtype=np.float64) for given in (vertices, rays, points))
+    vertices, rays, points, facing = _checked(vertices, rays, points, facing)
     count = len(points)
-    if points.shape != (count, 3) or vertices.shape != (count, 3, 3) or rays.shape != (count, 3, 3):
-        raise ValueError("project needs vertices (n, 3, 3), rays (n, 3, 3) and points (n, 3) of the same n.")
-    if facing is not None:
-        facing = np.asarray(facing)
-        if facing.shape != (count,):
-            raise ValueError("project needs one facing sign for each pair.")
     degenerate = np.zeros(count, dtype=bool)
-    facing = None if facing is None else np.where(facing < 0, -1.0, 1.0)
     # The C library maps large arrays anew each time, and clears their pages, until it has freed a larger one once.
     np.empty(64 * CHUNK)
     found, left = [], []
@@ -102,13 +96,42 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facin
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], own_lengths)
         found.append(_turned(part[pair], *images, facing))
         doubtful_left.append(part[doubtful])
-    for part in _chunks(np.concatenate(doubtful_left)):
+    left = np.concatenate(doubtful_left)
+    strange = strange_sizes(vertices[left], rays[left], points[left])
+    if strange.any():
+        some, left = left[strange], left[~strange]
+        images, degenerate[some] = _of_strange_size(vertices[some], rays[some], points[some],
+                                                    None if facing is None else facing[some])
+        found.append((some[images[0]], *images[1:]))
+    for part in _chunks(left):
         (pair, *images), degenerate[part] = doubtful_images(vertices[part], rays[part], points[part])
         found.append(_turned(part[pair], *images, facing))
     pair, distance, weights, parity = (np.concatenate(column) for column in zip(*found))
     # stable, since the images of one pair already come by rising distance
     order = np.argsort(pair, kind="stable")
     return Images(pair[order], distance[order], weights[order], parity[order], degenerate)
+
+
+def _checked(vertices, rays, points, facing):
+    vertices, rays, points = (np.asarray(given, dtype=np.float64) for given in (vertices, rays, points))
+    count = len(points)
+    if points.shape != (count, 3) or vertices.shape != (count, 3, 3) or rays.shape != (count, 3, 3):
+        raise ValueError("project needs vertices (n, 3, 3), rays (n, 3, 3) and points (n, 3) of the same n.")
+    if facing is not None:
+        facing = np.asarray(facing)
+        if facing.shape != (count,):
+            raise ValueError("project needs one facing sign for each pair.")
+    return vertices, rays, points, None if facing is None else np.where(facing < 0, -1.0, 1.0)
+
+
+def _of_strange_size(vertices, rays, points, facing):
+    """Columns of images in pairs so large or small that numbers might overflow, and which cubics vanish."""
+    *near_one, power = of_ordinary_size(vertices, rays, points)
+    images = project(*near_one, facing=facing)
+    with np.errstate(over="ignore", under="ignore"):
+        distance = np.ldexp(images.distance, power[images.pair])
+    told = (distance > 0.0) & (distance < np.inf)     # no float64 can tell the others from 0 and from infinity
+    return (images.pair[told], distance[told], images.weights[told], images.parity[told]), images.degenerate
 
 
 def _chunks(pairs: np.ndarray):

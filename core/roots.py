@@ -1,7 +1,7 @@
 """What solving a cubic gives: its positive roots, each with bounds on its error."""
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -39,3 +39,12 @@ class Roots:
     def select(self, chosen: np.ndarray) -> Roots:
         """Those of the indices `chosen`."""
         return Roots(*(getattr(self, field.name).take(chosen) for field in fields(self)))
+
+    def of(self, cubics: np.ndarray) -> Roots:
+        """The same with each cubic k called `cubics[k]`."""
+        return replace(self, cubic=cubics[self.cubic])
+
+
+def joined(one: Roots, other: Roots) -> Roots:
+    """The roots of different cubics in one."""
+    return Roots(*(np.concatenate((getattr(one, field.name), getattr(other, field.name))) for field in fields(one)))
