@@ -60,6 +60,7 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray,
     with np.errstate(all="ignore"):
         places, many, apart = _closed_form(c)
         below, positive = c < 0.0, places > 0.0
+        positive[1:] &= many
         changes = (below[:-1] ^ below[1:]).view(np.int8)
         changes = changes[0] + changes[1] + changes[2]
         found = positive.view(np.int8)
@@ -95,7 +96,8 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray,
 
 
 def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Roots (3, n) in rising order, not a number where there is none; whether there are three, and lie apart."""
+    """Roots (3, n) in rising order, of which only the first counts where there is one; whether there are three, and lie
+    apart."""
     third, b, d = c[2] / c[3], c[1] / c[3], c[0] / c[3]
     third *= 1.0 / 3.0
     b *= 1.0 / 3.0
@@ -117,21 +119,34 @@ def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     apart = np.abs(discriminant) > np.maximum(least, _TINY)
     many = discriminant > 0.0
 
+    # Functions are taken of ratios alone, so that a change of scale by a power of two changes no bit.
     # Three: with 3 phi the arc cosine of r / q^1.5, -2 sqrt(q) cos(phi) and those a third of a turn to either side;
     # tan(phi / 2) gives cosine and sine at once.
     roots = np.empty((3, c.shape[1]))
-    scale = np.sqrt(q)
-    half = np.tan(np.arccos(r / (scale * q)) * (1.0 / 6.0))
+    size = np.abs(q)
+    scale = np.sqrt(size)
+    size *= scale
+    ratio = np.divide(r, size, out=r)
+    half = np.tan(np.arccos(np.minimum(np.maximum(ratio, -1.0), 1.0)) * (1.0 / 6.0))
     square = half * half
-    scale /= 1.0 + square
-    cosine, sine = scale * (1.0 - square), scale * half
+    cosine = 1.0 + square
+    np.divide(scale, cosine, out=cosine)
+    sine = cosine * half
+    cosine *= 1.0 - square
     sine *= 2.0 * 3.0 ** 0.5
     np.subtract(-2.0 * cosine, third, out=roots[0])
     cosine -= third
     np.subtract(cosine, sine, out=roots[1])
     np.add(cosine, sine, out=roots[2])
-    # One: the sum of the two cube roots of -r +- sqrt(-D), without the difference.
-    y = np.cbrt(np.abs(r) + np.sqrt(-discriminant))
-    y += q / y
-    roots[0] = np.where(many, roots[0], -np.copysign(y, r) - third)
+    # One: with R = |r / q^1.5|, sqrt|q| times the sum of the cube root y of R + sqrt(R^2 - 1) and its inverse; times
+    # that of R + sqrt(R^2 + 1) less its inverse where q < 0.
+    one = np.copysign(1.0, q)
+    y = ratio * ratio
+    y -= one
+    np.sqrt(y, out=y)
+    y += np.abs(ratio)
+    np.cbrt(y, out=y)
+    y += one / y
+    y *= scale
+    roots[0] = np.where(many, roots[0], -np.copysign(y, ratio) - third)
     return roots, many, apart
