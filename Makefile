@@ -5,17 +5,23 @@ VENV ?= .venv
 REQUIREMENTS ?= requirements.txt
 SAMPLE ?= sphere
 DEMO ?= demo
+REPORT ?= report
+BUDGET ?= 10
+GROWTH ?= 3
 
 RUN = $(VENV)/bin/python
 READY = $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help environment demo measure numerics rate work pictures test lint test-core test-addon zip samples clean
+.PHONY: help environment demo measure report report-plots numerics rate work pictures \
+        test lint test-core test-addon zip samples clean
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/"
 	@echo "make test     style, the method's tests, the extension's tests"
 	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
+	@echo "make report   every method's error and seconds on all samples, judged by Cycles: one report in $(REPORT)/"
+	@echo "make report-plots  the tables of docs/benchmark.md from that report, and its plots in docs/benchmark/"
 	@echo "make numerics the table and the plot of docs/numerics.md: the solver against exact arithmetic"
 	@echo "make rate     pairs a second: the solver beside the plain closed form, in one run"
 	@echo "make work     what each method counts on the setting of the talk's cost model"
@@ -44,6 +50,13 @@ demo: environment
 
 measure: environment
 	$(RUN) benchmarks/measure.py $(SAMPLES)
+
+report: environment
+	$(RUN) addon/run_with_bpy.py $(sort $(wildcard sample_blends/*.blend)) benchmark --output $(REPORT) \
+	  --budget $(BUDGET) --growth $(GROWTH)
+
+report-plots: environment
+	$(RUN) benchmarks/read_report.py $(REPORT) --plots docs/benchmark
 
 numerics: environment
 	$(RUN) -m benchmarks.numerics
@@ -76,4 +89,4 @@ samples: environment
 	$(RUN) sample_blends/make_samples.py
 
 clean:
-	rm -rf .venv* build dist $(DEMO)
+	rm -rf .venv* build dist $(DEMO) $(REPORT)

@@ -1,4 +1,4 @@
-"""`blender -b scene.blend --command reflection_mesh generate|compare ...`, and the same verbs for PyPI's bpy."""
+"""`blender -b scene.blend --command reflection_mesh generate|compare|benchmark ...`, and the same for PyPI's bpy."""
 from __future__ import annotations
 
 import argparse
@@ -9,6 +9,7 @@ import time
 import bpy
 
 from .. import core
+from . import benchmark
 from .compare import compare
 from .compare import summary as comparison
 from .generate import Outcome, generation
@@ -51,7 +52,23 @@ def _parser() -> argparse.ArgumentParser:
                          help="sampling, denoising and bounces of the pictures as the scene is set")
     compare.add_argument("--output", metavar="FOLDER", help="where pictures and numbers go (else beside the file)")
     compare.set_defaults(work=_compare)
+    _add_benchmark(verbs.add_parser("benchmark", help="every method's error and seconds, judged by Cycles"))
     return parser
+
+
+def _add_benchmark(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument("--output", metavar="FOLDER", help="where the report goes (else beside the file)")
+    verb.add_argument("--methods", nargs="+", default=[], metavar="METHOD", help="all where none is named")
+    verb.add_argument("--budget", type=float, default=10.0, metavar="SECONDS",
+                      help="for each value of a method's knob: what is expected to take longer is left out (10)")
+    verb.add_argument("--resolution", type=int, metavar="PIXELS", help="of the longer side (else the render's)")
+    verb.add_argument("--samples", type=int, default=4, metavar="N", help="samples per pixel of the two pictures (4)")
+    verb.add_argument("--growth", type=float, default=0.0, metavar="SECONDS",
+                      help="measure growth too: each method as long as a point takes no more than this")
+    verb.add_argument("--no-work", action="store_true", help="leave out the counts on the talk's setting")
+    verb.add_argument("--scenes", nargs="+", default=[], metavar="FILE",
+                      help="one report of these files, opened one after another, instead of the open one")
+    verb.set_defaults(work=_benchmark)
 
 
 def _add_settings(parser: argparse.ArgumentParser) -> None:
@@ -121,6 +138,31 @@ def _compare(context: bpy.types.Context, options: argparse.Namespace) -> None:
     folder = os.path.abspath(folder)
     samples = 0 if options.scene_samples else options.samples
     print(comparison(compare(context, folder, samples, _settings(options)), folder))
+
+
+def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:
+    started = time.perf_counter(), time.process_time()
+    if not (options.output or bpy.data.filepath):
+        raise core.ReflectionError("The benchmark has no folder: open a .blend file or name one with --output.")
+    folder = os.path.abspath(options.output or bpy.path.abspath("//reflection benchmark"))
+    chosen = benchmark.Options(tuple(options.methods), options.budget, options.resolution, options.samples, _tell)
+    files = [os.path.abspath(path) for path in options.scenes]
+    scenes = []
+    for path in files or [bpy.data.filepath]:
+        if files:
+            bpy.ops.wm.open_mainfile(filepath=path, use_scripts=False)
+        name = os.path.splitext(os.path.basename(path))[0] or "scene"
+        scenes.append(benchmark.scene_report(bpy.context, name, os.path.join(folder, name) if files else folder,
+                                             chosen))
+    benchmark.write_benchmark(folder, scenes, chosen, growth=options.growth, work=not options.no_work, since=started,
+                              tell=_tell)
+    for scene in scenes:
+        print(f"{scene.name}: {scene.summary[0]}")
+    print(os.path.join(folder, "report.html"))
+
+
+def _tell(line: str) -> None:
+    print(line, flush=True)
 
 
 def register() -> None:

@@ -7,8 +7,8 @@ import numpy as np
 from ..core import ReflectionError, View
 
 
-def read_view(context: bpy.types.Context) -> View:
-    """The eye of the scene's camera at the render's resolution, in world space and scene units.
+def read_view(context: bpy.types.Context, size: tuple[int, int] | None = None) -> View:
+    """The eye of the scene's camera at the render's resolution, or at `size`, in world space and scene units.
 
     Raises
     ------
@@ -27,8 +27,7 @@ def read_view(context: bpy.types.Context) -> View:
     depsgraph = context.evaluated_depsgraph_get()
     camera = camera.evaluated_get(depsgraph)
     render = scene.render
-    width, height = (max(1, size * render.resolution_percentage // 100)
-                     for size in (render.resolution_x, render.resolution_y))
+    width, height = size or render_size(scene)
     projection = camera.calc_matrix_camera(depsgraph, x=width, y=height, scale_x=render.pixel_aspect_x,
                                            scale_y=render.pixel_aspect_y)
     placement = np.array(camera.matrix_world, dtype=np.float64)
@@ -40,3 +39,10 @@ def read_view(context: bpy.types.Context) -> View:
     placement[:3, :3] /= length
     placement[3] = 0.0, 0.0, 0.0, 1.0
     return View(placement, np.array(projection, dtype=np.float64), (width, height))
+
+
+def render_size(scene: bpy.types.Scene) -> tuple[int, int]:
+    """Width and height of the render in pixels."""
+    render = scene.render
+    return tuple(max(1, size * render.resolution_percentage // 100)
+                 for size in (render.resolution_x, render.resolution_y))

@@ -9,6 +9,8 @@ from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
+LEAST = 1e-3    # pixels: mean errors below are no better than this to anyone, and may be rounding
+
 
 @dataclass(frozen=True)
 class Run:
@@ -82,7 +84,8 @@ class Picture:
 class Scene:
     """One scene: an answer in `summary` (sentences), facts by label, pictures, and the runs of all methods on it.
 
-    `pictures` are shown in order, the first two large and side by side.
+    `pictures` are shown in order, the first two large and side by side. `skipped` says what was left out, and
+    `references` are (label, seconds) to compare times with.
     """
 
     name: str
@@ -90,11 +93,13 @@ class Scene:
     facts: dict = field(default_factory=dict)
     pictures: tuple = ()
     runs: tuple = ()
+    skipped: tuple = ()
+    references: tuple = ()
 
 
 @dataclass(frozen=True)
 class Report:
-    """Everything that one report tells."""
+    """Everything that one report tells; `left_out` says which sizes the growth does not reach."""
 
     title: str
     scenes: tuple
@@ -103,6 +108,7 @@ class Report:
     cost_setting: str = ""
     environment: dict = field(default_factory=dict)
     notes: tuple = ()
+    left_out: tuple = ()
 
 
 def timed(steps: Generator) -> tuple[object, dict]:

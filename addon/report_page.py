@@ -9,7 +9,11 @@ from .report_plots import cost_table, growth_plots, scene_plots, styles_of
 from .report_style import STYLE
 
 # what the overview and the table of methods show: a heading, the path of the number, its format
-COLUMNS = (("displacement, median (px)", "displacement_px.median", ".3f"),
+COLUMNS = (("mean error over the area (px)", "area.mean_error_px", ".4f"),
+           ("99 % over the area (px)", "area.displacement_px.p99", ".3f"),
+           ("holes, spill, wrong layer over the area (%)", "area.coverage_percent.all", ".3f"),
+           ("mean error at centres (px)", "mean_error_px", ".4f"),
+           ("displacement, median (px)", "displacement_px.median", ".3f"),
            ("99 % (px)", "displacement_px.p99", ".3f"),
            ("holes, spill, wrong layer (%)", "coverage_percent.all", ".4f"),
            ("PSNR (dB)", "picture.mirror.psnr", ".1f"), ("SSIM", "picture.mirror.ssim", ".4f"),
@@ -25,7 +29,7 @@ def page(report: Report) -> str:
     for index, scene in enumerate(report.scenes):
         body.append(_scene(scene, index, styles, heading=len(report.scenes) > 1))
     if report.growths:
-        body.append("<h2>How it grows</h2>" + growth_plots(report.growths, styles))
+        body.append("<h2>How it grows</h2>" + growth_plots(report.growths, styles) + _sentences(report.left_out))
     if report.costs:
         body.append("<h2>Work, counted</h2>" + cost_table(report.costs, report.cost_setting))
     body.append("<h2>How to read this</h2>" + "".join(f"<p>{escape(note)}</p>" for note in report.notes))
@@ -53,7 +57,7 @@ def _scene(scene: Scene, index: int, styles: dict, heading: bool) -> str:
         parts += [f"<p>{escape(sentence)}</p>" for sentence in scene.summary[1:]]
     parts.append(_pictures(scene.pictures[:2], "pair") + _facts(scene.facts) + _pictures(scene.pictures[2:], "maps"))
     if scene.runs:
-        parts.append(scene_plots(scene, styles) + _table(scene.runs))
+        parts.append(scene_plots(scene, styles) + _table(scene.runs) + _sentences(scene.skipped))
     return "".join(parts) + "</section>"
 
 
@@ -76,19 +80,27 @@ def _facts(facts: dict) -> str:
     return f'<table class="facts"><tbody>{rows}</tbody></table>'
 
 
+def _sentences(sentences: tuple) -> str:
+    return "".join(f"<p>{escape(sentence)}</p>" for sentence in sentences)
+
+
 def _table(runs: tuple) -> str:
-    """Every run with its seconds and errors, in the order given."""
+    """Every run with its seconds and errors, in the order given; numbers that no run has take no column."""
     kinds = list(dict.fromkeys(kind for run in runs for kind in run.counts))
+    columns = [column for column in COLUMNS if any(number(run.numbers, column[1]) is not None for run in runs)]
     heads = "".join(f"<th>{escape(name)}</th>"
-                    for name in ["method", "seconds", *(column[0] for column in COLUMNS), *kinds])
+                    for name in ["method", "seconds", *(column[0] for column in columns), *kinds])
     return (f'<div class="wide"><table class="numbers"><thead><tr>{heads}</tr></thead><tbody>'
-            + "".join(_row(run, kinds) for run in runs) + "</tbody></table></div>")
+            + "".join(_row(run, columns, kinds) for run in runs) + "</tbody></table></div>")
 
 
-def _row(run: Run, kinds: list) -> str:
+def _row(run: Run, columns: list, kinds: list) -> str:
     cells = [f"{run.total:.3g}"]
-    for _, path, form in COLUMNS:
+    for _, path, form in columns:
         value = number(run.numbers, path)
         cells.append("–" if value is None else format(value, form))
     cells += [f"{run.counts[kind]:,}".replace(",", " ") if kind in run.counts else "–" for kind in kinds]
-    return f'<tr><th scope="row">{escape(run.label)}</th>' + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+    fronts = [name for name, good in run.numbers.get("on_front", {}).items() if good]
+    star = f' <b title="on the Pareto front: {", ".join(fronts)}">{"*" * len(fronts)}</b>' if fronts else ""
+    cells = "".join(f"<td>{cell}</td>" for cell in cells)
+    return f'<tr><th scope="row">{escape(run.label)}{star}</th>{cells}</tr>'

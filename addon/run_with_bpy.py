@@ -1,6 +1,7 @@
 """The verbs of the command line through PyPI's `bpy`, from a checkout, without a Blender installed:
 
     python addon/run_with_bpy.py scene.blend generate --tolerance 0.5 --output result.blend
+    python addon/run_with_bpy.py one.blend two.blend benchmark --output folder
 """
 import importlib.util
 import os
@@ -24,9 +25,14 @@ def load_extension():
 
 
 def main(arguments: list[str]) -> int:
-    if len(arguments) < 2:
-        print("Usage: python addon/run_with_bpy.py scene.blend generate|compare [options]", file=sys.stderr)
+    # every .blend before the verb is a scene; only a benchmark takes several
+    count = next((k for k, argument in enumerate(arguments) if not argument.endswith(".blend")), len(arguments))
+    files, arguments = arguments[:max(count, 1)], arguments[max(count, 1):]
+    if not arguments or (len(files) > 1 and arguments[0] != "benchmark"):
+        print("Usage: python addon/run_with_bpy.py scene.blend generate|compare|benchmark [options]", file=sys.stderr)
         return 2
+    if len(files) > 1:
+        arguments += ["--scenes", *files]
     try:
         import bpy
     except ImportError:
@@ -35,8 +41,8 @@ def main(arguments: list[str]) -> int:
         return 1
     extension = load_extension()
     try:
-        bpy.ops.wm.open_mainfile(filepath=os.path.abspath(arguments[0]), use_scripts=False)
-        return importlib.import_module(f"{PACKAGE}.addon.command_line").run(arguments[1:])
+        bpy.ops.wm.open_mainfile(filepath=os.path.abspath(files[0]), use_scripts=False)
+        return importlib.import_module(f"{PACKAGE}.addon.command_line").run(arguments)
     except RuntimeError as error:
         print(str(error).strip(), file=sys.stderr)
         return 1

@@ -25,11 +25,12 @@ class Series:
     titles: tuple
 
 
-def line_plot(series: list[Series], x_label: str, y_label: str, front: bool = False) -> str:
-    """Series on logarithmic axes. With `front`, points that no other beats are filled and joined by a staircase."""
+def line_plot(series: list[Series], x_label: str, y_label: str, front: bool = False, marks: tuple = ()) -> str:
+    """Series on logarithmic axes. With `front`, points that no other beats are filled and joined by a staircase.
+    `marks` are (label, x) of upright lines."""
     longest = max([len(line.name) for line in series] + [22 if front else 0])
     bottom, right = HEIGHT - BOTTOM, WIDTH - 50 - LETTER * longest
-    across = axis(x_label, [x for line in series for x in line.x], LEFT, right)
+    across = axis(x_label, [x for line in series for x in line.x] + [x for _, x in marks], LEFT, right)
     up = axis(y_label, [y for line in series for y in line.y], bottom, TOP)
     points = [(x, y) for line in series for x, y in zip(line.x, line.y)]
     best = pareto(*zip(*points)) if front and points else [True] * len(points)
@@ -45,8 +46,18 @@ def line_plot(series: list[Series], x_label: str, y_label: str, front: bool = Fa
         for (x, y), title in zip(places, line.titles):
             parts.append(marker(kind, x, y, colour, bool(best[index]), title))
             index += 1
+    parts += [_mark(across.place(x), label) for label, x in marks]
     parts.append(_legend([(line.name, *_style(line.style)) for line in series], right + 18, front))
     return _picture(parts, HEIGHT)
+
+
+def _mark(x: float, label: str) -> str:
+    """A dashed upright line with its name along it."""
+    bottom = HEIGHT - BOTTOM - 8
+    return (f'<path d="M{x:.1f} {TOP}V{HEIGHT - BOTTOM}" stroke="{FAINT}" stroke-dasharray="5 4" fill="none"/>'
+            f'<text x="{x - 5:.1f}" y="{bottom}" fill="{FAINT}" stroke="#ffffff" stroke-width="3" paint-order="stroke" '
+            f'transform="rotate(-90 {x - 5:.1f} {bottom})">'
+            f"{escape(label)}</text>")
 
 
 def bar_plot(rows: list[tuple[str, dict]], unit: str) -> str:

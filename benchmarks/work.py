@@ -13,14 +13,10 @@ import argparse
 import sys
 from functools import partial
 
-import numpy as np
-
-from core import View
 from core.rivals import METHODS, primary_hits
+from core.rivals.made_scenes import talk_setting
 from core.rivals.morphing import morphed
-from tests import shapes
 from tests.judge import compare_picture
-from tests.scenes import Scene
 from tests.truth import trace
 
 COLUMNS = ("method", "knob", "Ti", "Tt", "Tp", "rays", "nodes", "predicted", "median px", "p99 px", "uncovered %",
@@ -29,25 +25,6 @@ PREDICTED = {"RAYS": "2M Ti + 1M Tt", "MORPHING": "1M Ti + 1K Tt", "CLUSTERS": "
              "UNREFINED": "2K Tp + 2K Tt"}
 KNOBS = {"RAYS": 1, "CLUSTERS": 0, "ENVIRONMENT": 256, "ENVIRONMENT_BOX": 256, "MORPHING": 16000, "BILLBOARDS": 256,
          "POINTS": 30_000, "PARALLEL": 0, "UNREFINED": 0, "GENERAL": 0.5}
-
-
-def setting(resolution: tuple[int, int]) -> Scene:
-    """A bulging mirror of 1,056 vertices and 1,984 triangles that fills the picture, before a floor, four balls and a
-    ring of 1,049 vertices and 2,016 triangles."""
-    def bulge(u, v):
-        x, z = 1.1 * (2.0 * u - 1.0), 1.1 * (2.0 * v - 1.0)
-        normals = np.stack((0.6 * x, -np.ones_like(x), 0.6 * z), axis=1)
-        return np.stack((x, 0.3 * (x * x + z * z), z), axis=1), normals / np.linalg.norm(normals, axis=1)[:, None]
-
-    def floor(u, v):
-        upwards = np.broadcast_to((0.0, 0.0, 1.0), (len(u), 3))
-        return np.stack((8.0 * (2.0 * u - 1.0), -9.0 * v, np.full_like(u, -1.5)), axis=1), upwards
-
-    balls = [shapes.icosphere(centre, radius, 2) for centre, radius in (
-        ((-2.6, -2.8, -0.6), 0.9), ((2.7, -3.2, 0.0), 1.1), ((-1.9, -5.5, 1.4), 0.8), ((1.2, -4.5, 2.3), 0.9))]
-    scene = shapes.combine(shapes.sheet(floor, 16, 16), *balls, shapes.torus((0.4, -4.2, -1.1), 0.7, 0.25, 16, 7))
-    view = View.looking_at((0.0, -6.0, 0.3), (0.0, 0.0, 0.0), resolution, field_of_view=0.3)
-    return Scene("talk", view, shapes.combine(shapes.sheet(bulge, 32, 31)), scene)
 
 
 def runs(names: list[str]) -> list[tuple]:
@@ -71,7 +48,7 @@ def main(arguments: list[str] | None = None) -> int:
     unknown = [name for name in options.methods if name not in METHODS]
     if unknown:
         parser.error(f"there is no method {', '.join(unknown)}; choose from {', '.join(METHODS)}")
-    case = setting((options.resolution, options.resolution))
+    case = talk_setting((options.resolution, options.resolution))
     truth = trace(case.view, case.mirror, case.scene)
     hits = primary_hits(case.view, case.mirror, case.scene)
     print(f"{len(hits.pixel):,} pixels show the mirror; {len(case.mirror.positions):,} vertices and "

@@ -22,6 +22,7 @@ from .triangle_mesh import TriangleMesh
 from .subdivision import shared_edges
 from .vectors import cross, dot, norm, ranges, rows
 
+IMAGES_AT_ONCE = 500_000  # pairs of an image and a triangle of a mirror that may hide it
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
 PAIRS_AT_ONCE, SMALLEST_SHARE = 1 << 22, 256  # of cones and triangles; of cones
 BEHIND = 0.02  # of a triangle's size
@@ -102,9 +103,19 @@ class MetSurfaces:
         order = np.argsort(owner, kind="stable")
         owner, triangle = owner[order], triangle[order]
         start = np.searchsorted(owner, camera)
-        entry, image = ranges(start, np.searchsorted(owner, camera, side="right") - start)
-        a, b, c = np.moveaxis(np.take(self._mirror_corners, triangle[entry], axis=1), 2, 0)
-        way, offset = (points - places)[:, image], places[:, image] - a
+        offered = np.searchsorted(owner, camera, side="right") - start
+        hidden = np.zeros(len(camera), dtype=bool)
+        # many images in cameras that may see much of a mirror are more pairs than memory holds
+        for part in np.split(np.arange(len(camera)), np.flatnonzero(np.diff(np.cumsum(offered) // IMAGES_AT_ONCE)) + 1):
+            entry, image = ranges(start[part], offered[part])
+            met = self._passes(triangle[entry], places[:, part[image]], points[:, part[image]])
+            hidden[part[image[met]]] = True
+        return hidden
+
+    def _passes(self, triangle: np.ndarray, places: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Whether the way from `places` (3, p) to `points` (3, p) passes through triangles (p,) of the mirrors."""
+        a, b, c = np.moveaxis(np.take(self._mirror_corners, triangle, axis=1), 2, 0)
+        way, offset = points - places, places - a
         normal, turned = cross(b - a, c - a), cross(offset, way)
         facing = -dot(way, normal)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -112,10 +123,7 @@ class MetSurfaces:
             second, third = dot(turned, c - a) / facing, -dot(turned, b - a) / facing
             hit = (second >= 0.0) & (third >= 0.0) & (second + third <= 1.0)
         length = norm(way)
-        hit &= (share * length > ABOVE * self.size) & ((1.0 - share) * length > ABOVE * self.size)
-        hidden = np.zeros(len(camera), dtype=bool)
-        hidden[image[hit]] = True
-        return hidden
+        return hit & (share * length > ABOVE * self.size) & ((1.0 - share) * length > ABOVE * self.size)
 
     def _above(self, mirror_map: ReflectionMap, cameras: Cameras, camera: np.ndarray,
                triangle: np.ndarray) -> np.ndarray:

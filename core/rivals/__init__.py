@@ -14,7 +14,7 @@ from .clustering import clustered
 from .environment import boxed, mapped
 from .forward import parallel, points, refined, unrefined
 from .morphing import morphed
-from .primary_hits import PrimaryHits, primary_hits
+from .primary_hits import PrimaryHits, eye_depths, primary_hits
 from .ray_tracing import traced
 from .rival_picture import ITSELF, NOTHING, RivalPicture
 
@@ -53,4 +53,5 @@ METHODS: dict[str, Rival] = {
     "GENERAL": Rival("General three-ray camera, refined", "tolerance in pixels", (2.0, 1.0, 0.5, 0.25), refined),
 }
 
-__all__ = ["ITSELF", "METHODS", "NOTHING", "PrimaryHits", "Rival", "RivalPicture", "primary_hits"]
+__all__ = ["ITSELF", "METHODS", "NOTHING", "PrimaryHits", "Rival", "RivalPicture", "eye_depths",
+           "primary_hits"]

@@ -8,10 +8,10 @@ from ..reflection_mesh import ReflectionMesh
 from ..settings import Settings
 from ..triangle_mesh import TriangleMesh
 from ..view import View
+from .drawn_mesh import DrawnMesh
 from .primary_hits import PrimaryHits
 from .rival_picture import RivalPicture, Work
 from .tessellation import quartered, tessellated
-from .z_buffer import draw
 
 UNREFINED = 1e9  # pixels: no displacement is larger, and nothing is split
 DEFAULT = 0.5  # pixels
@@ -63,14 +63,11 @@ def _drawn(view: View, mesh: ReflectionMesh, triangle_of: np.ndarray | None, hit
         positions, triangles = _polygons(mesh)
         source = np.repeat(triangle_of[mesh.discs.source_vertex], SIDES - 2)
         point = np.repeat(mesh.reflected_position, SIDES, axis=0)
-    drawn = draw(view, positions, triangles)
-    # the mirror hides what lies behind it, and so does the scene before it
-    pixel = np.flatnonzero(drawn.depth < np.minimum(hits.mirror_depth, hits.scene_depth).ravel())
-    position = drawn.interpolate(point, triangles, pixel)
-    triangle = source[drawn.triangle[pixel]]
+    shown = DrawnMesh(positions, triangles, source, point)
+    seen = shown.seen(view, hits.mirror_depth, hits.scene_depth)
     work.count(triangles=len(triangles))
     work.done("drawing")
-    return work.picture(view.resolution, pixel, triangle, position)
+    return work.picture(view.resolution, *seen, shown)
 
 
 def _polygons(mesh: ReflectionMesh) -> tuple[np.ndarray, np.ndarray]:

@@ -12,10 +12,10 @@ from ..subdivision import shared_edges, split
 from ..triangle_mesh import TriangleMesh
 from ..vectors import dot, norm, solve
 from ..view import View
+from .drawn_mesh import DrawnMesh
 from .primary_hits import PrimaryHits
 from .ray_pyramid import RayPyramid
-from .rival_picture import NOTHING, RivalPicture, Work
-from .z_buffer import draw
+from .rival_picture import RivalPicture, Work
 
 ROUNDS = 12
 LONGEST = 2.0  # steps of the grid of rays: longer edges of virtual triangles are split in the middle
@@ -63,15 +63,11 @@ def morphed(view: View, mirror: TriangleMesh, scene: TriangleMesh, wanted: int, 
         # what no splitting brings together lies on both sides of a tear in the reflection
         kept &= seen[triangles].all(axis=1) | (_spread(pixels, triangles) <= UNSEEN * longest)
     triangles, source = triangles[kept], source[kept]
-    drawn = draw(view, virtual, triangles)
-    shown = drawn.triangle[hits.pixel]
-    held = np.flatnonzero(shown >= 0)
-    triangle, position = np.full(len(shown), NOTHING), np.zeros((3, len(shown)))
-    triangle[held] = source[shown[held]]
-    position[:, held] = drawn.interpolate(positions, triangles, hits.pixel[held])
+    shown = DrawnMesh(virtual, triangles, source, positions, stencilled=True)
+    seen = shown.seen(view, hits.mirror_depth, hits.scene_depth)
     work.count(triangles=len(triangles))
     work.done("drawing")
-    return work.picture(view.resolution, hits.pixel, triangle, position)
+    return work.picture(view.resolution, *seen, shown)
 
 
 def _spread(pixels: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -87,6 +87,12 @@ def primary_hits(view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Prima
     return PrimaryHits(pixel, face, place, ray, meets, *depths, work.seconds, work.counts)
 
 
+def eye_depths(view: View, mirror: TriangleMesh, scene: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
+    """`mirror_depth` and `scene_depth` of the primary hits alone."""
+    width, height = view.resolution
+    return tuple(draw(view, mesh.positions, mesh.triangles).depth.reshape(height, width) for mesh in (mirror, scene))
+
+
 def by_face(face: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Order (n,) that brings rays of one face together, the runs' starts (c,), and the face of each run."""
     order = np.argsort(face, kind="stable")

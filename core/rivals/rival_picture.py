@@ -6,6 +6,8 @@ from time import perf_counter
 
 import numpy as np
 
+from .drawn_mesh import DrawnMesh
+
 NOTHING = -1  # the reflected ray meets nothing, or the pixel shows no mirror
 ITSELF = -2  # the reflected ray meets the mirror itself
 
@@ -26,12 +28,15 @@ class RivalPicture:
         Work in the units of the talk's cost model: `intersections` (tests of a ray against a triangle or a billboard),
         `traversals` (of a tree, by a ray, a cone or a point), `projections` (of a diffuse vertex) and `rays`; and
         `nodes`, tree nodes tested, which the model does not know. Plain integers.
+    mesh : DrawnMesh or None
+        What was drawn, where a method makes geometry: it can be looked at anywhere, not at pixels' centres alone.
     """
 
     triangle: np.ndarray
     position: np.ndarray
     seconds: dict = field(default_factory=dict)
     counts: dict = field(default_factory=dict)
+    mesh: DrawnMesh | None = None
 
 
 class Work:
@@ -53,7 +58,7 @@ class Work:
         self._last = now
 
     def picture(self, resolution: tuple[int, int], pixel: np.ndarray, triangle: np.ndarray,
-                position: np.ndarray) -> RivalPicture:
+                position: np.ndarray, mesh: DrawnMesh | None = None) -> RivalPicture:
         """The picture whose pixels `pixel` (n,), along the rows, show `triangle` (n,) at `position` (3, n)."""
         width, height = resolution
         shown = np.full(width * height, NOTHING)
@@ -62,4 +67,5 @@ class Work:
         met = triangle >= 0
         points[pixel[met]] = position[:, met].T
         self.done("picture")
-        return RivalPicture(shown.reshape(height, width), points.reshape(height, width, 3), self.seconds, self.counts)
+        return RivalPicture(shown.reshape(height, width), points.reshape(height, width, 3), self.seconds, self.counts,
+                            mesh)

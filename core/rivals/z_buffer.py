@@ -101,8 +101,10 @@ def _draw(drawn: Drawn, part, edges, depth, low, rightmost, lines, width) -> Non
         first = np.where(slope > 0.0, np.maximum(first, crossing), first)
         last = np.where(slope < 0.0, np.minimum(last, crossing), last)
         last = np.where((slope == 0.0) & (rest < 0.0), -np.inf, last)
-    column = np.ceil(first - 0.5).astype(np.int64)
-    length = np.where(last >= first, np.floor(np.maximum(last, 0.0) - 0.5) - column + 1, 0).astype(np.int64)
+    # a line that is nowhere within its edges may begin at infinity
+    inside = last >= first
+    column = np.ceil(np.where(inside, first, 0.5) - 0.5).astype(np.int64)
+    length = np.where(inside, np.floor(np.maximum(last, 0.0) - 0.5) - column + 1, 0).astype(np.int64)
     length = np.maximum(length, 0)
     # parts of whole lines that hold about as many fragments
     for chosen in np.split(np.arange(len(row)), np.flatnonzero(np.diff(np.cumsum(length) // FRAGMENTS_AT_ONCE)) + 1):

@@ -119,3 +119,10 @@ def test_pypis_bpy_without_a_file(tmp_path):
 def test_pypis_bpy_without_a_verb():
     done = with_bpy()
     assert done.returncode == 2 and done.stderr.startswith("Usage:")
+
+
+def test_pypis_bpy_takes_several_files_for_a_benchmark_alone(tmp_path):
+    done = with_bpy(tmp_path / "one.blend", tmp_path / "two.blend", "generate")
+    assert done.returncode == 2 and done.stderr.startswith("Usage:")
+    done = with_bpy(tmp_path / "one.blend", tmp_path / "two.blend", "benchmark", "--output", tmp_path)
+    assert done.returncode == 1 and "one.blend" in done.stderr and "Traceback" not in done.stderr

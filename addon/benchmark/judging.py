@@ -1,0 +1,80 @@
+"""How far off a method is, in two measures: at the pixels' centres, and over the pixels' area.
+
+A picture is more than its pixels' centres. A ray tracer is exact there, by definition, since the truth is traced along
+the same rays; between them it knows nothing, and shows its nearest sample. A mesh is drawn wherever one looks. So both
+are asked at places anywhere in the pixels as well.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.rivals import RivalPicture
+from ..compare_numbers import OTHER_SURFACE
+from .case import Case
+from .truth import Truth
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """What a method made: a picture with `across` x `across` samples a pixel, or a mesh, which the picture holds."""
+
+    picture: RivalPicture
+    across: int = 1
+
+
+def look(made: Sampled, truth: Truth) -> tuple[np.ndarray, np.ndarray]:
+    """Triangle (n,), negative where none, and position (n, 3) that a method shows at the places of a truth."""
+    width, height = truth.view.resolution
+    picture = made.picture
+    if picture.mesh is not None:
+        triangle, position = np.full(width * height, -1), np.zeros((width * height, 3))
+        pixel, shown, place = picture.mesh.seen(truth.view, truth.mirror_depth, truth.scene_depth)
+        triangle[pixel], position[pixel] = shown, place.T
+        return triangle, position
+    lines, columns = picture.triangle.shape
+    x = np.clip(np.floor(truth.columns * made.across), 0, columns - 1).astype(np.int64)
+    y = np.clip(np.floor(truth.rows * made.across), 0, lines - 1).astype(np.int64)
+    sample = (y[:, None] * columns + x).ravel()
+    return picture.triangle.ravel()[sample], picture.position.reshape(-1, 3)[sample]
+
+
+def errors(case: Case, truths: list[Truth], made: Sampled) -> dict:
+    """Displacement and coverage of what a method made over all places of the truths.
+
+    Returns
+    -------
+    dict
+        `mean_error_px`: the displacement, at most one pixel, averaged over the places at which the truth shows the
+        scene; a hole or a wrong layer counts as one there, and each place of spill adds one. `displacement_px`:
+        median, p95, p99 and max where the same surface is shown. `coverage_percent`: hole, spill, wrong layer and
+        all, of the judged places of the mirror. All as `compare_numbers.measure` defines them.
+    """
+    tallies = [_tally(case, truth, *look(made, truth)) for truth in truths]
+    displacement = np.concatenate([tally.pop("displacement") for tally in tallies])
+    count = {name: sum(tally[name] for tally in tallies) for name in tallies[0]}
+    asked = len(displacement) + count["hole"] + count["wrong_layer"]
+    wrong = count["hole"] + count["spill"] + count["wrong_layer"]
+    share = {name: 100.0 * count[name] / max(count["judged"], 1) for name in ("hole", "spill", "wrong_layer")}
+    values = dict.fromkeys(("median", "p95", "p99", "max"))
+    if len(displacement):
+        values = dict(zip(values, map(float, np.percentile(displacement, (50, 95, 99, 100)))))
+    return {"mean_error_px": float((np.minimum(displacement, 1.0).sum() + wrong) / max(asked, 1)),
+            "displacement_px": values, "coverage_percent": {**share, "all": sum(share.values())}}
+
+
+def _tally(case: Case, truth: Truth, triangle: np.ndarray, position: np.ndarray) -> dict:
+    drawn = triangle >= 0
+    spill = drawn & (truth.empty | ~truth.mirror)
+    both = drawn[truth.pixel]
+    pixel = truth.pixel[both]
+    shown = triangle[pixel]
+    displacement = np.linalg.norm(position[pixel] - truth.position[both], axis=1) / truth.motion[both]
+    face, true_face = case.polygon[shown], truth.face[both]
+    elsewhere = case.scene.source_object[shown] != truth.source[both]
+    elsewhere |= (face != true_face) & (face >= 0) & (true_face >= 0)
+    # without a neighbour there is no scale: another face is then taken for another surface
+    wrong = elsewhere & ~(displacement <= OTHER_SURFACE)
+    return {"displacement": displacement[~wrong & np.isfinite(displacement)], "judged": int(truth.judged.sum()),
+            "hole": len(truth.pixel) - len(pixel), "spill": int(spill.sum()), "wrong_layer": int(wrong.sum())}

@@ -1,0 +1,82 @@
+"""Runs a method at the values of its knob, as far as its time goes, and judges each."""
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from ...core import ReflectionError
+from ...core.rivals import PrimaryHits
+from ..report_data import LEAST, Run, pareto
+from .case import Case
+from .judging import Sampled, errors
+from .methods import Method
+from .truth import Truth
+
+SHORT, REPEATS = 0.5, 2     # what takes less seconds is run so often, and the quickest run counts
+
+
+def run_method(case: Case, key: str, method: Method, hits: PrimaryHits, centres: Truth, area: list[Truth],
+               budget: float, keep: Callable[[float, Sampled], None] = lambda value, made: None
+               ) -> tuple[list[Run], list[str]]:
+    """Runs of one method, and sentences on the values that were left out.
+
+    Parameters
+    ----------
+    budget : float
+        Seconds: a value that is expected to take longer is left out, and with it all finer ones.
+    keep : callable
+        Is shown what each value made.
+    """
+    runs, expected = [], 0.0
+    for index, value in enumerate(method.values):
+        left = ", ".join(f"{other:g}" for other in method.values[index:])
+        if expected > budget:
+            return runs, [f"{method.title}: {method.knob} {left} left out: about {expected:.1f} s were expected, and "
+                          f"{budget:g} s are allowed."]
+        try:
+            made, seconds, cpu, took = _quickest(case, method, value, hits)
+        except (ReflectionError, MemoryError) as error:
+            reason = str(error).rstrip(".") or "the memory does not suffice"
+            return runs, [f"{method.title}: {method.knob} {left} left out: {reason}."]
+        # of processor time, which others who work on the machine do not lengthen
+        expected = method.growth * min(took, cpu)
+        keep(value, made)
+        numbers = errors(case, [centres], made)
+        numbers["area"] = errors(case, area, made)
+        numbers["cpu_seconds"] = cpu
+        if made.picture.mesh is not None:
+            numbers["seconds_without_drawing"] = sum(
+                spent_on for stage, spent_on in seconds.items() if stage not in ("drawing", "picture"))
+        counts = {name: count for name, count in made.picture.counts.items() if count}
+        runs.append(Run(key, method.title, method.knob, float(value), seconds, counts, numbers))
+    return runs, []
+
+
+def with_fronts(runs: list[Run]) -> tuple[Run, ...]:
+    """The runs, each told whether it is on the Pareto front of seconds and mean error, in both measures; errors below
+    `LEAST` are the same."""
+    for name, numbers in (("centres", lambda run: run.numbers), ("area", lambda run: run.numbers["area"])):
+        best = pareto(np.array([run.total for run in runs]),
+                      np.array([max(numbers(run)["mean_error_px"], LEAST) for run in runs])) if runs else []
+        for run, good in zip(runs, best):
+            run.numbers.setdefault("on_front", {})[name] = bool(good)
+    return tuple(runs)
+
+
+def _quickest(case: Case, method: Method, value: float, hits: PrimaryHits) -> tuple[Sampled, dict, float, float]:
+    """What a value makes, its seconds by stage and processor seconds in the quickest run, and how long the first took.
+    """
+    best, first = None, 0.0
+    for _ in range(REPEATS):
+        started, processor = time.perf_counter(), time.process_time()
+        made = method.run(case, value, hits)
+        took, processor = time.perf_counter() - started, time.process_time() - processor
+        first = first or took
+        seconds = made.picture.seconds
+        if best is None or sum(seconds.values()) < sum(best[1].values()):
+            best = made, {stage: float(spent) for stage, spent in seconds.items()}, processor
+        if took > SHORT:
+            break
+    return *best, first

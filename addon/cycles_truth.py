@@ -1,0 +1,116 @@
+"""Cycles as the judge: what a copied scene's mirrors show at the pixels' centres, rendered in codes."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from . import cycles_codes, cycles_render
+from .compare_numbers import ITSELF, NOTHING, CodedPicture
+from .cycles_codes import CodedMaterials
+from .cycles_scene import CopiedScene
+from .mirror_materials import is_mirror
+
+
+class CodedTruth:
+    """Renders what the mirrors of a copied scene show, as often as it is asked: the camera may be moved in between.
+
+    `depth` reflections are followed. Bystanders are black and not reflected from then on, and results are hidden.
+    """
+
+    def __init__(self, copied: CopiedScene, codes: CodedMaterials, depth: int) -> None:
+        self._copied, self._codes = copied, codes
+        self._reflecting = {copy: reflecting(copy) for copy, _ in copied.mirrors}
+        self._shown_camera = {copy: copy.visible_camera for copy, _ in copied.mirrors}
+        self._black, self._facing, self._mirror = codes.black(), codes.mirror_facing(), codes.mirror(depth)
+        self._identity, self._position, self._depth = codes.identity(), codes.position(), depth
+        self._unrounded = None
+        for copy, index in copied.diffuse:
+            copy.pass_index = index + 2
+        for copy, _ in copied.bystanders:
+            copy.visible_glossy = False
+        dress(copied.bystanders, self._black)
+        for copy, _ in copied.mirrors:
+            copy.visible_camera = True
+        show(copied.results, False)
+
+    def mirror(self) -> tuple[np.ndarray, np.ndarray]:
+        """Pixels (height, width) in which the eye sees a mirror, and those of them where Cycles bends the normal."""
+        dress(self._copied.diffuse, self._black)
+        self._dress_mirrors(self._facing)
+        facing = cycles_render.render_codes(self._copied.scene)
+        seen = facing[..., 2] > 0.5
+        return seen, seen & (facing[..., 0] - 2.0 < np.minimum(0.9 * (facing[..., 1] - 2.0), 0.01))
+
+    def reflected(self, seen: np.ndarray, unrounded: bool = False) -> CodedPicture:
+        """What the mirror shows in the pixels `seen`; `unrounded` hands Cycles normals that it does not round."""
+        if unrounded and self._unrounded is None:
+            cycles_codes.carry_normals(self._copied)
+            self._unrounded = self._codes.mirror(self._depth, cycles_codes.MIRROR_NORMAL)
+        self._dress_mirrors(self._unrounded if unrounded else self._mirror)
+        dress(self._copied.diffuse, self._identity)
+        identity = cycles_render.render_codes(self._copied.scene)
+        dress(self._copied.diffuse, self._position)
+        return decode(identity, cycles_render.render_codes(self._copied.scene), self._codes.origin, seen, face_start=0)
+
+    def end(self) -> None:
+        """Mirrors are seen by the camera as they were; diffuse objects and mirrors are black."""
+        for copy, _ in self._copied.mirrors:
+            copy.visible_camera = self._shown_camera[copy]
+        dress(self._copied.diffuse, self._black)
+        dress(self._copied.mirrors, self._black)
+
+    def _dress_mirrors(self, material: bpy.types.Material) -> None:
+        """Put a material on the faces that reflect; where no material of a mirror is one, all of them do."""
+        for copy, _ in self._copied.mirrors:
+            for index, slot in enumerate(copy.material_slots):
+                chosen = not self._reflecting[copy] or index in self._reflecting[copy]
+                slot.material = material if chosen else self._black
+
+
+def dress(part: list, material: bpy.types.Material) -> None:
+    """Put one material on every face of the copies."""
+    for slot in (slot for copy, _ in part for slot in copy.material_slots):
+        slot.material = material
+
+
+def reflecting(copy: bpy.types.Object) -> set:
+    """The material slots of a mirror that reflect; empty where none is a mirror, and then all faces are to reflect."""
+    return {index for index, slot in enumerate(copy.material_slots) if is_mirror(slot.material)}
+
+
+def show(part: list, visible: bool) -> None:
+    """Show copies in renders, or hide them."""
+    for copy, _ in part:
+        copy.hide_render = not visible
+
+
+def lowest_corner(copied: CopiedScene) -> tuple:
+    """A corner below all diffuse objects."""
+    copied.scene.view_layers[0].update()
+    corners = [np.array(copy.bound_box) @ np.array(copy.matrix_world)[:3, :3].T + np.array(copy.matrix_world)[:3, 3]
+               for copy, _ in copied.diffuse]
+    return tuple(float(value) for value in np.floor(np.concatenate(corners).min(axis=0)) - 1.0)
+
+
+def polygons(context: bpy.types.Context, diffuse: list) -> list:
+    """The polygon of each triangle of each diffuse object; None where it instances others and counts their faces."""
+    depsgraph = context.evaluated_depsgraph_get()
+    tables = []
+    for obj in diffuse:
+        evaluated = obj.evaluated_get(depsgraph)
+        table = None
+        if evaluated.type == "MESH" and not obj.is_instancer:
+            mesh = evaluated.data
+            mesh.calc_loop_triangles()
+            table = np.empty(len(mesh.loop_triangles), dtype=np.int32)
+            mesh.loop_triangle_polygons.foreach_get("value", table)
+        tables.append(table)
+    return tables
+
+
+def decode(identity: np.ndarray, position: np.ndarray, origin: tuple, where, face_start: int) -> CodedPicture:
+    """0: nothing, 1: a mirror, from 2 on: a diffuse object."""
+    code = np.where(where, np.rint(identity[..., 0]).astype(np.int64), 0)
+    source = np.select([code == 0, code == 1], [NOTHING, ITSELF], code - 2)
+    face = np.rint(identity[..., 1]).astype(np.int64) - face_start
+    return CodedPicture(source, face, position.astype(np.float64) + np.array(origin))

@@ -1,0 +1,43 @@
+"""A reflection as triangles that a z-buffer draws: geometry, which any view from the same eye can look at."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..view import View
+from .z_buffer import draw
+
+
+@dataclass(frozen=True)
+class DrawnMesh:
+    """Triangles to be drawn over the mirror.
+
+    Attributes
+    ----------
+    positions : (v, 3) float64
+        Where the vertices are drawn.
+    triangles : (m, 3) int64
+    source : (m,) int64
+        The diffuse scene's triangle that each shows.
+    point : (v, 3) float64
+        The diffuse point that each vertex shows.
+    stencilled : bool
+        Drawn wherever the mirror is seen and nowhere else; otherwise the mirror hides what lies behind it.
+    """
+
+    positions: np.ndarray
+    triangles: np.ndarray
+    source: np.ndarray
+    point: np.ndarray
+    stencilled: bool = False
+
+    def seen(self, view: View, mirror_depth: np.ndarray,
+             scene_depth: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """What the pixels' centres of a view show of it, whose depths of mirror and scene are given: pixels (n,) along
+        the rows, triangles (n,) of the diffuse scene, and the points on them (3, n)."""
+        drawn = draw(view, self.positions, self.triangles)
+        mirror, scene = mirror_depth.ravel(), scene_depth.ravel()
+        shown = (drawn.triangle >= 0) & (mirror < scene) if self.stencilled else drawn.depth < np.minimum(mirror, scene)
+        pixel = np.flatnonzero(shown)
+        return pixel, self.source[drawn.triangle[pixel]], drawn.interpolate(self.point, self.triangles, pixel)
