@@ -37,9 +37,12 @@ $(READY): $(REQUIREMENTS)
 	  echo "There is no working Python called '$(PYTHON)': install Python 3.11 or 3.13, or name one with PYTHON=/path/to/python." >&2; exit 1; }
 	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info[:2] not in ((3, 11), (3, 13)))' || { \
 	  echo "'$(PYTHON)' is $$("$(PYTHON)" -V 2>&1), but bpy exists for Python 3.11 and 3.13 only: name one of them with PYTHON=/path/to/python." >&2; exit 1; }
+	@[ ! -e "$(VENV)" ] || [ -e "$(VENV)/.ready" ] || [ -e "$(VENV)/.unready" ] || { \
+	  echo "'$(VENV)' exists and is not an environment of this Makefile, which would delete it: name another one with VENV=." >&2; exit 1; }
 	@rm -rf "$(VENV)"
 	@"$(PYTHON)" -m venv "$(VENV)" || { \
 	  echo "'$(PYTHON)' cannot make an environment: install its module venv (on Debian: apt-get install python3-venv)." >&2; exit 1; }
+	@touch "$(VENV)/.unready"
 	$(RUN) -m pip install --quiet --disable-pip-version-check -r $(REQUIREMENTS)
 	@if grep -q '^bpy' $(REQUIREMENTS); then $(RUN) -c 'import bpy' || { \
 	  echo "bpy needs libraries of the system (on Debian: apt-get install $$(tr '\n' ' ' < requirements-system.txt))." >&2; exit 1; }; fi

@@ -20,7 +20,7 @@ from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
 from .triangle_mesh import TriangleMesh
 from .subdivision import shared_edges
-from .vectors import cross, dot, norm, ranges, rows
+from .vectors import cross, dot, norm, ranges, rows, shares
 
 IMAGES_AT_ONCE = 500_000  # pairs of an image and a triangle of a mirror that may hide it
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
@@ -106,10 +106,11 @@ class MetSurfaces:
         offered = np.searchsorted(owner, camera, side="right") - start
         hidden = np.zeros(len(camera), dtype=bool)
         # many images in cameras that may see much of a mirror are more pairs than memory holds
-        for part in np.split(np.arange(len(camera)), np.flatnonzero(np.diff(np.cumsum(offered) // IMAGES_AT_ONCE)) + 1):
+        for part in shares(offered, IMAGES_AT_ONCE):
             entry, image = ranges(start[part], offered[part])
-            met = self._passes(triangle[entry], places[:, part[image]], points[:, part[image]])
-            hidden[part[image[met]]] = True
+            image += part.start
+            met = self._passes(triangle[entry], places[:, image], points[:, image])
+            hidden[image[met]] = True
         return hidden
 
     def _passes(self, triangle: np.ndarray, places: np.ndarray, points: np.ndarray) -> np.ndarray:
