@@ -18,13 +18,15 @@ from .cameras import Cameras
 from .candidates import Candidates, overlapping
 from .clipping import FILLED, Polygons, clip
 from .cones import Cones
+from .coverage import touching
 from .images import VertexImages
-from .reflection_map import ReflectionMap
 from .nodes import Nodes, polygon_nodes
-from .openings import Openings, find_openings, following_corners, touching
+from .openings import Openings, find_openings
 from .ray_cells import Cells, ray_cells
+from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
+from .unmatched_edges import following_corners
 from .vectors import groups, norm, rows
 from .view import View
 

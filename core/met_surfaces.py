@@ -5,14 +5,12 @@ asked for it is the next mirror. Convex mirrors never see themselves: their tria
 """
 from __future__ import annotations
 
-from dataclasses import fields
-
 import numpy as np
 
+from .bounded_trace import bounded_trace
 from .cameras import Cameras
 from .candidates import Candidates
 from .cones import Cones
-from .errors import ReflectionError
 from .mirror_surface import MirrorSurface
 from .point_tree import PointTree
 from .reflection_map import ReflectionMap
@@ -24,7 +22,6 @@ from .vectors import cross, dot, norm, ranges, rows, shares
 
 IMAGES_AT_ONCE = 500_000  # pairs of an image and a triangle of a mirror that may hide it
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
-PAIRS_AT_ONCE, SMALLEST_SHARE = 1 << 22, 256  # of cones and triangles; of cones
 BEHIND = 0.02  # of a triangle's size
 
 _PROBES = np.array([(i, j, 4 - i - j) for i in range(5) for j in range(5 - i)]).T / 4.0
@@ -82,7 +79,7 @@ class MetSurfaces:
               most: int) -> tuple[np.ndarray, np.ndarray, int]:
         """Pairs of cameras and triangles that may be seen in them, and how many tree nodes were visited for that;
         mirrors are looked for on the faces that `showing_mirrors` found. More than `most` pairs are refused."""
-        camera, triangle, visited = _traced(self.tree, Cones.around(cameras), most)
+        camera, triangle, visited = bounded_trace(self.tree, Cones.around(cameras), most)
         chosen = np.flatnonzero(showing[cameras.face])
         mirror_camera, mirror_triangle, more = self._mirrors_in(mirror_map, cameras.select(chosen), most)
         return (np.concatenate((camera, chosen[mirror_camera])),
@@ -93,7 +90,7 @@ class MetSurfaces:
         """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited."""
         if not len(cameras):
             return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), 0
-        return _traced(self._mirror_tree, Cones.around(cameras), most,
+        return bounded_trace(self._mirror_tree, Cones.around(cameras), most,
                        lambda camera, triangle: self._above(mirror_map, cameras, camera, triangle))
 
     def hides(self, mirror_map: ReflectionMap, cameras: Cameras, camera: np.ndarray, places: np.ndarray,
@@ -205,26 +202,6 @@ class MetSurfaces:
             return candidates
         kept[pair] = seen.reshape(-1, len(pair)).any(axis=0)
         return candidates.select(kept)
-
-
-def _traced(tree: SceneTree, cones: Cones, most: float, wanted=None) -> tuple[np.ndarray, np.ndarray, int]:
-    """Pairs of cones and triangles, those that are `wanted`, and tree nodes visited; cones go through the tree in
-    shares that fit the memory even if each meets all triangles."""
-    found, visited, total, count = [], 0, 0, cones.centre.shape[1]
-    share = max(SMALLEST_SHARE, PAIRS_AT_ONCE // max(len(tree), 1))
-    for start in range(0, max(count, 1), share):
-        part = Cones(*(getattr(cones, field.name)[..., start:start + share] for field in fields(Cones)))
-        cone, triangle, more = tree.trace(part)
-        cone, visited = cone + start, visited + more
-        if wanted is not None:
-            kept = wanted(cone, triangle)
-            cone, triangle = cone[kept], triangle[kept]
-        found.append((cone, triangle))
-        total += len(cone)
-        if total > most:
-            raise ReflectionError("Too much of the mirrors and the diffuse objects lies over one another for the "
-                                  "maximum number of faces; simplify them or raise it.")
-    return *(np.concatenate(side) for side in zip(*found)), visited
 
 
 def _opposite(mesh: TriangleMesh) -> np.ndarray:

@@ -16,8 +16,9 @@ from .camera_splitting import edge_middles, in_picture, split_at
 from .cameras import Cameras
 from .candidates import Candidates
 from .clipping import Polygons
+from .coverage import covered
 from .mirror_map import MirrorMap
-from .openings import Openings, covered
+from .openings import Openings
 from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
 from .subdivision import shared_edges

@@ -7,7 +7,8 @@ import core.ray_cells
 import core.bounce
 from core import Settings, reflect
 from core.clipping import CONTACT, SCENE_EDGE, whole_triangles
-from core.openings import find_openings, following_corners, unmatched_edges
+from core.openings import find_openings
+from core.unmatched_edges import following_corners, unmatched_edges
 from tests.core.true_map import case_of, mesh_of, truth_of
 from tests.judge import compare
 
