@@ -7,7 +7,7 @@ SAMPLE ?= sphere
 DEMO ?= demo
 REPORT ?= report
 BUDGET ?= 10
-GROWTH ?= 3
+GROWTH ?= 8
 
 RUN = $(VENV)/bin/python
 READY = $(VENV)/.ready
