@@ -7,7 +7,7 @@ SAMPLE ?= sphere
 DEMO ?= demo
 REPORT ?= report
 BUDGET ?= 10
-GROWTH ?= 8
+GROWTH ?= 7
 
 RUN = $(VENV)/bin/python
 READY = $(VENV)/.ready
@@ -59,7 +59,7 @@ report: environment
 	  --budget $(BUDGET) --growth $(GROWTH)
 
 report-plots: environment
-	$(RUN) benchmarks/read_report.py $(REPORT) --plots docs/benchmark
+	$(RUN) benchmarks/read_report.py $(REPORT)
 
 numerics: environment
 	$(RUN) -m benchmarks.numerics

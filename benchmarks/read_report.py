@@ -1,6 +1,7 @@
-"""The tables of docs/benchmark.md from a report of `make report`, and its plots.
+"""Brings docs/benchmark.md up to a report of `make report`: its tables and its plots. What the page says is written by
+hand: read it against the tables, and against the growth that this prints.
 
-    python benchmarks/read_report.py [report] [--plots docs/benchmark]
+    python benchmarks/read_report.py [report] [--page docs/benchmark.md]
 """
 from __future__ import annotations
 
@@ -10,8 +11,10 @@ import shutil
 import sys
 from pathlib import Path
 
-COMPARED = (("GENERAL", 0.5), ("GENERAL", 0.25), ("RAYS", 1), ("RAYS_ADAPTIVE", 2), ("RAYS", 2), ("RAYS_ADAPTIVE", 4),
-            ("RAYS", 4), ("BVHTREE", 1), ("BVHTREE", 2))
+COMPARED = {"refined, 0.5 px": ("GENERAL", 0.5), "refined, 0.25 px": ("GENERAL", 0.25), "rays, 1 x 1": ("RAYS", 1),
+            "rays, 2 x 2": ("RAYS", 2), "2 x 2 at edges": ("RAYS_ADAPTIVE", 2),
+            "4 x 4 at edges": ("RAYS_ADAPTIVE", 4), "BVHTree, 1 x 1": ("BVHTREE", 1), "BVHTree, 2 x 2": ("BVHTREE", 2)}
+START, END = "<!-- {} by benchmarks/read_report.py -->\n", "<!-- end of the table -->\n"
 PLOTS = ("*_area_mean_error_px.svg", "growth_*.svg", "sphere_mean_error_px.svg", "sphere_stages.svg",
          "suzanne_stages.svg")
 
@@ -20,50 +23,51 @@ def main(arguments: list[str]) -> int:
     """Run from the command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("report", nargs="?", type=Path, default=Path("report"), help="folder of the report")
-    parser.add_argument("--plots", type=Path, help="copy the page's plots here")
+    parser.add_argument("--page", type=Path, default=Path("docs/benchmark.md"))
     options = parser.parse_args(arguments)
     report = json.loads((options.report / "report.json").read_text(encoding="utf-8"))
-    print(f"{report['environment']}\n")
-    _fronts(report)
-    _seconds(report)
+    text = options.page.read_text(encoding="utf-8")
+    for name, table in (("made", made(report)), ("seconds", seconds(report)), ("fronts", fronts(report))):
+        before, rest = text.split(START.format(name))
+        text = before + START.format(name) + table + END + rest.split(END, 1)[1]
+    options.page.write_text(text, encoding="utf-8")
+    plots = options.page.with_suffix("")
+    plots.mkdir(parents=True, exist_ok=True)
+    for path in [path for pattern in PLOTS for path in (options.report / "plots").glob(pattern)]:
+        shutil.copyfile(path, plots / path.name)
     for line in report["growths"]:
-        points = ", ".join(f"{size:,}: {seconds:.2f}" for size, seconds in zip(line["sizes"], line["seconds"]))
+        points = ", ".join(f"{size:,}: {spent:.2f}" for size, spent in zip(line["sizes"], line["seconds"]))
         print(f"{line['title']}, {line['axis']}: {points}")
-    if options.plots:
-        options.plots.mkdir(parents=True, exist_ok=True)
-        for path in [path for pattern in PLOTS for path in (options.report / "plots").glob(pattern)]:
-            shutil.copyfile(path, options.plots / path.name)
     return 0
 
 
-def _fronts(report: dict) -> None:
-    """Which settings are on the front, by measure."""
-    print("| sample | on the front over the area | on the front at the centres |\n|---|---|---|")
-    for scene in report["scenes"]:
-        cells = []
-        for measure in ("area", "centres"):
-            found: dict = {}
-            for run in scene["runs"]:
-                if run["numbers"]["on_front"][measure]:
-                    found.setdefault(run["method"], []).append(f"{run['value']:g}")
-            cells.append("; ".join(f"{method} {', '.join(values)}" for method, values in found.items()))
-        print(f"| {scene['name']} | {' | '.join(cells)} |")
-    print()
+def made(report: dict) -> str:
+    """With what the report was made."""
+    names = list(report["environment"])
+    return (f"| {' | '.join(names)} |\n|{'---|' * len(names)}\n"
+            f"| {' | '.join(str(report['environment'][name]) for name in names)} |\n")
 
 
-def _seconds(report: dict) -> None:
+def seconds(report: dict) -> str:
     """Seconds and mean error over the area of what is compared most."""
-    heads = " | ".join(f"{method} {value:g}" for method, value in COMPARED)
-    print(f"| sample | {heads} |\n|---|{'---|' * len(COMPARED)}")
+    lines = [f"| sample | {' | '.join(COMPARED)} |", f"|---|{'---|' * len(COMPARED)}"]
     for scene in report["scenes"]:
         runs = {(run["method"], run["value"]): run for run in scene["runs"]}
-        cells = []
-        for key in COMPARED:
-            run = runs.get(key)
-            cells.append(f"{sum(run['seconds'].values()):.2f} s, {run['numbers']['area']['mean_error_px']:.3f} px"
-                         if run else "–")
-        print(f"| {scene['name']} | {' | '.join(cells)} |")
-    print()
+        cells = [f"{sum(run['seconds'].values()):.2f} s, {run['numbers']['area']['mean_error_px']:.3f}" if run else "–"
+                 for run in map(runs.get, COMPARED.values())]
+        lines.append(f"| {scene['name']} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def fronts(report: dict) -> str:
+    """Tolerances of the general camera, refined, that are on the fronts."""
+    lines = ["| sample | over the pixels' area | at the pixels' centres |", "|---|---|---|"]
+    for scene in report["scenes"]:
+        cells = [", ".join(f"{run['value']:g}" for run in scene["runs"]
+                           if run["method"] == "GENERAL" and run["numbers"]["on_front"][measure]) or "none"
+                 for measure in ("area", "centres")]
+        lines.append(f"| {scene['name']} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":
