@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 
 import numpy as np
 
@@ -18,16 +17,13 @@ SHORT, REPEATS = 0.5, 2     # what takes less seconds is run so often, and the q
 
 
 def run_method(case: Case, key: str, method: Method, hits: PrimaryHits, centres: Truth, area: list[Truth],
-               budget: float, keep: Callable[[float, Sampled], None] = lambda value, made: None
-               ) -> tuple[list[Run], list[str]]:
+               budget: float) -> tuple[list[Run], list[str]]:
     """Runs of one method, and sentences on the values that were left out.
 
     Parameters
     ----------
     budget : float
         Seconds: a value that is expected to take longer is left out, and with it all finer ones.
-    keep : callable
-        Is shown what each value made.
     """
     runs, expected = [], 0.0
     for index, value in enumerate(method.values):
@@ -42,7 +38,6 @@ def run_method(case: Case, key: str, method: Method, hits: PrimaryHits, centres:
             return runs, [f"{method.title}: {method.knob} {left} left out: {reason}."]
         # of processor time, which others who work on the machine do not lengthen
         expected = method.growth * min(took, cpu)
-        keep(value, made)
         numbers = errors(case, [centres], made)
         numbers["area"] = errors(case, area, made)
         numbers["cpu_seconds"] = cpu

@@ -10,7 +10,8 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, Settings, reflect
-from ...core.rivals import PrimaryHits, RivalPicture, primary_hits
+from ...core.rivals import PrimaryHits, primary_hits
+from ...core.rivals.forward import drawn_mesh
 from ..compare_images import comparison_pictures
 from ..compare_numbers import NOTHING, CodedPicture, measure
 from ..compare_pictures import pictures
@@ -79,18 +80,15 @@ def scene_report(context: bpy.types.Context, name: str, folder: str, options: Op
         centres, area, coded = render_truths(context, copied, case)
         options.tell(f"{name}: truth at {sum(len(truth.mirror) for truth in (centres, *area)):,} places by Cycles, "
                      f"{time.perf_counter() - started:.1f} s")
-        runs, skipped, kept = [], [], {}
+        runs, skipped = [], []
         for key in options.methods or METHODS:
             since = time.perf_counter()
-            found, left_out = run_method(
-                case, key, METHODS[key], hits, centres, area, options.budget,
-                lambda value, made, key=key: kept.setdefault("picture", made.picture)
-                if key == "GENERAL" and value == SHOWN else None)
+            found, left_out = run_method(case, key, METHODS[key], hits, centres, area, options.budget)
             runs += found
             skipped += left_out
             options.tell(f"{name}: {METHODS[key].title}, {time.perf_counter() - since:.1f} s"
                          + "".join(f"\n    {sentence}" for sentence in left_out))
-        shown, seconds = _shown(context, copied, case, hits, coded, kept.get("picture"), folder, options)
+        shown, seconds = _shown(context, copied, case, hits, coded, folder, options)
     runs = with_fronts(runs)
     return Scene(name, summary(runs, seconds["reference"], options.samples),
                  facts(case, hits, centres, seconds, options), shown, runs, tuple(skipped),
@@ -103,8 +101,8 @@ def _least(case: Case) -> PrimaryHits:
                key=lambda hits: sum(hits.seconds.values()))
 
 
-def _shown(context: bpy.types.Context, copied: CopiedScene, case: Case, hits: PrimaryHits, coded: tuple,
-           picture: RivalPicture | None, folder: str, options: Options) -> tuple[tuple, dict]:
+def _shown(context: bpy.types.Context, copied: CopiedScene, case: Case, hits: PrimaryHits, coded: tuple, folder: str,
+           options: Options) -> tuple[tuple, dict]:
     """The pictures of the general camera's mesh beside Cycles', and Cycles' seconds for them."""
     mirror, bent, truth = coded
     result = reflect(case.view, case.mirror, case.scene.mesh, Settings(SHOWN))
@@ -112,8 +110,7 @@ def _shown(context: bpy.types.Context, copied: CopiedScene, case: Case, hits: Pr
     dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)],
           CodedMaterials(copied, (0.0, 0.0, 0.0)).plain_mirror())
     reference, drawn, seconds = pictures(copied, context.scene, options.samples)
-    if picture is None:
-        picture = METHODS["GENERAL"].run(case, SHOWN, hits).picture
+    picture = drawn_mesh(case.view, result, hits)
     shown = picture.triangle >= 0
     triangle = np.maximum(picture.triangle, 0)
     found = CodedPicture(np.where(shown, case.scene.source_object[triangle], NOTHING), case.polygon[triangle],

@@ -48,6 +48,11 @@ def points(view: View, mirror: TriangleMesh, scene: TriangleMesh, vertices: int,
     return _drawn(view, reflect(view, mirror, finer, Settings(DEFAULT, method="POINTS")), triangle_of, hits, work)
 
 
+def drawn_mesh(view: View, mesh: ReflectionMesh, hits: PrimaryHits) -> RivalPicture:
+    """What a reflection mesh shows."""
+    return _drawn(view, mesh, None, hits, Work())
+
+
 def _drawn(view: View, mesh: ReflectionMesh, triangle_of: np.ndarray | None, hits: PrimaryHits,
            work: Work) -> RivalPicture:
     """The picture of a mesh, or of discs where `triangle_of` tells the scene's triangle of each vertex."""
