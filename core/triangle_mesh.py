@@ -6,6 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+_UNIT_LENGTH = 2.0 ** -50
+"""A vector that was divided by its length is as long as 1 to within 6 roundings: dividing once more would only move it,
+and a mesh made of another one's normals would not be the same."""
+
 
 @dataclass(frozen=True)
 class TriangleMesh:
@@ -48,6 +52,7 @@ class TriangleMesh:
             if not np.isfinite(normals).all():
                 raise ValueError("A shading normal is not a finite number; recalculate the normals.")
             length = np.linalg.norm(normals, axis=2, keepdims=True)
+            length[np.abs(length - 1.0) <= _UNIT_LENGTH] = 1.0
             flat = self.face_normals()[:, None, :]
             normals = np.where(length > 0.0, normals / np.where(length > 0.0, length, 1.0), flat)
         object.__setattr__(self, "corner_normals", normals)

@@ -108,6 +108,17 @@ def test_ordered_meshes_are_one(kind):
     np.testing.assert_array_equal(same.triangle, np.arange(len(triangles)))
 
 
+@pytest.mark.parametrize("scale", [1.0, 1e-3, 7.0])
+def test_normals_that_have_unit_length_stay(scale):
+    rng = np.random.default_rng(5)
+    positions, triangles = rng.normal(size=(300, 3)), np.arange(300).reshape(100, 3)
+    normals = scale * rng.normal(size=(100, 3, 3))
+    once = TriangleMesh(positions, triangles, normals)
+    np.testing.assert_allclose(np.linalg.norm(once.corner_normals, axis=2), 1.0, atol=1e-15, rtol=0.0)
+    again = TriangleMesh(positions, triangles, once.corner_normals)
+    np.testing.assert_array_equal(again.corner_normals, once.corner_normals)
+
+
 def test_meshes_without_triangles():
     mesh = TriangleMesh(np.array([[1.0, 0, 0], [0, 1, 0], [-0.0, 1, -1]]), np.zeros((0, 3), dtype=int))
     one, order = ordered(mesh, shading=False)
