@@ -79,6 +79,8 @@ class PointTree:
     @classmethod
     def build(cls, mesh: TriangleMesh) -> PointTree:
         """The tree of a mesh whose vertices and triangles may come in any order."""
+        if not isinstance(mesh, TriangleMesh):
+            raise ValueError("The mesh of a PointTree must be a TriangleMesh; make one of its positions and triangles.")
         mesh, given = ordered(mesh, shading=False)
         used, normal, reach = _surface(mesh)
         depth = max(0, int(np.ceil(np.log2(max(len(used), 1) / BUCKET))))

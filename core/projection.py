@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .certain_pairs import certain_images, common_lengths, own_lengths
+from .checks import numbers
 from .doubtful_pairs import doubtful_images
 from .ordinary_size import of_ordinary_size, strange_sizes
 
@@ -113,15 +114,17 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facin
 
 
 def _checked(vertices, rays, points, facing):
-    vertices, rays, points = (np.asarray(given, dtype=np.float64) for given in (vertices, rays, points))
-    count = len(points)
-    if points.shape != (count, 3) or vertices.shape != (count, 3, 3) or rays.shape != (count, 3, 3):
-        raise ValueError("project needs vertices (n, 3, 3), rays (n, 3, 3) and points (n, 3) of the same n.")
+    wrong = ("The vertices (n, 3, 3), rays (n, 3, 3) and points (n, 3) of pairs must be arrays of numbers of the "
+             "same n; give each pair a camera and a point.")
+    points = numbers(points, (None, 3), wrong)
+    vertices, rays = (numbers(given, (len(points), 3, 3), wrong) for given in (vertices, rays))
     if facing is not None:
-        facing = np.asarray(facing)
-        if facing.shape != (count,):
-            raise ValueError("project needs one facing sign for each pair.")
-    return vertices, rays, points, None if facing is None else np.where(facing < 0, -1.0, 1.0)
+        wrong = "The facing of pairs must be an (n,) array of numbers; give one sign for each pair."
+        facing = numbers(facing, (len(points),), wrong)
+        if np.isnan(facing).any():
+            raise ValueError(wrong)
+        facing = np.where(facing < 0, -1.0, 1.0)
+    return vertices, rays, points, facing
 
 
 def _of_strange_size(vertices, rays, points, facing):

@@ -12,6 +12,7 @@ from .bounced_cameras import bounced_cameras
 from .camera_splitting import in_picture
 from .canonical_order import in_given_order, ordered
 from .cameras import three_ray_cameras, visible_triangles
+from .checks import LARGEST
 from .errors import ReflectionError
 from .horizon import cut_at_horizon
 from .met_surfaces import MetSurfaces
@@ -24,7 +25,8 @@ from .reflection_mesh import ReflectionMesh
 from .scene_tree import SceneTree
 from .self_occlusion import without_occluded
 from .settings import Settings
-from .triangle_mesh import TriangleMesh
+from .triangle_mesh import TriangleMesh, area_normals
+from .vectors import cross, dot, norm, rows
 from .view import View
 
 CAMERAS_OF_A_PIXEL = 4  # of a later bounce: more show nothing that could be seen
@@ -73,7 +75,7 @@ def reflection_steps(
         mirrors: TriangleMesh | None = None) -> Generator[tuple[float, str], None, ReflectionMesh]:
     """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end."""
     progress = Progress()
-    _check(view, mirror, scene, settings.method)
+    _check(view, mirror, scene, settings, mirrors)
     corner = far_corner(mirror)
     if corner is None:
         return (yield from _steps(view, mirror, scene, settings, mirrors, progress))
@@ -156,23 +158,41 @@ def _shifted(steps: Generator, start: float, share: float) -> Generator[tuple[fl
         yield start + share * done, stage
 
 
-def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, method: str) -> None:
+def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
+           mirrors: TriangleMesh | None) -> None:
+    for given, kinds, wrong in (
+            (view, View, "The view must be a View; make one of a camera's matrices or with looking_at."),
+            (mirror, TriangleMesh, "The mirror must be a TriangleMesh; make one of its positions and triangles."),
+            (scene, (TriangleMesh, SceneTree, PointTree), "The scene must be a TriangleMesh, a SceneTree or a "
+             "PointTree; make one of its positions and triangles."),
+            (settings, Settings, "The settings must be Settings; leave them out for the defaults."),
+            (mirrors, (TriangleMesh, type(None)), "The mirrors must be one TriangleMesh; join them or leave "
+             "them out.")):
+        if not isinstance(given, kinds):
+            raise ReflectionError(wrong)
     if not len(mirror.triangles):
         raise ReflectionError("The mirror has no faces; give it faces or choose another mirror.")
-    if isinstance(scene, TriangleMesh) and not len(scene.triangles) and method != "POINTS":
+    if mirrors is not None and not len(mirrors.triangles):
+        raise ReflectionError("The mirrors have no faces; give all mirrors, this one among them, or leave them out.")
+    if isinstance(scene, TriangleMesh) and not len(scene.triangles) and settings.method != "POINTS":
         raise ReflectionError("The diffuse objects have no faces; select objects with faces to reflect.")
-    corners = mirror.positions[mirror.triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.linalg.norm(normals, axis=1)
+    if np.abs(view.eye).max() > LARGEST:
+        raise ReflectionError("The view's eye is further than 1e40 from the origin; move it nearer or make the scene "
+                              "smaller.")
+    corners = rows(mirror.positions[mirror.triangles].swapaxes(0, 1))
+    normals = area_normals(corners)
+    length = norm(normals)
     if not (length > 0.0).any():
         raise ReflectionError("The mirror has no face with an area; give it faces or choose another mirror.")
-    if view.orthographic:
-        return
-    offset = view.eye - corners
-    height = np.abs(np.einsum("ij,ij->i", normals, offset[:, 0])) / np.where(length > 0.0, length, np.inf)
-    size = np.sqrt(length)
-    near = np.flatnonzero((length > 0.0) & (height < 1e-6 * size))
-    a, b, c = (offset[near, k] for k in range(3))
-    inside = np.stack([np.einsum("ij,ij->i", np.cross(p, q), normals[near]) for p, q in ((a, b), (b, c), (c, a))])
-    if (inside >= 0.0).all(axis=0).any():
+    if not view.orthographic and _touched(view.eye, corners, normals, length):
         raise ReflectionError("The eye lies on the mirror; move the camera away from the mirror's surface.")
+
+
+def _touched(eye: np.ndarray, corners: np.ndarray, normals: np.ndarray, length: np.ndarray) -> bool:
+    """Whether a place lies on one of the triangles, of which their corners (3, 3, m) and normals (3, m) are given."""
+    offset = eye[:, None, None] - corners
+    height = np.abs(dot(normals[:, None], offset)).min(axis=0) / np.where(length > 0.0, length, np.inf)
+    near = np.flatnonzero((length > 0.0) & (height < 1e-6 * np.sqrt(length)))
+    a, b, c = offset[:, :, near].swapaxes(0, 1)
+    inside = [dot(cross(p, q), normals[:, near]) >= 0.0 for p, q in ((a, b), (b, c), (c, a))]
+    return bool(np.all(inside, axis=0).any())

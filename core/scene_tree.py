@@ -54,6 +54,8 @@ class SceneTree:
     @classmethod
     def build(cls, mesh: TriangleMesh) -> SceneTree:
         """The tree of a mesh whose vertices and triangles may come in any order."""
+        if not isinstance(mesh, TriangleMesh):
+            raise ValueError("The mesh of a SceneTree must be a TriangleMesh; make one of its positions and triangles.")
         return cls.of_ordered(*ordered(mesh, shading=False))
 
     @classmethod

@@ -3,8 +3,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .checks import LARGEST, number, whole_number
+
 PLACEMENTS = ("LAYERED", "SURFACE", "VIRTUAL")
 METHODS = ("GENERAL", "PARALLEL", "POINTS")
+_MOST = 2 ** 62
+"""Whole numbers that are larger would not fit the arrays' own."""
 
 
 @dataclass(frozen=True)
@@ -22,9 +26,19 @@ class Settings:
         The general three-ray camera, continuous across mirror triangles, or its discontinuous parallel sibling; or
         every image of a diffuse vertex as a flat disc, for scenes whose triangles are smaller than a pixel.
     depth : int
-        How many bounces from mirror to mirror are followed; 1 for a single reflection.
+        How many bounces from mirror to mirror are followed; 1 for a single reflection. Larger than what there is to see
+        costs nothing.
     maximum_faces : int
         Refinement stops here and the result says so.
+    maximum_memory : float
+        Gigabytes of arrays. What would need more is worked out more coarsely or refused, and the result says so;
+        infinite for no bound.
+
+    Raises
+    ------
+    ValueError
+        Where one of these is out of range or of another kind: numbers may be NumPy's, but no truth values or text, and
+        whole ones no floats, not even 2.0.
     """
 
     tolerance: float = 0.5
@@ -32,17 +46,27 @@ class Settings:
     method: str = "GENERAL"
     depth: int = 1
     maximum_faces: int = 4_000_000
+    maximum_memory: float = 2.0
 
     def __post_init__(self) -> None:
-        if not 0.0 < float(self.tolerance) < float("inf"):
+        tolerance, memory = number(self.tolerance), number(self.maximum_memory)
+        depth, faces = whole_number(self.depth), whole_number(self.maximum_faces)
+        if not 0.0 < tolerance < float("inf"):
             raise ValueError("The tolerance must be a number of pixels greater than zero.")
-        if self.placement not in PLACEMENTS:
+        if tolerance > LARGEST:
+            raise ValueError("The tolerance must be a number of pixels up to 1e40.")
+        if not (isinstance(self.placement, str) and self.placement in PLACEMENTS):
             raise ValueError(f"The placement must be one of {', '.join(PLACEMENTS)}.")
-        if self.method not in METHODS:
+        if not (isinstance(self.method, str) and self.method in METHODS):
             raise ValueError(f"The method must be one of {', '.join(METHODS)}.")
-        if self.depth < 1:
-            raise ValueError("The depth must be at least one bounce.")
-        if self.depth > 1 and self.method == "POINTS":
+        if depth is None or not 1 <= depth <= _MOST:
+            raise ValueError("The depth must be a whole number of bounces, at least 1.")
+        if depth > 1 and self.method == "POINTS":
             raise ValueError("Points follow one bounce only; set the depth to 1 or choose another method.")
-        if self.maximum_faces < 1:
-            raise ValueError("The maximum number of faces must be at least 1.")
+        if faces is None or not 1 <= faces <= _MOST:
+            raise ValueError("The maximum_faces must be a whole number of faces, at least 1.")
+        if not memory > 0.0:
+            raise ValueError("The maximum_memory must be a number of gigabytes greater than zero.")
+        for name, value in (("tolerance", tolerance), ("placement", str(self.placement)), ("method", str(self.method)),
+                            ("depth", depth), ("maximum_faces", faces), ("maximum_memory", memory)):
+            object.__setattr__(self, name, value)

@@ -5,6 +5,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .checks import LARGEST, number, numbers, whole_number
+
+SIZE_LIMIT = 65536
+"""Pixels along a side of the picture: Blender's own limit."""
+_LOOSE = 1e-3
+"""What the axes' lengths may be off: matrices come in single precision, or from many turns multiplied."""
+_EXACT = 1e-6
+"""Off by less than this is rounding of single precision; axes that leave no more room between them lie in a plane."""
+_NOTHING = 1e-12
+"""Of the projection's scale: what is left of a zero by arithmetic."""
+_NARROWEST = 1e-12
+"""The least field of view, in radians."""
+_STRETCH = {True: 1e50, False: 1e20}
+"""The largest scale of an orthographic and of a perspective projection, and the inverse of the smallest."""
+
 
 @dataclass(frozen=True)
 class View:
@@ -13,12 +28,20 @@ class View:
     Parameters
     ----------
     camera_to_world : (4, 4) float64
-        Rigid placement of the eye, which looks along its own -Z with +Y up (Blender's and OpenGL's convention).
+        Rigid placement of the eye, which looks along its own -Z with +Y up (Blender's and OpenGL's convention). Axes of
+        unit length are asked for; that they stand at right angles and that they are right-handed is not, since Blender
+        renders cameras that a parent shears or mirrors as they are.
     projection : (4, 4) float64
         Clip matrix in eye space, as OpenGL and `bpy.types.Object.calc_matrix_camera` define it: lens, shift, sensor
-        fit and pixel aspect are all in it. Its last row tells a perspective (0 0 -1 0) from an orthographic eye.
+        fit and pixel aspect are all in it. Its last row tells a perspective (0 0 -1 0) from an orthographic eye
+        (0 0 0 1).
     resolution : (width, height)
-        Size of the picture in pixels.
+        Size of the picture in pixels, whole numbers up to 65536.
+
+    Raises
+    ------
+    ValueError
+        Where a matrix is none of these, or the resolution is no picture.
     """
 
     camera_to_world: np.ndarray
@@ -27,40 +50,53 @@ class View:
 
     def __post_init__(self) -> None:
         for name in ("camera_to_world", "projection"):
-            matrix = np.array(getattr(self, name), dtype=np.float64)
-            if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
-                raise ValueError(f"View.{name} must be a finite 4 x 4 matrix.")
+            wrong = f"View.{name} must be a finite 4 x 4 matrix of numbers."
+            matrix = numbers(getattr(self, name), (4, 4), wrong).copy()
+            if not np.isfinite(matrix).all():
+                raise ValueError(wrong)
             object.__setattr__(self, name, matrix)
-        width, height = (int(size) for size in self.resolution)
-        if width < 1 or height < 1:
-            raise ValueError("View.resolution must be at least 1 x 1 pixels.")
-        object.__setattr__(self, "resolution", (width, height))
+        _check_placement(self.camera_to_world)
+        _check_projection(self.projection)
+        object.__setattr__(self, "resolution", _picture_size(self.resolution))
 
     @classmethod
     def looking_at(cls, eye, target, resolution, *, field_of_view: float = 0.7, orthographic_scale: float = 0.0,
                    up=(0.0, 0.0, 1.0)) -> View:
-        """An eye at `eye` that looks at `target`; `field_of_view` in radians over the wider side of the picture, or
-        `orthographic_scale` > 0 for the width, in scene units, of an orthographic picture."""
-        eye, target, up = (np.asarray(value, dtype=np.float64) for value in (eye, target, up))
+        """An eye at `eye` that looks at `target`.
+
+        Parameters
+        ----------
+        eye, target : (3,) float64
+        resolution : (width, height)
+            Size of the picture in pixels, whole numbers up to 65536.
+        field_of_view : float
+            In radians over the wider side of the picture, between 0 and pi.
+        orthographic_scale : float
+            Where it is greater than 0, the width in scene units of the wider side of an orthographic picture, whose
+            field of view says nothing.
+        up : (3,) float64
+            Direction that is up in the picture. Where it does not tell, being zero or that of the view, Y takes its
+            place, and X along Y.
+
+        Raises
+        ------
+        ValueError
+            Where one of these is no such number, or the eye is where it looks.
+        """
+        eye, target, up = _place(eye, "eye"), _place(target, "target"), _place(up, "up direction")
         if (eye == target).all():
-            raise ValueError("The eye is where it looks; move one of them.")
-        back = (eye - target) / np.linalg.norm(eye - target)
-        right = np.cross(up, back)
-        if np.linalg.norm(right) < 1e-9:
-            right = np.cross((0.0, 1.0, 0.0), back)
-        right /= np.linalg.norm(right)
+            raise ValueError("The eye is where it looks; move the eye or the target.")
+        resolution = _picture_size(resolution)
+        size = np.array(resolution, dtype=np.float64)
+        back = _unit(eye - target)
+        right = np.cross(_of_ordinary_length(up), back)
+        for instead in ((0.0, 1.0, 0.0), (1.0, 0.0, 0.0)):
+            if np.linalg.norm(right) < 1e-9:
+                right = np.cross(instead, back)
+        right = _unit(right)
         placement = np.eye(4)
         placement[:3, 0], placement[:3, 1], placement[:3, 2], placement[:3, 3] = right, np.cross(back, right), back, eye
-        width, height = resolution
-        size = np.array([width, height]) / max(width, height)
-        projection = np.zeros((4, 4))
-        if orthographic_scale > 0.0:
-            projection[0, 0], projection[1, 1] = 2.0 / (orthographic_scale * size)
-            projection[2, 2], projection[3, 3] = -1e-3, 1.0
-        else:
-            projection[0, 0], projection[1, 1] = 1.0 / (np.tan(0.5 * field_of_view) * size)
-            projection[2, 2], projection[2, 3], projection[3, 2] = -1.0, -0.02, -1.0
-        return cls(placement, projection, resolution)
+        return cls(placement, _lens(size / size.max(), field_of_view, orthographic_scale), resolution)
 
     @property
     def orthographic(self) -> bool:
@@ -84,8 +120,11 @@ class View:
         return points - self.eye
 
     def depths(self, points: np.ndarray) -> np.ndarray:
-        """Distances of `points` (n, 3) from the eye's plane, positive in front of it, in scene units."""
-        return (points - self.eye) @ self.forward
+        """Distances of `points` (n, 3) from the eye's plane, positive in front of it, in scene units, along the eye's
+        own axis."""
+        axes = self.camera_to_world[:3, :3]
+        sheared = np.abs(axes.T @ axes - np.eye(3)).max() > 4.0 * _LOOSE
+        return (points - self.eye) @ (-np.linalg.inv(axes)[2] if sheared else self.forward)
 
     def clip(self, points: np.ndarray) -> np.ndarray:
         """Homogeneous clip coordinates (n, 4) of `points` (n, 3)."""
@@ -126,3 +165,77 @@ class View:
         directions = local @ rotation.T
         directions /= np.linalg.norm(directions, axis=1, keepdims=True)
         return np.broadcast_to(self.eye, directions.shape).copy(), directions
+
+
+def _check_placement(matrix: np.ndarray) -> None:
+    axes = matrix[:3, :3]
+    length = np.sqrt((np.clip(axes, -2.0, 2.0)**2).sum(axis=0))  # what is longer is too long, and must not overflow
+    if (np.abs(length - 1.0) > _LOOSE).any() or np.abs(matrix[3] - (0.0, 0.0, 0.0, 1.0)).max() > _LOOSE:
+        raise ValueError("View.camera_to_world must be a rigid placement with axes of unit length and a last row of "
+                         "0 0 0 1; take the scale out of it.")
+    if abs(np.linalg.det(axes)) < _EXACT:
+        raise ValueError("View.camera_to_world must be a rigid placement with axes that do not lie in a plane; make "
+                         "them stand at right angles.")
+
+
+def _check_projection(matrix: np.ndarray) -> None:
+    orthographic = matrix[3, 2] == 0.0
+    last = (0.0, 0.0, 0.0, 1.0) if orthographic else (0.0, 0.0, -1.0, 0.0)
+    scale = np.abs(np.diag(matrix)[:2])
+    # beside the scale there is but the shift, in the column that the last row tells
+    rest = np.abs(np.stack((matrix[[0, 1], [1, 0]], matrix[:2, 2 if orthographic else 3])))
+    if np.abs(matrix[3] - last).max() > _EXACT or (rest > _NOTHING * scale).any():
+        raise ValueError("View.projection must be the matrix of a perspective or of an orthographic camera, with a "
+                         "last row of 0 0 -1 0 or of 0 0 0 1.")
+    most = _STRETCH[orthographic]
+    if (scale > most).any() or (scale < 1.0 / most).any() or np.abs(matrix[:3]).max() > most:
+        raise ValueError("View.projection must be the matrix of a camera that shows something; its scale is as good as "
+                         "zero or infinite.")
+
+
+def _picture_size(resolution) -> tuple[int, int]:
+    wrong = f"View.resolution must be a width and a height in whole pixels, each from 1 to {SIZE_LIMIT}."
+    try:
+        size = tuple(whole_number(side) for side in resolution)
+    except TypeError as error:
+        raise ValueError(wrong) from error
+    if len(size) != 2 or not all(side is not None and 1 <= side <= SIZE_LIMIT for side in size):
+        raise ValueError(wrong)
+    return size
+
+
+def _place(given, name: str) -> np.ndarray:
+    wrong = f"The {name} must be three finite numbers up to 1e40."
+    place = numbers(given, (3,), wrong)
+    if not (np.abs(place) <= LARGEST).all():
+        raise ValueError(wrong)
+    return place
+
+
+def _lens(size: np.ndarray, field_of_view: float, orthographic_scale: float) -> np.ndarray:
+    """The projection onto a picture with sides of the lengths `size` (2,), the longer one 1."""
+    width, angle = number(orthographic_scale), number(field_of_view)
+    projection = np.zeros((4, 4))
+    if not 0.0 <= width <= LARGEST or 0.0 < width < 1.0 / LARGEST:
+        raise ValueError("The orthographic_scale must be a number of scene units from 1e-40 to 1e40, or 0 for a "
+                         "perspective view.")
+    if width > 0.0:
+        projection[0, 0], projection[1, 1] = 2.0 / (width * size)
+        projection[2, 2], projection[3, 3] = -1e-3, 1.0
+        return projection
+    if not _NARROWEST <= angle < np.pi:
+        raise ValueError("The field_of_view must be an angle in radians, at least 1e-12 and less than pi; turn degrees "
+                         "into radians.")
+    projection[0, 0], projection[1, 1] = 1.0 / (np.tan(0.5 * angle) * size)
+    projection[2, 2], projection[2, 3], projection[3, 2] = -1.0, -0.02, -1.0
+    return projection
+
+
+def _of_ordinary_length(vector: np.ndarray) -> np.ndarray:
+    """A vector's direction with its largest component between 1 and 2, digits as they are."""
+    return np.ldexp(vector, 1 - np.frexp(np.abs(vector).max())[1])
+
+
+def _unit(vector: np.ndarray) -> np.ndarray:
+    vector = _of_ordinary_length(vector)
+    return vector / np.linalg.norm(vector)

@@ -1,4 +1,6 @@
 """The same result, bit for bit, however the vertices, triangles and objects are listed."""
+from itertools import permutations
+
 import numpy as np
 import pytest
 
@@ -106,6 +108,76 @@ def test_ordered_meshes_are_one(kind):
     again, same = ordered(one, shading=True)
     np.testing.assert_array_equal(again.triangles, one.triangles)
     np.testing.assert_array_equal(same.triangle, np.arange(len(triangles)))
+
+
+def triangles_of(kind):
+    """Corners (n, 3, 3) of many triangles, of one kind."""
+    rng = np.random.default_rng(7)
+    corners = rng.normal(size=(20_000, 3, 3))
+    if kind == "far":
+        corners += 1e4 * rng.normal(size=(20_000, 1, 3))
+    if kind == "slivers":
+        corners[:, 2] = corners[:, 0] + 0.3 * (corners[:, 1] - corners[:, 0]) + 1e-9 * corners[:, 2]
+    if kind == "equal coordinates":
+        # many corners share one or two of them, and some their place
+        corners = np.where(rng.random(corners.shape) < 0.5, rng.choice([-1.0, -0.0, 0.0, 0.3], corners.shape), corners)
+    if kind == "sizes":
+        corners *= 10.0 ** rng.uniform(-30.0, 30.0, (20_000, 1, 1))
+    return corners
+
+
+@pytest.mark.parametrize("kind", ["random", "far", "slivers", "equal coordinates", "sizes"])
+def test_flat_normals_do_not_depend_on_the_first_corner(kind):
+    """To the last bit; and turning a triangle round turns the sign alone."""
+    corners = triangles_of(kind)
+    positions, triangles = corners.reshape(-1, 3), np.arange(60_000).reshape(-1, 3)
+    plain = TriangleMesh(positions, triangles).face_normals()
+    # all but the slivers are far from rounding's reach
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    sure = np.linalg.norm(plain, axis=1) > 0.0
+    assert sure.mean() > 0.8
+    expected = np.cross(u, v)[sure] / np.linalg.norm(np.cross(u, v)[sure], axis=1, keepdims=True)
+    np.testing.assert_allclose(plain[sure], expected, rtol=0.0, atol=1e-4 if kind == "slivers" else 1e-9)
+    for order in permutations(range(3)):
+        even = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+        mesh = TriangleMesh(positions, triangles[:, order])
+        np.testing.assert_array_equal(mesh.face_normals(), plain if even else -plain)
+        np.testing.assert_array_equal(mesh.corner_normals, np.repeat(mesh.face_normals()[:, None], 3, axis=1))
+        # zero normals are replaced by the same ones
+        given = np.random.default_rng(8).normal(size=(20_000, 3, 3))
+        given[::2, 1], given[::3] = 0.0, 0.0
+        mended = TriangleMesh(positions, triangles[:, order], given).corner_normals
+        none = (given == 0.0).all(axis=2)
+        np.testing.assert_array_equal(mended[none], mesh.corner_normals[none])
+        np.testing.assert_array_equal(mended[~none], TriangleMesh(positions, triangles, given).corner_normals[~none])
+
+
+@pytest.mark.parametrize("options", [{}, {"method": "PARALLEL"}, {"method": "POINTS"}, {"depth": 2}],
+                         ids=["general", "parallel", "points", "deep"])
+@pytest.mark.parametrize("normals", ["none", "some zero"])
+@pytest.mark.parametrize("name", ["sphere_ico", "cylinder", "soup"])
+def test_order_does_not_matter_without_normals(name, normals, options):
+    """Each listing computes the flat normals of its own triangles."""
+    rng = np.random.default_rng(4)
+    case = SCENES["sphere_ico" if name == "soup" else name]((64, 64))
+    mirror, scene = case.mirror, TriangleMesh(case.scene.positions, case.scene.triangles)
+    if name == "soup":
+        corners = mirror.positions[mirror.triangles[::9]] + rng.normal(scale=0.1, size=(143, 3, 3))
+        mirror = TriangleMesh(corners.reshape(-1, 3), np.arange(429).reshape(-1, 3))
+    given = None if normals == "none" else np.where(rng.random((len(mirror.triangles), 1, 1)) < 0.5, 0.0,
+                                                    mirror.corner_normals)
+    mirror = TriangleMesh(mirror.positions, mirror.triangles, given)
+    other_mirror, other_scene = shuffled(rng, mirror), shuffled(rng, scene)
+    _, _, triangle, turn = other_mirror
+    if given is not None:
+        given = np.take_along_axis(given[triangle], turn[:, :, None], axis=1)
+    listed = TriangleMesh(other_mirror[0].positions, other_mirror[0].triangles, given)
+    settings = Settings(tolerance=1.0, **options)
+    one = reflect(case.view, mirror, scene, settings)
+    other = reflect(case.view, listed, TriangleMesh(other_scene[0].positions, other_scene[0].triangles), settings)
+    # facets show few of the vertices
+    assert len(one.positions) > (0 if settings.method == "POINTS" else 50)
+    assert_same_reflection(one, other, other_scene, other_mirror)
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e-3, 7.0])
