@@ -5,11 +5,16 @@ import numpy as np
 
 from .bounce import Bounce
 from .met_surfaces import MetSurfaces
+from .mirror_map import MirrorMap
 from .placement import place
 from .reflection_mesh import ReflectionMesh
+from .scene_frames import SceneFrames
+from .settling import brought_back, lies_outside
 from .vectors import groups, norm, rows
 from .view import View
 
+BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
+OFF_MIRROR = 1e-6  # of the size of what is seen of it: how far from it a place may lie
 ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the caustic
 
 
@@ -17,7 +22,7 @@ def assemble(view: View, bounces: list[Bounce], met: MetSurfaces, placement: str
     """The faces as arrays, no two on the same nodes, without unused nodes, all turned to the eye."""
     parts, start = [], 0
     for number, bounce in enumerate(bounces, 1):
-        part = _arrays(view, bounce, met)
+        part = _arrays(view, bounces[0].mirror_map, bounce, met)
         part["bounces"] = np.full(len(part["triangles"]), number, dtype=np.int8)
         part["triangles"] = part["triangles"] + start
         start += len(part["path_length"])
@@ -27,7 +32,7 @@ def assemble(view: View, bounces: list[Bounce], met: MetSurfaces, placement: str
     return ReflectionMesh(**whole)
 
 
-def _arrays(view: View, bounce: Bounce, met: MetSurfaces) -> dict:
+def _arrays(view: View, first_map: MirrorMap, bounce: Bounce, met: MetSurfaces) -> dict:
     mirror_map, frames, nodes, faces = bounce.mirror_map, bounce.frames, bounce.nodes, bounce.faces
     # mirrors are seen by what they show
     faces = faces.select(~met.shows_mirror(frames)[faces.column])
@@ -36,23 +41,23 @@ def _arrays(view: View, bounce: Bounce, met: MetSurfaces) -> dict:
     faces = faces.select(np.sort(once))
     used, corner = np.unique(faces.nodes, return_inverse=True)
     triangles = corner.reshape(-1, 3)
-    seen, point = nodes.place[:, used], nodes.point[:, used].copy()
-    pixels = view.pixels(seen.T)[triangles]
-    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
-    away = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0.0
-    triangles[away] = triangles[away][:, [0, 2, 1]]
+    seen, point = nodes.place[:, used], nodes.point[:, used]
     column = np.repeat(faces.column, 3)
     weights = frames.weights(column, np.take(point, triangles.ravel(), axis=1))
-    # straight outlines may leave a corner a fraction of a pixel beside its triangle: it takes the point of the rim
-    beside = np.flatnonzero(weights.min(axis=0) < 0.0)
     weights = np.maximum(weights, 0.0)
     weights /= weights.sum(axis=0)
-    rim = rows(met.positions[frames.vertices[:, column[beside]]])
-    point[:, triangles.ravel()[beside]] = (rim * weights[:, beside]).sum(axis=1)
+    triangles, vertex, point = _on_sources(triangles, column, weights, point, frames, met)
+    used, seen = used[vertex], seen[:, vertex]
 
     face = bounce.cameras.face[faces.camera]
     owner = np.zeros(len(used), dtype=np.int64)
     owner[triangles.ravel()] = np.repeat(face, 3)
+    seen = _on_mirror(first_map, mirror_map.first(face), triangles, seen)
+    pixels = view.pixels(seen.T)[triangles]
+    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
+    order = np.where((u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0.0)[:, None], (0, 2, 1), (0, 1, 2))
+    triangles = np.take_along_axis(triangles, order, axis=1)
+    weights = np.take_along_axis(weights.T.reshape(-1, 3, 3), order[:, :, None], axis=1)
     uv = mirror_map.coordinates(owner, seen)
     turned = mirror_map.turned(owner, uv, nodes.distance[used])
     ways = mirror_map.ways(owner, uv)
@@ -61,4 +66,49 @@ def _arrays(view: View, bounce: Bounce, met: MetSurfaces) -> dict:
         "triangles": triangles, "reflected_position": point.T, "mirror_position": seen.T, "path_length": path,
         "image_parity": np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8),
         "source_face": frames.triangle[faces.column],
-        "source_weights": weights.T.reshape(-1, 3, 3), "mirror_face": mirror_map.first(face)}
+        "source_weights": weights, "mirror_face": mirror_map.first(face)}
+
+
+def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, point: np.ndarray, frames: SceneFrames,
+                met: MetSurfaces) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The faces (f, 3) with corners that lie on their source triangles, and of each vertex the one that it was, and its
+    point (3, n).
+
+    Straight outlines may leave a corner a fraction of a pixel beside its triangle, and neighbours of another source may
+    share it: such a corner becomes a vertex of its own, in the same place of the picture, with the point of the rim.
+    """
+    corner = triangles.ravel()
+    rim = rows(met.positions[frames.vertices[:, column]])
+    own = (rim * weights).sum(axis=1)
+    size = np.ptp(met.positions[frames.vertices.ravel()], axis=0).max() if len(corner) else 0.0
+    beside = np.flatnonzero(norm(own - point[:, corner]) > BESIDE * size)
+    first, group = groups(corner[beside], column[beside])
+    count, corner = point.shape[1], corner.copy()
+    vertex = np.concatenate((np.arange(count), corner[beside[first]]))
+    point = np.concatenate((point, own[:, beside[first]]), axis=1)
+    corner[beside] = count + group
+    # a vertex that no face is left of goes; new ones stand where they come from
+    kept = np.unique(corner)
+    kept = kept[np.argsort(vertex[kept], kind="stable")]
+    number = np.empty(len(vertex), dtype=np.int64)
+    number[kept] = np.arange(len(kept))
+    return number[corner].reshape(-1, 3), vertex[kept], point[:, kept]
+
+
+def _on_mirror(mirror_map: MirrorMap, face: np.ndarray, triangles: np.ndarray, seen: np.ndarray) -> np.ndarray:
+    """Places (3, n) of vertices, those that lie on the mirror triangle of no face (f,) that has them brought back to
+    it: an image may lie beside the mirror by as much as straight outlines may miss."""
+    owner = np.zeros(seen.shape[1], dtype=np.int64)
+    owner[triangles.ravel()] = np.repeat(face, 3)
+    out = lies_outside(mirror_map.coordinates(owner, seen))
+    corner = np.flatnonzero(out[triangles.ravel()])
+    if not len(corner):
+        return seen
+    vertex = triangles.ravel()[corner]
+    size = np.ptp(seen, axis=1).max()
+    moved, away = brought_back(mirror_map, face[corner // 3], seen[:, vertex], OFF_MIRROR * size)
+    order = np.lexsort((away, vertex))
+    found, first = np.unique(vertex[order], return_index=True)
+    seen = seen.copy()
+    seen[:, found] = moved[:, order[first]]
+    return seen

@@ -1,7 +1,6 @@
 """One bounce: from cameras on the last mirror to the faces of all that they see."""
 from __future__ import annotations
 
-from collections.abc import Generator
 from dataclasses import dataclass, field
 from time import perf_counter
 
@@ -14,10 +13,12 @@ from .clipping import FILLED, Polygons, clip, whole_triangles
 from .cones import Cones
 from .connection import Faces, connect
 from .contacts import drop_behind_contacts
+from .crowds import picture_areas, thinned, with_crowds
 from .face_refinement import FaceRefinement
 from .filling import fill, fill_openings
 from .horizon import beyond_horizon
 from .images import vertex_images
+from .limits import Limits
 from .met_surfaces import MetSurfaces
 from .mirror_refinement import refine_mirror
 from .mirror_occlusion import cut_behind_mirrors
@@ -26,22 +27,31 @@ from .outline_refinement import refine_for_outlines
 from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
 from .settings import Settings
+from .stepping import tell
 from .vectors import norm
 from .view import View
 
 MIRROR_SHARE = 0.8  # of the tolerance: what the rays of a camera may stray
 OUTLINE_SHARE = 0.5  # of the tolerance: what a straight outline in a camera may miss
-PAIRS_OF_A_FACE, LEAST_PAIRS = 16, 1 << 24  # of cameras and triangles that may be seen: more are refused
 FACE_SHARE = 0.8  # of the tolerance: what the interpolation inside a face may stray
 
 
 @dataclass
 class Progress:
-    """Seconds by stage, and how much of each part the scene needed, over all bounces."""
+    """Seconds by stage, and how much of each part the scene needed, over all bounces.
+
+    `start` and `share` tell which part of the whole work the stages that come next are.
+    """
 
     seconds: dict[str, float] = field(default_factory=dict)
     counts: dict[str, int] = field(default_factory=dict)
     last: float = field(default_factory=perf_counter)
+    start: float = 0.0
+    share: float = 1.0
+
+    def next(self, done: float, stage: str) -> None:
+        """Tell the caller that a stage comes next, before which so much of the present part of the work is `done`."""
+        tell(self.start + self.share * done, stage)
 
     def done(self, stage: str, **counts: int) -> None:
         now = perf_counter()
@@ -74,38 +84,58 @@ class Bounce:
     left: np.ndarray
 
 
-def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces,
-                 settings: Settings, last: bool, progress: Progress) -> Generator[tuple[float, str], None, Bounce]:
-    """All that the cameras see, in steps: yields (share of the bounce done, stage that comes next); `last` tells that
-    light which meets a mirror goes no further."""
+def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces, settings: Settings,
+                 limits: Limits, last: bool, progress: Progress) -> Bounce:
+    """All that the cameras see; `last` tells that light which meets a mirror goes no further."""
     tolerance, first_bounce = settings.tolerance, cameras.origins is cameras.places
-    most = max(PAIRS_OF_A_FACE * settings.maximum_faces, LEAST_PAIRS)
-    showing = met.showing_mirrors(mirror_map, cameras, most)
-    cameras = refined(view, mirror_map, cameras, met, None if last else showing, settings, progress)
+    # to look twice for mirrors pays where few cameras see any: hardly after a bounce
+    showing = (met.showing_mirrors(mirror_map, cameras, limits.pairs) if first_bounce
+               else np.ones(int(cameras.face.max(initial=-1)) + 1, dtype=bool))
+    cameras = refined(view, mirror_map, cameras, met, None if last else showing, settings.tolerance, limits.cameras,
+                      progress)
 
-    yield 0.1, "cones through the tree"
-    camera, triangle, visited = met.trace(mirror_map, cameras, showing, most)
+    progress.next(0.1, "cones through the tree")
+    camera, triangle, visited, crowd = met.trace(mirror_map, cameras, showing, limits.pairs,
+                                                 picture_areas(view, cameras))
     seen, column = np.unique(triangle, return_inverse=True)
     frames = SceneFrames.of(met, seen)
     candidates = met.without_touching(mirror_map, cameras, frames, overlapping(cameras, frames, camera, column))
     if last:
         candidates = met.hiding_something(frames, candidates)
+    crowds: list[Cameras] = []
+
+    def thin(crowd: np.ndarray) -> np.ndarray:
+        nonlocal cameras, candidates
+        before, mirror = cameras, met.shows_mirror(frames)[candidates.column]
+        cameras, candidates, crowd = thinned(view, before, candidates, mirror, crowd, limits)
+        crowds.append(before.select(crowd))
+        return ~crowd
+
+    thin(crowd)
     contacts = 0
     if first_bounce:
-        cameras, candidates, contacts = drop_behind_contacts(view, mirror_map, cameras, frames, met.positions,
-                                                             candidates, settings.maximum_faces)
+        cameras, candidates, crowd, contacts = drop_behind_contacts(view, mirror_map, cameras, frames, met.positions,
+                                                                    candidates, limits.candidates)
+        thin(crowd)
     cameras, candidates, open_, outlines_limited = refine_for_outlines(
-        view, mirror_map, cameras, frames, candidates, OUTLINE_SHARE * tolerance, settings.maximum_faces, met)
-    bounded = max(len(cameras), len(candidates)) > settings.maximum_faces
+        view, mirror_map, cameras, frames, candidates, OUTLINE_SHARE * tolerance, limits.candidates, met)
+    open_ = open_[thin(np.zeros(len(cameras), dtype=bool))]
+    bounded = len(candidates) > limits.candidates
     progress.done("cones", nodes_visited=visited, pairs=len(camera), contacts=contacts, cameras=len(cameras),
                   candidates=len(candidates), limited=outlines_limited)
 
-    yield 0.35, "projection"
+    progress.next(0.35, "projection")
     images, image_counts = vertex_images(view, mirror_map, cameras, Cones.around(cameras), met.positions, frames,
                                          candidates if not last else met.only_diffuse(frames, candidates))
     progress.done("projection", **image_counts)
+    crowded, crowd_cells = sum(map(len, crowds)), 0
+    if crowded:
+        cameras, frames, candidates, crowd_cells, crowd_rays = with_crowds(view, mirror_map, cameras, frames,
+                                                                           candidates, crowds, met, limits.rays)
+        open_ = np.concatenate((open_, np.zeros(crowd_cells, dtype=bool)))
+        progress.done("crowds", crowded=crowded, crowd_rays=crowd_rays)
 
-    yield 0.5, "clipping"
+    progress.next(0.5, "clipping")
     polygons, rays = fill(mirror_map, cameras, frames, candidates, clip(candidates), open_)
     mirror = met.shows_mirror(frames)[candidates.column[polygons.pair]]
     polygons, mirrors = polygons.select(~mirror), polygons.select(mirror & (not last))
@@ -113,43 +143,47 @@ def bounce_steps(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: M
     joined = whole_triangles(polygons)
     progress.done("clipping", polygons=len(polygons.pair), joined=joined, cut=len(polygons.pair) - joined)
 
-    yield 0.6, "filling"
+    progress.next(0.6, "filling")
     counts = {"filled": 0, "rays": 0}
-    if first_bounce:
+    if first_bounce and not crowded:
         candidates, polygons, nodes, node_of, counts = fill_openings(
             view, mirror_map, cameras, met.tree, frames, images, candidates, polygons, nodes, node_of)
     progress.done("filling", **counts | {"filled": counts["filled"] + rays, "rays": counts["rays"] + rays})
 
-    yield 0.7, "mirrors in the mirror"
+    progress.next(0.7, "mirrors in the mirror")
     occluded = 0
     if met.shows_mirror(frames).any():
-        cells = polygons.after[polygons.start[:-1]] == FILLED
+        # rays have told what cells show: nothing hides that
+        by_rays = np.arange(len(cameras)) >= len(cameras) - crowd_cells
+        cells = (polygons.after[polygons.start[:-1]] == FILLED) | by_rays[candidates.camera[polygons.pair]]
+        mirror_cells = by_rays[candidates.camera[mirrors.pair]]
         cell_nodes = node_of[np.repeat(cells, np.diff(polygons.start))]
-        clipped = Polygons.joined((polygons.select(~cells), mirrors))
+        clipped = Polygons.joined((polygons.select(~cells), mirrors.select(~mirror_cells)))
         seen, occluded = cut_behind_mirrors(cameras, frames, met, candidates, clipped)
         if occluded or len(mirrors.pair):
+            seen = Polygons.joined((seen, mirrors.select(mirror_cells)))
             fresh, node_of = polygon_nodes(view, mirror_map, cameras, frames, met.positions, candidates, seen, images)
             node_of = np.concatenate((node_of, cell_nodes + len(fresh.distance)))
             nodes, polygons = fresh.joined(nodes.place, nodes.point, nodes.distance), Polygons.joined(
                 (seen, polygons.select(cells)))
     progress.done("occlusion", occluded=occluded)
 
-    yield 0.75, "connection"
+    progress.next(0.75, "connection")
     faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))
     nodes, faces, caustic = split_at_caustics(mirror_map, cameras, frames, nodes, faces)
     progress.done("connection", connected=len(faces), caustic_edges=caustic)
 
-    yield 0.8, "refinement"
+    progress.next(0.8, "refinement")
     refinement = FaceRefinement(view, mirror_map, cameras, frames, beyond_horizon(mirror_map, cameras),
                                 settings.placement == "VIRTUAL")
-    nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * tolerance, settings.maximum_faces)
-    bounded |= limited > 0 and len(faces) + 2 * limited > settings.maximum_faces
+    nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * tolerance, limits.faces)
+    bounded |= limited > 0 and len(faces) + 2 * limited > limits.faces
     progress.done("refinement", limited=limited, bounded=bounded)
     return Bounce(mirror_map, cameras, frames, nodes, faces, left)
 
 
 def refined(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces, showing: np.ndarray | None,
-            settings: Settings, progress: Progress) -> Cameras:
+            tolerance: float, maximum: int, progress: Progress) -> Cameras:
     """The cameras that may see the diffuse scene, or a mirror where the faces `showing` one are told, split where their
     rays stray from the true map."""
     seeing = met.showing_scene(cameras)
@@ -158,7 +192,6 @@ def refined(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
     cameras = cameras.select(seeing)
     centre, radius = met.bounds
     reach = float(norm(cameras.origins - centre[:, None]).max(initial=0.0) + radius)
-    cameras, limited = refine_mirror(view, mirror_map, cameras, MIRROR_SHARE * settings.tolerance, reach,
-                                     settings.maximum_faces)
+    cameras, limited = refine_mirror(view, mirror_map, cameras, MIRROR_SHARE * tolerance, reach, maximum)
     progress.done("cameras", limited=limited)
     return cameras

@@ -61,7 +61,8 @@ class Cameras:
 
 def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
     """Indices of the mirror's triangles that the view may see: with an area, and, where the mirror is a closed surface,
-    on the side that hides the others. Open mirrors show both their sides, as in Cycles."""
+    on the side that hides the others. Open mirrors show both their sides, as in Cycles, and so do closed ones that the
+    plane of an orthographic eye cuts: some of its rays begin inside."""
     corners = mirror.positions[mirror.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     size = np.abs(corners - corners[:, :1]).max(axis=(1, 2))
@@ -70,8 +71,11 @@ def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
     visible = areal & (towards != 0.0)
     if _closed(mirror.triangles[areal]):
         volume = np.einsum("ij,ij->", corners[:, 0] - corners.mean(axis=(0, 1)), normals)
-        outside = view.orthographic or abs(_winding_number(view.eye, corners[areal])) < 0.5
-        visible &= towards * volume > 0.0 if outside else towards * volume < 0.0
+        if not view.orthographic:
+            outside = abs(_winding_number(view.eye, corners[areal])) < 0.5
+            visible &= towards * volume > 0.0 if outside else towards * volume < 0.0
+        elif (view.depths(corners[areal].reshape(-1, 3)) > 0.0).all():
+            visible &= towards * volume > 0.0
     return np.flatnonzero(visible)
 
 

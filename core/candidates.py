@@ -15,6 +15,7 @@ import numpy as np
 
 from .cameras import Cameras
 from .scene_frames import SceneFrames
+from .stepping import breathe
 
 PAIRS_AT_ONCE = 65536
 
@@ -51,6 +52,12 @@ class Candidates:
         return Candidates(*(np.concatenate([getattr(part, field.name) for part in parts], axis=-1)
                             for field in fields(Candidates)))
 
+    @staticmethod
+    def unknown(camera: np.ndarray, column: np.ndarray) -> Candidates:
+        """Pairs (n,) of which nothing is known but that the camera shows the triangle, and clipping leaves it whole."""
+        count = len(camera)
+        return Candidates(camera, column, np.zeros((3, 3, count)), np.ones((3, count)), np.zeros((3, 3, count)))
+
     @cached_property
     def rate(self) -> np.ndarray:
         """(3, p): b at the cameras' corners."""
@@ -67,8 +74,11 @@ def overlapping(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, colum
 
     A pair whose camera lies across the triangle's plane comes twice, once for each side of it.
     """
-    parts = [_overlapping(cameras, frames, camera[start:start + PAIRS_AT_ONCE], column[start:start + PAIRS_AT_ONCE])
-             for start in range(0, max(len(camera), 1), PAIRS_AT_ONCE)]
+    parts = []
+    for start in range(0, max(len(camera), 1), PAIRS_AT_ONCE):
+        breathe()
+        part = slice(start, start + PAIRS_AT_ONCE)
+        parts.append(_overlapping(cameras, frames, camera[part], column[part]))
     return Candidates(*(np.concatenate(side, axis=-1) for side in zip(*parts)))
 
 

@@ -12,10 +12,12 @@ from .connection import Faces
 from .reflection_map import ReflectionMap
 from .nodes import Nodes
 from .scene_frames import SceneFrames
+from .stepping import breathe
 from .subdivision import shared_edges
 from .vectors import cross, dot
 
 STEPS = 24
+PLACES_AT_ONCE = 32768
 
 
 def split_at_caustics(mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, nodes: Nodes,
@@ -52,9 +54,14 @@ def split_at_caustics(mirror_map: ReflectionMap, cameras: Cameras, frames: Scene
 
 
 def _magnification(mirror_map, frames, face, column, place) -> np.ndarray:
-    uv = mirror_map.coordinates(face, place)
-    s = frames.distance(column, *mirror_map.leave(face, uv))
-    return mirror_map.turned(face, uv, s)
+    turned = np.empty(len(face))
+    for start in range(0, len(face), PLACES_AT_ONCE):
+        breathe()
+        part = slice(start, start + PLACES_AT_ONCE)
+        uv = mirror_map.coordinates(face[part], place[:, part])
+        s = frames.distance(column[part], *mirror_map.leave(face[part], uv))
+        turned[part] = mirror_map.turned(face[part], uv, s)
+    return turned
 
 
 def _zero(mirror_map, frames, face, column, start, end) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -13,11 +13,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .candidates import Candidates
+from .stepping import breathe
 from .vectors import ranges
 
 # Lines: 0 1 2 the camera's edges opposite its corners, 3 4 5 the triangle's edges opposite its vertices, 6 its plane.
 # 7 any line along which a nearer mirror begins, 8 no line at all, round cells that rays filled.
 SCENE_EDGE, CONTACT, HIDDEN, FILLED = 3, 6, 7, 8
+PAIRS_AT_ONCE = 32768
 SMALLEST = 1e-12  # of a camera: a smaller piece that cutting leaves is nothing
 
 
@@ -60,7 +62,15 @@ class Polygons:
                         self.before[corner], self.after[corner])
 
     @staticmethod
+    def none() -> Polygons:
+        """No polygon at all."""
+        whole = np.zeros(0, dtype=np.int64)
+        return Polygons(whole, np.zeros(1, dtype=np.int64), np.zeros((3, 0)), *np.zeros((2, 0), dtype=np.int8))
+
+    @staticmethod
     def joined(parts: Sequence[Polygons]) -> Polygons:
+        """All polygons of the parts, one part behind another; of no part, none."""
+        parts = parts or [Polygons.none()]
         size = np.concatenate([np.diff(part.start) for part in parts])
         return Polygons(np.concatenate([part.pair for part in parts]), np.append(0, np.cumsum(size)),
                         np.concatenate([part.weights for part in parts], axis=1),
@@ -89,6 +99,15 @@ class Polygons:
 
 def clip(candidates: Candidates) -> Polygons:
     """Polygons of the candidates that really overlap."""
+    parts = []
+    for start in range(0, len(candidates), PAIRS_AT_ONCE):
+        breathe()
+        part = _clip(candidates.select(slice(start, start + PAIRS_AT_ONCE)))
+        parts.append(replace(part, pair=part.pair + start))
+    return Polygons.joined(parts)
+
+
+def _clip(candidates: Candidates) -> Polygons:
     count = len(candidates)
     weights = np.tile(np.eye(3), (1, count))
     after = np.tile(np.array([2, 0, 1], dtype=np.int8), count)

@@ -12,12 +12,15 @@ import numpy as np
 from .cameras import Cameras
 from .candidates import Candidates, overlapping
 from .clipping import cut
+from .limits import crowded, picture_areas
 from .mirror_map import MirrorMap
 from .scene_frames import SceneFrames
+from .stepping import breathe
 from .vectors import cross, dot, groups, ranges, rows, unit
 from .view import View
 
 PASSES = 64  # triangles that cut one camera
+AGAIN = 4  # pairs that are looked at again after cutting, to one that may be left
 SHORTEST_CONTACT = 1e-6  # of the line across the camera
 WELD = 1e-9  # of the mirror's size: corners closer than this are one
 SAME_RAY = 1e-6  # radians: at a sharp edge of the mirror each side has rays of its own
@@ -26,14 +29,15 @@ SMALLEST = 1e-12  # of a camera: smaller pieces are nothing
 
 def drop_behind_contacts(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames,
                          positions: np.ndarray, candidates: Candidates,
-                         maximum: int) -> tuple[Cameras, Candidates, int]:
+                         maximum: int) -> tuple[Cameras, Candidates, np.ndarray, int]:
     """Cameras without the parts right behind triangles that cut through them, or at least those that `maximum` cameras
-    allow; how many were cut."""
+    allow; their candidates; which of them are too crowded for these to be looked at again; how many were cut."""
     across = (candidates.ahead < 0.0).any(axis=0) & (candidates.ahead > 0.0).any(axis=0)
     pairs = np.unique(candidates.camera[across] * len(frames.triangle) + candidates.column[across])
     camera, column = pairs // len(frames.triangle), pairs % len(frames.triangle)
     origin, count = np.arange(len(cameras)), 0
     for _ in range(PASSES):
+        breathe()
         sides = hidden_sides(view, cameras, frames, positions, camera, column)
         meeting = _meets(cameras, frames, camera, column) & sides[1]
         camera, column, sides = camera[meeting], column[meeting], sides[0][:, :, meeting]
@@ -55,8 +59,14 @@ def drop_behind_contacts(view: View, mirror_map: MirrorMap, cameras: Cameras, fr
         entry, piece = ranges(start, stop - start)
         camera, column = before + piece, column[rest][entry]
     if not count:
-        return cameras, candidates, 0
-    return cameras, _asked_again(cameras, frames, candidates, origin), count
+        return cameras, candidates, np.zeros(len(cameras), dtype=bool), 0
+    order = np.argsort(candidates.camera, kind="stable")
+    start, stop = (np.searchsorted(candidates.camera[order], origin, side=side) for side in ("left", "right"))
+    crowd = crowded(stop - start, picture_areas(view, cameras), AGAIN * maximum)
+    entry, camera = ranges(start, np.where(crowd, 0, stop - start))
+    pairs = np.unique(camera * len(frames.triangle) + candidates.column[order][entry])
+    again = overlapping(cameras, frames, pairs // len(frames.triangle), pairs % len(frames.triangle))
+    return cameras, again, crowd, count
 
 
 def hidden_sides(view, cameras, frames, positions, camera, column) -> tuple[np.ndarray, np.ndarray]:
@@ -151,14 +161,3 @@ def with_pieces(mirror_map: MirrorMap, cameras: Cameras, whole: np.ndarray, pare
                    np.concatenate((kept.face, cameras.face[parent])),
                    np.concatenate((cameras.places, places[:, first]), axis=1),
                    np.concatenate((cameras.rays, rays[:, first]), axis=1)), parent
-
-
-def _asked_again(cameras: Cameras, frames: SceneFrames, candidates: Candidates, origin: np.ndarray) -> Candidates:
-    """Candidates of cameras that lie in the cameras `origin`, whose candidates are given."""
-    columns = len(frames.triangle)
-    order = np.argsort(candidates.camera, kind="stable")
-    start = np.searchsorted(candidates.camera[order], origin)
-    stop = np.searchsorted(candidates.camera[order], origin, side="right")
-    entry, camera = ranges(start, stop - start)
-    pairs = np.unique(camera * columns + candidates.column[order][entry])
-    return overlapping(cameras, frames, pairs // columns, pairs % columns)

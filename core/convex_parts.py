@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .clipping import cut
+from .stepping import breathe
 from .vectors import cross, dot, ranges
 
 PASSES = 256  # lines that cut one camera
@@ -91,6 +92,7 @@ def divide(cameras: np.ndarray, lines: Lines, most: int) -> tuple[np.ndarray, Co
     pieces, owner = ConvexParts.whole(len(cameras)), np.arange(len(cameras))
     line, piece = np.arange(len(of_line)), of_line
     for _ in range(PASSES):
+        breathe()
         crossing = _crosses(pieces, lines, line, piece)
         line, piece = line[crossing], piece[crossing]
         if not len(line) or len(owner) > most:

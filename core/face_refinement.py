@@ -16,6 +16,7 @@ from .connection import Faces
 from .reflection_map import ReflectionMap
 from .nodes import Nodes
 from .scene_frames import SceneFrames, falling
+from .stepping import breathe
 from .subdivision import shared_edges
 from .vectors import dot, norm
 from .view import View
@@ -54,6 +55,7 @@ class FaceRefinement:
         for level in range(LEVELS + 1):
             if not len(faces):
                 break
+            breathe()
             marked, straying, chosen, middle = self._marked(nodes, faces, done, tolerance)
             ends, edge, choice, middle_nodes = middle
             stop = level == LEVELS or sum(map(len, finished)) + len(faces) + 2 * marked.sum() > maximum

@@ -26,6 +26,7 @@ from .ray_cells import Cells, ray_cells
 from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
+from .stepping import breathe
 from .unmatched_edges import following_corners
 from .vectors import groups, norm, rows
 from .view import View
@@ -106,6 +107,7 @@ def fill_openings(view: View, mirror_map: ReflectionMap, cameras: Cameras, tree:
     for _ in range(ROUNDS):
         if not len(openings):
             break
+        breathe()
         missing, pieces = _missing(cameras, tree, frames, candidates, polygons, openings)
         if not len(pieces.pair):
             break
@@ -192,8 +194,7 @@ def _as_polygons(cells: Cells) -> tuple[Candidates, Polygons]:
     """Cells as polygons of pairs that clipping says nothing about."""
     count = len(cells.camera)
     label = np.full(3 * count, FILLED, dtype=np.int8)
-    pairs = Candidates(cells.camera, cells.column, np.zeros((3, 3, count)), np.ones((3, count)),
-                       np.zeros((3, 3, count)))
+    pairs = Candidates.unknown(cells.camera, cells.column)
     return pairs, Polygons(np.arange(count), 3 * np.arange(count + 1), np.tile(np.eye(3), (1, count)), label, label)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from .cameras import Cameras
 from .reflection_map import ReflectionMap
 from .camera_splitting import split_cameras
+from .stepping import breathe
 from .subdivision import split
 from .view import View
 
@@ -39,6 +40,7 @@ def _lifted_probes(mirror_map: ReflectionMap, cameras: Cameras, slack: float) ->
 def cut_at_horizon(view: View, mirror_map: ReflectionMap, cameras: Cameras) -> Cameras:
     """The cameras, those across the horizon cut along it; large ones over whose side it bulges are split first."""
     for _ in range(LEVELS):
+        breathe()
         probes = _lifted_probes(mirror_map, cameras, 0.0)
         pixels = view.pixels(cameras.places.T)[cameras.corners]
         long = np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > LONG_EDGE
@@ -64,6 +66,7 @@ def _cut(mirror_map: ReflectionMap, cameras: Cameras) -> Cameras:
     start, end = cameras.places[:, corners[row, side]], cameras.places[:, corners[row, (side + 1) % 3]]
     low, high = np.where(beyond[row, side], end, start), np.where(beyond[row, side], start, end)
     for _ in range(STEPS):
+        breathe()
         middle = 0.5 * (low + high)
         lifted = mirror_map.lifted(face, mirror_map.coordinates(face, middle))
         low, high = np.where(lifted, low, middle), np.where(lifted, middle, high)

@@ -5,6 +5,8 @@ asked for it is the next mirror. Convex mirrors never see themselves: their tria
 """
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from .bounded_trace import bounded_trace
@@ -16,13 +18,16 @@ from .point_tree import PointTree
 from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
 from .scene_tree import SceneTree
+from .stepping import breathe
 from .triangle_mesh import TriangleMesh
 from .subdivision import shared_edges
-from .vectors import cross, dot, norm, ranges, rows, shares
+from .vectors import cross, dot, norm, ranges, rows, shares, unit
 
 IMAGES_AT_ONCE = 500_000  # pairs of an image and a triangle of a mirror that may hide it
+MOST_PAIRS = 1 << 22  # of cameras and triangles of mirrors that are asked which images they hide
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
 BEHIND = 0.02  # of a triangle's size
+PROBED_AT_ONCE = 16384  # pairs of a camera and a triangle of a mirror
 
 _PROBES = np.array([(i, j, 4 - i - j) for i in range(5) for j in range(5 - i)]).T / 4.0
 
@@ -61,11 +66,12 @@ class MetSurfaces:
         return sphere[:3], float(sphere[3])
 
     def showing_mirrors(self, mirror_map: ReflectionMap, cameras: Cameras, most: int) -> np.ndarray:
-        """Which faces of the map, by their number, may show a mirror in any of the cameras; more than `most` pairs of
-        cameras and triangles are refused."""
-        camera, _, _ = self._mirrors_in(mirror_map, cameras, most)
+        """Which faces of the map, by their number, may show a mirror in any of the cameras, those among them for which
+        more than `most` pairs of cameras and triangles would have to be looked at."""
+        camera, _, _, given_up = self._mirrors_in(mirror_map, cameras, most, np.ones(len(cameras)))
         found = np.zeros(int(cameras.face.max(initial=-1)) + 1, dtype=bool)
         found[cameras.face[camera]] = True
+        found[cameras.face[given_up]] = True
         return found
 
     def showing_scene(self, cameras: Cameras) -> np.ndarray:
@@ -75,28 +81,53 @@ class MetSurfaces:
         return Cones.around(cameras).touch(np.arange(count), np.repeat(centre[:, None], count, axis=1),
                                            np.full(count, radius))
 
-    def trace(self, mirror_map: ReflectionMap, cameras: Cameras, showing: np.ndarray,
-              most: int) -> tuple[np.ndarray, np.ndarray, int]:
-        """Pairs of cameras and triangles that may be seen in them, and how many tree nodes were visited for that;
-        mirrors are looked for on the faces that `showing_mirrors` found. More than `most` pairs are refused."""
-        camera, triangle, visited = bounded_trace(self.tree, Cones.around(cameras), most)
+    def trace(self, mirror_map: ReflectionMap, cameras: Cameras, showing: np.ndarray, most: int,
+              worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+        """Pairs of cameras and triangles that may be seen in them, how many tree nodes were visited for that, and which
+        cameras (n,) were given up, by their `worth` (n,), since there would be more than `most` pairs; mirrors are
+        looked for on the faces that `showing_mirrors` found."""
+        camera, triangle, visited, given_up = bounded_trace(self.tree, Cones.around(cameras), most, worth)
         chosen = np.flatnonzero(showing[cameras.face])
-        mirror_camera, mirror_triangle, more = self._mirrors_in(mirror_map, cameras.select(chosen), most)
-        return (np.concatenate((camera, chosen[mirror_camera])),
-                np.concatenate((triangle, mirror_triangle + self.diffuse)), visited + more)
+        mirror_camera, mirror_triangle, more, mirror_given_up = self._mirrors_in(mirror_map, cameras.select(chosen),
+                                                                                 most, worth[chosen])
+        given_up[chosen[mirror_given_up]] = True
+        camera = np.concatenate((camera, chosen[mirror_camera]))
+        triangle = np.concatenate((triangle, mirror_triangle + self.diffuse))
+        if given_up.any():
+            kept = ~given_up[camera]
+            camera, triangle = camera[kept], triangle[kept]
+        return camera, triangle, visited + more, given_up
 
-    def _mirrors_in(self, mirror_map: ReflectionMap, cameras: Cameras,
-                    most: float = np.inf) -> tuple[np.ndarray, np.ndarray, int]:
-        """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited."""
-        if not len(cameras):
-            return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), 0
-        return bounded_trace(self._mirror_tree, Cones.around(cameras), most,
-                       lambda camera, triangle: self._above(mirror_map, cameras, camera, triangle))
+    def _mirrors_in(self, mirror_map: ReflectionMap, cameras: Cameras, most: int,
+                    worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+        """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited; what was given up."""
+        # which side of its triangle the rays of a camera leave is asked once
+        sides = self._upper_sides(mirror_map, cameras)
+        return bounded_trace(self._mirror_tree, Cones.around(cameras), most, worth,
+                             lambda camera, triangle: self._above(sides, camera, triangle))
+
+    def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
+        """The triangle (n,) that each ray, from `origin` along unit vectors `ray` (3, n), meets first, -1 where none.
+        They leave mirrors on `sides`, a place and a normal (3, n) each; what does not rise above is not met."""
+        diffuse, near = first_crossed(self.tree, origin, ray)
+        mirror, nearer = first_crossed(self._mirror_tree, origin, ray, ABOVE * self.size,
+                                       lambda own, triangle: self._above(sides, own, triangle))
+        return np.where(nearer < near, mirror + self.diffuse, diffuse)
+
+    def first_distances(self, origin: np.ndarray, ray: np.ndarray) -> list[np.ndarray]:
+        """How far along rays (3, n), unit vectors, the diffuse scene and the mirrors lie, infinite where not at all."""
+        return [first_crossed(tree, origin, ray)[1] for tree in (self.tree, self._mirror_tree)]
+
+    def shown_in_middles(self, mirror_map: ReflectionMap, cameras: Cameras) -> np.ndarray:
+        """The triangle (n,) that the ray through the middle of each camera meets first, -1 where it meets none."""
+        middle = np.take(cameras.places, cameras.corners.T, axis=1).mean(axis=1)
+        origin, ray = mirror_map.leave(cameras.face, mirror_map.coordinates(cameras.face, middle))
+        return self.first_met(self._upper_sides(mirror_map, cameras), origin, unit(ray))
 
     def hides(self, mirror_map: ReflectionMap, cameras: Cameras, camera: np.ndarray, places: np.ndarray,
               points: np.ndarray) -> np.ndarray:
         """Which of the `points` (3, n), seen at `places` (3, n) in the cameras (n,), lie behind a mirror."""
-        owner, triangle, _ = self._mirrors_in(mirror_map, cameras)
+        owner, triangle, _, given_up = self._mirrors_in(mirror_map, cameras, MOST_PAIRS, np.ones(len(cameras)))
         order = np.argsort(owner, kind="stable")
         owner, triangle = owner[order], triangle[order]
         start = np.searchsorted(owner, camera)
@@ -104,10 +135,18 @@ class MetSurfaces:
         hidden = np.zeros(len(camera), dtype=bool)
         # many images in cameras that may see much of a mirror are more pairs than memory holds
         for part in shares(offered, IMAGES_AT_ONCE):
+            breathe()
             entry, image = ranges(start[part], offered[part])
             image += part.start
             met = self._passes(triangle[entry], places[:, image], points[:, image])
             hidden[image[met]] = True
+        # where cameras see too much of the mirrors, each image is asked for by itself
+        alone = np.flatnonzero(given_up[camera])
+        zero, way = np.zeros(len(alone)), unit(points[:, alone] - places[:, alone])
+        rays = Cones(places[:, alone], zero, way, zero, zero + 1.0)
+        for image, triangle, _ in self._mirror_tree.traced(rays, np.ones(len(alone), dtype=bool)):
+            met = self._passes(triangle, places[:, alone[image]], points[:, alone[image]])
+            hidden[alone[image[met]]] = True
         return hidden
 
     def _passes(self, triangle: np.ndarray, places: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -120,19 +159,24 @@ class MetSurfaces:
             share = dot(offset, normal) / facing
             second, third = dot(turned, c - a) / facing, -dot(turned, b - a) / facing
             hit = (second >= 0.0) & (third >= 0.0) & (second + third <= 1.0)
-        length = norm(way)
-        return hit & (share * length > ABOVE * self.size) & ((1.0 - share) * length > ABOVE * self.size)
+            # a point on a mirror has no way to go
+            length = norm(way)
+            return hit & (share * length > ABOVE * self.size) & ((1.0 - share) * length > ABOVE * self.size)
 
-    def _above(self, mirror_map: ReflectionMap, cameras: Cameras, camera: np.ndarray,
-               triangle: np.ndarray) -> np.ndarray:
-        """Whether triangles rise above the planes of the cameras' flat triangles, on the side that the rays leave."""
+    def _upper_sides(self, mirror_map: ReflectionMap, cameras: Cameras) -> tuple[np.ndarray, np.ndarray]:
+        """The planes (n) of the cameras' flat triangles: a place on each, and its normal on the side that the rays
+        leave."""
         surface, face = mirror_map.last(cameras.face)
-        normal, base = surface.face_normal[:, face], surface.a[:, face]
-        side = np.sign(dot(cameras.rays[:, cameras.corners].sum(axis=2), normal))
+        normal = surface.face_normal[:, face]
+        return surface.a[:, face], normal * np.sign(dot(cameras.rays[:, cameras.corners].sum(axis=2), normal))
+
+    def _above(self, sides: tuple[np.ndarray, np.ndarray], camera: np.ndarray, triangle: np.ndarray) -> np.ndarray:
+        """Whether triangles (p,) of the mirrors rise above the planes of the cameras (p,)."""
+        base, normal = (np.take(side, camera, axis=1) for side in sides)
         found = np.zeros(len(camera), dtype=bool)
         for corner in range(3):
-            offset = np.take(self._mirror_corners[:, :, corner], triangle, axis=1) - np.take(base, camera, axis=1)
-            found |= dot(offset, np.take(normal, camera, axis=1)) * side[camera] > ABOVE * self.size
+            offset = np.take(self._mirror_corners[:, :, corner], triangle, axis=1) - base
+            found |= dot(offset, normal) > ABOVE * self.size
         return found
 
     def shows_mirror(self, frames: SceneFrames) -> np.ndarray:
@@ -180,28 +224,72 @@ class MetSurfaces:
         pair = np.flatnonzero(self.shows_mirror(frames)[candidates.column])
         if not len(pair):
             return candidates
-        surface, face = mirror_map.last(cameras.face[candidates.camera[pair]])
+        kept = np.ones(len(candidates), dtype=bool)
+        for start in range(0, len(pair), PROBED_AT_ONCE):
+            breathe()
+            part = pair[start:start + PROBED_AT_ONCE]
+            kept[part] = self._not_touching(mirror_map, cameras, frames, candidates.camera[part],
+                                            candidates.column[part])
+        return candidates.select(kept)
+
+    def _not_touching(self, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, camera: np.ndarray,
+                      column: np.ndarray) -> np.ndarray:
+        """Which mirrors' triangles (p,) do more than touch the cameras' own."""
+        surface, face = mirror_map.last(cameras.face[camera])
         own = surface.corners(face)
-        other = np.take(self._mirror_corners, frames.triangle[candidates.column[pair]] - self.diffuse, axis=1)
+        other = np.take(self._mirror_corners, frames.triangle[column] - self.diffuse, axis=1)
         apart = np.abs(own[:, :, None] - np.swapaxes(other, 1, 2)[:, None]).max(axis=0)
-        touching = (apart <= ABOVE * self.size).any(axis=(0, 1))
-        pair = pair[touching]
-        corners = cameras.corners[candidates.camera[pair]].T
+        touching = np.flatnonzero((apart <= ABOVE * self.size).any(axis=(0, 1)))
+        corners = cameras.corners[camera[touching]].T
         origins, rays = (np.einsum("xkn,kp->xpn", np.take(values, corners, axis=1), _PROBES).reshape(3, -1)
                          for values in (cameras.origins, cameras.rays))
-        column = np.tile(candidates.column[pair], _PROBES.shape[1])
-        s = frames.distance(column, origins, rays)
-        near = np.full(len(pair), ABOVE * self.size)
+        probed = np.tile(column[touching], _PROBES.shape[1])
+        s = frames.distance(probed, origins, rays)
+        near = np.full(len(touching), ABOVE * self.size)
         if cameras.origins is not cameras.places:
             # later cameras follow the sides of their triangles only nearly, and may begin a little behind the next
             near = BEHIND * np.ptp(other, axis=2).max(axis=0)[touching]
         ahead = s * norm(rays) > np.tile(near, _PROBES.shape[1])
-        seen = ahead & (frames.weights(column, origins + s * rays) > ABOVE).all(axis=0)
-        kept = np.ones(len(candidates), dtype=bool)
-        if not len(pair):
-            return candidates
-        kept[pair] = seen.reshape(-1, len(pair)).any(axis=0)
-        return candidates.select(kept)
+        seen = ahead & (frames.weights(probed, origins + s * rays) > ABOVE).all(axis=0)
+        kept = np.ones(len(camera), dtype=bool)
+        kept[touching] = seen.reshape(_PROBES.shape[1], -1).any(axis=0)
+        return kept
+
+
+def first_crossed(tree: SceneTree | PointTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,
+                  asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """The triangle (n,) of a tree that each ray (3, n), a unit vector, meets first farther than `beyond`, -1 where it
+    meets none, and how far away, infinite there; of pairs (ray, triangle) only those that are `asked` for."""
+    count = ray.shape[1]
+    zero, first, best = np.zeros(count), np.full(count, -1), np.full(count, np.inf)
+    if isinstance(tree, PointTree):
+        return first, best
+    for own, triangle, _ in tree.traced(Cones(origin, zero, ray, zero, zero + 1.0), np.ones(count, dtype=bool)):
+        breathe()
+        if asked is not None and len(own):
+            kept = asked(own, triangle)
+            own, triangle = own[kept], triangle[kept]
+        a, b, c = (rows(tree.mesh.positions[tree.mesh.triangles[triangle, k]]) for k in range(3))
+        s = _crossed(a, b, c, origin[:, own], ray[:, own])
+        met = np.flatnonzero((s > beyond) & (s < best[own]))
+        met = met[np.lexsort((triangle[met], s[met], own[met]))]
+        found, nearest = np.unique(own[met], return_index=True)
+        first[found], best[found] = triangle[met[nearest]], s[met[nearest]]
+    return first, best
+
+
+def _crossed(a: np.ndarray, b: np.ndarray, c: np.ndarray, origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
+    """How far along rays (3, n) they pass through triangles with corners (3, n), infinite where they do not.
+
+    T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of Graphics Tools 1997.
+    """
+    u, v, offset = b - a, c - a, origin - a
+    turned, across = cross(ray, v), cross(offset, u)
+    determinant = dot(u, turned)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        second, third = dot(offset, turned) / determinant, dot(ray, across) / determinant
+        inside = (second >= 0.0) & (third >= 0.0) & (second + third <= 1.0)
+        return np.where(inside, dot(v, across) / determinant, np.inf)
 
 
 def _opposite(mesh: TriangleMesh) -> np.ndarray:

@@ -4,10 +4,13 @@ The three-ray camera interpolates rays instead and is O(h^2) off; Newton steps o
 """
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from .mirror_surface import MirrorSurface
 from .reflection_map import ReflectionMap
+from .subdivision import shared_edges
 from .triangle_mesh import TriangleMesh
 from .vectors import unit
 from .view import View
@@ -24,7 +27,7 @@ class MirrorMap(ReflectionMap):
     """
 
     def __init__(self, view: View, mirror: TriangleMesh, parallel: bool = False) -> None:
-        self.surface = MirrorSurface(mirror)
+        self.surface, self._mirror = MirrorSurface(mirror), mirror
         self.orthographic = view.orthographic
         self.eye, self.forward = view.eye[:, None], view.forward[:, None]
         self.parallel = parallel
@@ -40,6 +43,10 @@ class MirrorMap(ReflectionMap):
             direction = self.arriving(self.places(every, uv))
             ray = self.surface.unbent(every, uv, direction)
             self.grazing |= self.surface.rise(every, ray, direction) < NEARLY_GRAZING
+
+    @cached_property
+    def across(self) -> np.ndarray:
+        return neighbours(self._mirror)
 
     def arriving(self, places: np.ndarray) -> np.ndarray:
         """View directions (3, n), as long as the way from the eye (1 in orthographic views)."""
@@ -107,3 +114,18 @@ class MirrorMap(ReflectionMap):
                 after, before = (self.rays(near[0], near[1] + sign * step) for sign in (1.0, -1.0))
                 change[:, part] = (after - before) / (2.0 * DIFFERENCE)
         return place, ray, list(zip(moves, changes))
+
+
+def neighbours(mirror: TriangleMesh) -> np.ndarray:
+    """Triangle (m, 3) across the edge opposite to each corner; -1 where there is none, or more than one."""
+    _, vertex = np.unique(mirror.positions, axis=0, return_inverse=True)
+    _, _, edge = shared_edges(vertex.reshape(-1)[mirror.triangles])
+    edge = edge.reshape(-1)
+    order = np.argsort(edge, kind="stable")
+    count = np.bincount(edge)
+    first = (np.cumsum(count) - count)[count == 2]
+    result = np.full(len(edge), -1)
+    one, other = order[first], order[first + 1]
+    result[one], result[other] = other // 3, one // 3
+    # side k runs from corner k to the next: it lies opposite to the corner before
+    return np.roll(result.reshape(-1, 3), -1, axis=1)

@@ -13,6 +13,7 @@ from .candidates import Candidates
 from .clipping import CONTACT, HIDDEN, SCENE_EDGE, Polygons, clip
 from .met_surfaces import MetSurfaces
 from .scene_frames import SceneFrames
+from .stepping import breathe
 from .vectors import dot, groups, ranges, shares
 
 LINES = 16  # outlines that cut one camera; with more, what is left of a polygon is hidden or not by its middle
@@ -48,6 +49,7 @@ def _along_outlines(cameras: Cameras, frames: SceneFrames, met: MetSurfaces, can
     first = np.searchsorted(lines[0], np.arange(len(cameras) + 1))
     count = np.diff(first)[candidates.camera[polygons.pair]]
     for number in range(min(LINES, int(count.max(initial=0)))):
+        breathe()
         crossed = np.flatnonzero(count > number)
         line = first[candidates.camera[polygons.pair[crossed]]] + number
         low, high = (bound.reduceat(polygons.weights, polygons.start[:-1], axis=1)[:, crossed]
@@ -91,6 +93,7 @@ def _before_mirrors(candidates: Candidates, mirror: np.ndarray, polygons: Polygo
         camera = candidates.camera[asked.pair]
         start, stop = (np.searchsorted(candidates.camera[order], camera, side=side) for side in ("left", "right"))
         for part in shares(stop - start, PAIRS_AT_ONCE):
+            breathe()
             entry, polygon = ranges(start[part], (stop - start)[part])
             some = asked.select(np.arange(part.start, part.stop))
             covered, middle = _behind(candidates, order[entry], polygon, some)

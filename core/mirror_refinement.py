@@ -13,6 +13,7 @@ from .camera_splitting import edge_middles, in_picture, split_at
 from .cameras import Cameras
 from .horizon import beyond_horizon
 from .reflection_map import ReflectionMap
+from .stepping import breathe
 from .subdivision import shared_edges
 from .vectors import dot, norm, unit
 from .view import View
@@ -41,6 +42,7 @@ def refine_mirror(view: View, mirror_map: ReflectionMap, cameras: Cameras, toler
     cameras, finished = cameras.select(in_picture(view, cameras)), []
     limited = True
     for _ in range(LEVELS):
+        breathe()
         if sum(map(len, finished)) + len(cameras) > maximum:
             break
         ends, first, edge = shared_edges(cameras.corners)
@@ -65,11 +67,9 @@ def refine_mirror(view: View, mirror_map: ReflectionMap, cameras: Cameras, toler
 
 
 def _straying(view: View, cameras: Cameras, ends: np.ndarray, middle_rays: np.ndarray, reach: float) -> np.ndarray:
-    """Pixels by which the cameras stray from the true map halfway along edges `ends` (e, 2); infinite where an edge
-    crosses the eye's plane and must be cut before anything can be said of it."""
+    """Pixels by which the cameras stray from the true map halfway along edges `ends` (e, 2)."""
     a, b = ends[:, 0], ends[:, 1]
     va, vb, ra, rb = cameras.origins[:, a], cameras.origins[:, b], cameras.rays[:, a], cameras.rays[:, b]
-    behind = (view.depths(cameras.places.T) <= 0.0)[ends]
     with np.errstate(invalid="ignore", over="ignore"):
         pixels = view.pixels(cameras.places.T)
         length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
@@ -81,6 +81,4 @@ def _straying(view: View, cameras: Cameras, ends: np.ndarray, middle_rays: np.nd
     # rounding of unit vectors alone must not split a flat mirror
     straying = length * reach * np.where(turn > 1e-14, turn, 0.0) / np.maximum(motion, 1e-300)
     straying[length < SHORTEST_EDGE] = 0.0
-    straying[behind.all(axis=1)] = 0.0
-    straying[behind.any(axis=1) & ~behind.all(axis=1)] = np.inf
     return straying

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .cameras import Cameras
+from .stepping import breathe
 from .vectors import ranges, shares
 from .view import View
 
@@ -59,6 +60,7 @@ class DepthGrid:
         kept = None
         for marking in (True, False):
             for part in parts:
+                breathe()
                 # one share, as nearly always, is worked out once; of more only one is held at a time
                 camera, x, y, nearness = kept if kept and len(parts) == 1 else grid._samples(pixels, depths, runs, part)
                 kept = camera, x, y, nearness
@@ -93,7 +95,7 @@ class DepthGrid:
         a, b = nearness[:, 1] - nearness[:, 0], nearness[:, 2] - nearness[:, 0]
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = np.stack((a * by - b * ay, b * ax - a * bx), axis=1) / (ax * by - bx * ay)[:, None]
-        corner = np.floor(pixels * self.scale - 0.5).astype(np.int64)
+        corner = np.floor(np.clip(pixels, -1.0, np.add(self.view.resolution, 1.0)) * self.scale - 0.5).astype(np.int64)
         for step in ((0, 0), (0, 1), (1, 0), (1, 1)):
             sample = corner + step
             away = (sample + 0.5) / self.scale - pixels

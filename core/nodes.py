@@ -16,6 +16,7 @@ from .clipping import CONTACT, HIDDEN, SCENE_EDGE, Polygons
 from .images import NEAR_IMAGE, VertexImages
 from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
+from .stepping import breathe
 from .vectors import dot, groups
 from .view import View
 
@@ -108,6 +109,7 @@ def polygon_nodes(view: View, mirror_map: ReflectionMap, cameras: Cameras, frame
     for kind, chosen in kinds:
         chosen = np.flatnonzero(chosen)
         if len(chosen):
+            breathe()
             part, shared = kind(corners, chosen, images)
             made.append(part)
             node_of[chosen] = shared + count

@@ -18,6 +18,7 @@ from .met_surfaces import MetSurfaces
 from .reflection_map import ReflectionMap
 from .camera_splitting import split_cameras
 from .scene_frames import SceneFrames
+from .stepping import breathe
 from .vectors import ranges
 from .view import View
 
@@ -44,6 +45,7 @@ def refine_for_outlines(view: View, mirror_map: ReflectionMap, cameras: Cameras,
     """
     settled, open_ = candidates.select(np.zeros(0, dtype=np.int64)), np.zeros(len(cameras), dtype=bool)
     for level in range(LEVELS + 1):
+        breathe()
         candidates, lines = _really_overlapping(candidates)
         lines &= ~met.inner_sides(cameras, frames, candidates)
         bent, long = _bent_edges(view, cameras, candidates, lines, tolerance)

@@ -7,7 +7,7 @@ import numpy as np
 
 from .cameras import Cameras
 from .mirror_visibility import DepthGrid
-from .scene_frames import SceneFrames
+from .stepping import breathe
 from .triangle_mesh import TriangleMesh
 from .vectors import ranges, rows, shares
 from .view import View
@@ -16,10 +16,11 @@ COARSER = 9  # times that the cells may be doubled
 MOST_PAIRS = 1 << 26  # more are not looked at, and the mirror is left as it is
 
 
-def pairs_in_picture(view: View, cameras: Cameras, frames: SceneFrames, mirror: TriangleMesh, grid: DepthGrid,
+def pairs_in_picture(view: View, cameras: Cameras, mirror: TriangleMesh, owner: np.ndarray, grid: DepthGrid,
                      at_once: int) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
-    """Pairs of cameras and columns of other triangles whose boxes in the picture overlap where the mirror lies several
-    times over, by the cells of the grid; each once, in shares of about `at_once`.
+    """Pairs of cameras and triangles of the mirror, parts of those that `owner` (m,) names and no camera's own, whose
+    boxes in the picture overlap where the mirror lies several times over, by the cells of the grid; each once, in
+    shares of about `at_once`.
 
     Cells are made as coarse as gives the least work: large triangles share many small cells.
     """
@@ -29,16 +30,19 @@ def pairs_in_picture(view: View, cameras: Cameras, frames: SceneFrames, mirror: 
     if not several.any():
         return
     boxes, others = (_boxes(view, corners, grid.scale) for corners in
-                     (cameras.places[:, cameras.corners], rows(mirror.positions[mirror.triangles[frames.triangle]])))
+                     (cameras.places[:, cameras.corners], rows(mirror.positions[mirror.triangles])))
     levels = [several]
     for _ in range(COARSER):
         levels.append(_halved(levels[-1]))
-    work = [(_counts(boxes, level, taken) * _counts(others, level, taken) * taken).sum()
-            for level, taken in enumerate(levels)]
+    work = []
+    for level, taken in enumerate(levels):
+        breathe()
+        work.append((_counts(boxes, level, taken) * _counts(others, level, taken) * taken).sum())
     level = int(np.argmin(work))
     if work[level] > MOST_PAIRS:
         return
     (cell, camera), (other_cell, column) = (_cells(part, level, levels[level]) for part in (boxes, others))
+    breathe()
     order = np.argsort(camera, kind="stable")  # all that is said of one camera comes together
     cell, camera = cell[order], camera[order]
     order = np.argsort(other_cell, kind="stable")
@@ -51,10 +55,10 @@ def pairs_in_picture(view: View, cameras: Cameras, frames: SceneFrames, mirror: 
         entry, run = ranges(start[own], (stop - start)[own])
         near, far = camera[own][run], column[entry]
         meet = ((boxes[0][near] < others[1][far]) & (others[0][far] < boxes[1][near])).all(axis=1)
-        meet &= cameras.face[near] != frames.triangle[far]
-        pairs = np.unique(near[meet] * len(frames.triangle) + far[meet])
+        meet &= cameras.face[near] != owner[far]
+        pairs = np.unique(near[meet] * len(owner) + far[meet])
         if len(pairs):
-            yield pairs // len(frames.triangle), pairs % len(frames.triangle)
+            yield pairs // len(owner), pairs % len(owner)
 
 
 def _boxes(view: View, corners: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarray]:

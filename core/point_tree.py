@@ -13,6 +13,7 @@ from .canonical_order import Order, ordered
 from .cones import Cones
 from .magnification import Magnification
 from .scene_tree import FIRST_LEVEL, STRIDE, median_leaves, node_spheres
+from .stepping import breathe
 from .triangle_mesh import TriangleMesh
 from .vectors import norm, ranges, rows, unit
 
@@ -106,6 +107,7 @@ class PointTree:
         # +1 where the run of a node that is stood for begins in `order`, -1 behind its end
         change = np.zeros(len(self.order) + 1, dtype=np.int64)
         for start in range(0, len(cones.radius), CONES_AT_ONCE):
+            breathe()
             cone = np.arange(start, min(start + CONES_AT_ONCE, len(cones.radius)))
             level = min(FIRST_LEVEL, self.depth)
             cone, node = np.repeat(cone, 2**level), np.tile(np.arange(2**level), len(cone))

@@ -4,11 +4,10 @@ Nothing is clipped and nothing joined: where triangles are smaller than a pixel,
 """
 from __future__ import annotations
 
-from collections.abc import Generator
-
 import numpy as np
 
 from .beams import Beams
+from .bounce import Progress
 from .cameras import Cameras
 from .cones import Cones
 from .discs import LARGEST, Discs, flat_discs, picture_ellipses
@@ -19,8 +18,7 @@ from .mirror_map import MirrorMap
 from .placement import place as placed
 from .point_tree import PointTree
 from .reflection_mesh import ReflectionMesh
-from .settling import neighbours, settle
-from .triangle_mesh import TriangleMesh
+from .settling import settle
 from .vectors import norm, rows
 from .view import View
 
@@ -28,21 +26,18 @@ PAIRS_AT_ONCE = 131072
 ON_CAUSTIC = 1e-9  # magnification
 
 
-def reflected_points(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, cameras: Cameras, tree: PointTree,
-                     met: MetSurfaces, placement: str) -> Generator[tuple[float, str], None, ReflectionMesh]:
-    """Every image of the tree's vertices in the cameras, once, as a point with its disc.
-
-    Yields (fraction of the whole work, stage that comes next) and returns the result.
-    """
-    yield 0.2, "cones through the tree"
+def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: PointTree,
+                     met: MetSurfaces, placement: str, progress: Progress) -> ReflectionMesh:
+    """Every image of the tree's vertices in the cameras, once, as a point with its disc."""
+    progress.next(0.2, "cones through the tree")
     cones = Cones.around(cameras)
     pairs = tree.trace(cones, Magnification.of(view, cameras))
     counts = {"nodes_visited": pairs.visited, "pairs": len(pairs.camera), "stood_for": pairs.stood_for,
               "projections": 0, "roots": 0}
     found, reach, beams = [], [], Beams.of(cameras, cones)
-    positions, across = tree.mesh.positions, neighbours(mirror)
+    positions = tree.mesh.positions
     for start in range(0, max(len(pairs.camera), 1), PAIRS_AT_ONCE):
-        yield 0.3 + 0.4 * start / max(len(pairs.camera), 1), "projection"
+        progress.next(0.3 + 0.4 * start / max(len(pairs.camera), 1), "projection")
         part = slice(start, start + PAIRS_AT_ONCE)
         camera, vertex, stood = pairs.camera[part], pairs.vertex[part], pairs.stood[part]
         held = beams.hold(camera, rows(positions[vertex]))
@@ -53,7 +48,7 @@ def reflected_points(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, ca
             counts[name] += solved[name]
     images, reach = VertexImages.joined(found), np.concatenate(reach)
     face = cameras.face[images.camera]
-    face, uv, distance, real = settle(mirror_map, across, face, mirror_map.coordinates(face, images.place),
+    face, uv, distance, real = settle(mirror_map, face, mirror_map.coordinates(face, images.place),
                                       images.distance, rows(positions[images.vertex]))
     place = mirror_map.places(face, uv)
     images = VertexImages(images.vertex, images.camera, distance, place, view.pixels(place.T))
@@ -67,7 +62,7 @@ def reflected_points(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, ca
     parity = np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8)
     counts["images"] = len(order)
 
-    yield 0.75, "discs"
+    progress.next(0.75, "discs")
     alone = reach == 0.0
     normal = np.where(alone, tree.normal[:, images.vertex], 0.0)
     axes, wanted = picture_ellipses(view, mirror_map, face, uv, images.distance, normal,

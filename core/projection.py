@@ -9,6 +9,7 @@ from .certain_pairs import certain_images, common_lengths, own_lengths
 from .checks import numbers
 from .doubtful_pairs import doubtful_images
 from .ordinary_size import of_ordinary_size, strange_sizes
+from .stepping import breathe
 
 CHUNK = 12288
 """Pairs that are worked on at once: their arrays stay in the caches."""
@@ -85,6 +86,7 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facin
     np.empty(64 * CHUNK)
     found, left = [], []
     for start in range(0, max(count, 1), CHUNK):
+        breathe()
         part = slice(start, start + CHUNK)
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], common_lengths)
         found.append(_turned(pair + start, *images, facing))

@@ -7,30 +7,33 @@ from dataclasses import replace
 import numpy as np
 
 from .assembly import assemble
-from .bounce import Bounce, Progress, bounce_steps, refined
+from .bounce import Progress, bounced, refined
 from .bounced_cameras import bounced_cameras
 from .camera_splitting import in_picture
 from .canonical_order import in_given_order, ordered
 from .cameras import three_ray_cameras, visible_triangles
 from .checks import LARGEST
 from .errors import ReflectionError
+from .eye_plane import cut_before_eye
 from .horizon import cut_at_horizon
+from .limits import Limits, picture_areas
 from .met_surfaces import MetSurfaces
 from .mirror_map import MirrorMap
 from .mirror_visibility import without_hidden
 from .near_origin import far_corner, moved_mesh, moved_surface, moved_view
 from .point_tree import PointTree
 from .points import reflected_points
+from .probes import missed_probes
 from .reflection_mesh import ReflectionMesh
 from .scene_tree import SceneTree
 from .self_occlusion import without_occluded
 from .settings import Settings
+from .stepping import in_steps
 from .triangle_mesh import TriangleMesh, area_normals
 from .vectors import cross, dot, norm, rows
 from .view import View
 
-CAMERAS_OF_A_PIXEL = 4  # of a later bounce: more show nothing that could be seen
-FACES_OF_A_CAMERA = 16  # what a camera of a later bounce is counted as against the bound on faces
+FEWER = 2.0 / 3.0  # cameras of a later bounce, to those of the one before
 INSIDE = 4.0 / 3.0  # a quadratic that is zero at a triangle's corners exceeds its values at the edges' middles by this
 
 
@@ -62,32 +65,36 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
         Where the mirror or the scene is empty, the mirror is not in the picture, or the eye lies on it; or where so
         much lies over one another that the settings' `maximum_faces` is exceeded many times over.
     """
-    steps = reflection_steps(view, mirror, scene, settings, mirrors)
-    while True:
-        try:
-            next(steps)
-        except StopIteration as end:
-            return end.value
+    return _reflected(view, mirror, scene, settings, mirrors)
 
 
 def reflection_steps(
         view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings = Settings(),
         mirrors: TriangleMesh | None = None) -> Generator[tuple[float, str], None, ReflectionMesh]:
-    """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end."""
+    """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end.
+
+    A stage that takes long yields several times. A generator that is closed before its end stops the work.
+    """
+    return (yield from in_steps(lambda: _reflected(view, mirror, scene, settings, mirrors)))
+
+
+def _reflected(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
+               mirrors: TriangleMesh | None) -> ReflectionMesh:
     progress = Progress()
     _check(view, mirror, scene, settings, mirrors)
     corner = far_corner(mirror)
     if corner is None:
-        return (yield from _steps(view, mirror, scene, settings, mirrors, progress))
+        return _near_origin(view, mirror, scene, settings, mirrors, progress)
     mirror, scene, mirrors = (part if part is None else moved_surface(part, -corner)
                               for part in (mirror, scene, mirrors))
-    mesh = yield from _steps(moved_view(view, -corner), mirror, scene, settings, mirrors, progress)
+    mesh = _near_origin(moved_view(view, -corner), mirror, scene, settings, mirrors, progress)
     return moved_mesh(mesh, corner)
 
 
-def _steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
-           mirrors: TriangleMesh | None, progress: Progress) -> Generator[tuple[float, str], None, ReflectionMesh]:
-    yield 0.0, "k-d tree"
+def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
+                 mirrors: TriangleMesh | None, progress: Progress) -> ReflectionMesh:
+    """The reflection of a scene whose coordinates tell the mirror's shape well."""
+    progress.next(0.0, "k-d tree")
     kind = PointTree if settings.method == "POINTS" else SceneTree
     tree = scene if isinstance(scene, kind) else kind.build(getattr(scene, "mesh", scene))
     if not len(tree):
@@ -96,43 +103,50 @@ def _steps(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | P
     met = MetSurfaces(tree, mirror if mirrors is None else ordered(mirrors, shading=True)[0])
     progress.done("tree")
 
-    yield 0.1, "cameras"
+    progress.next(0.1, "cameras")
     mirror_map = MirrorMap(view, mirror, settings.method == "PARALLEL")
     cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
     cameras = cameras.select(in_picture(view, cameras))
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
+    cameras = cut_before_eye(view, mirror_map, cameras)
     cameras, grid = without_hidden(view, cameras)
     cameras, occluded, crowded = without_occluded(view, mirror_map, mirror, cameras, grid)
     cameras = cut_at_horizon(view, mirror_map, cameras)
     progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
                   limited=crowded)
 
+    limits = Limits.of(settings, grid.mirror_pixels, len(met.triangles))
     if settings.method == "POINTS":
-        cameras = refined(view, mirror_map, cameras, met, None, settings, progress)
-        mesh = yield from reflected_points(view, mirror, mirror_map, cameras, tree, met, settings.placement)
+        cameras = refined(view, mirror_map, cameras, met, None, settings.tolerance, limits.cameras, progress)
+        mesh = reflected_points(view, mirror_map, cameras, tree, met, settings.placement, progress)
         progress.done("points", **mesh.counts)
         return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds)
 
     bounces = []
     for number in range(settings.depth):
-        start = 0.15 + 0.8 * number / settings.depth
+        progress.start, progress.share = 0.15 + 0.8 * number / settings.depth, 0.8 / settings.depth
         last = number + 1 == settings.depth
-        steps = bounce_steps(view, mirror_map, cameras, met, settings, last, progress)
-        bounces.append((yield from _shifted(steps, start, 0.8 / settings.depth)))
+        bounces.append(bounced(view, mirror_map, cameras, met, settings, limits, last, progress))
         if not last:
             mirror_map, cameras = bounced_cameras(view, bounces[-1], met)
+            # of mirrors that scatter what they show only the largest parts are followed
+            most = int(limits.bounced * FEWER**number)
+            many = len(cameras) > most
+            if many:
+                largest = np.argsort(-picture_areas(view, cameras), kind="stable")[:most]
+                cameras = cameras.select(np.sort(largest))
             cameras = cut_at_horizon(view, mirror_map, cameras)
-            # mirrors that scatter what they show would be followed without an end
-            many = len(cameras) > min(settings.maximum_faces // FACES_OF_A_CAMERA,
-                                      CAMERAS_OF_A_PIXEL * grid.mirror_pixels + 1000)
             progress.done("cameras", bounced_cameras=len(cameras), bounded=many)
-            if many or not len(cameras):
+            if not len(cameras):
                 break
 
-    yield 0.95, "depth order"
+    progress.start, progress.share = 0.0, 1.0
+    progress.next(0.95, "depth order")
     mesh = in_given_order(assemble(view, bounces, met, settings.placement), tree.given, given)
     progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
+    probes, missed = missed_probes(view, mirror, bounces[0].mirror_map, met, mesh.mirror_position, mesh.triangles)
+    progress.done("probes", probes=probes, missed=missed)
     left = np.concatenate([bounce.left for bounce in bounces], axis=1)
     return replace(mesh, counts=progress.counts, seconds=progress.seconds,
                    estimated_error=_estimate(*left))
@@ -146,16 +160,6 @@ def _estimate(straying: np.ndarray, length: np.ndarray) -> float:
     below = np.cumsum(length[order])
     of_length = straying[order[min(np.searchsorted(below, 0.99 * below[-1]), len(order) - 1)]]
     return float(max(INSIDE * np.percentile(straying, 99), of_length))
-
-
-def _shifted(steps: Generator, start: float, share: float) -> Generator[tuple[float, str], None, Bounce]:
-    """The steps of a part of the work, as steps of the whole."""
-    while True:
-        try:
-            done, stage = next(steps)
-        except StopIteration as end:
-            return end.value
-        yield start + share * done, stage
 
 
 def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,

@@ -68,6 +68,11 @@ class ReflectionMesh:
             object.__setattr__(self, "bounces", np.ones(len(self.triangles), dtype=np.int8))
 
     @property
+    def missing_share(self) -> float:
+        """Share of what the mirror shows, in %, that probes found missing; 0 where nothing was probed."""
+        return 100.0 * self.counts.get("missed", 0) / max(self.counts.get("probes", 0), 1)
+
+    @property
     def filled_share(self) -> float:
         """Share of the mirror's pixels that rays filled, in %."""
         return 100.0 * self.counts.get("filled_pixels", 0) / max(self.counts.get("mirror_pixels", 0), 1)

@@ -7,19 +7,21 @@ so that a cone that touches a triangle meets its leaf even where no vertex of th
 """
 from __future__ import annotations
 
+from collections.abc import Generator
 from dataclasses import dataclass
 
 import numpy as np
 
 from .canonical_order import Order, ordered
 from .cones import Cones
+from .stepping import breathe
 from .triangle_mesh import TriangleMesh
-from .vectors import ranges, rows
+from .vectors import ranges, rows, shares
 
 BUCKET = 16
 FIRST_LEVEL = 4
 STRIDE = 2
-CONES_AT_ONCE = 8192
+CONES_AT_ONCE, NODES_AT_ONCE = 8192, 1 << 18
 
 
 @dataclass(frozen=True)
@@ -91,30 +93,46 @@ class SceneTree:
         visited : int
             Tests of a cone against a node.
         """
-        found, visited = [], 0
+        none = np.zeros(0, dtype=np.int64)
+        found = [(none, none, 0), *self.traced(cones, np.ones(len(cones.radius), dtype=bool))]
+        cone, triangle, visited = zip(*found)
+        return np.concatenate(cone), np.concatenate(triangle), sum(visited)
+
+    def traced(self, cones: Cones, wanted: np.ndarray) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
+        """What `trace` returns, in shares that fit the memory; a cone that is no longer `wanted` (n,) when its turn
+        comes is not followed."""
+        level = min(FIRST_LEVEL, self.depth)
         for start in range(0, len(cones.radius), CONES_AT_ONCE):
             cone = np.arange(start, min(start + CONES_AT_ONCE, len(cones.radius)))
-            level = min(FIRST_LEVEL, self.depth)
-            cone, node = np.repeat(cone, 2**level), np.tile(np.arange(2**level), len(cone))
-            while True:
-                visited += len(cone)
-                sphere = self.spheres[level]
-                touching = cones.touch(cone, np.take(sphere[:3], node, axis=1), sphere[3][node])
-                cone, node = cone[touching], node[touching]
-                if level == self.depth:
-                    break
-                fan = 2 ** min(STRIDE, self.depth - level)
-                level += min(STRIDE, self.depth - level)
-                cone = np.repeat(cone, fan)
-                node = (node[:, None] * fan + np.arange(fan)).ravel()
-            entry, pair = ranges(self.leaf_start[node], self.leaf_start[node + 1] - self.leaf_start[node])
-            cone, triangle = cone[pair], self.leaf_triangles[entry]
+            waiting = [(level, np.repeat(cone, 2**level), np.tile(np.arange(2**level), len(cone)))]
+            while waiting:
+                yield from self._followed(cones, wanted, waiting)
+
+    def _followed(self, cones: Cones, wanted: np.ndarray,
+                  waiting: list) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
+        """One level of the tree for the cones and nodes that have waited least; what comes of them waits in its turn,
+        unless they are leaves."""
+        level, cone, node = waiting.pop()
+        sphere, visited = self.spheres[level], len(cone)
+        touching = wanted[cone] & cones.touch(cone, np.take(sphere[:3], node, axis=1), sphere[3][node])
+        cone, node = cone[touching], node[touching]
+        if level < self.depth:
+            fan = 2 ** min(STRIDE, self.depth - level)
+            below = level + min(STRIDE, self.depth - level)
+            for start in reversed(range(0, max(len(cone), 1), NODES_AT_ONCE)):
+                part = slice(start, start + NODES_AT_ONCE)
+                waiting.append((below, np.repeat(cone[part], fan),
+                                (node[part, None] * fan + np.arange(fan)).ravel()))
+            yield np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), visited
+            return
+        count = self.leaf_start[node + 1] - self.leaf_start[node]
+        for part in shares(count, 4 * NODES_AT_ONCE):
+            entry, pair = ranges(self.leaf_start[node[part]], count[part])
+            own, triangle = cone[part][pair], self.leaf_triangles[entry]
             sphere = np.take(self.triangle_spheres, triangle, axis=1)
-            touching = cones.touch(cone, sphere[:3], sphere[3])
-            found.append((cone[touching], triangle[touching]))
-        if not found:
-            return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), visited
-        return (*(np.concatenate(side) for side in zip(*found)), visited)
+            touching = cones.touch(own, sphere[:3], sphere[3])
+            yield own[touching], triangle[touching], visited
+            visited = 0
 
 
 def median_leaves(points: np.ndarray, depth: int) -> np.ndarray:
@@ -125,6 +143,7 @@ def median_leaves(points: np.ndarray, depth: int) -> np.ndarray:
     width = -(-count // 2**depth)
     order = np.arange(2**depth * width) % count
     for level in range(depth):
+        breathe()
         order = order.reshape(2**level, -1)
         node = points[order]
         axis = np.argmax(node.max(axis=1) - node.min(axis=1), axis=1)

@@ -13,9 +13,11 @@ from .cameras import Cameras
 from .clipping import CONTACT, SCENE_EDGE
 from .contacts import hidden_sides, with_pieces
 from .convex_parts import SMALLEST, ConvexParts, Lines, divide
+from .eye_plane import triangles_before_eye
 from .mirror_map import MirrorMap
 from .mirror_visibility import DepthGrid
 from .scene_frames import SceneFrames
+from .stepping import breathe
 from .triangle_mesh import TriangleMesh
 from .picture_pairs import pairs_in_picture
 from .vectors import cross, dot, groups, norm, ranges, rows, shares
@@ -31,10 +33,13 @@ def without_occluded(view: View, mirror_map: MirrorMap, mirror: TriangleMesh, ca
                      grid: DepthGrid) -> tuple[Cameras, int, int]:
     """Cameras without the parts that other triangles of the mirror hide; how many were cut, and how many are left
     whole, hidden parts and all, for too much of the mirror lies over them."""
-    frames = SceneFrames.of(mirror, np.unique(cameras.face))
+    mirror, owner = triangles_before_eye(view, mirror, np.unique(cameras.face))
+    frames = SceneFrames.of(mirror, np.arange(len(owner)))
     shown = np.ones(len(cameras), dtype=bool)
-    parts = [_hidden_parts(*_hiding(view, cameras, frames, mirror.positions, *pairs), shown)
-             for pairs in pairs_in_picture(view, cameras, frames, mirror, grid, PAIRS_AT_ONCE)]
+    parts = []
+    for pairs in pairs_in_picture(view, cameras, mirror, owner, grid, PAIRS_AT_ONCE):
+        breathe()
+        parts.append(_hidden_parts(*_hiding(view, cameras, frames, mirror.positions, *pairs), shown))
     if not parts:
         return cameras, 0, 0
     count = sum(np.bincount(part[2], minlength=len(cameras)) for part in parts)
@@ -125,6 +130,7 @@ def _seen_pieces(cameras, owner, pieces: ConvexParts, camera, sides) -> tuple[np
     start, stop = (np.searchsorted(camera[order], cameras[owner], side=side) for side in ("left", "right"))
     seen = np.ones(len(owner), dtype=bool)
     for part in shares(stop - start, PAIRS_AT_ONCE):
+        breathe()
         entry, piece = ranges(start[part], (stop - start)[part])
         piece += part.start
         behind = ((sides[:, :, order[entry]] * middle[:, piece]).sum(axis=1) > 0.0).all(axis=0)

@@ -63,7 +63,7 @@ def ranges(starts: np.ndarray, lengths: np.ndarray) -> tuple[np.ndarray, np.ndar
 def shares(lengths: np.ndarray, most: int) -> list[slice]:
     """Parts of runs of `lengths` (n,) that have about `most` entries each, and no run in two of them."""
     before = np.append(0, np.cumsum(lengths))
-    cuts = np.unique(np.append(np.searchsorted(before, np.arange(0, before[-1], most)), len(lengths)))
+    cuts = np.unique(np.concatenate(([0], np.searchsorted(before, np.arange(0, before[-1], most)), [len(lengths)])))
     return [slice(start, stop) for start, stop in zip(cuts[:-1], cuts[1:])]
 
 

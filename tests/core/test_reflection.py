@@ -47,8 +47,10 @@ def test_steps_tell_a_rising_share_and_return_the_mesh(method, placement):
             result = end.value
             break
     shares, stages = zip(*told)
-    assert len(told) >= 5
-    assert (np.diff(shares) > 0.0).all()
+    assert len(set(told)) >= 5
+    # in a stage that takes long the same is told again
+    assert (np.diff(sorted(set(shares))) > 0.0).all() and list(shares) == sorted(shares)
+    assert len(set(shares)) == len(set(told))
     assert shares[0] >= 0.0 and shares[-1] <= 1.0
     assert all(isinstance(stage, str) and stage for stage in stages)
     assert_same(result, mesh_of("sphere", method=method, placement=placement))

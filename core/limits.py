@@ -1,0 +1,77 @@
+"""How much work one reflection may be: what the picture can show of the mirror, and what the memory holds.
+
+All limits are counts, so that the same input gives the same result on any machine. They grow with the picture of the
+mirror and with the meshes, and are several times what scanned and modelled scenes take (docs/outside.md); they are met
+where much lies over one another in few pixels, as in crowds of mirrors. There what is most crowded is shown by rays
+(`crowds`), and the result says so.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .cameras import Cameras
+from .settings import Settings
+from .view import View
+
+CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES = 1200, 160, 480  # of the arrays that each takes at most at one time
+LEAST_WORTH = 1.0 / 16.0  # square pixels: no camera counts for less
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Largest counts.
+
+    Attributes
+    ----------
+    cameras : int
+        After the refinement of the mirror.
+    pairs : int
+        Of cones and triangles that touch.
+    candidates : int
+        Of cameras and triangles that overlap.
+    work : int
+        Candidates, each counted once more for every four mirrors that may hide it.
+    faces : int
+    rays : int
+        Through crowded cameras.
+    bounced : int
+        Cameras of a later bounce.
+    """
+
+    cameras: int
+    pairs: int
+    candidates: int
+    work: int
+    faces: int
+    rays: int
+    bounced: int
+
+    @classmethod
+    def of(cls, settings: Settings, pixels: int, triangles: int) -> Limits:
+        """Limits for a mirror that is seen in so many pixels, of meshes with so many `triangles` altogether."""
+        memory, faces = 1e9 * settings.maximum_memory, settings.maximum_faces
+        return cls(int(min(10_000 + 4 * pixels + 4 * triangles, faces)),
+                   int(min(1_000_000 + 16 * pixels + 16 * triangles, memory / PAIR_BYTES)),
+                   int(min(100_000 + 8 * pixels + 4 * triangles, memory / CANDIDATE_BYTES, faces)),
+                   int(50_000 + 10 * pixels + 8 * triangles),
+                   int(min(memory / FACE_BYTES, faces)),
+                   int(min(8000 + pixels, 250_000, faces)), int(min(4000 + 2 * pixels, faces // 16)))
+
+
+def crowded(count: np.ndarray, worth: np.ndarray, most: int) -> np.ndarray:
+    """Which of those that have `count` (n,) entries each are left out, so that no more than `most` entries are left:
+    those first that have the most of them for their `worth` (n,)."""
+    out = np.zeros(len(count), dtype=bool)
+    if count.sum() > most:
+        order = np.argsort(count / worth, kind="stable")
+        out[order] = np.cumsum(count[order]) > most
+    return out
+
+
+def picture_areas(view: View, cameras: Cameras) -> np.ndarray:
+    """What cameras (n,) are worth: the pixels that they cover, up to those of the whole picture, and a little more."""
+    pixels = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
+    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
+    return LEAST_WORTH + 0.5 * np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])

@@ -1,0 +1,98 @@
+"""Long work in steps: whoever started it may draw, or stop it, wherever it has come to.
+
+The work runs on a stack of its own, a thread that never runs beside the one that waits for it: each hands over to the
+other and waits in its turn. So any function may let the caller breathe, however deep in the work it is, without being a
+generator itself; outside of such work that does nothing.
+"""
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Generator
+from time import perf_counter
+from typing import TypeVar
+
+INTERVAL = 0.1  # seconds of work after which the next breath hands over
+PATIENCE = 2.0  # seconds that an interrupted caller waits for the work to notice
+Result = TypeVar("Result")
+_here = threading.local()
+
+
+class _Stopped(BaseException):
+    """Unwinds work that nobody waits for any more."""
+
+
+def breathe() -> None:
+    """Let the caller of the work have its turn, if it has waited long enough."""
+    work = getattr(_here, "work", None)
+    if work is not None and (work.stopped or perf_counter() - work.resumed > INTERVAL):
+        work.hand_over()
+
+
+def tell(share: float, stage: str) -> None:
+    """Let the caller of the work know how much of it is done, 0 to 1, and what comes next."""
+    work = getattr(_here, "work", None)
+    if work is not None:
+        work.told = share, stage
+        work.hand_over()
+
+
+def in_steps(work: Callable[[], Result]) -> Generator[tuple[float, str], None, Result]:
+    """What `work` returns, in steps: yields what it told last, (share, stage), at every stage and several times a
+    second in long ones. Closing the generator, or an error in the caller, stops the work at its next breath."""
+    running = _Work(work)
+    try:
+        while running.go_on():
+            yield running.told
+    finally:
+        running.stop()
+    if running.error is not None:
+        raise running.error
+    return running.result
+
+
+class _Work:
+    """Work on its own stack, and whose turn it is."""
+
+    def __init__(self, work: Callable[[], Result]) -> None:
+        self.told, self.resumed, self.stopped, self.ended = (0.0, ""), 0.0, False, False
+        self.result, self.error = None, None
+        self._work = work
+        self._mine, self._callers = threading.Semaphore(0), threading.Semaphore(0)
+        self._thread = threading.Thread(target=self._run, name="reflection", daemon=True)
+
+    def go_on(self) -> bool:
+        """Give the work its turn and wait for ours; whether it goes on after that."""
+        if self._thread.ident is None:
+            self._thread.start()
+        self._mine.release()
+        self._callers.acquire()
+        return not self.ended
+
+    def hand_over(self) -> None:
+        """Called by the work: give the caller its turn and wait for the next."""
+        if not self.stopped:
+            self._callers.release()
+            self._mine.acquire()
+        if self.stopped:
+            raise _Stopped
+        self.resumed = perf_counter()
+
+    def stop(self) -> None:
+        """End the work without a result."""
+        if self.ended or self._thread.ident is None:
+            return
+        self.stopped = True
+        self._mine.release()
+        self._thread.join(PATIENCE)
+
+    def _run(self) -> None:
+        self._mine.acquire()
+        _here.work, self.resumed = self, perf_counter()
+        try:
+            self.result = self._work()
+        except _Stopped:
+            pass
+        except BaseException as error:  # whatever it is, it belongs to the caller
+            self.error = error
+        self.ended = True
+        self._callers.release()
