@@ -9,7 +9,7 @@ from .mirror_map import MirrorMap
 from .placement import place
 from .reflection_mesh import ReflectionMesh
 from .scene_frames import SceneFrames
-from .settling import brought_back, lies_outside
+from .settling import brought_back, distance_from
 from .vectors import groups, norm, rows
 from .view import View
 
@@ -98,17 +98,20 @@ def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, 
 def _on_mirror(mirror_map: MirrorMap, face: np.ndarray, triangles: np.ndarray, seen: np.ndarray) -> np.ndarray:
     """Places (3, n) of vertices, those that lie on the mirror triangle of no face (f,) that has them brought back to
     it: an image may lie beside the mirror by as much as straight outlines may miss."""
+    if not len(face):
+        return seen
     owner = np.zeros(seen.shape[1], dtype=np.int64)
     owner[triangles.ravel()] = np.repeat(face, 3)
-    out = lies_outside(mirror_map.coordinates(owner, seen))
-    corner = np.flatnonzero(out[triangles.ravel()])
+    room = OFF_MIRROR * np.ptp(seen, axis=1).max()
+    off = distance_from(mirror_map, owner, seen) > room
+    corner = np.flatnonzero(off[triangles.ravel()])
     if not len(corner):
         return seen
     vertex = triangles.ravel()[corner]
-    size = np.ptp(seen, axis=1).max()
-    moved, away = brought_back(mirror_map, face[corner // 3], seen[:, vertex], OFF_MIRROR * size)
+    moved, away = brought_back(mirror_map, face[corner // 3], seen[:, vertex])
     order = np.lexsort((away, vertex))
-    found, first = np.unique(vertex[order], return_index=True)
+    order = order[np.flatnonzero(np.diff(vertex[order], prepend=-1))]
+    order = order[away[order] > room]
     seen = seen.copy()
-    seen[:, found] = moved[:, order[first]]
+    seen[:, vertex[order]] = moved[:, order]
     return seen

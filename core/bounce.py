@@ -18,7 +18,7 @@ from .face_refinement import FaceRefinement
 from .filling import fill, fill_openings
 from .horizon import beyond_horizon
 from .images import vertex_images
-from .limits import Limits
+from .limits import Limits, pixels_of
 from .met_surfaces import MetSurfaces
 from .mirror_refinement import refine_mirror
 from .mirror_occlusion import cut_behind_mirrors
@@ -134,6 +134,9 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
                                                                            candidates, crowds, met, limits.rays)
         open_ = np.concatenate((open_, np.zeros(crowd_cells, dtype=bool)))
         progress.done("crowds", crowded=crowded, crowd_rays=crowd_rays)
+        cells = cameras.select(slice(len(cameras) - crowd_cells, None))
+        shown = ~met.shows_mirror(frames)[candidates.column[len(candidates) - crowd_cells:]]
+        progress.done("crowds", filled_pixels=round(float(pixels_of(view, cells)[shown].sum())))
 
     progress.next(0.5, "clipping")
     polygons, rays = fill(mirror_map, cameras, frames, candidates, clip(candidates), open_)

@@ -71,7 +71,12 @@ def crowded(count: np.ndarray, worth: np.ndarray, most: int) -> np.ndarray:
 
 
 def picture_areas(view: View, cameras: Cameras) -> np.ndarray:
-    """What cameras (n,) are worth: the pixels that they cover, up to those of the whole picture, and a little more."""
+    """What cameras (n,) are worth: the pixels that they cover, and a little more."""
+    return LEAST_WORTH + pixels_of(view, cameras)
+
+
+def pixels_of(view: View, cameras: Cameras) -> np.ndarray:
+    """About how many pixels of the picture cameras (n,) cover."""
     pixels = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
     u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
-    return LEAST_WORTH + 0.5 * np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+    return 0.5 * np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])

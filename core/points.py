@@ -18,7 +18,7 @@ from .mirror_map import MirrorMap
 from .placement import place as placed
 from .point_tree import PointTree
 from .reflection_mesh import ReflectionMesh
-from .settling import settle
+from .settling import drawn_in, settle
 from .vectors import norm, rows
 from .view import View
 
@@ -50,6 +50,8 @@ def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: 
     face = cameras.face[images.camera]
     face, uv, distance, real = settle(mirror_map, face, mirror_map.coordinates(face, images.place),
                                       images.distance, rows(positions[images.vertex]))
+    # what lies between two triangles is shown on the edge of one
+    uv = drawn_in(uv)
     place = mirror_map.places(face, uv)
     images = VertexImages(images.vertex, images.camera, distance, place, view.pixels(place.T))
     # of one image, that which stands for most is kept

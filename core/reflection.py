@@ -132,12 +132,12 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
             mirror_map, cameras = bounced_cameras(view, bounces[-1], met)
             # of mirrors that scatter what they show only the largest parts are followed
             most = int(limits.bounced * FEWER**number)
-            many = len(cameras) > most
-            if many:
+            found = len(cameras)
+            if found > most:
                 largest = np.argsort(-picture_areas(view, cameras), kind="stable")[:most]
                 cameras = cameras.select(np.sort(largest))
             cameras = cut_at_horizon(view, mirror_map, cameras)
-            progress.done("cameras", bounced_cameras=len(cameras), bounded=many)
+            progress.done("cameras", bounced_cameras=len(cameras), unfollowed=max(found - most, 0))
             if not len(cameras):
                 break
 

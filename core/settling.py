@@ -46,31 +46,30 @@ def settle(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarra
     return face, uv, s, found
 
 
-def lies_outside(uv: np.ndarray) -> np.ndarray:
-    """Which places (u, v) lie outside their triangle by more than rounding."""
-    return _least(uv)[0] < -INSIDE
+def drawn_in(uv: np.ndarray) -> np.ndarray:
+    """Places (u, v), those outside of their triangle drawn to its rim."""
+    uv = np.maximum(uv, 0.0)
+    return uv / np.maximum(uv.sum(axis=0), 1.0)
 
 
-def brought_back(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray,
-                 room: float) -> tuple[np.ndarray, np.ndarray]:
-    """Places (3, n) that belong to triangles `face` (n,), those farther than `room` from them and from the triangle
-    beyond the edge that they left by brought back to the nearer of the two; and how far each was from it."""
-    places, away = places.copy(), np.zeros(len(face))
-    least, corner = _least(mirror_map.coordinates(face, places))
-    out = np.flatnonzero(least < -INSIDE)
-    beyond = mirror_map.across[face[out], corner[out]]
-    near, gap = _nearest(mirror_map, face[out], places[:, out])
-    other, other_gap = _nearest(mirror_map, np.where(beyond >= 0, beyond, face[out]), places[:, out])
-    near, away[out] = np.where(other_gap < gap, other, near), np.minimum(gap, other_gap)
-    far = away[out] > room
-    places[:, out[far]] = near[:, far]
-    return places, away
+def distance_from(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """How far places (3, n) are from the triangles `face` (n,) that they belong to."""
+    return _nearest(mirror_map, face, places)[1]
+
+
+def brought_back(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The nearest to each of the places (3, n) on its triangle (n,) or on the one beyond the edge that it left by, and
+    how far away that is."""
+    _, corner = _least(mirror_map.coordinates(face, places))
+    beyond = mirror_map.across[face, corner]
+    near, gap = _nearest(mirror_map, face, places)
+    other, other_gap = _nearest(mirror_map, np.where(beyond >= 0, beyond, face), places)
+    return np.where(other_gap < gap, other, near), np.minimum(gap, other_gap)
 
 
 def _nearest(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Places (3, n) drawn into the triangles, and how far that moves them."""
-    uv = np.maximum(mirror_map.coordinates(face, places), 0.0)
-    drawn = mirror_map.places(face, uv / np.maximum(uv.sum(axis=0), 1.0))
+    drawn = mirror_map.places(face, drawn_in(mirror_map.coordinates(face, places)))
     return drawn, norm(drawn - places)
 
 
