@@ -23,6 +23,7 @@ from .view import View
 
 LEVELS = 10
 SHORTEST_EDGE = 0.25  # pixels
+MARGIN = 2.0  # pixels round the picture: nobody sees an edge beyond
 STRETCH = 4.0
 NEAR_MIDDLE = 0.45  # of an edge: how far from its middle it may be split
 
@@ -89,8 +90,10 @@ class FaceRefinement:
         drift, error, point, distance = self._straying(mirror_face, uv, column, shown)
         worth = np.zeros(len(ends), dtype=bool)
         worth[edge[~self.beyond[faces.camera]]] = True
-        drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
         pixels = self.view.pixels(nodes.place.T)
+        beyond = np.concatenate((pixels < -MARGIN, pixels > np.add(self.view.resolution, MARGIN)), axis=1)
+        worth[open_] &= ~(beyond[a] & beyond[b]).any(axis=1)
+        drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
         length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
         # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight
         outline = np.zeros(len(ends), dtype=bool)

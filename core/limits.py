@@ -15,7 +15,7 @@ from .cameras import Cameras
 from .settings import Settings
 from .view import View
 
-CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES = 1200, 160, 480  # of the arrays that each takes at most at one time
+CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES = 1200, 160, 1100  # of the arrays that each takes at most at one time
 LEAST_WORTH = 1.0 / 16.0  # square pixels: no camera counts for less
 
 
@@ -56,7 +56,7 @@ class Limits:
                    int(min(1_000_000 + 16 * pixels + 16 * triangles, memory / PAIR_BYTES)),
                    int(min(100_000 + 8 * pixels + 4 * triangles, memory / CANDIDATE_BYTES, faces)),
                    int(50_000 + 10 * pixels + 8 * triangles),
-                   int(min(memory / FACE_BYTES, faces)),
+                   int(min(200_000 + 32 * pixels + 16 * triangles, memory / FACE_BYTES, faces)),
                    int(min(8000 + pixels, 250_000, faces)), int(min(4000 + 2 * pixels, faces // 16)))
 
 
