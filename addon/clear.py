@@ -3,8 +3,9 @@ from __future__ import annotations
 
 import bpy
 
-from .disc_nodes import hide_discs
+from .disc_nodes import disc_nodes, forget_nodes
 from .roles import results_of
+from .unforeseen import in_one_sentence
 from .write_object import show_to_camera
 
 
@@ -21,14 +22,19 @@ def clear(context: bpy.types.Context, results: list) -> None:
     """Remove `results` with their meshes, unless something else uses those, and show mirrors without a result again."""
     layer = context.view_layer
     active = layer.objects.active
+    mirror = active.reflection_mesh.mirror if active in results else None
+    meshes = {obj.data for obj in results if isinstance(obj.data, bpy.types.Mesh)}
+    nodes = {disc_nodes(obj) for obj in results}
+    # from here on nothing can fail, so that results go all or none
+    if mirror is not None and mirror.name in layer.objects:
+        layer.objects.active = mirror
     for obj in results:
-        mirror, mesh = obj.reflection_mesh.mirror, obj.data
-        if obj == active and mirror is not None and mirror.name in layer.objects:
-            layer.objects.active = mirror
-        hide_discs(obj)
         bpy.data.objects.remove(obj)
+    for mesh in meshes:
         if mesh.users == 0:
             bpy.data.meshes.remove(mesh)
+    for group in nodes:
+        forget_nodes(group)
     for obj in context.scene.objects:
         if obj.reflection_mesh.camera_hidden and not results_of(context, obj):
             show_to_camera(obj)
@@ -41,6 +47,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
     bl_label = "Clear Reflections"
     bl_options = {"REGISTER", "UNDO"}
 
+    @in_one_sentence
     def execute(self, context: bpy.types.Context) -> set:
         if context.mode != "OBJECT":
             self.report({"ERROR"}, "Reflections are cleared in Object Mode: leave the present mode first.")

@@ -5,6 +5,7 @@ import argparse
 import os
 import sys
 import time
+from collections.abc import Iterator
 
 import bpy
 
@@ -12,25 +13,33 @@ from .. import core
 from . import benchmark
 from .compare import compare
 from .compare import summary as comparison
+from .files import check_place, save_blend, staged
 from .generate import Outcome, generation
-from .properties import METHODS, PLACEMENTS
+from .interrupts import STATUS
+from .properties import METHODS, PLACEMENTS, settings_of
 from .roles import Participants, choose
+from .unforeseen import sentence
 
 COMMAND = "reflection_mesh"
 _commands = []
 
 
-def run(arguments: list[str]) -> int:
-    """Run one verb on the open file; returns the exit status, 0 only on success."""
+def run(arguments: list[str], scene: str | None = None) -> int:
+    """Run one verb on the open file, or on the one at `scene`; returns the exit status, 0 only on success."""
     try:
         options = _parser().parse_args(arguments)
     except SystemExit as stop:
         # asking for help is a success, a wrong argument is not; argparse has said what is wrong
         return int(stop.code or 0)
     try:
+        if scene is not None:
+            _open(scene)
         options.work(bpy.context, options)
-    except (core.ReflectionError, RuntimeError, OSError, MemoryError) as error:
-        print(f"Error: {str(error).removeprefix('Error: ').strip() or 'the memory does not suffice'}", file=sys.stderr)
+    except KeyboardInterrupt:
+        print("Interrupted: nothing has been saved.", file=sys.stderr)
+        return STATUS
+    except Exception as error:
+        print(f"Error: {sentence(error, repr(options.verb), 'nothing has been saved')}", file=sys.stderr)
         return 1
     return 0
 
@@ -76,25 +85,18 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--placement", choices=[item[0] for item in PLACEMENTS], default="LAYERED")
     parser.add_argument("--method", choices=[item[0] for item in METHODS], default="GENERAL")
     parser.add_argument("--depth", type=int, default=1, metavar="BOUNCES", help="followed from mirror to mirror")
-
-
-def _settings(options: argparse.Namespace) -> core.Settings:
-    try:
-        return core.Settings(options.tolerance, options.placement, options.method, options.depth)
-    except ValueError as error:
-        raise core.ReflectionError(str(error)) from error
+    parser.add_argument("--memory", type=float, default=2.0, metavar="GB",
+                        help="what would need more is worked out more coarsely, or refused (2)")
 
 
 def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     if not (options.output or bpy.data.filepath):
         raise core.ReflectionError("There is no file to save to: open a .blend file or name one with --output.")
     started = time.perf_counter()
-    settings = _settings(options)
-    outcome = _announced(generation(context, _chosen(context, options), settings))
-    if options.output:
-        bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(options.output), copy=True)
-    else:
-        bpy.ops.wm.save_mainfile()
+    path = os.path.abspath(options.output or bpy.data.filepath)
+    check_place(path)
+    outcome = _announced(generation(context, _chosen(context, options), settings_of(options)))
+    save_blend(path)
     for remark in outcome.remarks:
         print(remark)
     print(outcome.summary(time.perf_counter() - started))
@@ -137,7 +139,7 @@ def _compare(context: bpy.types.Context, options: argparse.Namespace) -> None:
         raise core.ReflectionError("A comparison takes at least one sample: raise --samples.")
     folder = os.path.abspath(folder)
     samples = 0 if options.scene_samples else options.samples
-    print(comparison(compare(context, folder, samples, _settings(options)), folder))
+    print(comparison(compare(context, folder, samples, settings_of(options)), folder))
 
 
 def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:
@@ -146,19 +148,33 @@ def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:
         raise core.ReflectionError("The benchmark has no folder: open a .blend file or name one with --output.")
     folder = os.path.abspath(options.output or bpy.path.abspath("//reflection benchmark"))
     chosen = benchmark.Options(tuple(options.methods), options.budget, options.resolution, options.samples, _tell)
-    files = [os.path.abspath(path) for path in options.scenes]
-    scenes = []
-    for path in files or [bpy.data.filepath]:
-        if files:
-            bpy.ops.wm.open_mainfile(filepath=path, use_scripts=False)
-        name = os.path.splitext(os.path.basename(path))[0] or "scene"
-        scenes.append(benchmark.scene_report(bpy.context, name, os.path.join(folder, name) if files else folder,
-                                             chosen))
-    benchmark.write_benchmark(folder, scenes, chosen, growth=options.growth, work=not options.no_work, since=started,
-                              tell=_tell)
+    with staged(folder) as scratch:
+        scenes = [benchmark.scene_report(bpy.context, name, os.path.join(scratch, inner), chosen)
+                  for name, inner in _opened(options.scenes)]
+        benchmark.write_benchmark(scratch, scenes, chosen, growth=options.growth, work=not options.no_work,
+                                  since=started, tell=_tell)
     for scene in scenes:
         print(f"{scene.name}: {scene.summary[0]}")
     print(os.path.join(folder, "report.html"))
+
+
+def _opened(files: list[str]) -> Iterator[tuple[str, str]]:
+    """Open one file after another: each one's name, and the folder of its pictures; the open file alone where none."""
+    if not files:
+        yield os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "scene", ""
+    for path in files:
+        _open(path)
+        name = os.path.splitext(os.path.basename(path))[0]
+        yield name, name
+
+
+def _open(path: str) -> None:
+    """Open a file, whose scripts stay off."""
+    try:
+        bpy.ops.wm.open_mainfile(filepath=os.path.abspath(path), use_scripts=False)
+    except RuntimeError as error:
+        reason = " ".join(str(error).removeprefix("Error: ").split()).rstrip(".")
+        raise core.ReflectionError(f"'{path}' cannot be opened ({reason}): name a .blend file.") from error
 
 
 def _tell(line: str) -> None:

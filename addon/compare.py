@@ -8,17 +8,20 @@ import bpy
 import numpy as np
 
 from ..core import ReflectionError, Settings
+from .all_or_nothing import AllOrNothing
 from .clear import clear
 from .compare_numbers import measure, without_packing
 from .compare_pictures import render_comparison
 from .compare_report import write_report
 from .cycles_scene import copied_scene
+from .files import staged
 from .generate import generation
 from .picture_metrics import picture_errors
-from .properties import depth_property, method_property, placement_property, tolerance_property
+from .properties import SettingsProperties, settings_of
 from .read_view import read_view
 from .roles import Participants, participants, results_of
 from .show_comparison import load_pictures, remember, show_picture
+from .unforeseen import in_one_sentence
 
 # Blender 4.5 and newer want to be told that a path may start with "//"; older ones do not know the word
 RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
@@ -58,24 +61,17 @@ def compare(context: bpy.types.Context, folder: str, samples: int = 16, settings
     hidden = [result for result in earlier if result.hide_render or not result.visible_get()]
     if hidden:
         raise ReflectionError(f"The reflection '{hidden[0].name}' is hidden: show it in the viewport and in renders.")
-    try:
-        os.makedirs(folder, exist_ok=True)
-    except OSError as error:
-        raise ReflectionError(f"The folder '{folder}' cannot be made: choose another one.") from error
-    if not os.access(folder, os.W_OK):
-        raise ReflectionError(f"The folder '{folder}' cannot be written: choose another one.")
-    started = time.perf_counter()
-    missing = [mirror for mirror in mirrors if not results_of(context, mirror)]
-    if missing:
-        for _ in generation(context, Participants(missing, diffuse, []), settings):
-            pass
-    results = [result for mirror in mirrors for result in results_of(context, mirror)]
-    try:
-        return _judged(context, Participants(mirrors, diffuse, []), results, folder, samples, started)
-    except BaseException:
-        # an error or ESC leaves no reflection behind that was made for this comparison alone
-        clear(context, [result for result in results if result not in earlier])
-        raise
+    with AllOrNothing() as whole, staged(folder) as scratch:
+        started = time.perf_counter()
+        missing = [mirror for mirror in mirrors if not results_of(context, mirror)]
+        if missing:
+            for _ in generation(context, Participants(missing, diffuse, []), settings):
+                pass
+        results = [result for mirror in mirrors for result in results_of(context, mirror)]
+        if missing:
+            # an error or ESC leaves no reflection behind that was made for this comparison alone
+            whole.undo(clear, context, [result for result in results if result not in earlier])
+        return _judged(context, Participants(mirrors, diffuse, []), results, scratch, samples, started)
 
 
 def _judged(context: bpy.types.Context, chosen: Participants, results: list, folder: str, samples: int,
@@ -103,7 +99,7 @@ def _judged(context: bpy.types.Context, chosen: Participants, results: list, fol
     return report
 
 
-class REFLECTIONMESH_OT_compare(bpy.types.Operator):
+class REFLECTIONMESH_OT_compare(SettingsProperties, bpy.types.Operator):
     """Compare the reflections with Cycles; leaves pictures and errors in pixels in a folder"""
 
     bl_idname = "reflection_mesh.compare"
@@ -115,15 +111,12 @@ class REFLECTIONMESH_OT_compare(bpy.types.Operator):
                                        options=RELATIVE_PATH)
     samples: bpy.props.IntProperty(name="Samples", default=16, min=0, soft_max=1024,
                                    description="Samples per pixel of the two pictures; 0: as the scene is set")
-    tolerance: tolerance_property()
-    placement: placement_property()
-    method: method_property()
-    depth: depth_property()
 
     def invoke(self, context, event):
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
+    @in_one_sentence
     def execute(self, context):
         if self.filepath.startswith("//") and not bpy.data.filepath:
             self.report({"ERROR"}, "The file has not been saved: save it, or choose an absolute folder.")
@@ -132,12 +125,7 @@ class REFLECTIONMESH_OT_compare(bpy.types.Operator):
             self.report({"ERROR"}, "No folder is named: choose one for the pictures and the report.")
             return {"CANCELLED"}
         folder = os.path.abspath(bpy.path.abspath(self.filepath))
-        try:
-            settings = Settings(self.tolerance, self.placement, self.method, self.depth)
-            report = compare(context, folder, self.samples, settings)
-        except ValueError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        report = compare(context, folder, self.samples, settings_of(self))
         remember(context.scene, report, folder)
         if not bpy.app.background:
             show_picture(context.window_manager, load_pictures(folder)[-1])

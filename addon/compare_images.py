@@ -1,14 +1,16 @@
 """The pictures of a comparison, as files and as parts of its page."""
 from __future__ import annotations
 
+import errno
 import os
-import tempfile
+from contextlib import suppress
 
 import bpy
 import numpy as np
 
 from .colour_map import heat_map
 from .compare_numbers import Measurement
+from .files import is_whole
 from .png_file import png_bytes
 from .report_data import Picture
 
@@ -24,6 +26,8 @@ def comparison_pictures(folder: str, scene: bpy.types.Scene, reference: np.ndarr
 
     Parameters
     ----------
+    folder : str
+        A folder for results that are not whole yet, as `files.staged` gives it.
     scene : bpy.types.Scene
         A temporary scene whose view settings are those of the user; its image settings are changed.
     reference, result : (height, width, 3) float32
@@ -38,13 +42,13 @@ def comparison_pictures(folder: str, scene: bpy.types.Scene, reference: np.ndarr
     box = surroundings(mirror)
     maps = _maps(difference[box], measurement.displacement[box], coverage[box])
     small = {}
-    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as scratch:
-        for name, linear in (("reference", reference), ("result", result)):
-            _save(os.path.join(folder, f"{name}.png"), scene, linear, "PNG")
-            path = os.path.join(scratch, f"{name}.jpg")
-            _save(path, scene, linear, "JPEG")
-            with open(path, "rb") as file:
-                small[name] = file.read()
+    for name, linear in (("reference", reference), ("result", result)):
+        _save(os.path.join(folder, f"{name}.png"), scene, linear, "PNG")
+        path = os.path.join(folder, f"{name}.jpg")
+        _save(path, scene, linear, "JPEG")
+        with open(path, "rb") as file:
+            small[name] = file.read()
+        os.unlink(path)
     return (
         Picture("reference", "Cycles", "The mirror is traced.", small["reference"], "image/jpeg"),
         Picture("result", "With the reflection mesh", "The mesh lies before a mirror that reflects the world alone.",
@@ -110,6 +114,9 @@ def _save(path: str, scene: bpy.types.Scene, linear: np.ndarray, kind: str) -> N
         rgba = np.ones((height, width, 4), dtype=np.float32)
         rgba[..., :3] = linear
         image.pixels.foreach_set(rgba.ravel())
-        image.save_render(path, scene=scene)
+        with suppress(RuntimeError):
+            image.save_render(path, scene=scene)
+        if not is_whole(path):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), path)
     finally:
         bpy.data.images.remove(image)

@@ -1,18 +1,20 @@
 """Dresses a copied scene for its renders: in codes that say what each pixel shows, and in its own materials."""
 from __future__ import annotations
 
-import json
 import time
 from typing import NamedTuple
 
 import bpy
 import numpy as np
 
-from . import compat, cycles_render
+from ..core import ReflectionError
+from . import compat, cycles_render, records
 from .compare_numbers import CodedPicture
 from .cycles_codes import CodedMaterials
 from .cycles_scene import CopiedScene
 from .cycles_truth import CodedTruth, decode, dress, lowest_corner, polygons, reflecting, show
+
+DEEPEST = 1000  # bounces that are followed; Cycles knows 1024, four of them for other rays
 
 
 class Renders(NamedTuple):
@@ -45,7 +47,7 @@ class Renders(NamedTuple):
 def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: list, results: list,
                       samples: int) -> Renders:
     """Render the copied scene in codes and in its own materials; `samples` as in `compare`."""
-    depth = max((json.loads(result.reflection_mesh.counts or "{}").get("depth", 1) for result in results), default=1)
+    depth = min(max((records.counts(result).get("depth", 1) for result in results), default=1) or 1, DEEPEST)
     cycles_render.prepare(copied.scene, depth)
     _code_results(copied, results, diffuse, polygons(context, diffuse))
     own = [(slot, slot.material) for copy in copied.everything for slot in copy.material_slots]
@@ -63,9 +65,7 @@ def _code_results(copied: CopiedScene, results: list, diffuse: list, polygons: l
     for copy, index in copied.results:
         mesh, sources = copy.data, [item.object for item in results[index].reflection_mesh.sources]
         count = len(mesh.polygons)
-        source, face = (np.empty(count, dtype=np.int32) for _ in range(2))
-        mesh.attributes["source_object"].data.foreach_get("value", source)
-        mesh.attributes["source_face"].data.foreach_get("value", face)
+        source, face = (_face_numbers(mesh, name, results[index]) for name in ("source_object", "source_face"))
         code = np.zeros((count, 3), dtype=np.float32)
         for position, obj in enumerate(sources):
             own = source == position
@@ -77,6 +77,16 @@ def _code_results(copied: CopiedScene, results: list, diffuse: list, polygons: l
             code[known, 1] = table[face[known]] if known.any() else -1.0
         code[:, 1] += 1.0
         mesh.attributes.new("reflection_code", "FLOAT_VECTOR", "FACE").data.foreach_set("vector", code.ravel())
+
+
+def _face_numbers(mesh: bpy.types.Mesh, name: str, result: bpy.types.Object) -> np.ndarray:
+    """An attribute of a result's faces, which whoever works on the mesh may have lost."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or (attribute.data_type, attribute.domain) != ("INT", "FACE"):
+        raise ReflectionError(f"The faces of '{result.name}' do not know any more what they show: generate it again.")
+    values = np.empty(len(mesh.polygons), dtype=np.int32)
+    attribute.data.foreach_get("value", values)
+    return values
 
 
 def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> tuple:

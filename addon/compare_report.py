@@ -21,7 +21,7 @@ def write_report(folder: str, scene: bpy.types.Scene, reference: np.ndarray, res
     Parameters
     ----------
     folder : str
-        An existing folder.
+        A folder for results that are not whole yet, as `files.staged` gives it.
     scene : bpy.types.Scene
         A temporary scene whose view settings are those of the user; its image settings are changed.
     reference, result : (height, width, 3) float32

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -10,6 +9,9 @@ import bpy
 import numpy as np
 
 from ..core import ReflectionError
+from .files import has_room, is_whole, scratch_folder, scratch_is_full
+from .interrupts import interrupt_held
+from .read_view import render_size
 
 SLOT = "Reflection Comparison"
 OWN_SETTINGS = ("samples", "use_adaptive_sampling", "adaptive_threshold", "adaptive_min_samples", "use_denoising",
@@ -74,12 +76,18 @@ def render_picture(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) 
 
 def _render(scene: bpy.types.Scene) -> np.ndarray:
     # A file, since a render result has no pixels to read without a window.
-    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as folder, _slot_of_its_own():
+    with scratch_folder() as folder, _slot_of_its_own():
         path = os.path.join(folder, "render.exr")
         scene.render.filepath = path
-        _write_still(scene)
-        if not os.path.exists(path):
+        with interrupt_held():
+            _write_still(scene)
+        if os.path.exists(path):
+            if not is_whole(path):
+                raise scratch_is_full()
+        elif has_room(folder, _largest(scene)):
             raise ReflectionError("The render was cancelled: the comparison is left out, nothing has changed.")
+        else:
+            raise scratch_is_full()
         image = bpy.data.images.load(path)
         try:
             image.colorspace_settings.name = "Non-Color"
@@ -89,6 +97,12 @@ def _render(scene: bpy.types.Scene) -> np.ndarray:
             return pixels.reshape(height, width, -1)[..., :3].copy()
         finally:
             bpy.data.images.remove(image)
+
+
+def _largest(scene: bpy.types.Scene) -> int:
+    """The most bytes that a picture takes in a file."""
+    width, height = render_size(scene)
+    return width * height * 3 * 4 + 20 * height + 10_000
 
 
 def _write_still(scene: bpy.types.Scene) -> None:

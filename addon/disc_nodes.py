@@ -5,19 +5,26 @@ import math
 
 import bpy
 
+from .all_or_nothing import AllOrNothing
+
 MODIFIER = "Reflection Points"
 SIDES = 6  # of a disc; it is the polygon round the circle, so that discs that touch leave no gap
 FACE_NUMBERS = ("source_object", "source_face", "mirror_face")
 
 
-def show_discs(obj: bpy.types.Object, uv_maps: list) -> None:
-    """Give `obj`, whose mesh holds loose points, the modifier that draws their discs."""
+def show_discs(obj: bpy.types.Object, uv_maps: list, whole: AllOrNothing) -> None:
+    """Give `obj`, whose mesh holds loose points, the modifier that draws their discs; `whole` takes it back."""
+    tree = bpy.data.node_groups.new(f"{obj.name} Points", "GeometryNodeTree")
+    whole.undo(bpy.data.node_groups.remove, tree)
+    _draw_discs(tree, uv_maps)
     modifier = _modifier_of(obj)
     if modifier is None:
         modifier = obj.modifiers.new(MODIFIER, "NODES")
+        whole.undo(obj.modifiers.remove, modifier)
     old = modifier.node_group
-    modifier.node_group = _disc_group(f"{obj.name} Points", uv_maps)
-    _forget(old)
+    whole.undo(setattr, modifier, "node_group", old)
+    modifier.node_group = tree
+    whole.after(forget_nodes, old)
 
 
 def hide_discs(obj: bpy.types.Object) -> None:
@@ -26,7 +33,19 @@ def hide_discs(obj: bpy.types.Object) -> None:
     if modifier is not None:
         old = modifier.node_group
         obj.modifiers.remove(modifier)
-        _forget(old)
+        forget_nodes(old)
+
+
+def disc_nodes(obj: bpy.types.Object) -> bpy.types.NodeTree | None:
+    """The nodes that draw the discs of `obj`; None where there are none."""
+    modifier = _modifier_of(obj)
+    return None if modifier is None else modifier.node_group
+
+
+def forget_nodes(group: bpy.types.NodeTree | None) -> None:
+    """Remove nodes that nothing uses any more."""
+    if group is not None and group.users == 0 and group.library is None:
+        bpy.data.node_groups.remove(group)
 
 
 def _modifier_of(obj: bpy.types.Object) -> bpy.types.Modifier | None:
@@ -34,14 +53,8 @@ def _modifier_of(obj: bpy.types.Object) -> bpy.types.Modifier | None:
     return found if found is not None and found.type == "NODES" else None
 
 
-def _forget(group: bpy.types.NodeTree | None) -> None:
-    if group is not None and group.users == 0 and group.library is None:
-        bpy.data.node_groups.remove(group)
-
-
-def _disc_group(name: str, uv_maps: list) -> bpy.types.NodeTree:
+def _draw_discs(tree: bpy.types.NodeTree, uv_maps: list) -> None:
     """Discs on the points by their `disc_rotation` and `disc_scale`; what belongs to faces and corners goes there."""
-    tree = bpy.data.node_groups.new(name, "GeometryNodeTree")
     tree.is_modifier = True
     for way in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
@@ -73,7 +86,6 @@ def _disc_group(name: str, uv_maps: list) -> bpy.types.NodeTree:
     for attribute in uv_maps:
         geometry = builder.moved(geometry, attribute, "FLOAT_VECTOR", "FLOAT2", "CORNER")
     builder.join(geometry, builder.add("NodeGroupOutput").inputs[0])
-    return tree
 
 
 class _Builder:

@@ -8,10 +8,12 @@ from dataclasses import dataclass
 import bpy
 
 from .. import core
+from .all_or_nothing import AllOrNothing
 from .join_meshes import read_mirror, read_scene
-from .properties import depth_property, method_property, placement_property, tolerance_property
+from .properties import SettingsProperties, settings_of
 from .read_view import read_view
 from .roles import Participants, choose
+from .shortcomings import shortcomings
 from .stepped_operator import SteppedOperator
 from .write_mesh import mesh_arrays
 from .write_object import origin_of, write_object
@@ -44,8 +46,9 @@ def generation(context: bpy.types.Context, chosen: Participants,
                settings: core.Settings) -> Generator[tuple[float, str], None, Outcome]:
     """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
 
-    Nothing in the file changes before the last step, which writes all results at once; a generator that is closed
-    before leaves no trace. Of several mirrors, those that cannot show anything are left out with a remark.
+    Nothing in the file changes before the last step, which writes all results, or none where one of them fails; a
+    generator that is closed before leaves no trace. Of several mirrors, those that cannot show anything are left out
+    with a remark.
 
     Raises
     ------
@@ -62,14 +65,15 @@ def generation(context: bpy.types.Context, chosen: Participants,
     surfaces = [read_mirror(depsgraph, mirror) for mirror in chosen.mirrors]
     scene = read_scene(depsgraph, chosen.diffuse)
     yield 0.5 * READING, "Building the tree"
-    points = settings.method == "POINTS"
-    tree = (core.PointTree if points else core.SceneTree).build(scene.mesh)
+    kind = core.PointTree if settings.method == "POINTS" else core.SceneTree
+    tree = yield from _part(core.in_steps(lambda: kind.build(scene.mesh)), 0.5 * READING, 0.5 * READING)
     mirrors = core.TriangleMesh.joined([surface.mesh for surface in surfaces])
     prepared, refused = [], []
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
         steps = core.reflection_steps(view, surface.mesh, tree, settings, mirrors)
         try:
-            result = yield from _within(steps, mirror.name, index, len(surfaces))
+            share = (1.0 - READING) / len(surfaces)
+            result = yield from _part(steps, READING + index * share, share, f"{mirror.name}: ")
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             continue
@@ -77,73 +81,42 @@ def generation(context: bpy.types.Context, chosen: Participants,
             refused.append(f"{mirror.name}: The camera sees none of the diffuse objects in this mirror; move the "
                            "camera, the mirror or the objects.")
             continue
-        remarks += _limits(mirror.name, result)
+        remarks += shortcomings(mirror.name, result)
         origin = origin_of(surface.mesh)
-        if points:
-            arrays = point_arrays(result, scene, surface.triangle, origin, view)
-            remarks += _coarse(mirror, result)
-        else:
-            arrays = mesh_arrays(result, scene, surface.triangle, origin)
+        arrays = (mesh_arrays(result, scene, surface.triangle, origin) if result.discs is None else
+                  point_arrays(result, scene, surface.triangle, origin, view))
         prepared.append((mirror, origin, arrays, result))
     if not prepared:
         raise core.ReflectionError(refused[0])
     yield 1.0, "Writing"
-    results = [(write_object(context, mirror, chosen.diffuse, origin, arrays, result, view, settings.placement), result)
-               for mirror, origin, arrays, result in prepared]
-    for obj, _ in results:
-        obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
+    with AllOrNothing() as whole:
+        results = [(write_object(context, mirror, chosen.diffuse, origin, arrays, result, view, settings.placement,
+                                 whole), result) for mirror, origin, arrays, result in prepared]
+        for obj, _ in results:
+            obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
     return Outcome(results, remarks + refused)
 
 
-def _coarse(mirror: bpy.types.Object, result: core.ReflectionMesh) -> list:
-    """A remark where points are too far apart for discs to close the surface between them."""
-    if not result.counts["coarse"]:
-        return []
-    return [f"{mirror.name}: {result.counts['coarse']} of {len(result.positions)} points are too far from their "
-            "neighbours to be discs without gaps: subdivide the diffuse objects, or choose the method General."]
-
-
-def _limits(name: str, result: core.ReflectionMesh) -> list[str]:
-    """Sentences on the bounds that the reflection in the mirror `name` has hit."""
-    limits = []
-    if result.counts.get("bounded"):
-        limits.append(f"{name}: Refinement stopped at the largest number of faces, so that the error may exceed the "
-                      "tolerance; raise the tolerance.")
-    if result.counts.get("unfilled"):
-        limits.append(f"{name}: Some openings are too large to be filled by rays; they show the mirror itself.")
-    return limits
-
-
-def _within(steps: Generator, name: str, index: int, count: int) -> Generator[tuple[float, str], None, object]:
-    """The progress of one mirror of `count` as a part of the whole; returns what `steps` returns."""
+def _part(steps: Generator, start: float, share: float, name: str = "") -> Generator[tuple[float, str], None, object]:
+    """The progress of a part of the work as progress of the whole; returns what `steps` returns."""
     while True:
         try:
             fraction, stage = next(steps)
         except StopIteration as stop:
             return stop.value
-        done = (index + min(max(fraction, 0.0), 1.0)) / count
-        yield READING + (1.0 - READING) * done, f"{name}: {stage}"
+        yield start + share * min(max(fraction, 0.0), 1.0), f"{name}{stage}" if stage else "Building the tree"
 
 
-class REFLECTION_MESH_OT_generate(SteppedOperator, bpy.types.Operator):
+class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types.Operator):
     """Compute the reflection of the diffuse objects in each mirror, as a mesh"""
 
     bl_idname = "reflection_mesh.generate"
     bl_label = "Generate Reflection"
     bl_options = {"REGISTER", "UNDO"}
 
-    tolerance: tolerance_property()
-    placement: placement_property()
-    method: method_property()
-    depth: depth_property()
-
     def steps(self, context: bpy.types.Context) -> Generator[tuple[float, str], None, None]:
         started = time.perf_counter()
-        try:
-            settings = core.Settings(self.tolerance, self.placement, self.method, self.depth)
-        except ValueError as error:
-            raise core.ReflectionError(str(error)) from error
-        outcome = yield from generation(context, choose(context), settings)
+        outcome = yield from generation(context, choose(context), settings_of(self))
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
         for obj, _ in outcome.results:

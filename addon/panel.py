@@ -1,11 +1,10 @@
 """The tab "Reflection" of the 3D viewport's sidebar."""
 from __future__ import annotations
 
-import json
-
 import bpy
 
-from . import show_comparison
+from . import records, show_comparison
+from .properties import SETTINGS
 
 
 class REFLECTION_MESH_PT_main(bpy.types.Panel):
@@ -25,18 +24,14 @@ class REFLECTION_MESH_PT_main(bpy.types.Panel):
             _draw_object(layout, context.object)
         settings = context.scene.reflection_mesh
         column = layout.column()
-        column.prop(settings, "tolerance")
-        column.prop(settings, "placement")
-        column.prop(settings, "method")
-        column.prop(settings, "depth")
+        for name in SETTINGS:
+            column.prop(settings, name)
         column = layout.column(align=True)
         generate = column.operator("reflection_mesh.generate", icon="MOD_MIRROR")
         compare = column.operator("reflection_mesh.compare", icon="IMAGE_DATA")
         for operator in (generate, compare):
-            operator.tolerance = settings.tolerance
-            operator.placement = settings.placement
-            operator.method = settings.method
-            operator.depth = settings.depth
+            for name in SETTINGS:
+                setattr(operator, name, getattr(settings, name))
         column.operator("reflection_mesh.clear", icon="TRASH")
         _draw_comparison(layout, context.scene)
 
@@ -53,8 +48,8 @@ def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     box.label(text=f"Mirror: {mirror}", translate=False)
     size = f"{record.points} points" if record.points else f"{record.faces} faces"
     box.label(text=f"{count} source{'' if count == 1 else 's'}, {size}")
-    counts = json.loads(record.counts or "{}")
-    if "filled_pixels" in counts:
+    counts = records.counts(obj)
+    if "filled_pixels" in counts and "mirror_pixels" in counts:
         share = 100.0 * counts["filled_pixels"] / max(counts["mirror_pixels"], 1)
         box.label(text=f"{share:.3f} % filled by rays")
     box.label(text=f"Error about {record.estimated_error:.2f} px at {record.resolution[0]} x {record.resolution[1]}")

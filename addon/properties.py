@@ -3,6 +3,8 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty,
                        IntVectorProperty, PointerProperty, StringProperty)
 
+from ..core import ReflectionError, Settings
+
 ROLES = (
     ("AUTO", "Automatic", "A mirror if its material is one; if no selected object is, the active object is the mirror"),
     ("MIRROR", "Mirror", "The scene is reflected in this object"),
@@ -42,6 +44,40 @@ def depth_property() -> IntProperty:
                        default=1, min=1, soft_max=4, max=16, options=set())
 
 
+def memory_property() -> FloatProperty:
+    return FloatProperty(name="Memory", description="Gigabytes that the work may take: what would need more is worked "
+                         "out more coarsely, or refused", default=2.0, min=0.1, soft_max=64.0, precision=1,
+                         options=set())
+
+
+class SettingsProperties:
+    """What operators, the scene and the command line have in common: a field for each of `SETTINGS`."""
+
+    tolerance: tolerance_property()
+    placement: placement_property()
+    method: method_property()
+    depth: depth_property()
+    memory: memory_property()
+
+
+SETTINGS = tuple(SettingsProperties.__annotations__)
+
+
+def settings_of(holder) -> Settings:
+    """The settings that an operator, a scene's `reflection_mesh` or a command line's options hold.
+
+    Raises
+    ------
+    ReflectionError
+        Where one of them cannot be.
+    """
+    try:
+        return Settings(tolerance=holder.tolerance, placement=holder.placement, method=holder.method,
+                        depth=holder.depth, maximum_memory=holder.memory)
+    except ValueError as error:
+        raise ReflectionError(str(error)) from error
+
+
 class ReflectionSource(bpy.types.PropertyGroup):
     """One diffuse object of a result."""
 
@@ -67,13 +103,9 @@ class ReflectionObject(bpy.types.PropertyGroup):
                                 description="This mirror is a window to its virtual image, until that is cleared")
 
 
-class ReflectionScene(bpy.types.PropertyGroup):
+class ReflectionScene(SettingsProperties, bpy.types.PropertyGroup):
     """`Scene.reflection_mesh`: what the panel hands to the operators."""
 
-    tolerance: tolerance_property()
-    placement: placement_property()
-    method: method_property()
-    depth: depth_property()
     comparison: StringProperty(name="Comparison", description="Numbers of the last comparison with Cycles, as JSON")
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from ..core import ReflectionError
 from . import compat
 
+FARTHEST = 1e17  # units: squares of what lies somewhat further must still be numbers of single precision
 # what evaluated objects can be turned into a mesh
 SURFACES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
@@ -67,7 +68,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, normals: bool) ->
     Raises
     ------
     ReflectionError
-        Where a coordinate, a normal or a transform is not a finite number.
+        Where a coordinate, a normal or a transform is not a finite number, or too large for Blender.
     """
     owner_of = {obj: index for index, obj in enumerate(objects)}
     meshes, owners, matrices = {}, {}, {}
@@ -94,6 +95,10 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, normals: bool) ->
         if not np.isfinite(matrix).all():
             raise ReflectionError(f"'{objects[owners[key][0]].name}' has a transform that is not a finite number: "
                                   "clear its location, rotation and scale.")
+        reach = np.abs(mesh.positions).max(axis=0, initial=0.0).astype(np.float64)
+        if (np.abs(matrix[:, :3, :3]) @ reach + np.abs(matrix[:, :3, 3])).max() > FARTHEST:
+            raise ReflectionError(f"'{objects[owners[key][0]].name}' reaches further than 1e17 units from the origin, "
+                                  "where Blender's numbers end: make it smaller or move it nearer.")
         placed.append(Placed(mesh, np.array(owners[key]), matrix))
     return placed
 
@@ -166,7 +171,8 @@ def _corner_normals(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.nda
 
 
 def _uv_maps(mesh: bpy.types.Mesh) -> dict:
-    return {layer.name: _values(layer.uv, "vector", (len(mesh.loops), 2), np.float32) for layer in mesh.uv_layers}
+    return {layer.name: _finite(_values(layer.uv, "vector", (len(mesh.loops), 2), np.float32))
+            for layer in mesh.uv_layers}
 
 
 def _colours(mesh: bpy.types.Mesh, corner_vertex: np.ndarray) -> dict:
@@ -174,10 +180,16 @@ def _colours(mesh: bpy.types.Mesh, corner_vertex: np.ndarray) -> dict:
     for attribute in mesh.color_attributes:
         if attribute.domain not in {"POINT", "CORNER"}:
             continue
-        values = _values(attribute.data, "color", (len(attribute.data), 4), np.float32)
+        values = _finite(_values(attribute.data, "color", (len(attribute.data), 4), np.float32))
         values = values if attribute.domain == "CORNER" else values[corner_vertex]
         colours[attribute.name] = (attribute.data_type, values)
     return colours
+
+
+def _finite(values: np.ndarray) -> np.ndarray:
+    """The same array, zero where a value is no finite number, which would spoil all that is interpolated from it."""
+    values[~np.isfinite(values)] = 0.0
+    return values
 
 
 def _active_names(mesh: bpy.types.Mesh) -> tuple[str, str]:

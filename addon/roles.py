@@ -115,4 +115,4 @@ def _rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:
 def results_of(context: bpy.types.Context, mirror: bpy.types.Object) -> list:
     """Results in the scene that show the reflection in `mirror` and can be changed."""
     return [obj for obj in context.scene.objects if obj.reflection_mesh.role == "REFLECTION"
-            and obj.reflection_mesh.mirror == mirror and obj.library is None]
+            and obj.reflection_mesh.mirror == mirror and obj.type == "MESH" and obj.library is None]

@@ -4,7 +4,6 @@
     python addon/run_with_bpy.py one.blend two.blend benchmark --output folder
 """
 import importlib.util
-import os
 import sys
 from pathlib import Path
 
@@ -34,18 +33,22 @@ def main(arguments: list[str]) -> int:
     if len(files) > 1:
         arguments += ["--scenes", *files]
     try:
-        import bpy
+        return _run(arguments, files[0])
+    except KeyboardInterrupt:
+        print("Interrupted: nothing has been saved.", file=sys.stderr)
+        return 130
+
+
+def _run(arguments: list[str], scene: str) -> int:
+    try:
+        import bpy  # noqa: F401
     except ImportError:
         print("Error: Python has no module bpy: install it with 'pip install bpy', or use Blender's own command line.",
               file=sys.stderr)
         return 1
     extension = load_extension()
     try:
-        bpy.ops.wm.open_mainfile(filepath=os.path.abspath(files[0]), use_scripts=False)
-        return importlib.import_module(f"{PACKAGE}.addon.command_line").run(arguments)
-    except RuntimeError as error:
-        print(str(error).strip(), file=sys.stderr)
-        return 1
+        return importlib.import_module(f"{PACKAGE}.addon.command_line").run(arguments, scene)
     finally:
         # bpy may crash at its end where classes are still registered
         extension.unregister()

@@ -1,14 +1,17 @@
 """Shows a comparison in Blender: its pictures in the Image Editor, its numbers in the panel."""
 from __future__ import annotations
 
-import json
 import os
 from pathlib import Path
 
 import bpy
 
+from . import records
+
 TITLES = {"reference": "Reference", "displacement": "Displacement", "difference": "Difference", "holes": "Holes",
           "result": "Result"}
+# by scene and record, so that undo leads back to the page of the numbers that are shown
+_pages: dict[tuple[int, str], str] = {}
 
 
 def load_pictures(folder: str) -> list[bpy.types.Image]:
@@ -39,33 +42,31 @@ def show_picture(window_manager: bpy.types.WindowManager, image: bpy.types.Image
 
 
 def remember(scene: bpy.types.Scene, report: dict, folder: str) -> None:
-    """Keep what the panel shows of a report in the scene."""
-    picture = report["picture"]["mirror"]
-    scene.reflection_mesh.comparison = json.dumps({
-        "results": report["results"], "folder": folder, "resolution": report["resolution"],
-        "median": report["displacement_px"]["median"], "p99": report["displacement_px"]["p99"],
-        "coverage": report["coverage_percent"]["all"], "psnr": picture["psnr"], "ssim": picture["ssim"],
-        "flip": picture["flip"]})
+    """Keep what the panel shows of a report in the scene; where its page lies, this session alone knows."""
+    text = records.comparison_text(report)
+    scene.reflection_mesh.comparison = text
+    _pages[scene.session_uid, text] = Path(folder, "report.html").as_uri()
 
 
 def lines(scene: bpy.types.Scene) -> list[str]:
     """The last comparison in a few short lines; none where nothing was compared."""
-    known = json.loads(scene.reflection_mesh.comparison or "{}")
-    if not known:
+    known = records.comparison(scene.reflection_mesh.comparison)
+    if known is None:
         return []
-    width, height = known["resolution"]
+    width, height = known.resolution
     told = [f"Against Cycles at {width} x {height}"]
-    if known["p99"] is not None:
-        told.append(f"Displacement {known['median']:.3f} px, 99 %: {known['p99']:.3f} px")
-    told.append(f"Holes, spill, wrong layer {known['coverage']:.3f} %")
-    if known["ssim"] is not None:
-        told.append(f"SSIM {known['ssim']:.4f}, FLIP {known['flip']:.4f}"
-                    + (f", PSNR {known['psnr']:.1f} dB" if known["psnr"] is not None else ""))
+    if known.p99 is not None:
+        told.append(f"Displacement {known.median:.3f} px, 99 %: {known.p99:.3f} px")
+    told.append(f"Holes, spill, wrong layer {known.coverage:.3f} %")
+    if known.ssim is not None:
+        told.append(f"SSIM {known.ssim:.4f}, FLIP {known.flip:.4f}"
+                    + (f", PSNR {known.psnr:.1f} dB" if known.psnr is not None else ""))
     return told
 
 
 def page_address(scene: bpy.types.Scene) -> str:
-    """The address of the last comparison's page; empty where it is gone."""
-    known = json.loads(scene.reflection_mesh.comparison or "{}")
-    path = Path(known.get("folder", ""), "report.html")
-    return path.as_uri() if known and path.is_file() else ""
+    """The address of the page of the comparison that `lines` tells of; empty where it was not made in this session.
+
+    An address that a file brings might lead anywhere, and looking for it at every redraw would ask there.
+    """
+    return _pages.get((scene.session_uid, scene.reflection_mesh.comparison), "")

@@ -6,7 +6,7 @@ from collections.abc import Generator
 
 import bpy
 
-from ..core import ReflectionError
+from .unforeseen import sentence
 
 INTERVAL = 0.02
 # the window answers to ESC and draws the progress this often, where single steps are not longer
@@ -70,14 +70,8 @@ class SteppedOperator:
             self._progress = next(self._running)
         except StopIteration:
             return {"FINISHED"}
-        except ReflectionError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        except ReferenceError:
-            self.report({"ERROR"}, "An object was removed while the work went on: start it again.")
-            return {"CANCELLED"}
-        except MemoryError:
-            self.report({"ERROR"}, "The memory does not suffice: raise the tolerance or reflect fewer objects at once.")
+        except Exception as error:
+            self.report({"ERROR"}, sentence(error, self.bl_label))
             return {"CANCELLED"}
         return None
 

@@ -8,8 +8,10 @@ import numpy as np
 from mathutils import Matrix
 
 from ..core import ReflectionMesh, TriangleMesh, View
+from .all_or_nothing import AllOrNothing
 from .disc_nodes import hide_discs, show_discs
 from .roles import results_of
+from .take_back import keep_mesh, keep_mirror, keep_object, keep_others_mesh
 from .write_mesh import write_mesh
 from .write_points import write_points
 
@@ -23,32 +25,45 @@ def origin_of(mirror: TriangleMesh) -> np.ndarray:
 
 
 def write_object(context: bpy.types.Context, mirror: bpy.types.Object, sources: list, origin: np.ndarray, arrays: dict,
-                 result: ReflectionMesh, view: View, placement: str) -> bpy.types.Object:
-    """The result of `mirror` as an object: a new one, or the one it already has, updated in place."""
+                 result: ReflectionMesh, view: View, placement: str, whole: AllOrNothing) -> bpy.types.Object:
+    """The result of `mirror` as an object: a new one, or the one it already has, updated in place.
+
+    Where something fails, be it at a later object, `whole` takes back all that is changed here.
+    """
     earlier = results_of(context, mirror)
     if earlier:
         active = context.view_layer.objects.active
         obj = active if active in earlier else earlier[0]
-        if obj.data.users > 1 or obj.data.library is not None:
-            # whoever else shows this mesh keeps it as it is
-            obj.data = obj.data.copy()
+        keep_object(obj, whole)
+        shared = obj.data.users > 1 or obj.data.library is not None
+        (keep_others_mesh if shared else keep_mesh)(obj, whole)
     else:
-        name = f"{mirror.name} Reflection"
-        obj = bpy.data.objects.new(name, bpy.data.meshes.new(name))
-        _link_beside(context, obj, mirror)
-        for rays in RAYS:
-            setattr(obj, rays, False)
+        obj = _new_object(context, mirror, whole)
+    keep_mirror(mirror, whole)
     if result.discs is None:
-        hide_discs(obj)
         write_mesh(obj.data, arrays)
+        whole.after(hide_discs, obj)
     else:
-        show_discs(obj, write_points(obj.data, arrays))
+        show_discs(obj, write_points(obj.data, arrays), whole)
     obj.matrix_world = Matrix.Translation(origin)
     _remember(obj, mirror, sources, result, view)
     if placement == "VIRTUAL":
         _hide_from_camera(mirror)
     else:
         show_to_camera(mirror)
+    return obj
+
+
+def _new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
+    """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet."""
+    name = f"{mirror.name} Reflection"
+    mesh = bpy.data.meshes.new(name)
+    whole.undo(bpy.data.meshes.remove, mesh)
+    obj = bpy.data.objects.new(name, mesh)
+    whole.undo(bpy.data.objects.remove, obj)
+    _link_beside(context, obj, mirror)
+    for rays in RAYS:
+        setattr(obj, rays, False)
     return obj
 
 

@@ -1,18 +1,20 @@
 """The main job from end to end: build the zip, install it, reflect a sample, compare with Cycles.
 
-    python benchmarks/demo.py [--sample sphere] [--folder demo]
+    python benchmarks/demo.py [--sample sphere] [--folder demo] [--verbose]
 """
 from __future__ import annotations
 
 import argparse
 import json
-import shutil
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import extension_zip
+from quietly import quietly
 
 SAMPLES = extension_zip.ROOT / "sample_blends"
 
@@ -22,35 +24,55 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--sample", default="sphere", choices=sorted(path.stem for path in SAMPLES.glob("*.blend")))
     parser.add_argument("--folder", type=Path, default=Path("demo"))
     parser.add_argument("--samples-per-pixel", type=int, default=16)
+    parser.add_argument("--verbose", action="store_true", help="show what Blender and Cycles tell of their work")
     options = parser.parse_args(arguments)
     folder = options.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    resources = Path(tempfile.mkdtemp(prefix="reflection_mesh_preferences_"))
-    try:
-        extension_zip.use_throw_away_preferences(resources)
-        report, seconds = demonstrate(options.sample, folder, options.samples_per_pixel)
-    finally:
-        shutil.rmtree(resources)
+    with tempfile.TemporaryDirectory(prefix="reflection_mesh_preferences_") as resources:
+        extension_zip.use_throw_away_preferences(Path(resources))
+        with tempfile.TemporaryFile() as log:
+            try:
+                report, seconds = demonstrate(options, folder, Stages(None if options.verbose else log.fileno()))
+            except BaseException:
+                log.seek(0)
+                sys.stderr.write(log.read().decode(errors="replace"))
+                raise
     displacement, coverage = report["displacement_px"], report["coverage_percent"]
     print(f"\nGenerated in {seconds:.2f} s; against Cycles: displacement {displacement['median']:.3f} px (median), "
           f"{displacement['p99']:.3f} px (99 %); holes, spill and wrong layer {coverage['all']:.3f} % of the mirror.")
-    print(f"Pictures, numbers and {options.sample}.blend with its reflection: {folder}")
+    print(f"Pictures, numbers and {options.sample}.blend with its reflection: {folder}", flush=True)
     return 0
 
 
-def demonstrate(sample: str, folder: Path, samples_per_pixel: int) -> tuple[dict, float]:
+class Stages:
+    """Runs one stage after another and tells of each in a line; what Blender tells goes to the file `log`, if any."""
+
+    def __init__(self, log: int | None) -> None:
+        self._log = log
+
+    def __call__(self, name: str, work: Callable[[], Any]) -> tuple[Any, float]:
+        """What `work` returns, and the seconds that it took."""
+        print(f"{name} ...", end="\n" if self._log is None else " ", flush=True)
+        started = time.perf_counter()
+        made = work() if self._log is None else quietly(work, self._log)
+        seconds = time.perf_counter() - started
+        print(f"{seconds:.1f} s", flush=True)
+        return made, seconds
+
+
+def demonstrate(options: argparse.Namespace, folder: Path, stage: Stages) -> tuple[dict, float]:
     """Install the extension, generate, compare and save; returns the report and the seconds that generating took."""
+    sample = f"{options.sample}.blend"
+    zipped, _ = stage("Building the extension", lambda: extension_zip.build(folder))
+    stage(f"Installing {zipped.name} into preferences that are thrown away", lambda: extension_zip.install(zipped))
     import bpy
-    zipped = extension_zip.build(folder)
-    print(f"Built {zipped.name}", flush=True)
-    extension_zip.install(zipped)
-    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{sample}.blend"))
-    started = time.perf_counter()
-    bpy.ops.reflection_mesh.generate()
-    seconds = time.perf_counter() - started
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder / f"{sample}.blend"), copy=True)
-    bpy.ops.reflection_mesh.compare(filepath=str(folder), samples=samples_per_pixel)
-    extension_zip.switch_off()
+    stage(f"Opening {sample}", lambda: bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / sample)))
+    _, seconds = stage("Generating the reflection", bpy.ops.reflection_mesh.generate)
+    stage(f"Saving {sample} with its reflection",
+          lambda: bpy.ops.wm.save_as_mainfile(filepath=str(folder / sample), copy=True))
+    stage("Comparing with Cycles", lambda: bpy.ops.reflection_mesh.compare(filepath=str(folder),
+                                                                           samples=options.samples_per_pixel))
+    stage("Switching the extension off", extension_zip.switch_off)
     return json.loads((folder / "report.json").read_text(encoding="utf-8")), seconds
 
 

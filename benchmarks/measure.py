@@ -17,6 +17,7 @@ import time
 from pathlib import Path
 
 import extension_zip
+from quietly import quietly
 
 ROWS = ("sample", "vertices", "faces", "median px", "p95 px", "p99 px", "max px", "hole %", "spill %", "wrong %",
         "all %", "RMSE", "generate s", "Cycles s", "ratio")
@@ -33,16 +34,16 @@ def main(arguments: list[str]) -> int:
     options = parser.parse_args(arguments)
     with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as scratch:
         extension_zip.use_throw_away_preferences(Path(scratch) / "preferences")
-        _quietly(lambda: extension_zip.install(extension_zip.build(Path(scratch))))
+        quietly(lambda: extension_zip.install(extension_zip.build(Path(scratch))))
         rows = []
         for scene in options.scenes:
             scene, _, depth = scene.partition(":")
             path = Path(scene) if scene.endswith(".blend") else extension_zip.ROOT / "sample_blends" / f"{scene}.blend"
             folder = (options.folder or Path(scratch)).resolve() / (path.stem + depth)
-            rows.append(_quietly(lambda path=path, folder=folder, depth=int(depth or 1):
-                                 measure(path.resolve(), folder, depth, options)))
+            rows.append(quietly(lambda path=path, folder=folder, depth=int(depth or 1):
+                                measure(path.resolve(), folder, depth, options)))
             print(f"{path.stem}: done", file=sys.stderr, flush=True)
-        _quietly(extension_zip.switch_off)
+        quietly(extension_zip.switch_off)
     import bpy
     print(f"Blender {bpy.app.version_string}, tolerance {options.tolerance:g} px, {os.cpu_count()} threads\n")
     print_table(rows)
@@ -83,19 +84,6 @@ def _cycles_seconds() -> float:
     started = time.perf_counter()
     bpy.ops.render.render()
     return time.perf_counter() - started
-
-
-def _quietly(work):
-    """Run `work` with Blender's own messages off the standard output, which is for the table alone."""
-    sys.stdout.flush()
-    kept = os.dup(1)
-    os.dup2(2, 1)
-    try:
-        return work()
-    finally:
-        sys.stdout.flush()
-        os.dup2(kept, 1)
-        os.close(kept)
 
 
 def print_table(rows: list) -> None:

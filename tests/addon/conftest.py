@@ -15,6 +15,7 @@ USER_FOLDER = Path(tempfile.mkdtemp(prefix="reflection_mesh_tests_"))
 # before anything imports bpy: it reads the place of its preferences once
 extension_zip.use_throw_away_preferences(USER_FOLDER)
 import bpy  # noqa: E402
+import parts  # noqa: E402
 
 ZIP = extension_zip.build(USER_FOLDER / "zip")
 extension_zip.install(ZIP)
@@ -51,3 +52,17 @@ def blank() -> bpy.types.Context:
     scene.render.resolution_x, scene.render.resolution_y = 256, 192
     bpy.ops.object.select_all(action="DESELECT")
     return bpy.context
+
+
+@pytest.fixture
+def saved_scene(blank, tmp_path) -> Path:
+    """A cube before a wall mirror, 96 x 72 pixels, saved in a folder of its own; roles choose who takes part."""
+    cube = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0))
+    cube.data.materials.append(parts.material("Plain"))
+    cube.reflection_mesh.role, parts.add_wall_mirror().reflection_mesh.role = "DIFFUSE", "MIRROR"
+    blank.scene.render.resolution_x, blank.scene.render.resolution_y = 96, 72
+    blank.preferences.filepaths.save_version = 0
+    path = tmp_path / "work" / "scene.blend"
+    path.parent.mkdir()
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=False)
+    return path

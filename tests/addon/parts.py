@@ -106,7 +106,9 @@ def state() -> dict:
         for obj in layer.objects}
     render = {name: getattr(scene.render, name) for name in scene.render.bl_rna.properties.keys()
               if isinstance(getattr(scene.render, name), int | float | str | bool)}
-    return {"data": {kind: sorted(item.name for item in getattr(bpy.data, kind)) for kind in kinds},
+    # any render leaves its result as an image
+    return {"data": {kind: sorted(item.name for item in getattr(bpy.data, kind)
+                                  if getattr(item, "type", "") != "RENDER_RESULT") for kind in kinds},
             "objects": objects, "active": getattr(layer.objects.active, "name", None), "render": render,
             "frame": scene.frame_current, "camera": getattr(scene.camera, "name", None)}
 

@@ -218,3 +218,10 @@ def test_an_earlier_result_survives_a_refusal(scene):
     parts.select(result)
     parts.refusal()
     assert len(result.data.polygons) == faces
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_coordinates_where_blenders_numbers_end(scene, which):
+    scene[which].scale = (1e30,) * 3
+    bpy.context.view_layer.update()
+    assert f"'{scene[which].name}' reaches further than" in parts.refusal()

@@ -72,8 +72,10 @@ def test_objects_by_name(saved, room, tmp_path):
     (["generate", "--mirror", "Mirror", "--diffuse", "Mirror"], 1, "named both"),
     (["generate", "--tolerance", "0"], 1, "tolerance"),
     (["generate", "--tolerance", "nan"], 1, "tolerance"),
+    (["generate", "--memory", "0"], 1, "memory"),
+    (["generate", "--memory", "nan"], 1, "memory"),
     (["generate", "--placement", "NOWHERE"], 2, "NOWHERE"),
-    (["generate", "--output", "{folder}/none/there/x.blend"], 1, "Error"),
+    (["generate", "--output", "{folder}/none/x.blend"], 1, "Error: '{folder}/none/x.blend' cannot be saved"),
     (["compare", "--samples", "0"], 1, "sample"),
     (["polish"], 2, "polish"),
     ([], 2, "verb"),
@@ -81,8 +83,21 @@ def test_objects_by_name(saved, room, tmp_path):
 def test_failures(saved, room, capfd, tmp_path, arguments, status, words):
     before = saved.read_bytes()
     assert room("addon.command_line").run([argument.format(folder=tmp_path) for argument in arguments]) == status
-    assert words in capfd.readouterr().err
+    error = capfd.readouterr().err
+    assert words.format(folder=tmp_path) in error and "Traceback" not in error
     assert saved.read_bytes() == before
+
+
+@pytest.mark.parametrize("verb", ["generate", "compare"])
+def test_all_settings_reach_the_core(saved, room, tmp_path, capsys, monkeypatch, verb):
+    def told(context, participants, settings, *_):
+        raise room("core").ReflectionError(f"{settings}.")
+    monkeypatch.setattr(room(f"addon.{verb}"), "generation", told)
+    monkeypatch.setattr(room("addon.command_line"), "generation", told)
+    assert room("addon.command_line").run([verb, "--tolerance", "2", "--placement", "VIRTUAL", "--method", "PARALLEL",
+                                           "--depth", "3", "--memory", "0.5", "--output", str(tmp_path / "x")]) == 1
+    expected = room("core").Settings(2.0, "VIRTUAL", "PARALLEL", 3, maximum_memory=0.5)
+    assert capsys.readouterr().err == f"Error: {expected}.\n"
 
 
 def test_nothing_to_save_to(blank, room, capsys):
@@ -113,7 +128,8 @@ def test_through_pypis_bpy(saved, tmp_path):
 
 def test_pypis_bpy_without_a_file(tmp_path):
     done = with_bpy(tmp_path / "none.blend", "generate")
-    assert done.returncode == 1 and "Traceback" not in done.stderr and "none.blend" in done.stderr
+    assert done.returncode == 1 and "Traceback" not in done.stderr and done.stderr.count("\n") == 1
+    assert done.stderr.startswith(f"Error: '{tmp_path / 'none.blend'}' cannot be opened")
 
 
 def test_pypis_bpy_without_a_verb():

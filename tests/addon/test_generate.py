@@ -130,6 +130,39 @@ def test_uv_and_colours_are_interpolated(wall_scene):
     assert result.data.uv_layers.active.name == "UVMap"
 
 
+@pytest.mark.parametrize("method", ["GENERAL", "POINTS"])
+@pytest.mark.parametrize("domain", ["POINT", "CORNER"])
+def test_colours_and_uvs_that_are_no_numbers_become_zero(wall_scene, method, domain):
+    """The second corner's alone: what lies between the others stays as it was."""
+    _, triangle = wall_scene
+    colour = triangle.data.color_attributes.new("Tint", "FLOAT_COLOR", domain)
+    values = np.array([[1, 0, 0, 1], [np.nan, np.inf, -np.inf, 1], [0, 0, 1, 1]], dtype=np.float32)
+    colour.data.foreach_set("color", values.ravel())
+    triangle.data.uv_layers["UVMap"].uv[1].vector = np.nan, 0.25
+    result = parts.generate(method=method)
+    source = np.array([vertex.co for vertex in triangle.data.vertices])
+    reflected = parts.attribute(result, "reflected_position")
+    if method == "GENERAL":
+        reflected = reflected[parts.corners(result)].reshape(-1, 3)
+    weights = np.linalg.lstsq(np.vstack([source.T, np.ones(3)]), np.c_[reflected, np.ones(len(reflected))].T,
+                              rcond=None)[0].T
+    values[1] = 0.0, 0.0, 0.0, 1.0
+    assert np.allclose(parts.attribute(result, "Tint"), weights @ values, atol=1e-5)
+    assert np.allclose(parts.attribute(result, "UVMap"), weights @ [(0, 0), (0, 0.25), (0, 1)], atol=1e-5)
+
+
+def test_all_settings_reach_the_core(wall_scene, room, tmp_path, monkeypatch):
+    chosen = {"tolerance": 2.0, "placement": "VIRTUAL", "method": "PARALLEL", "depth": 3, "memory": 0.5}
+
+    def told(context, participants, settings, *_):
+        raise room("core").ReflectionError(f"{settings}.")
+    for verb in ("generate", "compare"):
+        monkeypatch.setattr(room(f"addon.{verb}"), "generation", told)
+    expected = str(room("core").Settings(2.0, "VIRTUAL", "PARALLEL", 3, maximum_memory=0.5)) + "."
+    assert parts.refusal(**chosen) == expected
+    assert parts.refusal(bpy.ops.reflection_mesh.compare, filepath=str(tmp_path), **chosen) == expected
+
+
 def test_materials_carry_over_per_face(sphere_scene):
     result = parts.generate()
     names = [material.name for material in result.data.materials]

@@ -26,14 +26,15 @@ def test_progress_grows_to_one(scene, room):
 
 def test_stopping_leaves_no_trace_at_any_step(scene, room):
     before = parts.state()
-    steps = len(list(started(room)))
+    told = list(started(room))
     bpy.ops.reflection_mesh.clear()
     parts.select(scene[1], scene[0])
     assert parts.state() == before
-    for stop in range(1, steps + 1):
+    # a slow machine may tell a stage twice: each stage once is enough
+    for stage in dict.fromkeys(told):
         running = started(room)
-        for _ in range(stop):
-            next(running)
+        while next(running) != stage:
+            pass
         running.close()
         assert parts.state() == before
 

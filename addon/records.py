@@ -1,0 +1,86 @@
+"""What a .blend file tells of earlier work, as JSON in its properties: read once, and believed as far as it can be.
+
+A file may come from anywhere: whatever is not what this extension writes counts as not there.
+"""
+from __future__ import annotations
+
+import json
+from functools import lru_cache
+from types import MappingProxyType
+from typing import NamedTuple
+
+import bpy
+
+LONGEST = 20_000    # characters of a record; its own are a few hundred
+LARGEST = 1e15      # no number in a record is larger
+NOTHING = MappingProxyType({})
+
+
+class Comparison(NamedTuple):
+    """The numbers of a comparison with Cycles; None where there was nothing to measure."""
+
+    resolution: tuple[int, int]
+    coverage: float
+    median: float | None
+    p99: float | None
+    psnr: float | None
+    ssim: float | None
+    flip: float | None
+
+
+def comparison_text(report: dict) -> str:
+    """The record of a comparison's report."""
+    picture = report["picture"]["mirror"]
+    return json.dumps({
+        "results": report["results"], "resolution": report["resolution"],
+        "median": report["displacement_px"]["median"], "p99": report["displacement_px"]["p99"],
+        "coverage": report["coverage_percent"]["all"], "psnr": picture["psnr"], "ssim": picture["ssim"],
+        "flip": picture["flip"]})
+
+
+def comparison(text: str) -> Comparison | None:
+    """What `comparison_text` wrote; None where the text is anything else."""
+    return _comparison(text) if len(text) <= LONGEST else None
+
+
+def counts(obj: bpy.types.Object) -> MappingProxyType:
+    """How much of each part of the method a result needed, by name; what is no count is left out."""
+    text = obj.reflection_mesh.counts
+    return _counts(text) if len(text) <= LONGEST else NOTHING
+
+
+@lru_cache(maxsize=64)
+def _comparison(text: str) -> Comparison | None:
+    known = _entries(text)
+    size = known.get("resolution")
+    if not (isinstance(size, list) and len(size) == 2 and all(_is_count(side) for side in size)):
+        return None
+    numbers = {name: known.get(name) for name in Comparison._fields[1:]}
+    if not _is_number(numbers["coverage"]) or not all(value is None or _is_number(value) for value in numbers.values()):
+        return None
+    for one, other in (("median", "p99"), ("ssim", "flip")):    # which come together
+        if (numbers[one] is None) != (numbers[other] is None):
+            return None
+    return Comparison(tuple(size), **numbers)
+
+
+@lru_cache(maxsize=256)
+def _counts(text: str) -> MappingProxyType:
+    return MappingProxyType({name: count for name, count in _entries(text).items() if _is_count(count)})
+
+
+def _entries(text: str) -> dict | MappingProxyType:
+    """The object that a JSON text holds; nothing where it holds none."""
+    try:
+        known = json.loads(text)
+    except (ValueError, RecursionError):
+        return NOTHING
+    return known if isinstance(known, dict) else NOTHING
+
+
+def _is_number(value) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < LARGEST
+
+
+def _is_count(value) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < LARGEST

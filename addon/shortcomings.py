@@ -1,0 +1,29 @@
+"""What a reflection lacks, in sentences for the user: the bounds that it has hit, and what its probes have missed."""
+from __future__ import annotations
+
+from ..core import ReflectionMesh
+
+MISSING = 3.0  # per cent of what the mirror shows
+MISSED = 3  # probes: fewer may lie on an outline
+
+
+def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
+    """Sentences on the reflection in the mirror `name`."""
+    counts, told = result.counts, []
+    if counts.get("missed", 0) >= MISSED and result.missing_share > MISSING:
+        told.append(f"About {result.missing_share:.0f} % of what the mirror shows is missing: give it a clean mesh, or "
+                    "move the camera.")
+    if counts.get("crowded"):
+        told.append(f"In {counts['crowded']} parts of the mirror more lies over one another than the picture or the "
+                    "memory allows to be cut exactly, and rays show it to a pixel: simplify the meshes or raise the "
+                    "memory.")
+    if counts.get("unfollowed"):
+        told.append(f"{counts['unfollowed']} small parts of mirrors in mirrors are not followed further, since the "
+                    "picture is too small for them: lower the depth or enlarge the picture.")
+    if counts.get("bounded"):
+        told.append("Refinement stopped at the largest number of faces, so that the error may exceed the tolerance: "
+                    "raise the tolerance or the memory.")
+    if counts.get("coarse"):
+        told.append(f"{counts['coarse']} of {len(result.positions)} points are too far from their neighbours to be "
+                    "discs without gaps: subdivide the diffuse objects, or choose the method General.")
+    return [f"{name}: {sentence}" for sentence in told]

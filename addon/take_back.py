@@ -1,0 +1,63 @@
+"""How a result and its mirror stood before they were written anew, for the case that writing fails."""
+from __future__ import annotations
+
+import bpy
+
+from .all_or_nothing import AllOrNothing
+
+PLACE = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
+RECORD = ("role", "mirror", "estimated_error", "seconds", "counts", "resolution", "faces", "points")
+
+
+def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
+    """Let `whole` bring back where a result stands and what it knows."""
+    matrix, place = obj.matrix_world.copy(), {name: tuple(getattr(obj, name)) for name in PLACE}
+    record = obj.reflection_mesh
+    known = {name: getattr(record, name) for name in RECORD}
+    known["resolution"] = tuple(record.resolution)
+    sources = [source.object for source in record.sources]
+
+    def back() -> None:
+        # the matrix, so that it is right before Blender works it out anew; then the numbers, which it rounds
+        obj.matrix_world = matrix
+        for name, values in place.items():
+            setattr(obj, name, values)
+        for name, value in known.items():
+            setattr(record, name, value)
+        record.sources.clear()
+        for source in sources:
+            record.sources.add().object = source
+    whole.undo(back)
+
+
+def keep_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
+    """Let the mesh of `obj`, which nothing else uses, be written: `whole` brings back a copy, under its name.
+
+    The copy shares its arrays with the mesh until these are written, and so takes no time and no memory.
+    """
+    mesh, name = obj.data, obj.data.name
+    spare = mesh.copy()
+
+    def back() -> None:
+        obj.data = spare
+        bpy.data.meshes.remove(mesh)
+        spare.name = name
+    whole.undo(back)
+    whole.after(bpy.data.meshes.remove, spare)
+
+
+def keep_others_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
+    """Give `obj` a mesh of its own to be written: whoever else shows its present one keeps that as it is."""
+    shared = obj.data
+    own = shared.copy()
+    whole.undo(bpy.data.meshes.remove, own)
+    whole.undo(setattr, obj, "data", shared)
+    obj.data = own
+
+
+def keep_mirror(mirror: bpy.types.Object, whole: AllOrNothing) -> None:
+    """Let `whole` bring back whether the camera sees a mirror."""
+    def back(visible: bool, hidden: bool) -> None:
+        mirror.visible_camera, mirror.reflection_mesh.camera_hidden = visible, hidden
+    if mirror.library is None:
+        whole.undo(back, mirror.visible_camera, mirror.reflection_mesh.camera_hidden)
