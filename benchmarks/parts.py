@@ -82,17 +82,11 @@ def _room(name: str):
 def _nothing_filled() -> Iterator[None]:
     """Leave the step `filling` out of the method: what it would fill stays as clipping left it."""
     bounce = _room("core.bounce")
-    find_and_fill = bounce.fill_openings
 
-    def fill(mirror_map, cameras, frames, candidates, polygons, open_):
-        return polygons, 0
+    def without(view, mirror_map, cameras, frames, candidates, crowds, met, most):
+        return cameras, frames, candidates, 0, 0
 
-    def fill_openings(*given):
-        *_, counts = find_and_fill(*given)
-        # candidates, polygons, nodes and the nodes of the polygons as they came
-        return *given[-4:], dict.fromkeys(counts, 0)
-
-    with mock.patch.multiple(bounce, fill=fill, fill_openings=fill_openings):
+    with mock.patch.object(bounce, "with_crowds", without):
         yield
 
 

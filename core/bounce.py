@@ -7,15 +7,14 @@ from time import perf_counter
 import numpy as np
 
 from .cameras import Cameras
-from .candidates import overlapping
+from .candidates import Candidates, overlapping
 from .caustics import split_at_caustics
-from .clipping import FILLED, Polygons, clip, whole_triangles
+from .clipping import Polygons, clip, whole_triangles
 from .cones import Cones
 from .connection import Faces, connect
 from .contacts import drop_behind_contacts
-from .crowds import picture_areas, thinned, with_crowds
 from .face_refinement import FaceRefinement
-from .filling import fill, fill_openings
+from .filling import picture_areas, thinned, with_crowds
 from .horizon import beyond_horizon
 from .images import vertex_images
 from .limits import Limits, pixels_of
@@ -119,7 +118,8 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
         thin(crowd)
     cameras, candidates, open_, outlines_limited = refine_for_outlines(
         view, mirror_map, cameras, frames, candidates, OUTLINE_SHARE * tolerance, limits.candidates, met)
-    open_ = open_[thin(np.zeros(len(cameras), dtype=bool))]
+    # cameras of a pixel in which outlines are bent still, as where rays cross: there is nothing left to cut
+    thin(open_)
     bounded = len(candidates) > limits.candidates
     progress.done("cones", nodes_visited=visited, pairs=len(camera), contacts=contacts, cameras=len(cameras),
                   candidates=len(candidates), limited=outlines_limited)
@@ -128,47 +128,36 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
     images, image_counts = vertex_images(view, mirror_map, cameras, Cones.around(cameras), met.positions, frames,
                                          candidates if not last else met.only_diffuse(frames, candidates))
     progress.done("projection", **image_counts)
-    crowded, crowd_cells = sum(map(len, crowds)), 0
-    if crowded:
-        cameras, frames, candidates, crowd_cells, crowd_rays = with_crowds(view, mirror_map, cameras, frames,
-                                                                           candidates, crowds, met, limits.rays)
-        open_ = np.concatenate((open_, np.zeros(crowd_cells, dtype=bool)))
-        progress.done("crowds", crowded=crowded, crowd_rays=crowd_rays)
-        cells = cameras.select(slice(len(cameras) - crowd_cells, None))
-        shown = ~met.shows_mirror(frames)[candidates.column[len(candidates) - crowd_cells:]]
-        progress.done("crowds", filled_pixels=round(float(pixels_of(view, cells)[shown].sum())))
+    cells, rays = 0, 0
+    if any(map(len, crowds)):
+        cameras, frames, candidates, cells, rays = with_crowds(view, mirror_map, cameras, frames, candidates, crowds,
+                                                               met, limits.rays)
+    by_rays = np.arange(len(cameras)) >= len(cameras) - cells
+    progress.done("filling", open=int(open_.sum()), crowded=sum(map(len, crowds)) - int(open_.sum()), filled=cells,
+                  rays=rays, filled_pixels=_shown_pixels(view, cameras, frames, candidates, met, cells))
 
     progress.next(0.5, "clipping")
-    polygons, rays = fill(mirror_map, cameras, frames, candidates, clip(candidates), open_)
+    polygons = clip(candidates)
     mirror = met.shows_mirror(frames)[candidates.column[polygons.pair]]
     polygons, mirrors = polygons.select(~mirror), polygons.select(mirror & (not last))
     nodes, node_of = polygon_nodes(view, mirror_map, cameras, frames, met.positions, candidates, polygons, images)
     joined = whole_triangles(polygons)
     progress.done("clipping", polygons=len(polygons.pair), joined=joined, cut=len(polygons.pair) - joined)
 
-    progress.next(0.6, "filling")
-    counts = {"filled": 0, "rays": 0}
-    if first_bounce and not crowded:
-        candidates, polygons, nodes, node_of, counts = fill_openings(
-            view, mirror_map, cameras, met.tree, frames, images, candidates, polygons, nodes, node_of)
-    progress.done("filling", **counts | {"filled": counts["filled"] + rays, "rays": counts["rays"] + rays})
-
     progress.next(0.7, "mirrors in the mirror")
     occluded = 0
     if met.shows_mirror(frames).any():
         # rays have told what cells show: nothing hides that
-        by_rays = np.arange(len(cameras)) >= len(cameras) - crowd_cells
-        cells = (polygons.after[polygons.start[:-1]] == FILLED) | by_rays[candidates.camera[polygons.pair]]
-        mirror_cells = by_rays[candidates.camera[mirrors.pair]]
-        cell_nodes = node_of[np.repeat(cells, np.diff(polygons.start))]
-        clipped = Polygons.joined((polygons.select(~cells), mirrors.select(~mirror_cells)))
+        own, others = (by_rays[candidates.camera[part.pair]] for part in (polygons, mirrors))
+        cell_nodes = node_of[np.repeat(own, np.diff(polygons.start))]
+        clipped = Polygons.joined((polygons.select(~own), mirrors.select(~others)))
         seen, occluded = cut_behind_mirrors(cameras, frames, met, candidates, clipped)
         if occluded or len(mirrors.pair):
-            seen = Polygons.joined((seen, mirrors.select(mirror_cells)))
+            seen = Polygons.joined((seen, mirrors.select(others)))
             fresh, node_of = polygon_nodes(view, mirror_map, cameras, frames, met.positions, candidates, seen, images)
             node_of = np.concatenate((node_of, cell_nodes + len(fresh.distance)))
             nodes, polygons = fresh.joined(nodes.place, nodes.point, nodes.distance), Polygons.joined(
-                (seen, polygons.select(cells)))
+                (seen, polygons.select(own)))
     progress.done("occlusion", occluded=occluded)
 
     progress.next(0.75, "connection")
@@ -198,3 +187,10 @@ def refined(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
     cameras, limited = refine_mirror(view, mirror_map, cameras, MIRROR_SHARE * tolerance, reach, maximum)
     progress.done("cameras", limited=limited)
     return cameras
+
+
+def _shown_pixels(view: View, cameras: Cameras, frames: SceneFrames, candidates: Candidates, met: MetSurfaces,
+                  cells: int) -> int:
+    """How many pixels show the diffuse scene in the last cameras, so many `cells`."""
+    shown = ~met.shows_mirror(frames)[candidates.column[len(candidates) - cells:]]
+    return round(float(pixels_of(view, cameras.select(slice(len(cameras) - cells, None)))[shown].sum()))

@@ -17,8 +17,8 @@ from .stepping import breathe
 from .vectors import ranges
 
 # Lines: 0 1 2 the camera's edges opposite its corners, 3 4 5 the triangle's edges opposite its vertices, 6 its plane.
-# 7 any line along which a nearer mirror begins, 8 no line at all, round cells that rays filled.
-SCENE_EDGE, CONTACT, HIDDEN, FILLED = 3, 6, 7, 8
+# 7 any line along which a nearer mirror begins.
+SCENE_EDGE, CONTACT, HIDDEN = 3, 6, 7
 PAIRS_AT_ONCE = 32768
 SMALLEST = 1e-12  # of a camera: a smaller piece that cutting leaves is nothing
 

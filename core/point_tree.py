@@ -80,7 +80,8 @@ class PointTree:
     @classmethod
     def build(cls, mesh: TriangleMesh) -> PointTree:
         """The tree of a mesh whose vertices and triangles may come in any order."""
-        if not isinstance(mesh, TriangleMesh):
+        # of another copy of this package, as an extension's beside a checkout's, a mesh is a mesh too
+        if type(mesh).__name__ != TriangleMesh.__name__:
             raise ValueError("The mesh of a PointTree must be a TriangleMesh; make one of its positions and triangles.")
         mesh, given = ordered(mesh, shading=False)
         used, normal, reach = _surface(mesh)

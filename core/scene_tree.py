@@ -56,7 +56,8 @@ class SceneTree:
     @classmethod
     def build(cls, mesh: TriangleMesh) -> SceneTree:
         """The tree of a mesh whose vertices and triangles may come in any order."""
-        if not isinstance(mesh, TriangleMesh):
+        # of another copy of this package, as an extension's beside a checkout's, a mesh is a mesh too
+        if type(mesh).__name__ != TriangleMesh.__name__:
             raise ValueError("The mesh of a SceneTree must be a TriangleMesh; make one of its positions and triangles.")
         return cls.of_ordered(*ordered(mesh, shading=False))
 

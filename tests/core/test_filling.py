@@ -1,29 +1,49 @@
-"""Cameras filled by one ray each: the ray's first triangle, found by trying all, and no other."""
-import numpy as np
+"""Crowds: what is too much for the picture or the memory is shown by rays, within bounds, and the result says so."""
+import time
+import tracemalloc
 
-from core import SceneTree
+import numpy as np
+import pytest
+
+from core import SceneTree, Settings, TriangleMesh, View, reflect
 from core.camera_splitting import in_picture
 from core.cameras import three_ray_cameras, visible_triangles
-from core.candidates import overlapping
-from core.clipping import clip
-from core.cones import Cones
-from core.filling import fill
+from core.limits import Limits, crowded
+from core.met_surfaces import MetSurfaces
 from core.mirror_map import MirrorMap
-from core.scene_frames import SceneFrames
-from tests.core.true_map import case_of
+from tests import shapes
+from tests.core.true_map import case_of, mesh_of, truth_of
+from tests.judge import compare
+from tests.scenes import SCENES
+
+VIEW = View.looking_at((0.3, -5.0, 1.5), (0.0, 0.0, 0.5), (96, 72))
 
 
-def rooms():
-    case = case_of("sphere_ico")
-    mirror_map = MirrorMap(case.view, case.mirror)
-    cameras = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
-    cameras = cameras.select(in_picture(case.view, cameras))
-    tree = SceneTree.build(case.scene)
-    camera, triangle, _ = tree.trace(Cones.around(cameras))
-    met, column = np.unique(triangle, return_inverse=True)
-    frames = SceneFrames.of(tree.mesh, met)
-    candidates = overlapping(cameras, frames, camera, column)
-    return tree.mesh, mirror_map, cameras, frames, candidates, clip(candidates)
+def soup(count, seed, size=0.8):
+    """Triangles across each other in a ball of radius about one."""
+    rng = np.random.default_rng(seed)
+    middles = rng.normal(0.0, 0.5, (count, 1, 3))
+    return TriangleMesh((middles + rng.normal(0.0, size, (count, 3, 3))).reshape(-1, 3),
+                        np.arange(3 * count).reshape(-1, 3))
+
+
+@pytest.mark.parametrize("name", ["sphere", "flat", "water", "bowl"])
+def test_rays_alone_show_the_right_thing_to_a_pixel(name):
+    # a memory that holds hardly a candidate leaves everything to rays
+    case, truth = case_of(name), truth_of(name)
+    mesh = reflect(case.view, case.mirror, case.scene, Settings(maximum_memory=1e-4))
+    numbers = compare(case.view, case.mirror, mesh, truth).numbers
+    assert mesh.counts["crowded"] > 0 and mesh.counts["rays"] < 2 * mesh.counts["mirror_pixels"]
+    assert 30.0 < mesh.filled_share <= 100.0
+    assert numbers["p99"] < 1.0 and numbers["median"] < 0.01
+    assert numbers["uncovered"] < 1.0 and numbers["spill_outside"] == 0.0
+    assert mesh.counts["missed"] == 0
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_ordinary_scenes_need_no_ray(name):
+    counts = mesh_of(name).counts
+    assert counts["crowded"] == counts["open"] == counts["filled"] == counts["rays"] == 0
 
 
 def first_triangle(scene, origin, ray):
@@ -36,36 +56,66 @@ def first_triangle(scene, origin, ray):
     return int(np.argmin(np.where(hit, s, np.inf))) if hit.any() else -1
 
 
-def test_an_open_camera_shows_the_triangle_that_its_middle_ray_meets_first():
-    scene, mirror_map, cameras, frames, candidates, polygons = rooms()
-    rng = np.random.default_rng(127)
-    open_ = rng.random(len(cameras)) < 0.5
-    filled, rays = fill(mirror_map, cameras, frames, candidates, polygons, open_)
-    assert rays > 100
-    camera = candidates.camera[filled.pair]
-    triangle = frames.triangle[candidates.column[filled.pair]]
+def test_a_cell_shows_the_triangle_that_its_middle_ray_meets_first():
+    case = case_of("sphere_ico")
+    mirror_map, tree = MirrorMap(case.view, case.mirror), SceneTree.build(case.scene)
+    cameras = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
+    cameras = cameras.select(in_picture(case.view, cameras))
+    shown = MetSurfaces(tree, case.mirror).shown_in_middles(mirror_map, cameras)
     middle = cameras.places[:, cameras.corners].mean(axis=2)
     ray = mirror_map.rays(cameras.face, mirror_map.coordinates(cameras.face, middle))
-    seen = 0
-    for number in np.flatnonzero(open_):
-        shown = triangle[camera == number].tolist()
-        expected = first_triangle(scene, middle[:, number], ray[:, number])
-        assert shown == ([] if expected < 0 else [expected])
-        seen += expected >= 0
-    assert seen > 100
-    # The filled ones are whole cameras; all others keep the polygons they had.
-    size = np.diff(filled.start)
-    whole = np.flatnonzero(open_[camera])
-    assert (size[whole] == 3).all()
-    np.testing.assert_array_equal(filled.weights[:, filled.start[whole[0]]:filled.start[whole[0]] + 3], np.eye(3))
-    kept = ~open_[candidates.camera[polygons.pair]]
-    np.testing.assert_array_equal(filled.pair[:kept.sum()], polygons.pair[kept])
-    np.testing.assert_array_equal(filled.weights[:, :filled.start[kept.sum()]],
-                                  polygons.weights[:, np.repeat(kept, np.diff(polygons.start))])
+    expected = [first_triangle(tree.mesh, middle[:, number], ray[:, number]) for number in range(len(cameras))]
+    assert shown.tolist() == expected
+    assert (shown >= 0).sum() > 100
 
 
-def test_nothing_open_changes_nothing():
-    _, mirror_map, cameras, frames, candidates, polygons = rooms()
-    same, rays = fill(mirror_map, cameras, frames, candidates, polygons, np.zeros(len(cameras), dtype=bool))
-    assert same is polygons
-    assert rays == 0
+def test_crossing_mirrors_take_bounded_time_and_show_the_scene():
+    mirror, scene = soup(250, 3), shapes.combine(shapes.icosphere((0.0, -3.0, 1.0), 0.8, 2))
+    started = time.process_time()
+    mesh = reflect(VIEW, mirror, scene, Settings(depth=2))
+    assert time.process_time() - started < 10.0
+    assert mesh.counts["crowded"] > 0
+    assert len(mesh.triangles) < 40 * mesh.counts["mirror_pixels"]
+    assert mesh.missing_share < 25.0
+
+
+def test_what_is_made_does_not_grow_with_what_the_picture_cannot_show():
+    # a mirror of a few pixels before 4,000 triangles
+    mirror = TriangleMesh(0.02 * soup(200, 4).positions, soup(200, 4).triangles)
+    scene = soup(4000, 5, 0.3)
+    scene = TriangleMesh(scene.positions + [0.0, -2.0, 1.0], scene.triangles)
+    started = time.process_time()
+    mesh = reflect(VIEW, mirror, scene, Settings(depth=2))
+    assert time.process_time() - started < 10.0
+    assert mesh.counts["mirror_pixels"] < 100
+    assert len(mesh.triangles) < 250_000
+
+
+@pytest.mark.parametrize("gigabytes", [0.2, 0.05])
+def test_arrays_stay_within_the_memory_that_is_allowed(gigabytes):
+    mirror, scene = soup(150, 6), soup(1500, 7, 0.2)
+    tracemalloc.start()
+    try:
+        reflect(VIEW, mirror, scene, Settings(maximum_memory=gigabytes))
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    # what one share of the work takes at a time comes to what the memory holds
+    assert peak < 1e9 * gigabytes + 2e8
+
+
+def test_the_most_crowded_for_their_worth_are_left_out():
+    count, worth = np.array([10, 10, 1, 100]), np.array([10.0, 1.0, 1.0, 1000.0])
+    assert crowded(count, worth, 121).tolist() == [False] * 4
+    assert crowded(count, worth, 120).tolist() == [False, True, False, False]
+    assert crowded(count, worth, 100).tolist() == [True, True, True, False]
+    assert crowded(count, worth, 0).tolist() == [True] * 4
+
+
+def test_limits_grow_with_the_picture_and_the_memory():
+    small, large = (Limits.of(Settings(), pixels, 1000) for pixels in (100, 100_000))
+    assert small.candidates < large.candidates and small.rays < large.rays and small.cameras < large.cameras
+    tight = Limits.of(Settings(maximum_memory=0.01), 100_000, 1000)
+    assert tight.candidates < large.candidates and tight.faces < large.faces and tight.pairs < large.pairs
+    free = Limits.of(Settings(maximum_memory=np.inf, maximum_faces=2**40), 100, 1000)
+    assert free == small and Limits.of(Settings(maximum_faces=500), 100, 1000).faces == 500

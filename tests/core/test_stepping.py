@@ -7,7 +7,7 @@ import pytest
 
 from core import Settings, reflect, reflection_steps
 from core.stepping import INTERVAL, breathe, in_steps, tell
-from tests.core.test_crowds import VIEW, soup
+from tests.core.test_filling import VIEW, soup
 from tests.core.true_map import case_of
 
 
