@@ -61,7 +61,9 @@ def _arrays(view: View, first_map: MirrorMap, bounce: Bounce, met: MetSurfaces) 
     uv = mirror_map.coordinates(owner, seen)
     turned = mirror_map.turned(owner, uv, nodes.distance[used])
     ways = mirror_map.ways(owner, uv)
-    path = norm(point - seen) if not ways else ways[-1] + norm(point - mirror_map.leave(owner, uv)[0])
+    straight = norm(point - seen)
+    # a corner that was brought back to its triangle or to the mirror has left its ray by a little
+    path = straight if not ways else np.maximum(ways[-1] + norm(point - mirror_map.leave(owner, uv)[0]), straight)
     return {
         "triangles": triangles, "reflected_position": point.T, "mirror_position": seen.T, "path_length": path,
         "image_parity": np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8),

@@ -17,7 +17,7 @@ from .face_refinement import FaceRefinement
 from .filling import picture_areas, thinned, with_crowds
 from .horizon import beyond_horizon
 from .images import vertex_images
-from .limits import Limits, pixels_of
+from .limits import Limits, crowded, pixels_of
 from .met_surfaces import MetSurfaces
 from .mirror_refinement import refine_mirror
 from .mirror_occlusion import cut_behind_mirrors
@@ -87,8 +87,10 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
                  limits: Limits, last: bool, progress: Progress) -> Bounce:
     """All that the cameras see; `last` tells that light which meets a mirror goes no further."""
     tolerance, first_bounce = settings.tolerance, cameras.origins is cameras.places
+    few = ~crowded(np.ones(len(cameras)), picture_areas(view, cameras), limits.cameras)
+    crowds, cameras = [cameras.select(~few)], cameras.select(few)
     # to look twice for mirrors pays where few cameras see any: hardly after a bounce
-    showing = (met.showing_mirrors(mirror_map, cameras, limits.pairs) if first_bounce
+    showing = (met.showing_mirrors(mirror_map, cameras, limits.pairs // 4) if first_bounce
                else np.ones(int(cameras.face.max(initial=-1)) + 1, dtype=bool))
     cameras = refined(view, mirror_map, cameras, met, None if last else showing, settings.tolerance, limits.cameras,
                       progress)
@@ -101,7 +103,6 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
     candidates = met.without_touching(mirror_map, cameras, frames, overlapping(cameras, frames, camera, column))
     if last:
         candidates = met.hiding_something(frames, candidates)
-    crowds: list[Cameras] = []
 
     def thin(crowd: np.ndarray) -> np.ndarray:
         nonlocal cameras, candidates

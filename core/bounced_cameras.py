@@ -33,7 +33,8 @@ def bounced_cameras(view: View, bounce: Bounce, met: MetSurfaces) -> tuple[Bounc
     seen = np.flatnonzero(met.shows_mirror(frames)[faces.column] & large)
     face_before, triangle = bounce.cameras.face[faces.camera[seen]], triangle[seen]
     first, chain = groups(face_before, triangle)
-    bounced = BouncedMap(bounce.mirror_map, met.surface, face_before[first], triangle[first], view.orthographic)
+    bounced = BouncedMap(bounce.mirror_map, met.surface, face_before[first], triangle[first],
+                         bounce.mirror_map.unit_rays)
 
     node, face = faces.nodes[seen].ravel(), np.repeat(chain, 3)
     origins, rays = bounced.leave(face, bounced.coordinates(face, nodes.place[:, node]))

@@ -28,6 +28,7 @@ class BouncedMap(ReflectionMap):
     triangle : (k,) int64
         For each chain, the triangle of `surface` that its rays arrive at.
     orthographic : bool
+        Whether the rays that arrive are unit vectors.
     """
 
     parallel = False

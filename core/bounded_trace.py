@@ -7,8 +7,10 @@ import numpy as np
 
 from .cones import Cones
 from .limits import crowded
-from .scene_tree import SceneTree
+from .scene_tree import CONES_AT_ONCE, SceneTree
 from .stepping import breathe
+
+VISITS_OF_A_PAIR = 3  # tests of a cone against a node, to a pair that may be found
 
 
 def bounded_trace(tree: SceneTree, cones: Cones, most: int, worth: np.ndarray,
@@ -31,19 +33,23 @@ def bounded_trace(tree: SceneTree, cones: Cones, most: int, worth: np.ndarray,
     given_up : (n,) bool
         Cones of which no pair is returned.
     """
-    wanted = np.ones(len(worth), dtype=bool)
+    wanted, visits = np.ones(len(worth), dtype=bool), VISITS_OF_A_PAIR * most
     found, visited, total = [(np.zeros(0, dtype=np.int64),) * 2], 0, 0
     for cone, triangle, more in tree.traced(cones, wanted):
         breathe()
         visited += more
+        if visited > visits and len(cone):
+            # what lies in the shares still to come is given up whole, with the rest of this one
+            wanted[cone.min() // CONES_AT_ONCE * CONES_AT_ONCE:] = False
         if asked is not None and len(cone):
             kept = asked(cone, triangle)
             cone, triangle = cone[kept], triangle[kept]
         found.append((cone, triangle))
         total += len(cone)
-        if total > most:
+        if total > most or not wanted[cone].all():
             cone, triangle = (np.concatenate(side) for side in zip(*found))
-            wanted &= ~crowded(np.bincount(cone, minlength=len(worth)), worth, most // 2)
+            if total > most:
+                wanted &= ~crowded(np.bincount(cone, minlength=len(worth)), worth, most // 2)
             kept = wanted[cone]
             found = [(cone[kept], triangle[kept])]
             total = int(kept.sum())

@@ -14,7 +14,7 @@ from .nodes import Nodes
 from .scene_frames import SceneFrames
 from .stepping import breathe
 from .subdivision import shared_edges
-from .vectors import cross, dot
+from .vectors import cross, dot, norm
 
 STEPS = 24
 PLACES_AT_ONCE = 32768
@@ -86,6 +86,8 @@ def _may_fold(cameras: Cameras) -> np.ndarray:
     r, t = rays[:, :, 1] - rays[:, :, 0], rays[:, :, 2] - rays[:, :, 0]
     normals = cross(p, q), cross(p, t) + cross(r, q), cross(r, t)
     coefficients = np.stack([dot(normal[:, :, None], rays) for normal in normals])
-    # curvature below rounding, as on flat mirrors, is none
-    noise = 1e-12 * np.abs(coefficients).max(axis=0)
+    # curvature below rounding, as on flat mirrors, is none: places and rays may have different units
+    size, turn = norm(p) + norm(q), norm(r) + norm(t)
+    size, turn, length = size[:, None], turn[:, None], norm(rays)
+    noise = 1e-12 * length * np.stack((size * size + 0.0 * length, size * length, turn * length))
     return (coefficients > noise).any(axis=(0, 2)) & (coefficients < -noise).any(axis=(0, 2))

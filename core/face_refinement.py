@@ -121,8 +121,14 @@ class FaceRefinement:
         """Where on the mirror the middle of a drawn edge is seen."""
         if not self.virtual or self.view.orthographic:
             return 0.5 * (nodes.place[:, a] + nodes.place[:, b])
-        weight_a, weight_b = 1.0 + nodes.distance[a], 1.0 + nodes.distance[b]
+        weight_a, weight_b = 1.0 + self._ways(nodes, a), 1.0 + self._ways(nodes, b)
         return (weight_a * nodes.place[:, a] + weight_b * nodes.place[:, b]) / (weight_a + weight_b)
+
+    def _ways(self, nodes: Nodes, node: np.ndarray) -> np.ndarray:
+        """How far behind the mirror nodes are seen, to their distance from the eye."""
+        if not self.mirror_map.unit_rays:
+            return nodes.distance[node]
+        return nodes.distance[node] / norm(self.view.directions(nodes.place[:, node].T).T)
 
     def _straying(self, face: np.ndarray, uv: np.ndarray, column: np.ndarray, shown: np.ndarray):
         """Pixels between the places where `shown` is drawn and where it is truly seen, and as much of them as an eye

@@ -26,7 +26,7 @@ class Limits:
     Attributes
     ----------
     cameras : int
-        After the refinement of the mirror.
+        Of a bounce, before its outlines are refined.
     pairs : int
         Of cones and triangles that touch.
     candidates : int
@@ -52,7 +52,7 @@ class Limits:
     def of(cls, settings: Settings, pixels: int, triangles: int) -> Limits:
         """Limits for a mirror that is seen in so many pixels, of meshes with so many `triangles` altogether."""
         memory, faces = 1e9 * settings.maximum_memory, settings.maximum_faces
-        return cls(int(min(10_000 + 4 * pixels + 4 * triangles, faces)),
+        return cls(int(min(10_000 + 4 * pixels, faces)),
                    int(min(1_000_000 + 16 * pixels + 16 * triangles, memory / PAIR_BYTES)),
                    int(min(100_000 + 8 * pixels + 4 * triangles, memory / CANDIDATE_BYTES, faces)),
                    int(50_000 + 10 * pixels + 8 * triangles),

@@ -33,6 +33,11 @@ class ReflectionMap(ABC):
     orthographic: bool
     grazing: np.ndarray
 
+    @property
+    def unit_rays(self) -> bool:
+        """Whether rays are unit vectors and s is a length, instead of rays as long as the way from the eye."""
+        return self.orthographic or self.parallel
+
     @abstractmethod
     def coordinates(self, face: np.ndarray, places: np.ndarray) -> np.ndarray:
         """(u, v) as (2, n) of `places` (3, n) on the planes of the triangles that the eye sees."""
@@ -110,7 +115,7 @@ class ReflectionMap(ABC):
         origin, ray = self.leave(face, uv)
         miss = norm(origin + s * ray - points)
         # without a viewing distance the mirror triangle's size stands in
-        way = sum(map(norm, self.spans(face))) if self.orthographic else norm(ray)
+        way = sum(map(norm, self.spans(face))) if self.unit_rays else norm(ray)
         return (s >= 0.0) & (miss <= ARRIVED * (norm(points - origin) + way))
 
     def turned(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray) -> np.ndarray:
