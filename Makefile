@@ -8,17 +8,19 @@ DEMO ?= demo
 REPORT ?= report
 BUDGET ?= 10
 GROWTH ?= 7
+SECONDS ?= 600
 
 RUN = $(VENV)/bin/python
 READY = $(VENV)/.ready
 
 .DEFAULT_GOAL := help
 .PHONY: help environment demo measure report report-plots numerics rate work pictures \
-        test lint test-core test-addon zip samples clean
+        test lint test-core test-addon fuzz zip samples clean
 
 help:
-	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/"
+	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
 	@echo "make test     style, the method's tests, the extension's tests"
+	@echo "make fuzz     a search for failures at random, for SECONDS=$(SECONDS), from new seeds or from FIRST=..."
 	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
 	@echo "make report   every method's error and seconds on all samples, judged by Cycles: one report in $(REPORT)/"
 	@echo "make report-plots  the tables of docs/benchmark.md from that report, and its plots in docs/benchmark/"
@@ -49,7 +51,7 @@ $(READY): $(REQUIREMENTS)
 	@touch $@
 
 demo: environment
-	$(RUN) benchmarks/demo.py --sample $(SAMPLE) --folder $(DEMO)
+	$(RUN) benchmarks/demo.py --sample $(SAMPLE) --folder $(DEMO) $(if $(VERBOSE),--verbose)
 
 measure: environment
 	$(RUN) benchmarks/measure.py $(SAMPLES)
@@ -80,10 +82,13 @@ lint: environment
 	$(RUN) -m ruff check .
 
 test-core: environment
-	$(RUN) -m pytest -q tests/core
+	$(RUN) -m pytest -q tests/core tests/fuzz
 
 test-addon: environment
 	$(RUN) -m pytest -q tests/addon
+
+fuzz: environment
+	$(RUN) -m tests.fuzz --seconds $(SECONDS) $(if $(FIRST),--first $(FIRST))
 
 zip: environment
 	$(RUN) benchmarks/extension_zip.py dist

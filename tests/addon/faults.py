@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import os
 import resource
+import signal
 import subprocess
 import sys
 import time
@@ -58,10 +59,15 @@ def one_sentence(error: str) -> str:
     return told[0]
 
 
+def _hears_ctrl_c() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @contextmanager
 def running(**options):
-    """A process that ends with its test, and within a minute."""
-    with subprocess.Popen(**options) as process:
+    """A process that ends with its test, and within a minute; it hears Ctrl-C even where these tests, as all that a
+    script starts behind its back, do not."""
+    with subprocess.Popen(preexec_fn=_hears_ctrl_c, **options) as process:
         watch = Timer(60.0, process.kill)
         watch.start()
         try:

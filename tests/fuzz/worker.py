@@ -1,0 +1,67 @@
+"""Tries seeds, one after another, in a process of its own that may crash or be killed:
+
+    python -m tests.fuzz.worker core|scenes
+
+reads a seed a line and answers each with a line of JSON: {"seed": ..., "name": ..., "problems": [...]}.
+"""
+from __future__ import annotations
+
+import json
+import os
+import resource
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+SECONDS = {"core": 60, "scenes": 120}  # of processor time, for a seed with all that is done to it
+GIGABYTES = 8  # of address space, for all seeds
+
+
+def main(kind: str) -> None:
+    # what the libraries print is no answer
+    answers = os.fdopen(os.dup(1), "w")
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    with {"core": _core, "scenes": _scenes}[kind]() as tried:
+        resource.setrlimit(resource.RLIMIT_AS, (GIGABYTES * 10**9, resource.RLIM_INFINITY))
+        for line in sys.stdin:
+            # SIGXCPU ends the process where a seed takes longer
+            last = int(time.process_time()) + SECONDS[kind] + 1
+            resource.setrlimit(resource.RLIMIT_CPU, (last, resource.RLIM_INFINITY))
+            answers.write(json.dumps({"seed": int(line), **tried(int(line))}) + "\n")
+            answers.flush()
+
+
+@contextmanager
+def _core() -> Iterator[Callable[[int], dict]]:
+    from tests.fuzz.configurations import drawn
+    from tests.fuzz.trying import problems_of
+
+    def tried(seed: int) -> dict:
+        configuration = drawn(seed)
+        return {"name": configuration.name, "problems": problems_of(configuration, seed)}
+    yield tried
+
+
+@contextmanager
+def _scenes() -> Iterator[Callable[[int], dict]]:
+    """With the extension as users have it, in preferences of its own."""
+    from benchmarks import extension_zip
+    folder = Path(tempfile.mkdtemp(prefix="reflection_mesh_fuzz_"))
+    # before anything imports bpy
+    extension_zip.use_throw_away_preferences(folder)
+    extension_zip.install(extension_zip.build(folder / "zip"))
+    from tests.fuzz.scene_trial import tried_scene
+    try:
+        yield tried_scene
+    finally:
+        extension_zip.switch_off()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
