@@ -53,7 +53,7 @@ class Limits:
         """Limits for a mirror that is seen in so many pixels, of meshes with so many `triangles` altogether."""
         memory, faces = 1e9 * settings.maximum_memory, settings.maximum_faces
         return cls(int(min(10_000 + 4 * pixels, faces)),
-                   int(min(1_000_000 + 16 * pixels + 16 * triangles, memory / PAIR_BYTES)),
+                   int(min(400_000 + 16 * pixels + 8 * triangles, memory / PAIR_BYTES)),
                    int(min(100_000 + 8 * pixels + 4 * triangles, memory / CANDIDATE_BYTES, faces)),
                    int(50_000 + 10 * pixels + 8 * triangles),
                    int(min(200_000 + 32 * pixels + 16 * triangles, memory / FACE_BYTES, faces)),

@@ -40,7 +40,8 @@ class Images:
     degenerate: np.ndarray
 
 
-def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facing: np.ndarray | None = None) -> Images:
+def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = None, *,
+            facing: np.ndarray | None = None) -> Images:
     """Every image of each point in its three-ray camera.
 
     The camera sees P at the weights W where P = Q(W) + s R(W), s > 0, W >= 0, sum W = 1, with Q(W) = sum W_i V_i and
@@ -62,7 +63,7 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray, *, facin
     vertices, rays : (n, 3, 3) float64
         Corners V_A, V_B, V_C of each camera's mirror triangle, and their rays R_A, R_B, R_C, not normalised.
     points : (n, 3) float64
-        In the same space and units as the vertices.
+        In the same space and units as the vertices. Not to be left out: a ValueError says so, as of all that is wrong.
     facing : (n,), optional
         Positive where the eye sees the corners A, B, C counter-clockwise, negative where clockwise.
 
