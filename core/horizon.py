@@ -15,6 +15,7 @@ from .subdivision import split
 from .view import View
 
 STEPS = 30
+CAMERAS_AT_ONCE = 16384
 LEVELS = 6  # of splits before the cut, for cameras across which the horizon bulges
 LONG_EDGE = 8.0  # pixels: in a smaller camera a bulge does not matter
 ON_LINE = 1e-6  # rise of rays on the horizon itself, which belong to both its sides
@@ -29,11 +30,14 @@ def beyond_horizon(mirror_map: ReflectionMap, cameras: Cameras) -> np.ndarray:
 def _lifted_probes(mirror_map: ReflectionMap, cameras: Cameras, slack: float) -> np.ndarray:
     """(7, n): whether the rays at the corners, the edges' middles and the middle of the cameras are lifted."""
     found = np.zeros((_PROBES.shape[1], len(cameras)), dtype=bool)
-    near = np.flatnonzero(mirror_map.grazing[cameras.face])
-    places = np.einsum("xnk,kp->xpn", cameras.places[:, cameras.corners[near]], _PROBES).reshape(3, -1)
-    face = np.tile(cameras.face[near], len(found))
-    lifted = mirror_map.lifted(face, mirror_map.coordinates(face, places), slack)
-    found[:, near] = lifted.reshape(len(found), -1)
+    grazing = np.flatnonzero(mirror_map.grazing[cameras.face])
+    for start in range(0, len(grazing), CAMERAS_AT_ONCE):
+        breathe()
+        near = grazing[start:start + CAMERAS_AT_ONCE]
+        places = np.einsum("xnk,kp->xpn", cameras.places[:, cameras.corners[near]], _PROBES).reshape(3, -1)
+        face = np.tile(cameras.face[near], len(found))
+        lifted = mirror_map.lifted(face, mirror_map.coordinates(face, places), slack)
+        found[:, near] = lifted.reshape(len(found), -1)
     return found
 
 

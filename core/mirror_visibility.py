@@ -16,7 +16,7 @@ from .vectors import ranges, shares
 from .view import View
 
 SAMPLES = 256  # across the wider side of the picture
-SAMPLES_AT_ONCE = 1 << 21
+SAMPLES_AT_ONCE = 1 << 19
 MOST_SAMPLES, LEAST_SAMPLES = 1 << 24, 32  # on all cameras, else the grid is made coarser; across the picture
 SURFACE = 2e-4  # relative difference of depth up to which two samples lie on one surface
 
