@@ -22,6 +22,7 @@ from .vectors import dot, norm
 from .view import View
 
 LEVELS = 10
+EDGES_AT_ONCE = 32768
 SHORTEST_EDGE = 0.25  # pixels
 MARGIN = 2.0  # pixels round the picture: nobody sees an edge beyond
 STRETCH = 4.0
@@ -87,7 +88,12 @@ class FaceRefinement:
         place = self._middle(nodes, a, b)
         shown = 0.5 * (nodes.point[:, a] + nodes.point[:, b])
         uv = self.mirror_map.coordinates(mirror_face, place)
-        drift, error, point, distance = self._straying(mirror_face, uv, column, shown)
+        parts = []
+        for start in range(0, max(len(column), 1), EDGES_AT_ONCE):
+            breathe()
+            part = slice(start, start + EDGES_AT_ONCE)
+            parts.append(self._straying(mirror_face[part], uv[:, part], column[part], shown[:, part]))
+        drift, error, point, distance = (np.concatenate(side, axis=-1) for side in zip(*parts))
         worth = np.zeros(len(ends), dtype=bool)
         worth[edge[~self.beyond[faces.camera]]] = True
         pixels = self.view.pixels(nodes.place.T)

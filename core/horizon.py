@@ -15,7 +15,7 @@ from .subdivision import split
 from .view import View
 
 STEPS = 30
-CAMERAS_AT_ONCE = 16384
+CAMERAS_AT_ONCE = 4096
 LEVELS = 6  # of splits before the cut, for cameras across which the horizon bulges
 LONG_EDGE = 8.0  # pixels: in a smaller camera a bulge does not matter
 ON_LINE = 1e-6  # rise of rays on the horizon itself, which belong to both its sides
