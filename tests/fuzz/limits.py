@@ -6,6 +6,8 @@ import resource
 import signal
 from collections.abc import Iterator
 
+AGAIN = 5.0  # seconds after which it is said once more, in case that something on the way swallowed it
+
 
 class TooLong(BaseException):
     """More processor time than allowed; no `except Exception` on the way stops it."""
@@ -26,7 +28,7 @@ def at_most(seconds: float, gigabytes: float | None = None) -> Iterator[None]:
         wanted = _address_space() + int(gigabytes * 1e9)
         resource.setrlimit(resource.RLIMIT_AS, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))
     before = signal.signal(signal.SIGPROF, _too_long)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
+    signal.setitimer(signal.ITIMER_PROF, seconds, AGAIN)
     try:
         yield
     finally:

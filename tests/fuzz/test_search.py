@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import ReflectionError
-from tests.fuzz import reflecting
+from tests.fuzz import limits, reflecting
 from tests.fuzz.asking import Asked
 from tests.fuzz.configurations import drawn
 from tests.fuzz.kept import OF_A_KIND, keep, kept_seeds
@@ -55,6 +55,17 @@ def test_each_fault_of_the_way_is_found(monkeypatch, steps, found):
 def test_a_long_step_is_found(monkeypatch):
     monkeypatch.setattr(reflecting, "STEP", 0.0)
     assert reflected(drawn(SEEN)).problems[0].startswith("step:")
+
+
+def test_work_that_swallows_the_limit_is_stopped_all_the_same(monkeypatch):
+    monkeypatch.setattr(limits, "AGAIN", 0.1)
+    with pytest.raises(limits.TooLong), at_most(0.1):
+        try:
+            while True:
+                pass
+        except limits.TooLong:
+            while True:
+                pass
 
 
 def test_limits_are_taken_back():
