@@ -1,9 +1,9 @@
 """How much work one reflection may be: what the picture can show of the mirror, and what the memory holds.
 
 All limits are counts, so that the same input gives the same result on any machine. They grow with the picture of the
-mirror and with the meshes, and are several times what scanned and modelled scenes take (docs/outside.md); they are met
+mirror and with the meshes; no sample meets one, and the densest, Suzanne, comes to 0.7 of the limit on work. They are met
 where much lies over one another in few pixels, as in crowds of mirrors. There what is most crowded is shown by rays
-(`crowds`), and the result says so.
+(`filling`), and the result says so.
 """
 from __future__ import annotations
 
