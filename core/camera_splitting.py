@@ -1,4 +1,4 @@
-"""Splitting cameras at the middles of their edges, where the rays are those of the true map again."""
+"""Splitting cameras, at the middles of their edges or into any pieces: new corners have the true map's rays again."""
 from __future__ import annotations
 
 import numpy as np
@@ -6,7 +6,11 @@ import numpy as np
 from .cameras import Cameras
 from .reflection_map import ReflectionMap
 from .subdivision import shared_edges, split
+from .vectors import groups, unit
 from .view import View
+
+WELD = 1e-9  # of the mirror's size: corners closer than this are one
+SAME_RAY = 1e-6  # radians: at a sharp edge of the mirror each side has rays of its own
 
 
 def split_cameras(view: View, mirror_map: ReflectionMap, cameras: Cameras,
@@ -47,6 +51,30 @@ def split_at(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np
     six = np.concatenate((cameras.corners, new[edge]), axis=1)[parent]
     return cameras.replaced(np.take_along_axis(six, local, axis=1), cameras.face[parent], middles[:, marked],
                             origins[:, marked], rays[:, marked]), parent
+
+
+def with_pieces(mirror_map: ReflectionMap, cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
+                weights: np.ndarray) -> tuple[Cameras, np.ndarray]:
+    """The `whole` cameras (n,) and behind them pieces (m) of the cameras `parent`, with weights (3, 3, m) of their
+    corners, entry [i, k]: weight i of corner k; and the parents. New corners are welded where place and ray agree."""
+    places = np.einsum("xjn,jkn->xkn", np.take(cameras.places, cameras.corners[parent].T, axis=1), weights)
+    places, face = places.reshape(3, -1), np.tile(cameras.face[parent], 3)
+    corner = np.empty(len(face), dtype=np.int64)
+    # the parents' own corners stay what they are, shared with the neighbours
+    own, new = (np.flatnonzero((weights == 1.0).any(axis=0).ravel() == state) for state in (True, False))
+    number, piece = own // max(len(parent), 1), own % max(len(parent), 1)
+    corner[own] = cameras.corners[parent[piece], np.argmax(weights[:, number, piece], axis=0)]
+    places, face = places[:, new], face[new]
+    origins, rays = mirror_map.leave(face, mirror_map.coordinates(face, places))
+    low = cameras.places.min(axis=1, keepdims=True)
+    size = np.ptp(cameras.places, axis=1).max()
+    first, group = groups(*np.rint((places - low) / (WELD * size)).astype(np.int64),
+                          *np.rint((unit(rays) + 1.0) / SAME_RAY).astype(np.int64))
+    corner[new] = group + cameras.places.shape[1]
+    kept = cameras.select(whole)
+    return cameras.replaced(np.concatenate((kept.corners, corner.reshape(3, -1).T)),
+                            np.concatenate((kept.face, cameras.face[parent])), places[:, first], origins[:, first],
+                            rays[:, first]), parent
 
 
 def in_picture(view: View, cameras: Cameras) -> np.ndarray:

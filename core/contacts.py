@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .camera_splitting import with_pieces
 from .cameras import Cameras
 from .candidates import Candidates, overlapping
 from .clipping import cut
@@ -16,14 +17,12 @@ from .limits import crowded, picture_areas
 from .mirror_map import MirrorMap
 from .scene_frames import SceneFrames
 from .stepping import breathe
-from .vectors import cross, dot, groups, ranges, rows, unit
+from .vectors import cross, dot, ranges, rows
 from .view import View
 
 PASSES = 64  # triangles that cut one camera
 AGAIN = 4  # pairs that are looked at again after cutting, to one that may be left
 SHORTEST_CONTACT = 1e-6  # of the line across the camera
-WELD = 1e-9  # of the mirror's size: corners closer than this are one
-SAME_RAY = 1e-6  # radians: at a sharp edge of the mirror each side has rays of its own
 SMALLEST = 1e-12  # of a camera: smaller pieces are nothing
 
 
@@ -136,28 +135,3 @@ def _pieces(sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         parents.append(fan[solid])
         triangles.append(fans[:, :, solid])
     return np.concatenate(parents), np.concatenate(triangles, axis=2)
-
-
-def with_pieces(mirror_map: MirrorMap, cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
-                weights: np.ndarray) -> tuple[Cameras, np.ndarray]:
-    """The `whole` cameras (n,) and behind them pieces (m) of the cameras `parent`, with weights (3, 3, m) as from
-    `_pieces`, and the parents; new corners are welded where place and ray agree."""
-    places = np.einsum("xjn,jkn->xkn", np.take(cameras.places, cameras.corners[parent].T, axis=1), weights)
-    places, face = places.reshape(3, -1), np.tile(cameras.face[parent], 3)
-    corner = np.empty(len(face), dtype=np.int64)
-    # the parents' own corners stay what they are, shared with the neighbours
-    own, new = (np.flatnonzero((weights == 1.0).any(axis=0).ravel() == state) for state in (True, False))
-    number, piece = own // len(parent), own % len(parent)
-    corner[own] = cameras.corners[parent[piece], np.argmax(weights[:, number, piece], axis=0)]
-    places, face = places[:, new], face[new]
-    rays = mirror_map.rays(face, mirror_map.coordinates(face, places))
-    low = cameras.places.min(axis=1, keepdims=True)
-    size = np.ptp(cameras.places, axis=1).max()
-    first, group = groups(*np.rint((places - low) / (WELD * size)).astype(np.int64),
-                          *np.rint((unit(rays) + 1.0) / SAME_RAY).astype(np.int64))
-    corner[new] = group + cameras.places.shape[1]
-    kept = cameras.select(whole)
-    return Cameras(np.concatenate((kept.corners, corner.reshape(3, -1).T)),
-                   np.concatenate((kept.face, cameras.face[parent])),
-                   np.concatenate((cameras.places, places[:, first]), axis=1),
-                   np.concatenate((cameras.rays, rays[:, first]), axis=1)), parent

@@ -54,14 +54,26 @@ class ConvexParts:
         kept = chosen[self.polygon]
         return ConvexParts(self.weights[:, kept], self.after[kept], (np.cumsum(chosen) - 1)[self.polygon[kept]])
 
-    def triangles(self, count: int) -> tuple[np.ndarray, np.ndarray]:
+    def halved(self, count: int, chosen: np.ndarray, values: np.ndarray) -> ConvexParts:
+        """The `count` polygons, of those `chosen` (m,), rising, only where a function is not negative that is linear in
+        the weights and has the `values` (3, m) at the corners of their cameras; and behind all the rest of these m."""
+        divided = np.zeros(count, dtype=bool)
+        divided[chosen] = True
+        far = self.select(divided).cut(-values, 0)
+        all_values = np.ones((3, count))
+        all_values[:, chosen] = values
+        near = self.cut(all_values, 0)
+        return ConvexParts(np.concatenate((near.weights, far.weights), axis=1), np.concatenate((near.after, far.after)),
+                           np.concatenate((near.polygon, far.polygon + count)))
+
+    def triangles(self, count: int, smallest: float = SMALLEST) -> tuple[np.ndarray, np.ndarray]:
         """Fans over the polygons: the polygon of each triangle and the weights (3, 3, n) of its corners, entry [i, k]:
-        weight i of corner k."""
+        weight i of corner k. Triangles up to the `smallest` part of a camera are left out."""
         size = np.bincount(self.polygon, minlength=count)
         first = np.cumsum(size) - size
         step, fan = ranges(np.ones(count, dtype=np.int64), np.maximum(size - 2, 0))
         weights = self.weights[:, np.stack((first[fan], first[fan] + step, first[fan] + step + 1))]
-        areal = np.abs(dot(weights[:, 0], cross(weights[:, 1], weights[:, 2]))) > SMALLEST
+        areal = np.abs(dot(weights[:, 0], cross(weights[:, 1], weights[:, 2]))) > smallest
         return fan[areal], weights[:, :, areal]
 
 
@@ -100,18 +112,9 @@ def divide(cameras: np.ndarray, lines: Lines, most: int) -> tuple[np.ndarray, Co
         order = np.argsort(piece, kind="stable")
         line, piece = line[order], piece[order]
         chosen, first = np.unique(piece, return_index=True)
-        values = np.ones((3, len(owner)))
-        values[:, chosen] = lines.values[:, line[first]]
         before, other = len(owner), np.full(len(owner), -1)
         other[chosen] = before + np.arange(len(chosen))
-        divided = np.zeros(before, dtype=bool)
-        divided[chosen] = True
-        far = pieces.select(divided)
-        far = far.cut(-values[:, chosen], 0)
-        pieces = pieces.cut(values, 0)
-        pieces = ConvexParts(np.concatenate((pieces.weights, far.weights), axis=1),
-                         np.concatenate((pieces.after, far.after)),
-                         np.concatenate((pieces.polygon, far.polygon + before)))
+        pieces = pieces.halved(before, chosen, lines.values[:, line[first]])
         owner = np.concatenate((owner, owner[chosen]))
         rest = np.ones(len(line), dtype=bool)
         rest[first] = False

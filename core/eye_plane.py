@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .camera_splitting import with_pieces
 from .cameras import Cameras
-from .contacts import with_pieces
 from .convex_parts import ConvexParts
 from .mirror_map import MirrorMap
 from .triangle_mesh import TriangleMesh

@@ -1,9 +1,9 @@
 """Filling: cameras that are not cut are shown by rays, the talk's holes.
 
 Two kinds are not: those in which more lies over one another than the picture can show or the memory holds, and those
-of a pixel in which outlines are bent still, as where rays cross on a caustic. They are divided into cells of about a
-pixel, and each cell shows the one triangle that the ray through its middle meets first. Cells that lie together in a
-part of a pixel share one ray, so that the work is bounded by the picture however many there are.
+of a pixel in which outlines are bent still, as where rays cross on a caustic. They are cut along squares of less than a
+pixel, and in each of them a face of the mirror shows the one triangle that the ray through the middle of its first cell
+meets first. So the work is bounded by the picture: where too many lie in a square, all of them share one ray.
 """
 from __future__ import annotations
 
@@ -11,23 +11,22 @@ from dataclasses import replace
 
 import numpy as np
 
-from .camera_splitting import edge_middles, in_picture, split_at
+from .camera_splitting import with_pieces
 from .cameras import Cameras
 from .candidates import Candidates
-from .limits import Limits, crowded, picture_areas
+from .limits import Limits, crowded, picture_areas, pixels_of
 from .met_surfaces import MetSurfaces
+from .picture_squares import in_squares
 from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
-from .stepping import breathe
-from .subdivision import shared_edges
 from .vectors import groups
 from .view import View
 
 HIDING = 1.0 / 4.0  # of the work for a candidate: that of asking whether a mirror hides it
 OVERLAPPING = 24  # of the mirrors in a camera: more hardly lie over one and the same polygon
-LEVELS = 16
-CELL = 1.0  # pixels: the longest edge of a cell, where the number of rays allows it
-SHARED = 0.5  # of a cell's longest edge: cells whose middles lie in one square of that size share a ray
+SQUARE = 0.5  # pixels: the side of the squares in which cameras are shown, where the number of rays allows it
+CROSSED = 2.0 / np.pi  # half as many lines of a square grid as a line of any direction crosses in its side's length
+SMALLEST = 1e-9  # square pixels: smaller cells are nothing
 
 
 def thinned(view: View, cameras: Cameras, candidates: Candidates, mirror: np.ndarray, crowd: np.ndarray,
@@ -67,33 +66,30 @@ def _cells_and_triangles(view: View, mirror_map: ReflectionMap, cameras: Cameras
                          most: int) -> tuple[Cameras, np.ndarray, int]:
     """Cells of crowded cameras that show something, the triangle (m,) that each shows, and how many rays, about `most`
     at most, were traced for it."""
-    # no more rays than `most` by the area, and no more cells by the cameras' lengths
-    corners = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
-    length = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).max(axis=1).sum()
-    longest = max(CELL, np.sqrt(2.0 * picture_areas(view, cameras).sum() / most) / SHARED, 2.0 * length / most)
-    cells = _cells(view, mirror_map, cameras, longest)
-    middle = view.pixels(cells.places[:, cells.corners].mean(axis=2).T)
-    square = np.floor(middle / (SHARED * longest)).astype(np.int64)
-    square -= square.min(axis=0, initial=0)
-    first, group = groups(cells.face, *square.T)
+    # a camera lies in about as many squares as its area holds, its edges cross more, and one
+    area, crossed = pixels_of(view, cameras).sum(), CROSSED * _lengths(view, cameras).sum()
+    room = max(most - len(cameras), most / 2)
+    size = max(SQUARE, 2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300))
+    cells, square = _cells(view, mirror_map, cameras, size)
+    first, group = groups(cells.face, *square)
     if len(first) > most:
-        first, group = groups(*square.T)
+        first, group = groups(*square)
     triangle = met.shown_in_middles(mirror_map, cells.select(first))[group]
     shown = np.flatnonzero(triangle >= 0)
     return cells.select(shown), triangle[shown], len(first)
 
 
-def _cells(view: View, mirror_map: ReflectionMap, cameras: Cameras, longest: float) -> Cameras:
-    """The parts of the cameras in the picture, without an edge longer than `longest` pixels."""
-    for _ in range(LEVELS):
-        breathe()
-        cameras = cameras.select(in_picture(view, cameras))
-        pixels = view.pixels(cameras.places.T)[cameras.corners]
-        long = np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > longest
-        if not long.any():
-            break
-        ends, first, edge = shared_edges(cameras.corners)
-        marked = np.zeros(len(ends), dtype=bool)
-        marked[edge[long]] = True
-        cameras, _ = split_at(cameras, marked, edge, *edge_middles(mirror_map, cameras, ends, first))
-    return cameras
+def _lengths(view: View, cameras: Cameras) -> np.ndarray:
+    """The lengths (n,) of the way round cameras, about as far as it lies in the picture."""
+    corners = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
+    return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).sum(axis=1)
+
+
+def _cells(view: View, mirror_map: ReflectionMap, cameras: Cameras, size: float) -> tuple[Cameras, np.ndarray]:
+    """The parts of the cameras in squares of `size` pixels of the picture, and which square (2, n) each lies in."""
+    parts, camera = in_squares(view, cameras, size)
+    polygon, weights = parts.triangles(len(camera), 0.0)
+    cells, _ = with_pieces(mirror_map, cameras, np.zeros(len(cameras), dtype=bool), camera[polygon], weights)
+    cells = cells.select(pixels_of(view, cells) > SMALLEST)
+    middle = view.pixels(cells.places[:, cells.corners].mean(axis=2).T)
+    return cells, np.floor(middle.T / size).astype(np.int64)

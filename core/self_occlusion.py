@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from .camera_splitting import with_pieces
 from .cameras import Cameras
 from .clipping import CONTACT, SCENE_EDGE
-from .contacts import hidden_sides, with_pieces
+from .contacts import hidden_sides
 from .convex_parts import SMALLEST, ConvexParts, Lines, divide
 from .eye_plane import triangles_before_eye
 from .mirror_map import MirrorMap
