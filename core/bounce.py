@@ -27,6 +27,7 @@ from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
 from .settings import Settings
 from .stepping import tell
+from .subdivision import edge_lengths
 from .vectors import norm
 from .view import View
 
@@ -87,13 +88,13 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
                  limits: Limits, last: bool, progress: Progress) -> Bounce:
     """All that the cameras see; `last` tells that light which meets a mirror goes no further."""
     tolerance, first_bounce = settings.tolerance, cameras.origins is cameras.places
-    few = ~crowded(np.ones(len(cameras)), picture_areas(view, cameras), limits.cameras)
+    most = limits.cameras if first_bounce else 4 * limits.bounced
+    few = ~crowded(np.ones(len(cameras)), picture_areas(view, cameras), most)
     crowds, cameras = [cameras.select(~few)], cameras.select(few)
     # to look twice for mirrors pays where few cameras see any: hardly after a bounce
     showing = (met.showing_mirrors(mirror_map, cameras, limits.pairs // 4) if first_bounce
                else np.ones(int(cameras.face.max(initial=-1)) + 1, dtype=bool))
-    cameras = refined(view, mirror_map, cameras, met, None if last else showing, settings.tolerance, limits.cameras,
-                      progress)
+    cameras = refined(view, mirror_map, cameras, met, None if last else showing, tolerance, most, progress)
 
     progress.next(0.1, "cones through the tree")
     camera, triangle, visited, crowd = met.trace(mirror_map, cameras, showing, limits.pairs,
@@ -163,15 +164,22 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
 
     progress.next(0.75, "connection")
     faces = connect(candidates, polygons, node_of, view.pixels(nodes.place.T))
+    # cells are as fine as they are to be
+    shown_by_rays = by_rays[faces.camera]
+    cell_faces, faces = faces.select(shown_by_rays), faces.select(~shown_by_rays)
     nodes, faces, caustic = split_at_caustics(mirror_map, cameras, frames, nodes, faces)
-    progress.done("connection", connected=len(faces), caustic_edges=caustic)
+    progress.done("connection", connected=len(faces) + len(cell_faces), caustic_edges=caustic)
 
     progress.next(0.8, "refinement")
     refinement = FaceRefinement(view, mirror_map, cameras, frames, beyond_horizon(mirror_map, cameras),
                                 settings.placement == "VIRTUAL")
-    nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * tolerance, limits.faces)
-    bounded |= limited > 0 and len(faces) + 2 * limited > limits.faces
+    room = limits.faces - len(cell_faces)
+    nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * tolerance, room)
+    bounded |= limited > 0 and len(faces) + 2 * limited > room
     progress.done("refinement", limited=limited, bounded=bounded)
+    # the border of what a cell shows may lie anywhere in it
+    length = edge_lengths(view.pixels(nodes.place.T)[cell_faces.nodes]).ravel()
+    faces, left = Faces.joined([faces, cell_faces]), np.concatenate((left, np.stack((0.5 * length, length))), axis=1)
     return Bounce(mirror_map, cameras, frames, nodes, faces, left)
 
 

@@ -88,6 +88,11 @@ class Polygons:
         left = left.select(left.areas() > SMALLEST)
         return replace(left, pair=self.pair[left.pair]), left.pair
 
+    def middles(self) -> np.ndarray:
+        """(3, q): weights of the mean of each polygon's corners."""
+        total = np.add.reduceat(self.weights, self.start[:-1], axis=1) if len(self.pair) else np.zeros((3, 0))
+        return total / np.diff(self.start)
+
     def areas(self) -> np.ndarray:
         """(q,): the part of its camera that each polygon covers."""
         following = np.arange(1, len(self.before) + 1)

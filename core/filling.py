@@ -19,6 +19,7 @@ from .met_surfaces import MetSurfaces
 from .picture_squares import in_squares
 from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
+from .subdivision import edge_lengths
 from .vectors import groups
 from .view import View
 
@@ -82,7 +83,7 @@ def _cells_and_triangles(view: View, mirror_map: ReflectionMap, cameras: Cameras
 def _lengths(view: View, cameras: Cameras) -> np.ndarray:
     """The lengths (n,) of the way round cameras, about as far as it lies in the picture."""
     corners = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
-    return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).sum(axis=1)
+    return edge_lengths(corners).sum(axis=1)
 
 
 def _cells(view: View, mirror_map: ReflectionMap, cameras: Cameras, size: float) -> tuple[Cameras, np.ndarray]:

@@ -11,7 +11,7 @@ from .cameras import Cameras
 from .reflection_map import ReflectionMap
 from .camera_splitting import split_cameras
 from .stepping import breathe
-from .subdivision import split
+from .subdivision import edge_lengths, split
 from .view import View
 
 STEPS = 30
@@ -47,7 +47,7 @@ def cut_at_horizon(view: View, mirror_map: ReflectionMap, cameras: Cameras) -> C
         breathe()
         probes = _lifted_probes(mirror_map, cameras, 0.0)
         pixels = view.pixels(cameras.places.T)[cameras.corners]
-        long = np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > LONG_EDGE
+        long = edge_lengths(pixels) > LONG_EDGE
         whole = (probes[:3] == probes[0]).all(axis=0)
         bulging = (whole & (probes[3:] != probes[0]).any(axis=0))[:, None] & long
         if not bulging.any():

@@ -12,6 +12,7 @@ import numpy as np
 from .bounded_trace import bounded_trace
 from .cameras import Cameras
 from .candidates import Candidates
+from .clipping import clip
 from .cones import Cones
 from .mirror_surface import MirrorSurface
 from .point_tree import PointTree
@@ -220,40 +221,48 @@ class MetSurfaces:
     def without_touching(self, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames,
                          candidates: Candidates) -> Candidates:
         """Candidates without the mirrors' triangles that only touch the camera's own triangle in a corner or a side;
-        those neighbours stay that one of the camera's `_PROBES` sees, as across a groove."""
+        those neighbours stay, as across a groove, that one of the camera's `_PROBES` sees, or the ray in the middle of
+        what the neighbour covers."""
         pair = np.flatnonzero(self.shows_mirror(frames)[candidates.column])
-        if not len(pair):
-            return candidates
         kept = np.ones(len(candidates), dtype=bool)
         for start in range(0, len(pair), PROBED_AT_ONCE):
             breathe()
             part = pair[start:start + PROBED_AT_ONCE]
-            kept[part] = self._not_touching(mirror_map, cameras, frames, candidates.camera[part],
-                                            candidates.column[part])
-        return candidates.select(kept)
+            part = part[self._touching(mirror_map, cameras, frames, candidates.select(part))]
+            asked = candidates.select(part)
+            kept[part] = self._probed(cameras, frames, asked, np.repeat(_PROBES[:, :, None], len(part), axis=2))
+            doubtful = np.flatnonzero(~kept[part])
+            asked = asked.select(doubtful)
+            covered = clip(asked)
+            kept[part[doubtful[covered.pair]]] = self._probed(cameras, frames, asked.select(covered.pair),
+                                                              covered.middles()[:, None])
+        return candidates.select(kept) if len(pair) else candidates
 
-    def _not_touching(self, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, camera: np.ndarray,
-                      column: np.ndarray) -> np.ndarray:
-        """Which mirrors' triangles (p,) do more than touch the cameras' own."""
-        surface, face = mirror_map.last(cameras.face[camera])
+    def _touching(self, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames,
+                  candidates: Candidates) -> np.ndarray:
+        """Which candidates, all triangles of mirrors, share a corner or a side with the camera's own triangle."""
+        surface, face = mirror_map.last(cameras.face[candidates.camera])
         own = surface.corners(face)
-        other = np.take(self._mirror_corners, frames.triangle[column] - self.diffuse, axis=1)
+        other = np.take(self._mirror_corners, frames.triangle[candidates.column] - self.diffuse, axis=1)
         apart = np.abs(own[:, :, None] - np.swapaxes(other, 1, 2)[:, None]).max(axis=0)
-        touching = np.flatnonzero((apart <= ABOVE * self.size).any(axis=(0, 1)))
-        corners = cameras.corners[camera[touching]].T
-        origins, rays = (np.einsum("xkn,kp->xpn", np.take(values, corners, axis=1), _PROBES).reshape(3, -1)
+        return np.flatnonzero((apart <= ABOVE * self.size).any(axis=(0, 1)))
+
+    def _probed(self, cameras: Cameras, frames: SceneFrames, candidates: Candidates, probes: np.ndarray) -> np.ndarray:
+        """Which candidates (p,), all of them triangles of mirrors, one of the rays with weights `probes` (3, k, p) in
+        their cameras meets."""
+        corners, count = cameras.corners[candidates.camera].T, probes.shape[1]
+        origins, rays = (np.einsum("xkn,kpn->xpn", np.take(values, corners, axis=1), probes).reshape(3, -1)
                          for values in (cameras.origins, cameras.rays))
-        probed = np.tile(column[touching], _PROBES.shape[1])
+        probed = np.tile(candidates.column, count)
         s = frames.distance(probed, origins, rays)
-        near = np.full(len(touching), ABOVE * self.size)
+        near = np.full(len(candidates), ABOVE * self.size)
         if cameras.origins is not cameras.places:
             # later cameras follow the sides of their triangles only nearly, and may begin a little behind the next
-            near = BEHIND * np.ptp(other, axis=2).max(axis=0)[touching]
-        ahead = s * norm(rays) > np.tile(near, _PROBES.shape[1])
+            corners = np.take(self._mirror_corners, frames.triangle[candidates.column] - self.diffuse, axis=1)
+            near = BEHIND * np.ptp(corners, axis=2).max(axis=0)
+        ahead = s * norm(rays) > np.tile(near, count)
         seen = ahead & (frames.weights(probed, origins + s * rays) > ABOVE).all(axis=0)
-        kept = np.ones(len(camera), dtype=bool)
-        kept[touching] = seen.reshape(_PROBES.shape[1], -1).any(axis=0)
-        return kept
+        return seen.reshape(count, -1).any(axis=0)
 
 
 def first_crossed(tree: SceneTree | PointTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,

@@ -104,24 +104,24 @@ def _before_mirrors(candidates: Candidates, mirror: np.ndarray, polygons: Polygo
             resting[passing] = False
             seen.append(some.select(resting & ~middle))
             hidden += int((middle | ~resting).sum())
-            polygons += _beside(candidates, other[crossing][first], some.select(passing), seen)
+            polygons += _not_behind(candidates, other[crossing][first], some.select(passing))
         polygons = Polygons.joined(polygons)
         if not len(polygons.pair):
             break
     return Polygons.joined((*seen, polygons)), hidden
 
 
-def _beside(candidates: Candidates, other: np.ndarray, polygons: Polygons, seen: list) -> list[Polygons]:
-    """The parts of polygons beside the mirror triangles `other`, to be asked again; those before them are seen."""
-    beside, rest, own = [], polygons, np.arange(len(other))
+def _not_behind(candidates: Candidates, other: np.ndarray, polygons: Polygons) -> list[Polygons]:
+    """The parts of polygons beside the mirror triangles `other` and before them; others may hide them still."""
+    parts, rest, own = [], polygons, np.arange(len(other))
     for side in range(3):
         values = candidates.sides[side][:, other]
         outside, _ = rest.cut_with(-values[:, own], HIDDEN)
-        beside.append(outside)
+        parts.append(outside)
         rest, kept = rest.cut_with(values[:, own], HIDDEN)
         own = own[kept]
-    seen.append(rest.cut(_depth_order(candidates, other[own], rest.pair), HIDDEN))
-    return beside
+    parts.append(rest.cut(_depth_order(candidates, other[own], rest.pair), HIDDEN))
+    return parts
 
 
 def _behind(candidates: Candidates, other: np.ndarray, polygon: np.ndarray,

@@ -19,6 +19,7 @@ from .reflection_map import ReflectionMap
 from .camera_splitting import split_cameras
 from .scene_frames import SceneFrames
 from .stepping import breathe
+from .subdivision import edge_lengths
 from .vectors import ranges
 from .view import View
 
@@ -117,4 +118,4 @@ def _bent_edges(view: View, cameras: Cameras, candidates: Candidates, lines: np.
     edge, pair = np.nonzero(misses.any(axis=0))
     bent = np.zeros((len(cameras), 3), dtype=bool)
     bent[camera[pair], edge] = True
-    return bent, np.linalg.norm(pixels - np.roll(pixels, -1, axis=1), axis=2) > SHORTEST_EDGE
+    return bent, edge_lengths(pixels) > SHORTEST_EDGE

@@ -54,6 +54,11 @@ def parent_side(local: np.ndarray) -> np.ndarray:
     return _SIDES[local, np.roll(local, -1, axis=1)]
 
 
+def edge_lengths(corners: np.ndarray) -> np.ndarray:
+    """Lengths (n, 3) of the edges 01, 12 and 20 of triangles with `corners` (n, 3, d)."""
+    return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+
+
 def shared_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Edges of triangles (n, 3), each once.
 
