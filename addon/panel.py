@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..core.reflection_mesh import filled_share
 from . import records, show_comparison
 from .properties import SETTINGS
 
@@ -50,8 +51,7 @@ def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     box.label(text=f"{count} source{'' if count == 1 else 's'}, {size}")
     counts = records.counts(obj)
     if "filled_pixels" in counts and "mirror_pixels" in counts:
-        share = 100.0 * counts["filled_pixels"] / max(counts["mirror_pixels"], 1)
-        box.label(text=f"{share:.3f} % filled by rays")
+        box.label(text=f"{filled_share(counts):.3f} % filled by rays")
     box.label(text=f"Error about {record.estimated_error:.2f} px at {record.resolution[0]} x {record.resolution[1]}")
 
 

@@ -7,7 +7,7 @@ from time import perf_counter
 import numpy as np
 
 from .cameras import Cameras
-from .candidates import Candidates, overlapping
+from .candidates import overlapping
 from .caustics import split_at_caustics
 from .clipping import Polygons, clip, whole_triangles
 from .cones import Cones
@@ -17,7 +17,7 @@ from .face_refinement import FaceRefinement
 from .filling import picture_areas, thinned, with_crowds
 from .horizon import beyond_horizon
 from .images import vertex_images
-from .limits import Limits, crowded, pixels_of
+from .limits import Limits, covered_pixels, crowded
 from .met_surfaces import MetSurfaces
 from .mirror_refinement import refine_mirror
 from .mirror_occlusion import cut_behind_mirrors
@@ -88,13 +88,12 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
                  limits: Limits, last: bool, progress: Progress) -> Bounce:
     """All that the cameras see; `last` tells that light which meets a mirror goes no further."""
     tolerance, first_bounce = settings.tolerance, cameras.origins is cameras.places
-    most = limits.cameras if first_bounce else 4 * limits.bounced
-    few = ~crowded(np.ones(len(cameras)), picture_areas(view, cameras), most)
+    few = ~crowded(np.ones(len(cameras)), picture_areas(view, cameras), limits.cameras)
     crowds, cameras = [cameras.select(~few)], cameras.select(few)
     # to look twice for mirrors pays where few cameras see any: hardly after a bounce
     showing = (met.showing_mirrors(mirror_map, cameras, limits.pairs // 4) if first_bounce
                else np.ones(int(cameras.face.max(initial=-1)) + 1, dtype=bool))
-    cameras = refined(view, mirror_map, cameras, met, None if last else showing, tolerance, most, progress)
+    cameras = refined(view, mirror_map, cameras, met, None if last else showing, tolerance, limits.cameras, progress)
 
     progress.next(0.1, "cones through the tree")
     camera, triangle, visited, crowd = met.trace(mirror_map, cameras, showing, limits.pairs,
@@ -130,13 +129,15 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
     images, image_counts = vertex_images(view, mirror_map, cameras, Cones.around(cameras), met.positions, frames,
                                          candidates if not last else met.only_diffuse(frames, candidates))
     progress.done("projection", **image_counts)
-    cells, rays = 0, 0
+    cells, rays, filled = 0, 0, 0
     if any(map(len, crowds)):
         cameras, frames, candidates, cells, rays = with_crowds(view, mirror_map, cameras, frames, candidates, crowds,
                                                                met, limits.rays)
+        shown = ~met.shows_mirror(frames)[candidates.column[len(candidates) - cells:]]
+        filled = covered_pixels(view, cameras.select(slice(len(cameras) - cells, None)).select(shown))
     by_rays = np.arange(len(cameras)) >= len(cameras) - cells
     progress.done("filling", open=int(open_.sum()), crowded=sum(map(len, crowds)) - int(open_.sum()), filled=cells,
-                  rays=rays, filled_pixels=_shown_pixels(view, cameras, frames, candidates, met, cells))
+                  rays=rays, filled_pixels=filled)
 
     progress.next(0.5, "clipping")
     polygons = clip(candidates)
@@ -196,10 +197,3 @@ def refined(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
     cameras, limited = refine_mirror(view, mirror_map, cameras, MIRROR_SHARE * tolerance, reach, maximum)
     progress.done("cameras", limited=limited)
     return cameras
-
-
-def _shown_pixels(view: View, cameras: Cameras, frames: SceneFrames, candidates: Candidates, met: MetSurfaces,
-                  cells: int) -> int:
-    """How many pixels show the diffuse scene in the last cameras, so many `cells`."""
-    shown = ~met.shows_mirror(frames)[candidates.column[len(candidates) - cells:]]
-    return round(float(pixels_of(view, cameras.select(slice(len(cameras) - cells, None)))[shown].sum()))

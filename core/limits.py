@@ -7,7 +7,7 @@ where much lies over one another in few pixels, as in crowds of mirrors. There w
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from .settings import Settings
 from .view import View
 
 CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES = 1200, 160, 1100  # of the arrays that each takes at most at one time
+LATER = 1.0 / 2.0  # of the limits of a bounce: those of the next
 LEAST_WORTH = 1.0 / 16.0  # square pixels: no camera counts for less
 
 
@@ -37,7 +38,7 @@ class Limits:
     rays : int
         Through crowded cameras.
     bounced : int
-        Cameras of a later bounce.
+        Cameras that a bounce hands on to the next.
     """
 
     cameras: int
@@ -57,7 +58,11 @@ class Limits:
                    int(min(100_000 + 8 * pixels + 4 * triangles, memory / CANDIDATE_BYTES, faces)),
                    int(50_000 + 10 * pixels + 8 * triangles),
                    int(min(200_000 + 32 * pixels + 16 * triangles, memory / FACE_BYTES, faces)),
-                   int(min(8000 + pixels, 250_000, faces)), int(min(4000 + pixels // 4, faces // 16)))
+                   int(min(8000 + pixels, 250_000, faces)), int(min(8000 + pixels // 2, faces // 16)))
+
+    def of_next_bounce(self) -> Limits:
+        """Light that has met one mirror more shows less, each part of it smaller."""
+        return Limits(*(int(LATER * most) for most in astuple(self)))
 
 
 def crowded(count: np.ndarray, worth: np.ndarray, most: int) -> np.ndarray:
@@ -80,3 +85,11 @@ def pixels_of(view: View, cameras: Cameras) -> np.ndarray:
     pixels = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
     u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
     return 0.5 * np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+
+
+def covered_pixels(view: View, cameras: Cameras) -> int:
+    """About how many pixels of the picture cameras cover together, each pixel once."""
+    places = cameras.places[:, cameras.corners].mean(axis=2)
+    pixels = np.floor(np.clip(view.pixels(places.T), 0.0, np.subtract(view.resolution, 1))).astype(np.int64)
+    _, pixel = np.unique(pixels @ (1, view.resolution[0]), return_inverse=True)
+    return round(float(np.minimum(np.bincount(pixel, pixels_of(view, cameras)), 1.0).sum()))

@@ -33,7 +33,6 @@ from .triangle_mesh import TriangleMesh, area_normals
 from .vectors import cross, dot, norm, rows
 from .view import View
 
-FEWER = 2.0 / 3.0  # cameras of a later bounce, to those of the one before
 INSIDE = 4.0 / 3.0  # a quadratic that is zero at a triangle's corners exceeds its values at the edges' middles by this
 
 
@@ -131,13 +130,12 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
         if not last:
             mirror_map, cameras = bounced_cameras(view, bounces[-1], met)
             # of mirrors that scatter what they show only the largest parts are followed
-            most = int(limits.bounced * FEWER**number)
-            found = len(cameras)
-            if found > most:
-                largest = np.argsort(-picture_areas(view, cameras), kind="stable")[:most]
+            limits, found = limits.of_next_bounce(), len(cameras)
+            if found > limits.bounced:
+                largest = np.argsort(-picture_areas(view, cameras), kind="stable")[:limits.bounced]
                 cameras = cameras.select(np.sort(largest))
             cameras = cut_at_horizon(view, mirror_map, cameras)
-            progress.done("cameras", bounced_cameras=len(cameras), unfollowed=max(found - most, 0))
+            progress.done("cameras", bounced_cameras=len(cameras), unfollowed=max(found - limits.bounced, 0))
             if not len(cameras):
                 break
 

@@ -78,4 +78,10 @@ class ReflectionMesh:
     @property
     def filled_share(self) -> float:
         """Share of the mirror's pixels that rays filled, in %."""
-        return 100.0 * self.counts.get("filled_pixels", 0) / max(self.counts.get("mirror_pixels", 0), 1)
+        return filled_share(self.counts)
+
+
+def filled_share(counts: dict[str, int]) -> float:
+    """Share of the mirror's pixels that rays filled, in %, as a reflection's counts tell it."""
+    # what two bounces show in one pixel counts twice
+    return min(100.0, 100.0 * counts.get("filled_pixels", 0) / max(counts.get("mirror_pixels", 0), 1))

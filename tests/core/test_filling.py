@@ -8,9 +8,11 @@ import pytest
 from core import SceneTree, Settings, TriangleMesh, View, reflect
 from core.camera_splitting import in_picture
 from core.cameras import three_ray_cameras, visible_triangles
+from core.eye_plane import cut_before_eye
 from core.limits import Limits, crowded
 from core.met_surfaces import MetSurfaces
 from core.mirror_map import MirrorMap
+from core.picture_squares import in_squares
 from tests import shapes
 from tests.core.true_map import case_of, mesh_of, truth_of
 from tests.judge import compare
@@ -119,3 +121,26 @@ def test_limits_grow_with_the_picture_and_the_memory():
     assert tight.candidates < large.candidates and tight.faces < large.faces and tight.pairs < large.pairs
     free = Limits.of(Settings(maximum_memory=np.inf, maximum_faces=2**40), 100, 1000)
     assert free == small and Limits.of(Settings(maximum_faces=500), 100, 1000).faces == 500
+
+
+def test_what_rays_filled_is_no_more_than_the_mirror_however_much_lies_over_one_another():
+    # thirty crossing mirrors, one behind another, each a crowd in all pixels
+    mesh = reflect(VIEW, soup(60, 5, 2.0), shapes.combine(shapes.icosphere((0.0, -3.0, 1.0), 0.8, 2)),
+                   Settings(depth=2, maximum_memory=1e-4))
+    assert mesh.counts["filled"] > mesh.counts["mirror_pixels"]
+    assert mesh.counts["filled_pixels"] <= 2 * mesh.counts["mirror_pixels"] and mesh.filled_share <= 100.0
+
+
+def test_a_sliver_across_a_picture_becomes_no_more_cells_than_squares_it_passes():
+    # far longer than the picture, and far thinner than a pixel: what splits edges in halves would take millions
+    sliver = TriangleMesh([[-4000.0, 0.0, -3000.0], [4000.0, 0.0, 3000.0], [4000.0, 0.0, 3000.01]], [[0, 1, 2]])
+    mirror_map = MirrorMap(VIEW, sliver)
+    cameras = cut_before_eye(VIEW, mirror_map, three_ray_cameras(mirror_map, sliver, np.array([0])))
+    parts, camera = in_squares(VIEW, cameras, 0.5)
+    assert len(np.unique(parts.polygon)) <= len(camera) <= 3 * (96 + 72 + 1)
+    place = np.einsum("xkc,kc->xc", cameras.places[:, cameras.corners[camera[parts.polygon]].T], parts.weights)
+    pixels = VIEW.pixels(place.T)
+    assert ((pixels > -1e-6) & (pixels < np.add(VIEW.resolution, 1e-6))).all()
+    square = [np.floor(side.reduceat(pixels, np.flatnonzero(np.diff(parts.polygon, prepend=-1)), axis=0) / 0.5 + shift)
+              for side, shift in ((np.minimum, 1e-5), (np.maximum, -1e-5))]
+    assert (square[0] == square[1]).all() and len(camera) > 100
