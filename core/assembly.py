@@ -60,10 +60,9 @@ def _arrays(view: View, first_map: MirrorMap, bounce: Bounce, met: MetSurfaces) 
     weights = np.take_along_axis(weights.T.reshape(-1, 3, 3), order[:, :, None], axis=1)
     uv = mirror_map.coordinates(owner, seen)
     turned = mirror_map.turned(owner, uv, nodes.distance[used])
-    ways = mirror_map.ways(owner, uv)
-    straight = norm(point - seen)
     # a corner that was brought back to its triangle or to the mirror has left its ray by a little
-    path = straight if not ways else np.maximum(ways[-1] + norm(point - mirror_map.leave(owner, uv)[0]), straight)
+    stops = [seen, *mirror_map.met_later(owner, uv), point]
+    path = np.maximum(sum(norm(end - start) for start, end in zip(stops, stops[1:])), norm(point - seen))
     return {
         "triangles": triangles, "reflected_position": point.T, "mirror_position": seen.T, "path_length": path,
         "image_parity": np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8),

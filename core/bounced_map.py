@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .mirror_surface import MirrorSurface
+from .mirror_surface import MirrorSurface, drawn_in
 from .reflection_map import ReflectionMap
 from .vectors import dot, norm
 
@@ -79,10 +79,11 @@ class BouncedMap(ReflectionMap):
     def rays(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
         return self.leave(face, uv)[1]
 
-    def ways(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
-        ways = self.before.ways(self.face_before[face], uv)
-        origin, _ = self.before.leave(self.face_before[face], uv)
-        return [*ways, (ways[-1] if ways else 0.0) + norm(self._arriving(face, uv)[0] - origin)]
+    def met_later(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+        triangle = self.triangle[face]
+        # a corner a little beside its chain may meet the plane of a triangle seen edge on anywhere
+        on = drawn_in(self.surface.coordinates(triangle, self._arriving(face, uv)[0]))
+        return [*self.before.met_later(self.face_before[face], uv), self.surface.places(triangle, on)]
 
     def turned_before(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
         return self.before.turned(self.face_before[face], uv, self._arriving(face, uv)[2])

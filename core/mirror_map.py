@@ -82,7 +82,7 @@ class MirrorMap(ReflectionMap):
     def leave(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return self.places(face, uv), self.rays(face, uv)
 
-    def ways(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+    def met_later(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
         return []
 
     def turned_before(self, face: np.ndarray, uv: np.ndarray) -> float:

@@ -116,3 +116,9 @@ class MirrorSurface:
         forth = np.sqrt(np.maximum(sideways**2 + upright**2 - least**2, 0.0))
         lifted = forth * tangent + least * flat - (to_eye - sideways * tangent - upright * flat)
         return np.where(dot(ray, flat) < least * length, lifted * length, ray)
+
+
+def drawn_in(uv: np.ndarray) -> np.ndarray:
+    """Places (u, v), those outside of their triangle drawn to its rim."""
+    uv = np.maximum(uv, 0.0)
+    return uv / np.maximum(uv.sum(axis=0), 1.0)

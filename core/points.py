@@ -15,10 +15,11 @@ from .images import VertexImages, images_of_pairs, repeated
 from .magnification import Magnification
 from .met_surfaces import MetSurfaces
 from .mirror_map import MirrorMap
+from .mirror_surface import drawn_in
 from .placement import place as placed
 from .point_tree import PointTree
 from .reflection_mesh import ReflectionMesh
-from .settling import drawn_in, settle
+from .settling import settle
 from .vectors import norm, rows
 from .view import View
 

@@ -67,9 +67,8 @@ class ReflectionMap(ABC):
         """O and R, (3, n) each."""
 
     @abstractmethod
-    def ways(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
-        """Lengths (n,) of the ways from Q to each mirror that the ray meets later, in scene units; the last is that to
-        O. None after one bounce."""
+    def met_later(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+        """Places (3, n) on each mirror that the ray from Q meets later, the last of them O. None after one bounce."""
 
     @abstractmethod
     def lifted(self, face: np.ndarray, uv: np.ndarray, slack: float = 0.0) -> np.ndarray:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from .mirror_map import MirrorMap
+from .mirror_surface import drawn_in
 from .vectors import norm
 
 STEPS = 6
@@ -44,12 +45,6 @@ def settle(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarra
         found[wandering[arrived & (least[wandering] >= -INSIDE)]] = True
         wandering = wandering[arrived & (least[wandering] < -INSIDE)]
     return face, uv, s, found
-
-
-def drawn_in(uv: np.ndarray) -> np.ndarray:
-    """Places (u, v), those outside of their triangle drawn to its rim."""
-    uv = np.maximum(uv, 0.0)
-    return uv / np.maximum(uv.sum(axis=0), 1.0)
 
 
 def distance_from(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> np.ndarray:
