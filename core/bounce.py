@@ -1,8 +1,7 @@
 """One bounce: from cameras on the last mirror to the faces of all that they see."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from time import perf_counter
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,51 +13,28 @@ from .cones import Cones
 from .connection import Faces, connect
 from .contacts import drop_behind_contacts
 from .face_refinement import FaceRefinement
-from .filling import picture_areas, thinned, with_crowds
+from .filling import thinned, with_crowds
 from .horizon import beyond_horizon
 from .images import vertex_images
-from .limits import Limits, covered_pixels, crowded
+from .limits import Limits, crowded
+from .picture_areas import covered_pixels, picture_areas
 from .met_surfaces import MetSurfaces
 from .mirror_refinement import refine_mirror
 from .mirror_occlusion import cut_behind_mirrors
 from .nodes import Nodes, polygon_nodes
 from .outline_refinement import refine_for_outlines
+from .progress import Progress
 from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames
 from .settings import Settings
-from .stepping import tell
 from .subdivision import edge_lengths
 from .vectors import norm
+from .touching import without_touching
 from .view import View
 
 MIRROR_SHARE = 0.8  # of the tolerance: what the rays of a camera may stray
 OUTLINE_SHARE = 0.5  # of the tolerance: what a straight outline in a camera may miss
 FACE_SHARE = 0.8  # of the tolerance: what the interpolation inside a face may stray
-
-
-@dataclass
-class Progress:
-    """Seconds by stage, and how much of each part the scene needed, over all bounces.
-
-    `start` and `share` tell which part of the whole work the stages that come next are.
-    """
-
-    seconds: dict[str, float] = field(default_factory=dict)
-    counts: dict[str, int] = field(default_factory=dict)
-    last: float = field(default_factory=perf_counter)
-    start: float = 0.0
-    share: float = 1.0
-
-    def next(self, done: float, stage: str) -> None:
-        """Tell the caller that a stage comes next, before which so much of the present part of the work is `done`."""
-        tell(self.start + self.share * done, stage)
-
-    def done(self, stage: str, **counts: int) -> None:
-        now = perf_counter()
-        self.seconds[stage] = self.seconds.get(stage, 0.0) + now - self.last
-        self.last = now
-        for name, count in counts.items():
-            self.counts[name] = self.counts.get(name, 0) + int(count)
 
 
 @dataclass(frozen=True)
@@ -100,7 +76,7 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
                                                  picture_areas(view, cameras))
     seen, column = np.unique(triangle, return_inverse=True)
     frames = SceneFrames.of(met, seen)
-    candidates = met.without_touching(mirror_map, cameras, frames, overlapping(cameras, frames, camera, column))
+    candidates = without_touching(met, mirror_map, cameras, frames, overlapping(cameras, frames, camera, column))
     if last:
         candidates = met.hiding_something(frames, candidates)
 

@@ -6,14 +6,13 @@ results in the numbers of the mesh that was given.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from .reflection_mesh import ReflectionMesh
 from .triangle_mesh import TriangleMesh
 
-_TURNS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
+TURNS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
 _ONE_KEY = 2 ** 21  # three numbers below this fit one int64
 
 
@@ -61,18 +60,18 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
     corner = rank[mesh.triangles]
     # of two corners in one place, that which the other follows
     first = np.argmin(corner * count + np.roll(corner, -1, axis=1), axis=1)
-    corner = np.take_along_axis(corner, _TURNS[first], axis=1)
+    corner = np.take_along_axis(corner, TURNS[first], axis=1)
     if count < _ONE_KEY:
         keys = [(corner[:, 0] * count + corner[:, 1]) * count + corner[:, 2]]
     else:
         keys = [corner[:, 0] * count + corner[:, 1], corner[:, 2]]
     normals = None
     if shading:
-        normals = np.take_along_axis(mesh.corner_normals, _TURNS[first][:, :, None], axis=1) + 0.0
+        normals = np.take_along_axis(mesh.corner_normals, TURNS[first][:, :, None], axis=1) + 0.0
         keys += list(normals.reshape(-1, 9).T)
     triangle, _ = _sorted_rows(keys)
     first = first[triangle]
-    named = np.take_along_axis(mesh.triangles[triangle], _TURNS[first], axis=1)
+    named = np.take_along_axis(mesh.triangles[triangle], TURNS[first], axis=1)
 
     # vertices in one place come in the order in which the triangles name them
     vertex, number = by_place, np.full(count, named.size)
@@ -104,19 +103,3 @@ def _sorted_rows(keys: list) -> tuple[np.ndarray, np.ndarray]:
         order[at], values = order[at[turned]], values[turned]
         new[at[1:]] |= values[1:] != values[:-1]
     return order, new
-
-
-def in_given_order(result: ReflectionMesh, scene: Order, mirror: Order) -> ReflectionMesh:
-    """The result of ordered meshes, in the numbers of the meshes that were given."""
-    back = _TURNS[-scene.first[result.source_face] % 3]
-    discs = result.discs
-    if discs is not None:
-        turn = _TURNS[-mirror.first[discs.mirror_face] % 3]
-        discs = replace(discs, source_vertex=scene.vertex[discs.source_vertex],
-                        mirror_face=mirror.triangle[discs.mirror_face],
-                        mirror_weights=np.take_along_axis(discs.mirror_weights, turn, axis=1))
-    known = result.mirror_face >= 0
-    return replace(
-        result, source_face=scene.triangle[result.source_face],
-        source_weights=np.take_along_axis(result.source_weights, back[:, None, :], axis=2),
-        mirror_face=np.where(known, mirror.triangle[result.mirror_face], -1), discs=discs)

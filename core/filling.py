@@ -14,8 +14,9 @@ import numpy as np
 from .camera_splitting import with_pieces
 from .cameras import Cameras
 from .candidates import Candidates
-from .limits import Limits, crowded, picture_areas, pixels_of
+from .limits import Limits, crowded
 from .met_surfaces import MetSurfaces
+from .picture_areas import picture_areas, pixels_of
 from .picture_squares import in_squares
 from .reflection_map import ReflectionMap
 from .scene_frames import SceneFrames

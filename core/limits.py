@@ -11,13 +11,10 @@ from dataclasses import astuple, dataclass
 
 import numpy as np
 
-from .cameras import Cameras
 from .settings import Settings
-from .view import View
 
 CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES = 1200, 160, 1100  # of the arrays that each takes at most at one time
 LATER = 1.0 / 2.0  # of the limits of a bounce: those of the next
-LEAST_WORTH = 1.0 / 16.0  # square pixels: no camera counts for less
 
 
 @dataclass(frozen=True)
@@ -73,23 +70,3 @@ def crowded(count: np.ndarray, worth: np.ndarray, most: int) -> np.ndarray:
         order = np.argsort(count / worth, kind="stable")
         out[order] = np.cumsum(count[order]) > most
     return out
-
-
-def picture_areas(view: View, cameras: Cameras) -> np.ndarray:
-    """What cameras (n,) are worth: the pixels that they cover, and a little more."""
-    return LEAST_WORTH + pixels_of(view, cameras)
-
-
-def pixels_of(view: View, cameras: Cameras) -> np.ndarray:
-    """About how many pixels of the picture cameras (n,) cover."""
-    pixels = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
-    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
-    return 0.5 * np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
-
-
-def covered_pixels(view: View, cameras: Cameras) -> int:
-    """About how many pixels of the picture cameras cover together, each pixel once."""
-    places = cameras.places[:, cameras.corners].mean(axis=2)
-    pixels = np.floor(np.clip(view.pixels(places.T), 0.0, np.subtract(view.resolution, 1))).astype(np.int64)
-    _, pixel = np.unique(pixels @ (1, view.resolution[0]), return_inverse=True)
-    return round(float(np.minimum(np.bincount(pixel, pixels_of(view, cameras)), 1.0).sum()))

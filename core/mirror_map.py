@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
+from .adjacency import neighbours
 from .mirror_surface import MirrorSurface
 from .reflection_map import ReflectionMap
-from .subdivision import shared_edges
 from .triangle_mesh import TriangleMesh
 from .vectors import unit
 from .view import View
@@ -114,18 +114,3 @@ class MirrorMap(ReflectionMap):
                 after, before = (self.rays(near[0], near[1] + sign * step) for sign in (1.0, -1.0))
                 change[:, part] = (after - before) / (2.0 * DIFFERENCE)
         return place, ray, list(zip(moves, changes))
-
-
-def neighbours(mirror: TriangleMesh) -> np.ndarray:
-    """Triangle (m, 3) across the edge opposite to each corner; -1 where there is none, or more than one."""
-    _, vertex = np.unique(mirror.positions, axis=0, return_inverse=True)
-    _, _, edge = shared_edges(vertex.reshape(-1)[mirror.triangles])
-    edge = edge.reshape(-1)
-    order = np.argsort(edge, kind="stable")
-    count = np.bincount(edge)
-    first = (np.cumsum(count) - count)[count == 2]
-    result = np.full(len(edge), -1)
-    one, other = order[first], order[first + 1]
-    result[one], result[other] = other // 3, one // 3
-    # side k runs from corner k to the next: it lies opposite to the corner before
-    return np.roll(result.reshape(-1, 3), -1, axis=1)

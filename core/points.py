@@ -7,10 +7,11 @@ from __future__ import annotations
 import numpy as np
 
 from .beams import Beams
-from .bounce import Progress
 from .cameras import Cameras
 from .cones import Cones
-from .discs import LARGEST, Discs, flat_discs, picture_ellipses
+from .disc_shapes import LARGEST, flat_discs, picture_ellipses
+from .discs import Discs
+from .hidden_points import hidden_by_mirrors
 from .images import VertexImages, images_of_pairs, repeated
 from .magnification import Magnification
 from .met_surfaces import MetSurfaces
@@ -18,6 +19,7 @@ from .mirror_map import MirrorMap
 from .mirror_surface import drawn_in
 from .placement import place as placed
 from .point_tree import PointTree
+from .progress import Progress
 from .reflection_mesh import ReflectionMesh
 from .settling import settle
 from .vectors import norm, rows
@@ -57,7 +59,7 @@ def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: 
     images = VertexImages(images.vertex, images.camera, distance, place, view.pixels(place.T))
     # of one image, that which stands for most is kept
     order = np.lexsort((images.camera, -reach, images.vertex))
-    hidden = met.hides(mirror_map, cameras, images.camera, place, positions[images.vertex].T)
+    hidden = hidden_by_mirrors(met, mirror_map, cameras, images.camera, place, positions[images.vertex].T)
     order = order[(real & ~hidden)[order]]
     order = order[~repeated(images.select(order))]
     images, reach, face, uv = images.select(order), reach[order], face[order], uv[:, order]
@@ -83,4 +85,3 @@ def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: 
         mirror_face=np.zeros(0, dtype=np.int64), counts=counts,
         estimated_error=float(np.percentile(np.minimum(wanted, LARGEST), 99)) if len(wanted) else 0.0,
         discs=Discs(images.vertex, face, np.stack((1.0 - uv[0] - uv[1], *uv), axis=1), radius, flat))
-

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .met_surfaces import MetSurfaces, first_crossed
+from .first_crossed import first_crossed
+from .met_surfaces import MetSurfaces
 from .mirror_map import MirrorMap
 from .scene_tree import SceneTree
 from .triangle_mesh import TriangleMesh

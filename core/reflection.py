@@ -7,23 +7,26 @@ from dataclasses import replace
 import numpy as np
 
 from .assembly import assemble
-from .bounce import Progress, bounced, refined
+from .bounce import bounced, refined
 from .bounced_cameras import bounced_cameras
 from .camera_splitting import in_picture
-from .canonical_order import in_given_order, ordered
+from .canonical_order import ordered
 from .cameras import three_ray_cameras, visible_triangles
 from .checks import LARGEST
 from .errors import ReflectionError
 from .eye_plane import cut_before_eye
+from .given_order import in_given_order
 from .horizon import cut_at_horizon
-from .limits import Limits, picture_areas
+from .limits import Limits
 from .met_surfaces import MetSurfaces
 from .mirror_map import MirrorMap
 from .mirror_visibility import without_hidden
 from .near_origin import far_corner, moved_mesh, moved_surface, moved_view
 from .point_tree import PointTree
+from .picture_areas import picture_areas
 from .points import reflected_points
 from .probes import missed_probes
+from .progress import Progress
 from .reflection_mesh import ReflectionMesh
 from .scene_tree import SceneTree
 from .self_occlusion import without_occluded

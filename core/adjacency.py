@@ -1,0 +1,33 @@
+"""Which triangles lie beyond each other's sides, told by place: flat faces may have vertices of their own."""
+from __future__ import annotations
+
+import numpy as np
+
+from .subdivision import shared_edges
+from .triangle_mesh import TriangleMesh
+
+
+def neighbours(mesh: TriangleMesh) -> np.ndarray:
+    """Triangle (m, 3) across the side opposite to each corner; -1 where there is none, or more than one."""
+    beyond = _corners_beyond(mesh)
+    return np.where(beyond >= 0, beyond // 3, -1)
+
+
+def opposite_corners(mesh: TriangleMesh) -> np.ndarray:
+    """(m, 3, 3): the vertex beyond the side opposite to each corner; not a number where there is no triangle, or more
+    than one."""
+    beyond = _corners_beyond(mesh)
+    return np.where(beyond[:, :, None] >= 0, mesh.positions[mesh.triangles.ravel()[beyond]], np.nan)
+
+
+def _corners_beyond(mesh: TriangleMesh) -> np.ndarray:
+    """For each corner (m, 3) the one beyond the opposite side, an entry of the flattened triangles, or -1."""
+    _, vertex = np.unique(mesh.positions, axis=0, return_inverse=True)
+    _, _, edge = shared_edges(vertex.reshape(-1)[mesh.triangles])
+    # edge k runs from corner k to the next; the side opposite to corner j is edge j + 1
+    edge = edge[:, [1, 2, 0]].ravel()
+    order = np.argsort(edge, kind="stable")
+    one, other = order[np.bincount(edge)[edge[order]] == 2].reshape(-1, 2).T
+    beyond = np.full(len(edge), -1)
+    beyond[one], beyond[other] = other, one
+    return beyond.reshape(-1, 3)
