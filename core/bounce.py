@@ -16,7 +16,8 @@ from .face_refinement import FaceRefinement
 from .filling import thinned, with_crowds
 from .horizon import beyond_horizon
 from .images import vertex_images
-from .limits import Limits, crowded
+from .crowding import crowded
+from .limits import Limits
 from .picture_areas import covered_pixels, picture_areas
 from .met_surfaces import MetSurfaces
 from .mirror_refinement import refine_mirror

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .cones import Cones
-from .limits import crowded
+from .crowding import crowded
 from .scene_tree import CONES_AT_ONCE, SceneTree
 from .stepping import breathe
 

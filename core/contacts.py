@@ -13,7 +13,7 @@ from .camera_splitting import with_pieces
 from .cameras import Cameras
 from .candidates import Candidates, overlapping
 from .clipping import cut
-from .limits import crowded
+from .crowding import crowded
 from .mirror_map import MirrorMap
 from .picture_areas import picture_areas
 from .scene_frames import SceneFrames

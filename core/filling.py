@@ -14,7 +14,8 @@ import numpy as np
 from .camera_splitting import with_pieces
 from .cameras import Cameras
 from .candidates import Candidates
-from .limits import Limits, crowded
+from .crowding import crowded
+from .limits import Limits
 from .met_surfaces import MetSurfaces
 from .picture_areas import picture_areas, pixels_of
 from .picture_squares import in_squares

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from dataclasses import astuple, dataclass
 
-import numpy as np
-
 from .settings import Settings
 
 CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES = 1200, 160, 1100  # of the arrays that each takes at most at one time
@@ -60,13 +58,3 @@ class Limits:
     def of_next_bounce(self) -> Limits:
         """Light that has met one mirror more shows less, each part of it smaller."""
         return Limits(*(int(LATER * most) for most in astuple(self)))
-
-
-def crowded(count: np.ndarray, worth: np.ndarray, most: int) -> np.ndarray:
-    """Which of those that have `count` (n,) entries each are left out, so that no more than `most` entries are left:
-    those first that have the most of them for their `worth` (n,)."""
-    out = np.zeros(len(count), dtype=bool)
-    if count.sum() > most:
-        order = np.argsort(count / worth, kind="stable")
-        out[order] = np.cumsum(count[order]) > most
-    return out

@@ -9,7 +9,8 @@ from core import SceneTree, Settings, TriangleMesh, View, reflect
 from core.camera_splitting import in_picture
 from core.cameras import three_ray_cameras, visible_triangles
 from core.eye_plane import cut_before_eye
-from core.limits import Limits, crowded
+from core.crowding import crowded
+from core.limits import Limits
 from core.met_surfaces import MetSurfaces
 from core.mirror_map import MirrorMap
 from core.picture_squares import in_squares
