@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..core.reflection_mesh import filled_share
+from ..core.result.reflection_mesh import filled_share
 from . import records, show_comparison
 from .properties import SETTINGS
 

@@ -18,8 +18,8 @@ from pathlib import Path
 import extension_zip
 
 sys.path.insert(0, str(extension_zip.ROOT / "sample_blends"))
-import make_samples as samples
 import bpy
+import make_samples as samples
 import numpy as np
 from mathutils import Vector
 

@@ -17,9 +17,9 @@ import numpy as np
 
 from benchmarks.textbook_cubic import closed_form_roots
 from core import project
-from core.coplanarity import coefficients, differences
-from core.projection import CHUNK, Images
-from core.vectors import columns, cross, dot
+from core.geometry.vectors import columns, cross, dot
+from core.solver.cubic import coefficients, differences
+from core.solver.projection import CHUNK, Images
 
 
 def main(arguments: list[str]) -> int:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.vectors import cross, dot
+from core.geometry.vectors import cross, dot
 
 
 def closed_form_roots(coefficients: np.ndarray) -> np.ndarray:

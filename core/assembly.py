@@ -4,21 +4,17 @@ from __future__ import annotations
 import numpy as np
 
 from .bounce import Bounce
-from .met_surfaces import MetSurfaces
-from .mirror_map import MirrorMap
-from .placement import place
-from .reflection_mesh import ReflectionMesh
-from .scene_frames import SceneFrames
-from .settling import brought_back, distance_from
-from .vectors import groups, norm, rows
-from .view import View
+from .cameras import MirrorMap, brought_back, distance_from
+from .culling import SceneAndMirrors
+from .geometry import SceneFrames, View, groups, norm, rows
+from .result import ReflectionMesh, place
 
 BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
 OFF_MIRROR = 1e-6  # of the size of what is seen of it: how far from it a place may lie
 ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the caustic
 
 
-def assemble(view: View, bounces: list[Bounce], met: MetSurfaces, placement: str) -> ReflectionMesh:
+def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement: str) -> ReflectionMesh:
     """The faces as arrays, no two on the same nodes, without unused nodes, all turned to the eye."""
     parts, start = [], 0
     for number, bounce in enumerate(bounces, 1):
@@ -32,7 +28,7 @@ def assemble(view: View, bounces: list[Bounce], met: MetSurfaces, placement: str
     return ReflectionMesh(**whole)
 
 
-def _arrays(view: View, first_map: MirrorMap, bounce: Bounce, met: MetSurfaces) -> dict:
+def _arrays(view: View, first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> dict:
     mirror_map, frames, nodes, faces = bounce.mirror_map, bounce.frames, bounce.nodes, bounce.faces
     # mirrors are seen by what they show
     faces = faces.select(~met.shows_mirror(frames)[faces.column])
@@ -71,7 +67,7 @@ def _arrays(view: View, first_map: MirrorMap, bounce: Bounce, met: MetSurfaces) 
 
 
 def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, point: np.ndarray, frames: SceneFrames,
-                met: MetSurfaces) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+                met: SceneAndMirrors) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The faces (f, 3) with corners that lie on their source triangles, and of each vertex the one that it was, and its
     point (3, n).
 

@@ -5,33 +5,25 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .cameras import Cameras
-from .candidates import overlapping
-from .caustics import split_at_caustics
-from .clipping import Polygons, clip, whole_triangles
-from .cones import Cones
-from .connection import Faces, connect
-from .contacts import drop_behind_contacts
-from .face_refinement import FaceRefinement
-from .filling import thinned, with_crowds
-from .horizon import beyond_horizon
-from .images import vertex_images
-from .crowding import crowded
-from .limits import Limits
-from .picture_areas import covered_pixels, picture_areas
-from .met_surfaces import MetSurfaces
-from .mirror_refinement import refine_mirror
-from .mirror_occlusion import cut_behind_mirrors
-from .nodes import Nodes, polygon_nodes
-from .outline_refinement import refine_for_outlines
-from .progress import Progress
-from .reflection_map import ReflectionMap
-from .scene_frames import SceneFrames
-from .settings import Settings
-from .subdivision import edge_lengths
-from .vectors import norm
-from .touching import without_touching
-from .view import View
+from .cameras import Cameras, ReflectionMap, beyond_horizon, covered_pixels, picture_areas, refine_mirror
+from .culling import Cones, SceneAndMirrors, overlapping
+from .filling import Limits, thinned, with_crowds
+from .geometry import SceneFrames, View, edge_lengths, norm
+from .polygons import (
+    FaceRefinement,
+    Faces,
+    Nodes,
+    Polygons,
+    clip,
+    connect,
+    polygon_nodes,
+    refine_for_outlines,
+    split_at_caustics,
+    vertex_images,
+    whole_triangles,
+)
+from .support import Progress, Settings, crowded
+from .visibility import cut_behind_mirrors, drop_behind_contacts, without_touching
 
 MIRROR_SHARE = 0.8  # of the tolerance: what the rays of a camera may stray
 OUTLINE_SHARE = 0.5  # of the tolerance: what a straight outline in a camera may miss
@@ -61,7 +53,7 @@ class Bounce:
     left: np.ndarray
 
 
-def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces, settings: Settings,
+def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: SceneAndMirrors, settings: Settings,
                  limits: Limits, last: bool, progress: Progress) -> Bounce:
     """All that the cameras see; `last` tells that light which meets a mirror goes no further."""
     tolerance, first_bounce = settings.tolerance, cameras.origins is cameras.places
@@ -161,7 +153,7 @@ def bounced(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSur
     return Bounce(mirror_map, cameras, frames, nodes, faces, left)
 
 
-def refined(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: MetSurfaces, showing: np.ndarray | None,
+def refined(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: SceneAndMirrors, showing: np.ndarray | None,
             tolerance: float, maximum: int, progress: Progress) -> Cameras:
     """The cameras that may see the diffuse scene, or a mirror where the faces `showing` one are told, split where their
     rays stray from the true map."""

@@ -4,18 +4,16 @@ from __future__ import annotations
 import numpy as np
 
 from .bounce import Bounce
-from .bounced_map import BouncedMap
-from .cameras import Cameras
-from .met_surfaces import MetSurfaces
-from .vectors import groups, norm
-from .view import View
+from .cameras import BouncedMap, Cameras
+from .culling import SceneAndMirrors
+from .geometry import View, groups, norm
 
 SAME_RAY = 1e-7  # of its length: rays at one node that differ by less are one ray
 PATCHES = 8  # smooth patches of a mirror that meet in a node; more share no corners
 SMALLEST = 1e-4  # square pixels: a smaller image of a mirror shows nothing
 
 
-def bounced_cameras(view: View, bounce: Bounce, met: MetSurfaces) -> tuple[BouncedMap, Cameras]:
+def bounced_cameras(view: View, bounce: Bounce, met: SceneAndMirrors) -> tuple[BouncedMap, Cameras]:
     """A camera on each face that shows a mirror, sharing the corners at which the ray goes on the same way.
 
     Returns

@@ -9,32 +9,15 @@ import numpy as np
 from .assembly import assemble
 from .bounce import bounced, refined
 from .bounced_cameras import bounced_cameras
-from .camera_splitting import in_picture
-from .canonical_order import ordered
-from .cameras import three_ray_cameras, visible_triangles
-from .checks import LARGEST
-from .errors import ReflectionError
-from .eye_plane import cut_before_eye
-from .given_order import in_given_order
-from .horizon import cut_at_horizon
-from .limits import Limits
-from .met_surfaces import MetSurfaces
-from .mirror_map import MirrorMap
-from .mirror_visibility import without_hidden
-from .near_origin import far_corner, moved_mesh, moved_surface, moved_view
-from .point_tree import PointTree
-from .picture_areas import picture_areas
+from .cameras import MirrorMap, cut_at_horizon, in_picture, picture_areas, three_ray_cameras, visible_triangles
+from .culling import PointTree, SceneAndMirrors, SceneTree
+from .filling import Limits, missed_probes
+from .geometry import TriangleMesh, View, area_normals, cross, dot, norm, ordered, rows
 from .points import reflected_points
-from .probes import missed_probes
-from .progress import Progress
-from .reflection_mesh import ReflectionMesh
-from .scene_tree import SceneTree
-from .self_occlusion import without_occluded
-from .settings import Settings
-from .stepping import in_steps
-from .triangle_mesh import TriangleMesh, area_normals
-from .vectors import cross, dot, norm, rows
-from .view import View
+from .recentring import far_corner, moved_mesh, moved_surface, moved_view
+from .result import ReflectionMesh, in_given_order
+from .support import LARGEST, Progress, ReflectionError, Settings, in_steps
+from .visibility import cut_before_eye, without_hidden, without_occluded
 
 INSIDE = 4.0 / 3.0  # a quadratic that is zero at a triangle's corners exceeds its values at the edges' middles by this
 
@@ -102,7 +85,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     if not len(tree):
         raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
     mirror, given = ordered(mirror, shading=True)
-    met = MetSurfaces(tree, mirror if mirrors is None else ordered(mirrors, shading=True)[0])
+    met = SceneAndMirrors(tree, mirror if mirrors is None else ordered(mirrors, shading=True)[0])
     progress.done("tree")
 
     progress.next(0.1, "cameras")

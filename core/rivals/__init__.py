@@ -7,8 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..triangle_mesh import TriangleMesh
-from ..view import View
+from ..geometry import TriangleMesh, View
 from .billboards import billboarded
 from .clustering import clustered
 from .environment import boxed, mapped

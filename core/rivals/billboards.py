@@ -9,9 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..triangle_mesh import TriangleMesh
-from ..vectors import dot
-from ..view import View
+from ..geometry import TriangleMesh, View, dot
 from .environment import centre_of
 from .primary_hits import PrimaryHits
 from .rival_picture import NOTHING, RivalPicture, Work

@@ -9,10 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..scene_tree import SceneTree
-from ..triangle_mesh import TriangleMesh
-from ..vectors import groups, ranges
-from ..view import View
+from ..culling import SceneTree
+from ..geometry import TriangleMesh, View, groups, ranges
 from .box_tree import BoxTree
 from .cluster_cones import cones_around
 from .primary_hits import TOUCHING, PrimaryHits

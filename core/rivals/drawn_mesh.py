@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..view import View
+from ..geometry import View
 from .z_buffer import draw
 
 

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..triangle_mesh import TriangleMesh
-from ..view import View
+from ..geometry import TriangleMesh, View
 from .primary_hits import PrimaryHits
 from .rival_picture import RivalPicture, Work
 from .textures import Texture, looked_up, texture_of

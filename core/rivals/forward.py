@@ -3,11 +3,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry import TriangleMesh, View
 from ..reflection import reflect
-from ..reflection_mesh import ReflectionMesh
-from ..settings import Settings
-from ..triangle_mesh import TriangleMesh
-from ..view import View
+from ..result import ReflectionMesh
+from ..support import Settings
 from .drawn_mesh import DrawnMesh
 from .primary_hits import PrimaryHits
 from .rival_picture import RivalPicture, Work

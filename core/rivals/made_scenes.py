@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..triangle_mesh import TriangleMesh
-from ..view import View
+from ..geometry import TriangleMesh, View
 from .shapes import combine, icosphere, sheet, torus
 from .tessellation import tessellated
 

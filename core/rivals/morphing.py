@@ -8,10 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..subdivision import shared_edges, split
-from ..triangle_mesh import TriangleMesh
-from ..vectors import dot, norm, solve
-from ..view import View
+from ..geometry import TriangleMesh, View, dot, norm, shared_edges, solve, split
 from .drawn_mesh import DrawnMesh
 from .primary_hits import PrimaryHits
 from .ray_pyramid import RayPyramid

@@ -5,12 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mirror_map import MirrorMap
+from ..cameras import MirrorMap
+from ..culling import SceneTree
+from ..geometry import TriangleMesh, View, dot, unit
 from ..reflection import ReflectionError
-from ..scene_tree import SceneTree
-from ..triangle_mesh import TriangleMesh
-from ..vectors import dot, unit
-from ..view import View
 from .cluster_cones import cones_around
 from .rival_picture import Work
 from .z_buffer import draw

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..vectors import norm, unit
+from ..geometry import norm, unit
 
 POINTS_AT_ONCE = 8192
 SLACK = 1e-9  # radians

@@ -3,8 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..triangle_mesh import TriangleMesh
-from ..view import View
+from ..geometry import TriangleMesh, View
 from .box_tree import BoxTree
 from .pixel_blocks import cast_by_blocks
 from .primary_hits import TOUCHING, PrimaryHits

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..triangle_mesh import TriangleMesh
+from ..geometry import TriangleMesh
 
 
 def icosphere(centre, radius, subdivisions):

@@ -3,8 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..subdivision import shared_edges, split
-from ..triangle_mesh import TriangleMesh
+from ..geometry import TriangleMesh, shared_edges, split
 
 ROUNDS = 16
 _MIDDLES = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.5],

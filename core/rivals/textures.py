@@ -3,8 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..triangle_mesh import TriangleMesh
-from ..view import View
+from ..geometry import TriangleMesh, View
 from .z_buffer import draw
 
 Texture = tuple[np.ndarray, np.ndarray]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..vectors import dot, ranges
+from ..geometry import dot, ranges
 from .box_tree import BoxTree
 
 RAYS_AT_ONCE = 65536

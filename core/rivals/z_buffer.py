@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..vectors import cross, dot, ranges
-from ..view import View
+from ..geometry import View, cross, dot, ranges
 
 FRAGMENTS_AT_ONCE = 1_000_000
 

@@ -4,7 +4,6 @@ import json
 import bpy
 import numpy as np
 import pytest
-
 from parts import add, attribute, generate, material, refusal, select
 
 SIZE = 256

@@ -1,7 +1,7 @@
 """Three-ray cameras without a mirror: triangles at random places with rays that lean away from a common direction."""
 import numpy as np
 
-from core.cameras import Cameras
+from core.cameras.three_ray_cameras import Cameras
 
 
 def random_cameras(rng, count, size=0.3, turn=0.3):

@@ -3,10 +3,10 @@ import numpy as np
 import pytest
 
 from core import View, project
-from core.beams import Beams
-from core.cameras import Cameras
-from core.cones import Cones
-from core.magnification import Magnification
+from core.cameras.three_ray_cameras import Cameras
+from core.culling.cones import Cones
+from core.culling.magnification import Magnification
+from core.points.beams import Beams
 
 
 def random_cameras(count, spread, seed=3):

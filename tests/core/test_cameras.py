@@ -3,10 +3,10 @@ import numpy as np
 import pytest
 
 from core import TriangleMesh, View
-from core.cameras import three_ray_cameras, visible_triangles
-from core.horizon import cut_at_horizon
-from core.mirror_map import MirrorMap
-from core.camera_splitting import in_picture
+from core.cameras.camera_splitting import in_picture
+from core.cameras.mirror_map import MirrorMap
+from core.cameras.shading_horizon import cut_at_horizon
+from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from tests import shapes
 from tests.core.true_map import case_of, true_rays, truth_of, view_rays
 from tests.scenes import SCENES

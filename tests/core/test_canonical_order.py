@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from core import Settings, TriangleMesh, reflect
-from core.canonical_order import ordered
+from core.geometry.canonical_order import ordered
 from tests import shapes
 from tests.scenes import SCENES
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from core import TriangleMesh, project
-from core.cameras import Cameras
-from core.candidates import Candidates, overlapping
-from core.clipping import CONTACT, SCENE_EDGE, Polygons, clip
-from core.scene_frames import SceneFrames
+from core.cameras.three_ray_cameras import Cameras
+from core.culling.candidates import Candidates, overlapping
+from core.geometry.scene_frames import SceneFrames
+from core.polygons.clipping import CONTACT, SCENE_EDGE, Polygons, clip
 from tests.core.random_cameras import random_cameras
 
 COUNT = 200

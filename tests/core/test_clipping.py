@@ -3,11 +3,11 @@ import numpy as np
 import pytest
 
 from core import TriangleMesh, View
-from core.cameras import three_ray_cameras, visible_triangles
-from core.candidates import Candidates, overlapping
-from core.clipping import CONTACT, SCENE_EDGE, clip
-from core.mirror_map import MirrorMap
-from core.scene_frames import SceneFrames
+from core.cameras.mirror_map import MirrorMap
+from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
+from core.culling.candidates import Candidates, overlapping
+from core.geometry.scene_frames import SceneFrames
+from core.polygons.clipping import CONTACT, SCENE_EDGE, clip
 from tests import shapes
 from tests.core.true_map import case_of
 

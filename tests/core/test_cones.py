@@ -2,9 +2,9 @@
 import numpy as np
 import pytest
 
-from core.cameras import Cameras, three_ray_cameras, visible_triangles
-from core.cones import Cones
-from core.mirror_map import MirrorMap
+from core.cameras.mirror_map import MirrorMap
+from core.cameras.three_ray_cameras import Cameras, three_ray_cameras, visible_triangles
+from core.culling.cones import Cones
 from tests.core.random_cameras import random_cameras
 from tests.core.true_map import case_of
 

@@ -3,12 +3,12 @@ import numpy as np
 import pytest
 
 from core import SceneTree, Settings, TriangleMesh, View, reflect
-from core.cameras import three_ray_cameras, visible_triangles
-from core.candidates import overlapping
-from core.cones import Cones
-from core.contacts import drop_behind_contacts
-from core.mirror_map import MirrorMap
-from core.scene_frames import SceneFrames
+from core.cameras.mirror_map import MirrorMap
+from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
+from core.culling.candidates import overlapping
+from core.culling.cones import Cones
+from core.geometry.scene_frames import SceneFrames
+from core.visibility.scene_contacts import drop_behind_contacts
 from tests import shapes
 from tests.judge import judge
 

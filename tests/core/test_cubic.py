@@ -4,9 +4,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from core.monotone_roots import monotone_roots
-from core.rounding import UNIT, horner, value_bound
-from core.simple_roots import simple_roots
+from core.solver.monotone_roots import monotone_roots
+from core.solver.rounding import UNIT, horner, value_bound
+from core.solver.simple_roots import simple_roots
 from tests.core import exact
 
 

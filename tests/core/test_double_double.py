@@ -4,8 +4,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from core import coplanarity
-from core import double_double as long
+from core.solver import cubic
+from core.solver import double_double as long
 from tests.core.exact_pairs import ExactPairs
 from tests.core.families import pairs_of
 
@@ -42,16 +42,16 @@ def test_sums_and_products():
                                   "far from the origin", "opposite rays but for rounding", "close to the mirror"])
 def test_coefficients_are_within_their_bounds(name):
     vertices, rays, points = pairs_of(name, 150)
-    still, moving = coplanarity.differences(vertices, rays, points)
-    length, speed = coplanarity.scale(still, moving)
+    still, moving = cubic.differences(vertices, rays, points)
+    length, speed = cubic.scale(still, moving)
     still, moving = still * length, moving * speed
-    cubics = coplanarity.coefficients(still, moving)
-    sharp, sharp_bounds = coplanarity.long_coefficients(vertices, rays, points, length, speed)
+    cubics = cubic.coefficients(still, moving)
+    sharp, sharp_bounds = cubic.long_coefficients(vertices, rays, points, length, speed)
     exact = ExactPairs(vertices, rays, points)
     unit = [Fraction(2) ** int(k) * Fraction(float(x)) for k, x in zip(exact._place_power, length)]
     pace = [Fraction(2) ** int(k) * Fraction(float(x)) for k, x in zip(exact._speed_power, speed)]
     true = [[int(c) * x ** (3 - k) * y ** k for c, x, y in zip(row, unit, pace)] for k, row in enumerate(exact.cubic)]
-    for found, bounds in ((cubics, coplanarity.length_bounds(coplanarity.lengths(still, moving))),
-                          (cubics, coplanarity.term_bounds(still, moving)), (sharp, sharp_bounds)):
+    for found, bounds in ((cubics, cubic.length_bounds(cubic.lengths(still, moving))),
+                          (cubics, cubic.term_bounds(still, moving)), (sharp, sharp_bounds)):
         assert all(abs(Fraction(float(x)) - y) <= Fraction(float(bound))
                    for rows in zip(found, bounds, true) for x, bound, y in zip(*rows))

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from core import Settings, TriangleMesh, View, reflect
-from core.eye_plane import triangles_before_eye
+from core.visibility.eye_plane import triangles_before_eye
 from tests import shapes
 from tests.judge import judge
 

@@ -8,8 +8,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import Images, project
-from tests.core.explained import judge
 from tests.core.exact_pairs import ExactPairs
+from tests.core.explained import judge
 from tests.core.families import FAMILIES, pairs_of
 
 # The most that rounding may have to explain, in parts of the images; in others, and of vanishing cubics, nothing.

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from core import SceneTree, Settings, TriangleMesh, View, reflect
-from core.camera_splitting import in_picture
-from core.cameras import three_ray_cameras, visible_triangles
-from core.eye_plane import cut_before_eye
-from core.crowding import crowded
-from core.limits import Limits
-from core.met_surfaces import MetSurfaces
-from core.mirror_map import MirrorMap
-from core.picture_squares import in_squares
+from core.cameras.camera_splitting import in_picture
+from core.cameras.mirror_map import MirrorMap
+from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
+from core.culling.scene_and_mirrors import SceneAndMirrors
+from core.filling.limits import Limits
+from core.filling.picture_squares import in_squares
+from core.support.crowding import crowded
+from core.visibility.eye_plane import cut_before_eye
 from tests import shapes
 from tests.core.true_map import case_of, mesh_of, truth_of
 from tests.judge import compare
@@ -64,7 +64,7 @@ def test_a_cell_shows_the_triangle_that_its_middle_ray_meets_first():
     mirror_map, tree = MirrorMap(case.view, case.mirror), SceneTree.build(case.scene)
     cameras = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
     cameras = cameras.select(in_picture(case.view, cameras))
-    shown = MetSurfaces(tree, case.mirror).shown_in_middles(mirror_map, cameras)
+    shown = SceneAndMirrors(tree, case.mirror).shown_in_middles(mirror_map, cameras)
     middle = cameras.places[:, cameras.corners].mean(axis=2)
     ray = mirror_map.rays(cameras.face, mirror_map.coordinates(cameras.face, middle))
     expected = [first_triangle(tree.mesh, middle[:, number], ray[:, number]) for number in range(len(cameras))]

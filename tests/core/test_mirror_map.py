@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from core.mirror_map import MirrorMap
+from core.cameras.mirror_map import MirrorMap
 from tests.core.true_map import case_of, size_of, true_rays, view_rays
 from tests.truth import reflected_rays
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-import core.point_tree
+import core.culling.point_tree
 from core import PointTree, Settings, TriangleMesh, View, reflect
 from tests import shapes
 from tests.core.test_vertex_images import brute_force, floating

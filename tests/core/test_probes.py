@@ -2,13 +2,13 @@
 import numpy as np
 import pytest
 
-import core.cameras
+import core.cameras.three_ray_cameras
 from core import Settings, TriangleMesh, View, reflect
-from core.met_surfaces import MetSurfaces
-from core.mirror_map import MirrorMap
-from core.probes import missed_probes
-from core.scene_tree import SceneTree
-from core.canonical_order import ordered
+from core.cameras.mirror_map import MirrorMap
+from core.culling.scene_and_mirrors import SceneAndMirrors
+from core.culling.scene_tree import SceneTree
+from core.filling.probes import missed_probes
+from core.geometry.canonical_order import ordered
 from tests import shapes
 from tests.core.true_map import case_of
 from tests.scenes import SCENES
@@ -25,7 +25,7 @@ def test_whole_results_miss_nothing(name):
 def test_the_share_of_what_is_missing_is_told():
     case = case_of("flat")
     mirror = ordered(case.mirror, shading=True)[0]
-    met = MetSurfaces(SceneTree.build(case.scene), mirror)
+    met = SceneAndMirrors(SceneTree.build(case.scene), mirror)
     mesh = reflect(case.view, case.mirror, case.scene)
     pixels = case.view.pixels(mesh.mirror_position)[mesh.triangles]
     middle = np.median(pixels[..., 0])

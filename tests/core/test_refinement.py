@@ -3,16 +3,15 @@ import numpy as np
 import pytest
 
 from core import SceneTree, Settings, reflect
-from core.camera_splitting import in_picture
-from core.camera_splitting import split_cameras
-from core.cameras import three_ray_cameras, visible_triangles
-from core.candidates import overlapping
-from core.cones import Cones
-from core.met_surfaces import MetSurfaces
-from core.mirror_map import MirrorMap
-from core.mirror_refinement import refine_mirror
-from core.outline_refinement import refine_for_outlines
-from core.scene_frames import SceneFrames
+from core.cameras.camera_splitting import in_picture, split_cameras
+from core.cameras.mirror_map import MirrorMap
+from core.cameras.mirror_refinement import refine_mirror
+from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
+from core.culling.candidates import overlapping
+from core.culling.cones import Cones
+from core.culling.scene_and_mirrors import SceneAndMirrors
+from core.geometry.scene_frames import SceneFrames
+from core.polygons.outline_refinement import refine_for_outlines
 from tests.core.true_map import case_of, mesh_of, true_rays, truth_of, view_rays
 from tests.judge import compare
 
@@ -144,7 +143,7 @@ def test_the_bound_on_candidates_is_kept_and_told():
     tree = SceneTree.build(case.scene)
     camera, triangle, _ = tree.trace(Cones.around(cameras))
     seen, column = np.unique(triangle, return_inverse=True)
-    frames, met = SceneFrames.of(tree.mesh, seen), MetSurfaces(tree, case.mirror)
+    frames, met = SceneFrames.of(tree.mesh, seen), SceneAndMirrors(tree, case.mirror)
     candidates = overlapping(cameras, frames, camera, column)
     *_, free = refine_for_outlines(case.view, mirror_map, cameras, frames, candidates, 0.25, 1_000_000, met)
     _, bounded, _, limited = refine_for_outlines(case.view, mirror_map, cameras, frames, candidates, 0.25, 1000, met)

@@ -5,7 +5,16 @@ import numpy as np
 import pytest
 
 from core import (
-    METHODS, PLACEMENTS, Discs, ReflectionMesh, SceneTree, Settings, TriangleMesh, View, reflect, reflection_steps,
+    METHODS,
+    PLACEMENTS,
+    Discs,
+    ReflectionMesh,
+    SceneTree,
+    Settings,
+    TriangleMesh,
+    View,
+    reflect,
+    reflection_steps,
 )
 from tests.core.true_map import case_of, mesh_of, truth_of
 from tests.judge import judge

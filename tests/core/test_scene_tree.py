@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 
 from core import SceneTree, TriangleMesh, project
-from core.cameras import Cameras
-from core.cones import Cones
+from core.cameras.three_ray_cameras import Cameras
+from core.culling.cones import Cones
 from tests.core.random_cameras import random_cameras
 from tests.every_pair import every_pair
 

@@ -3,10 +3,10 @@ import numpy as np
 import pytest
 
 from core import View, reflect
-from core.cameras import three_ray_cameras, visible_triangles
-from core.mirror_map import MirrorMap
-from core.mirror_visibility import without_hidden
-from core.self_occlusion import without_occluded
+from core.cameras.mirror_map import MirrorMap
+from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
+from core.visibility.mirror_visibility import without_hidden
+from core.visibility.self_occlusion import without_occluded
 from tests import shapes
 from tests.judge import judge
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Settings, reflect, reflection_steps
-from core.stepping import INTERVAL, breathe, in_steps, tell
+from core.support.stepping import INTERVAL, breathe, in_steps, tell
 from tests.core.test_filling import VIEW, soup
 from tests.core.true_map import case_of
 

@@ -4,7 +4,7 @@ import itertools
 import numpy as np
 import pytest
 
-from core.subdivision import parent_side, shared_edges, split
+from core.geometry.subdivision import parent_side, shared_edges, split
 from tests import shapes
 
 MARKS = np.array(list(itertools.product((False, True), repeat=3)))

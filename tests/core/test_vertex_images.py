@@ -3,10 +3,10 @@ import numpy as np
 import pytest
 
 from core import Settings, TriangleMesh, View, project, reflect
-from core.cameras import three_ray_cameras, visible_triangles
-from core.mirror_map import MirrorMap
-from core.camera_splitting import in_picture
-from core.mirror_refinement import refine_mirror
+from core.cameras.camera_splitting import in_picture
+from core.cameras.mirror_map import MirrorMap
+from core.cameras.mirror_refinement import refine_mirror
+from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from tests import shapes
 from tests.core.true_map import size_of
 from tests.scenes import Scene

@@ -12,7 +12,6 @@ from tests.fuzz.scene_cameras import drawn_camera
 from tests.fuzz.scene_changes import changed
 from tests.fuzz.scene_shapes import chosen, drawn_object
 
-
 SMALL = 1000  # seeds below stand for small scenes; of those above every third stands for a large one
 
 

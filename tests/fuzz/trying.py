@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from core import ReflectionMesh
-from tests.fuzz import picture_checks, mesh_checks, place_checks
+from tests.fuzz import mesh_checks, picture_checks, place_checks
 from tests.fuzz.configurations import Configuration
 from tests.fuzz.reflecting import Reflected, reflected
 from tests.fuzz.twins import TWINS, nearly_the_same, same_to_the_bit

@@ -1,0 +1,19 @@
+"""General three-ray cameras on the mirror, and the true map from places on it to the rays that leave.
+
+In come a view and a mirror; out come cameras whose interpolated rays stray from the true ones by less
+than the tolerance. C. Mei, V. Popescu, E. Sacks, GRAPP 2007; normals are kept above the surface as Cycles does.
+"""
+from .bounced_map import BouncedMap
+from .camera_splitting import in_picture, split_cameras, with_pieces
+from .mirror_map import MirrorMap
+from .mirror_refinement import refine_mirror
+from .mirror_surface import MirrorSurface, drawn_in
+from .picture_areas import covered_pixels, picture_areas, pixels_of
+from .reflection_map import ReflectionMap
+from .shading_horizon import beyond_horizon, cut_at_horizon
+from .three_ray_cameras import Cameras, three_ray_cameras, visible_triangles
+from .triangle_walk import brought_back, distance_from, settle
+
+__all__ = ["BouncedMap", "Cameras", "MirrorMap", "MirrorSurface", "ReflectionMap", "beyond_horizon", "brought_back",
+           "covered_pixels", "cut_at_horizon", "distance_from", "drawn_in", "in_picture", "picture_areas", "pixels_of",
+           "refine_mirror", "settle", "split_cameras", "three_ray_cameras", "visible_triangles", "with_pieces"]

@@ -1,0 +1,128 @@
+"""The reflection map of a mirror seen in mirrors: chains of mirror triangles, one bounce more than the map before.
+
+A chain is a face of the map before and a triangle of the mirrors that its rays arrive at. The ray arrives at O + s R of
+the map before, as long as its whole way from the eye, so that chains of flat mirrors are exact here as well: they look
+from one virtual eye.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from ..geometry import dot, norm
+from .mirror_surface import MirrorSurface, drawn_in
+from .reflection_map import ReflectionMap
+
+DIFFERENCE = 1e-5  # of a triangle's side: step of the difference quotients for bent rays
+
+
+class BouncedMap(ReflectionMap):
+    """Rays that bounce once more.
+
+    Parameters
+    ----------
+    before : ReflectionMap
+    surface : MirrorSurface
+        All mirrors that may be seen in the mirrors.
+    face_before : (k,) int64
+        For each chain, the face of the map before.
+    triangle : (k,) int64
+        For each chain, the triangle of `surface` that its rays arrive at.
+    orthographic : bool
+        Whether the rays that arrive are unit vectors.
+    """
+
+    parallel = False
+
+    def __init__(self, before: ReflectionMap, surface: MirrorSurface, face_before: np.ndarray, triangle: np.ndarray,
+                 orthographic: bool) -> None:
+        self.before, self.surface = before, surface
+        self.face_before, self.triangle = face_before, triangle
+        self.orthographic = orthographic
+        # how rays arrive at a triangle is known only in the place itself
+        self.grazing = np.ones(len(triangle), dtype=bool)
+
+    def first(self, face: np.ndarray) -> np.ndarray:
+        return self.before.first(self.face_before[face])
+
+    def last(self, face: np.ndarray) -> tuple[MirrorSurface, np.ndarray]:
+        return self.surface, self.triangle[face]
+
+    def coordinates(self, face: np.ndarray, places: np.ndarray) -> np.ndarray:
+        return self.before.coordinates(self.face_before[face], places)
+
+    def places(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+        return self.before.places(self.face_before[face], uv)
+
+    def spans(self, face: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return self.before.spans(self.face_before[face])
+
+    def _arriving(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Where rays arrive, their direction as long as their whole way, and s of the map before."""
+        origin, ray = self.before.leave(self.face_before[face], uv)
+        s = self._distance(face, origin, ray)
+        return origin + s * ray, ray if self.orthographic else (1.0 + s) * ray, s
+
+    def _distance(self, face: np.ndarray, origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
+        triangle = self.triangle[face]
+        flat = self.surface.face_normal[:, triangle]
+        falling = _falling(ray, flat)
+        # the plane behind the ray's origin is seen by rounding alone, where both touch
+        return np.maximum(dot(self.surface.a[:, triangle] - origin, flat) / falling, 0.0)
+
+    def leave(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        triangle = self.triangle[face]
+        place, direction, _ = self._arriving(face, uv)
+        on = self.surface.coordinates(triangle, place)
+        ray = self.surface.unbent(triangle, on, direction)
+        return place, self.surface.lift(triangle, on, ray, direction)
+
+    def rays(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+        return self.leave(face, uv)[1]
+
+    def met_later(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+        triangle = self.triangle[face]
+        # a corner a little beside its chain may meet the plane of a triangle seen edge on anywhere
+        on = drawn_in(self.surface.coordinates(triangle, self._arriving(face, uv)[0]))
+        return [*self.before.met_later(self.face_before[face], uv), self.surface.places(triangle, on)]
+
+    def turned_before(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+        return self.before.turned(self.face_before[face], uv, self._arriving(face, uv)[2])
+
+    def lifted(self, face: np.ndarray, uv: np.ndarray, slack: float = 0.0) -> np.ndarray:
+        triangle = self.triangle[face]
+        place, direction, _ = self._arriving(face, uv)
+        ray = self.surface.unbent(triangle, self.surface.coordinates(triangle, place), direction)
+        return (self.before.lifted(self.face_before[face], uv, slack)
+                | self.surface.enters(triangle, ray, direction, slack))
+
+    def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: np.ndarray) -> tuple:
+        triangle = self.triangle[face]
+        origin, ray, moves = self.before.linearise(self.face_before[face], uv, *ways)
+        s = self._distance(face, origin, ray)
+        flat = self.surface.face_normal[:, triangle]
+        falling = _falling(ray, flat)
+        place, direction = origin + s * ray, ray if self.orthographic else (1.0 + s) * ray
+        places, changes = [], []
+        for move, change in moves:
+            move = move + s * change
+            farther = -dot(move, flat) / falling
+            places.append(move + farther * ray)
+            changes.append((self.surface.move_coordinates(triangle, places[-1]),
+                            change if self.orthographic else farther * ray + (1.0 + s) * change))
+        on = self.surface.coordinates(triangle, place)
+        leaving, turned = self.surface.derivatives(triangle, on, direction, changes)
+        part = np.flatnonzero(self.surface.enters(triangle, leaving, direction))
+        if len(part):
+            near = face[part], uv[:, part]
+            leaving[:, part] = self.rays(*near)
+            for way, change in zip(ways, turned):
+                step = DIFFERENCE * np.broadcast_to(way, uv.shape)[:, part]
+                after, before = (self.rays(near[0], near[1] + sign * step) for sign in (1.0, -1.0))
+                change[:, part] = (after - before) / (2.0 * DIFFERENCE)
+        return place, leaving, list(zip(places, turned))
+
+
+def _falling(rays: np.ndarray, flat: np.ndarray) -> np.ndarray:
+    """How fast rays (3, n) come nearer to planes with unit normals; never so slowly that it is rounding alone."""
+    falling, least = dot(rays, flat), 1e-14 * norm(rays) + 1e-150
+    return np.where(np.abs(falling) > least, falling, least)

@@ -1,0 +1,85 @@
+"""Splitting cameras, at the middles of their edges or into any pieces: new corners have the true map's rays again."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..geometry import View, groups, shared_edges, split, unit
+from .reflection_map import ReflectionMap
+from .three_ray_cameras import Cameras
+
+WELD = 1e-9  # of the mirror's size: corners closer than this are one
+SAME_RAY = 1e-6  # radians: at a sharp edge of the mirror each side has rays of its own
+
+
+def split_cameras(view: View, mirror_map: ReflectionMap, cameras: Cameras,
+                  marked: np.ndarray) -> tuple[Cameras, np.ndarray, np.ndarray]:
+    """Cameras split along the `marked` (n, 3) edges, each from a corner to the next, on both sides of each edge.
+
+    Returns
+    -------
+    cameras : Cameras
+        Those in the picture.
+    parent : (m,) int64
+        The camera that each lies in.
+    new : (m,) bool
+        Whether it is only a part of its parent.
+    """
+    ends, first, edge = shared_edges(cameras.corners)
+    chosen = np.zeros(len(ends), dtype=bool)
+    chosen[edge[marked]] = True
+    cameras, parent = split_at(cameras, chosen, edge, *edge_middles(mirror_map, cameras, ends, first))
+    seen = in_picture(view, cameras)
+    return cameras.select(seen), parent[seen], chosen[edge].any(axis=1)[parent[seen]]
+
+
+def edge_middles(mirror_map: ReflectionMap, cameras: Cameras, ends: np.ndarray,
+                 first: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places (3, e) halfway along edges `ends` (e, 2), and origins and directions of the true rays there."""
+    middles = 0.5 * (cameras.places[:, ends[:, 0]] + cameras.places[:, ends[:, 1]])
+    face = cameras.face[first // 3]
+    return middles, *mirror_map.leave(face, mirror_map.coordinates(face, middles))
+
+
+def split_at(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np.ndarray, origins: np.ndarray,
+             rays: np.ndarray) -> tuple[Cameras, np.ndarray]:
+    """Cameras split at the middles of the `marked` (e,) edges, and the camera that each lies in; `edge` (n, 3) are the
+    cameras' edges."""
+    new = np.cumsum(marked) - 1 + cameras.places.shape[1]
+    parent, local = split(marked[edge])
+    six = np.concatenate((cameras.corners, new[edge]), axis=1)[parent]
+    return cameras.replaced(np.take_along_axis(six, local, axis=1), cameras.face[parent], middles[:, marked],
+                            origins[:, marked], rays[:, marked]), parent
+
+
+def with_pieces(mirror_map: ReflectionMap, cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
+                weights: np.ndarray) -> tuple[Cameras, np.ndarray]:
+    """The `whole` cameras (n,) and behind them pieces (m) of the cameras `parent`, with weights (3, 3, m) of their
+    corners, entry [i, k]: weight i of corner k; and the parents. New corners are welded where place and ray agree."""
+    places = np.einsum("xjn,jkn->xkn", np.take(cameras.places, cameras.corners[parent].T, axis=1), weights)
+    places, face = places.reshape(3, -1), np.tile(cameras.face[parent], 3)
+    corner = np.empty(len(face), dtype=np.int64)
+    # the parents' own corners stay what they are, shared with the neighbours
+    own, new = (np.flatnonzero((weights == 1.0).any(axis=0).ravel() == state) for state in (True, False))
+    number, piece = own // max(len(parent), 1), own % max(len(parent), 1)
+    corner[own] = cameras.corners[parent[piece], np.argmax(weights[:, number, piece], axis=0)]
+    places, face = places[:, new], face[new]
+    origins, rays = mirror_map.leave(face, mirror_map.coordinates(face, places))
+    low = cameras.places.min(axis=1, keepdims=True)
+    size = np.ptp(cameras.places, axis=1).max()
+    first, group = groups(*np.rint((places - low) / (WELD * size)).astype(np.int64),
+                          *np.rint((unit(rays) + 1.0) / SAME_RAY).astype(np.int64))
+    corner[new] = group + cameras.places.shape[1]
+    kept = cameras.select(whole)
+    return cameras.replaced(np.concatenate((kept.corners, corner.reshape(3, -1).T)),
+                            np.concatenate((kept.face, cameras.face[parent])), places[:, first], origins[:, first],
+                            rays[:, first]), parent
+
+
+def in_picture(view: View, cameras: Cameras) -> np.ndarray:
+    """Which cameras may touch the picture: not all three corners beyond the same side of the view's pyramid."""
+    clip = view.clip(cameras.places.T)
+    margin = 1.0 + 2.0 / np.array(view.resolution)
+    x, y, w = clip[:, 0], clip[:, 1], clip[:, 3]
+    depth = view.depths(cameras.places.T)
+    outside = np.stack((x > w * margin[0], -x > w * margin[0], y > w * margin[1], -y > w * margin[1], depth <= 0.0))
+    return ~outside[:, cameras.corners].all(axis=2).any(axis=0)

@@ -1,0 +1,113 @@
+"""The true reflection map of one mirror: from a place on a flat mirror triangle to the ray that leaves it there.
+
+The three-ray camera interpolates rays instead and is O(h^2) off; Newton steps on this map make its images exact.
+"""
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from ..geometry import TriangleMesh, View, neighbours, unit
+from .mirror_surface import MirrorSurface
+from .reflection_map import ReflectionMap
+
+NEARLY_GRAZING = 0.03  # sine at a face's corners or middle below which some ray of the face may need to be bent
+DIFFERENCE = 1e-5  # of a triangle's side: step of the difference quotients for bent rays
+
+
+class MirrorMap(ReflectionMap):
+    """Rays of the mirror's triangles as the view sees them; the origin of a ray is its place.
+
+    With `parallel`, every triangle sends all its rays along one direction, that of its middle: the parallel
+    three-ray camera, whose projection is linear and jumps between triangles.
+    """
+
+    def __init__(self, view: View, mirror: TriangleMesh, parallel: bool = False) -> None:
+        self.surface, self._mirror = MirrorSurface(mirror), mirror
+        self.orthographic = view.orthographic
+        self.eye, self.forward = view.eye[:, None], view.forward[:, None]
+        self.parallel = parallel
+        count = len(self.surface)
+        self.grazing = np.zeros(count, dtype=bool)
+        every = np.arange(count)
+        if parallel:
+            middle = np.full((2, count), 1.0 / 3.0)
+            self.constant = self.surface.unbent(every, middle, unit(self.arriving(self.places(every, middle))))
+            return
+        for u, v in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0 / 3.0, 1.0 / 3.0)):
+            uv = np.stack((np.full(count, u), np.full(count, v)))
+            direction = self.arriving(self.places(every, uv))
+            ray = self.surface.unbent(every, uv, direction)
+            self.grazing |= self.surface.rise(every, ray, direction) < NEARLY_GRAZING
+
+    @cached_property
+    def across(self) -> np.ndarray:
+        return neighbours(self._mirror)
+
+    def arriving(self, places: np.ndarray) -> np.ndarray:
+        """View directions (3, n), as long as the way from the eye (1 in orthographic views)."""
+        if self.orthographic:
+            return np.broadcast_to(self.forward, places.shape)
+        return places - self.eye
+
+    def coordinates(self, face: np.ndarray, places: np.ndarray) -> np.ndarray:
+        return self.surface.coordinates(face, places)
+
+    def places(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+        return self.surface.places(face, uv)
+
+    def spans(self, face: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return self.surface.u[:, face], self.surface.v[:, face]
+
+    def first(self, face: np.ndarray) -> np.ndarray:
+        return face
+
+    def last(self, face: np.ndarray) -> tuple[MirrorSurface, np.ndarray]:
+        return self.surface, face
+
+    def rays(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+        if self.parallel:
+            return self.constant[:, face]
+        direction = self.arriving(self.places(face, uv))
+        ray = self.surface.unbent(face, uv, direction)
+        part = np.flatnonzero(self.grazing[face])
+        if len(part):
+            ray[:, part] = self.surface.lift(face[part], uv[:, part], ray[:, part], direction[:, part])
+        return ray
+
+    def leave(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return self.places(face, uv), self.rays(face, uv)
+
+    def met_later(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+        return []
+
+    def turned_before(self, face: np.ndarray, uv: np.ndarray) -> float:
+        return 1.0
+
+    def lifted(self, face: np.ndarray, uv: np.ndarray, slack: float = 0.0) -> np.ndarray:
+        found = np.zeros(len(face), dtype=bool)
+        part = np.flatnonzero(self.grazing[face])
+        if len(part) and not self.parallel:
+            face, uv = face[part], uv[:, part]
+            direction = self.arriving(self.places(face, uv))
+            found[part] = self.surface.enters(face, self.surface.unbent(face, uv, direction), direction, slack)
+        return found
+
+    def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: np.ndarray) -> tuple:
+        u, v = self.spans(face)
+        place = self.places(face, uv)
+        moves = [way[0] * u + way[1] * v for way in ways]
+        if self.parallel:
+            return place, self.constant[:, face], [(move, np.zeros_like(move)) for move in moves]
+        seen = [np.zeros_like(move) if self.orthographic else move for move in moves]
+        ray, changes = self.surface.derivatives(face, uv, self.arriving(place), list(zip(ways, seen)))
+        part = np.flatnonzero(self.lifted(face, uv))
+        if len(part):
+            near = face[part], uv[:, part]
+            ray[:, part] = self.rays(*near)
+            for way, change in zip(ways, changes):
+                step = DIFFERENCE * np.broadcast_to(way, uv.shape)[:, part]
+                after, before = (self.rays(near[0], near[1] + sign * step) for sign in (1.0, -1.0))
+                change[:, part] = (after - before) / (2.0 * DIFFERENCE)
+        return place, ray, list(zip(moves, changes))

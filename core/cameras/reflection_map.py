@@ -1,0 +1,129 @@
+"""What all reflection maps share: Newton's method for what is seen through them.
+
+A reflection map leads from a place (u, v) on a flat mirror triangle, where the eye sees it, to the ray that leaves the
+last mirror: its origin O and direction R. After one reflection O is the place Q itself. A point P is seen where
+P = O(u, v) + s R(u, v), s > 0.
+"""
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+
+from ..geometry import cross, dot, norm, solve
+from .mirror_surface import MirrorSurface
+
+ARRIVED = 1e-10  # of the path and the viewing distance: by how much a ray that Newton's method found may miss
+
+
+class ReflectionMap(ABC):
+    """Rays at places (u, v) of `face`: a triangle of the mirror, or a chain of triangles where there are more bounces.
+
+    Attributes
+    ----------
+    parallel : bool
+        Every face sends all its rays along one direction; the map jumps between faces.
+    orthographic : bool
+        Rays are unit vectors, and s is a length.
+    grazing : (m,) bool
+        Faces on which some ray may be lifted.
+    """
+
+    parallel: bool
+    orthographic: bool
+    grazing: np.ndarray
+
+    @property
+    def unit_rays(self) -> bool:
+        """Whether rays are unit vectors and s is a length, instead of rays as long as the way from the eye."""
+        return self.orthographic or self.parallel
+
+    @abstractmethod
+    def coordinates(self, face: np.ndarray, places: np.ndarray) -> np.ndarray:
+        """(u, v) as (2, n) of `places` (3, n) on the planes of the triangles that the eye sees."""
+
+    @abstractmethod
+    def places(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+        """Q as (3, n), where the eye sees the mirror."""
+
+    @abstractmethod
+    def spans(self, face: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Derivatives (3, n) of Q along u and along v."""
+
+    @abstractmethod
+    def first(self, face: np.ndarray) -> np.ndarray:
+        """The triangle (n,) of the mirror that the eye sees."""
+
+    @abstractmethod
+    def last(self, face: np.ndarray) -> tuple[MirrorSurface, np.ndarray]:
+        """The surface that the rays leave last, and which of its triangles (n,)."""
+
+    @abstractmethod
+    def rays(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+        """R as (3, n), not normalised: as long as the whole way from the eye (1 in orthographic views)."""
+
+    @abstractmethod
+    def leave(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """O and R, (3, n) each."""
+
+    @abstractmethod
+    def met_later(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+        """Places (3, n) on each mirror that the ray from Q meets later, the last of them O. None after one bounce."""
+
+    @abstractmethod
+    def lifted(self, face: np.ndarray, uv: np.ndarray, slack: float = 0.0) -> np.ndarray:
+        """Whether the rays (n,) would enter their flat faces and are turned until they clear them, or, by `slack` of
+        their rise, all but are."""
+
+    @abstractmethod
+    def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: np.ndarray) -> tuple:
+        """O, R, and for each of the `ways` (2, n) in (u, v) the derivatives of both along it, all (3, n)."""
+
+    @abstractmethod
+    def turned_before(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray | float:
+        """`turned` of the mirrors before the last one, at the last one; 1 where there are none."""
+
+    def locate(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray,
+               steps: int = 4) -> tuple[np.ndarray, np.ndarray]:
+        """Newton's method for O(u, v) + s R(u, v) = P from a near start, `points` P as (3, n); returns uv and s."""
+        one, zero = np.ones_like(s), np.zeros_like(s)
+        for _ in range(steps):
+            origin, ray, ((ou, ru), (ov, rv)) = self.linearise(face, uv, (one, zero), (zero, one))
+            step = solve(ou + s * ru, ov + s * rv, ray, points - origin - s * ray)
+            # a step longer than the triangle tells a start too far off: keep its direction only
+            step = step / np.maximum(1.0, np.abs(step[:2]).max(axis=0))
+            uv, s = uv + step[:2], s + step[2]
+        return uv, s
+
+    def meet(self, face: np.ndarray, start: np.ndarray, end: np.ndarray, t: np.ndarray, s: np.ndarray,
+             point: np.ndarray, edge: np.ndarray, steps: int = 5) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Newton's method for the ray from the mirror's line `start` to `end`, (2, n) in (u, v), that meets the line
+        P + r E, `point` P and `edge` E as (3, n); returns t along the mirror's line, r along the other, and s."""
+        way = end - start
+        r = np.zeros_like(t)
+        for _ in range(steps):
+            origin, ray, ((move, change),) = self.linearise(face, start + t * way, way)
+            moved = solve(move + s * change, ray, -edge, point - origin - s * ray)
+            # s is a length in orthographic views: only t can tell a step that is too long
+            step = moved[:2] / np.maximum(1.0, np.abs(moved[0]))
+            t, s, r = t + step[0], s + step[1], moved[2]
+        return t, r, s
+
+    def meets(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Whether the ray at (u, v) really passes through `points` (3, n) at s > 0: that Newton's method arrived."""
+        origin, ray = self.leave(face, uv)
+        miss = norm(origin + s * ray - points)
+        # without a viewing distance the mirror triangle's size stands in
+        way = sum(map(norm, self.spans(face))) if self.unit_rays else norm(ray)
+        return (s >= 0.0) & (miss <= ARRIVED * (norm(points - origin) + way))
+
+    def turned(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray) -> np.ndarray:
+        """How the map magnifies at distance s: the moved triangle's area across the ray over the area at s = 0.
+
+        Its sign is the image's parity: it starts at +1 on the mirror and crosses zero on a caustic.
+        """
+        one, zero = np.ones_like(s), np.zeros_like(s)
+        _, ray, ((ou, ru), (ov, rv)) = self.linearise(face, uv, (one, zero), (zero, one))
+        before = dot(cross(ou, ov), ray)
+        after = dot(cross(ou + s * ru, ov + s * rv), ray)
+        return self.turned_before(face, uv) * after / np.where(before != 0.0, before, 1.0)

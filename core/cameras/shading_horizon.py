@@ -1,0 +1,83 @@
+"""The horizon of a smooth mirror: where its interpolated normals would send rays under the flat faces they leave.
+
+Beyond it the true map lifts the rays until they clear the surface, and bends sharply where it begins to. Cameras are
+cut along that line, so that none has the bend inside; what lies beyond is a sliver at the silhouette.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from ..geometry import View, edge_lengths, split
+from ..support import breathe
+from .camera_splitting import split_cameras
+from .reflection_map import ReflectionMap
+from .three_ray_cameras import Cameras
+
+STEPS = 30
+CAMERAS_AT_ONCE = 4096
+LEVELS = 6  # of splits before the cut, for cameras across which the horizon bulges
+LONG_EDGE = 8.0  # pixels: in a smaller camera a bulge does not matter
+ON_LINE = 1e-6  # rise of rays on the horizon itself, which belong to both its sides
+_PROBES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [1 / 3] * 3]).T
+
+
+def beyond_horizon(mirror_map: ReflectionMap, cameras: Cameras) -> np.ndarray:
+    """Which cameras (n,) lie beyond the horizon whole, made of lifted rays alone: nothing there is worth refining."""
+    return _lifted_probes(mirror_map, cameras, ON_LINE).all(axis=0)
+
+
+def _lifted_probes(mirror_map: ReflectionMap, cameras: Cameras, slack: float) -> np.ndarray:
+    """(7, n): whether the rays at the corners, the edges' middles and the middle of the cameras are lifted."""
+    found = np.zeros((_PROBES.shape[1], len(cameras)), dtype=bool)
+    grazing = np.flatnonzero(mirror_map.grazing[cameras.face])
+    for start in range(0, len(grazing), CAMERAS_AT_ONCE):
+        breathe()
+        near = grazing[start:start + CAMERAS_AT_ONCE]
+        places = np.einsum("xnk,kp->xpn", cameras.places[:, cameras.corners[near]], _PROBES).reshape(3, -1)
+        face = np.tile(cameras.face[near], len(found))
+        lifted = mirror_map.lifted(face, mirror_map.coordinates(face, places), slack)
+        found[:, near] = lifted.reshape(len(found), -1)
+    return found
+
+
+def cut_at_horizon(view: View, mirror_map: ReflectionMap, cameras: Cameras) -> Cameras:
+    """The cameras, those across the horizon cut along it; large ones over whose side it bulges are split first."""
+    for _ in range(LEVELS):
+        breathe()
+        probes = _lifted_probes(mirror_map, cameras, 0.0)
+        pixels = view.pixels(cameras.places.T)[cameras.corners]
+        long = edge_lengths(pixels) > LONG_EDGE
+        whole = (probes[:3] == probes[0]).all(axis=0)
+        bulging = (whole & (probes[3:] != probes[0]).any(axis=0))[:, None] & long
+        if not bulging.any():
+            break
+        cameras, *_ = split_cameras(view, mirror_map, cameras, bulging)
+    return _cut(mirror_map, cameras)
+
+
+def _cut(mirror_map: ReflectionMap, cameras: Cameras) -> Cameras:
+    """Cameras with corners on both sides of the horizon in up to three parts."""
+    near = np.flatnonzero(mirror_map.grazing[cameras.face])
+    corner_places = cameras.places[:, cameras.corners[near]].reshape(3, -1)
+    face = np.repeat(cameras.face[near], 3)
+    beyond = mirror_map.lifted(face, mirror_map.coordinates(face, corner_places)).reshape(-1, 3)
+    crossed = beyond != np.roll(beyond, -1, axis=1)
+    row, side = np.nonzero(crossed)
+    if not len(row):
+        return cameras
+    corners, face = cameras.corners[near], cameras.face[near[row]]
+    start, end = cameras.places[:, corners[row, side]], cameras.places[:, corners[row, (side + 1) % 3]]
+    low, high = np.where(beyond[row, side], end, start), np.where(beyond[row, side], start, end)
+    for _ in range(STEPS):
+        breathe()
+        middle = 0.5 * (low + high)
+        lifted = mirror_map.lifted(face, mirror_map.coordinates(face, middle))
+        low, high = np.where(lifted, low, middle), np.where(lifted, middle, high)
+    leaving = mirror_map.leave(face, mirror_map.coordinates(face, low))
+    six = np.concatenate((corners, np.full_like(corners, -1)), axis=1)
+    six[row, 3 + side] = np.arange(len(row)) + cameras.places.shape[1]
+    parent, local = split(crossed)
+    whole = np.ones(len(cameras), dtype=bool)
+    whole[near] = False
+    return cameras.replaced(np.concatenate((cameras.corners[whole], six[parent[:, None], local])),
+                            np.concatenate((cameras.face[whole], cameras.face[near[parent]])), low, *leaving)

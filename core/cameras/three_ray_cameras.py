@@ -1,0 +1,131 @@
+"""General three-ray cameras: one for each mirror triangle that the view can see.
+
+A camera is a mirror triangle V_i with the reflected rays R_i at its corners; between them both are interpolated:
+Q(W) = sum W_i V_i, R(W) = sum W_i R_i (C. Mei, V. Popescu, E. Sacks, GRAPP 2007). Corners with the same vertex and the
+same normal are shared, so that neighbouring cameras are continuous across their edge.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry import TriangleMesh, View
+from .mirror_map import MirrorMap
+
+
+@dataclass(frozen=True)
+class Cameras:
+    """Cameras on shared corners.
+
+    Attributes
+    ----------
+    corners : (n, 3) int64
+        Each camera's corners, indices into the columns below.
+    face : (n,) int64
+        The mirror triangle that the camera lies on.
+        After several bounces, the chain of mirror triangles.
+    places : (3, c) float64
+        Where the eye sees the corners on the mirror, in world space.
+    rays : (3, c) float64
+        R, reflected rays of the corners, as long as the whole way from the eye.
+    origins : (3, c) float64, optional
+        V, where the rays leave the last mirror: the places themselves where there is but one.
+    """
+
+    corners: np.ndarray
+    face: np.ndarray
+    places: np.ndarray
+    rays: np.ndarray
+    origins: np.ndarray | None = None
+
+    def __post_init__(self) -> None:
+        if self.origins is None:
+            object.__setattr__(self, "origins", self.places)
+
+    def __len__(self) -> int:
+        return len(self.face)
+
+    def select(self, chosen: np.ndarray) -> Cameras:
+        return Cameras(self.corners[chosen], self.face[chosen], self.places, self.rays, self.origins)
+
+    def replaced(self, corners: np.ndarray, face: np.ndarray, places: np.ndarray, origins: np.ndarray,
+                 rays: np.ndarray) -> Cameras:
+        """Other cameras on these corners and on more of them: `places`, `origins` and `rays` (3, k) come behind."""
+        one_bounce = self.origins is self.places
+        places = np.concatenate((self.places, places), axis=1)
+        return Cameras(corners, face, places, np.concatenate((self.rays, rays), axis=1),
+                       places if one_bounce else np.concatenate((self.origins, origins), axis=1))
+
+
+def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
+    """Indices of the mirror's triangles that the view may see: with an area, and, where the mirror is a closed surface,
+    on the side that hides the others. Open mirrors show both their sides, as in Cycles, and so do closed ones that the
+    plane of an orthographic eye cuts: some of its rays begin inside."""
+    corners = mirror.positions[mirror.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    size = np.abs(corners - corners[:, :1]).max(axis=(1, 2))
+    areal = np.linalg.norm(normals, axis=1) > 1e-14 * size**2
+    towards = -np.einsum("ij,ij->i", view.directions(corners[:, 0]), normals)
+    visible = areal & (towards != 0.0)
+    if _closed(mirror.triangles[areal]):
+        volume = np.einsum("ij,ij->", corners[:, 0] - corners.mean(axis=(0, 1)), normals)
+        if not view.orthographic:
+            outside = abs(_winding_number(view.eye, corners[areal])) < 0.5
+            visible &= towards * volume > 0.0 if outside else towards * volume < 0.0
+        elif (view.depths(corners[areal].reshape(-1, 3)) > 0.0).all():
+            visible &= towards * volume > 0.0
+    return np.flatnonzero(visible)
+
+
+def _closed(triangles: np.ndarray) -> bool:
+    """Whether each directed edge meets its opposite exactly once."""
+    if not len(triangles):
+        return False
+    a, b = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    count = int(triangles.max()) + 1
+    forth, back = np.sort(a * count + b), np.sort(b * count + a)
+    return bool((forth == back).all() and (forth[1:] != forth[:-1]).all())
+
+
+def _winding_number(point: np.ndarray, corners: np.ndarray) -> float:
+    """How often the triangles (n, 3, 3) wind round the point: the sum of their solid angles over 4 pi.
+
+    A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 1983.
+    """
+    a, b, c = (corners[:, k] - point for k in range(3))
+    la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
+    numerator = np.einsum("ij,ij->i", a, np.cross(b, c))
+    denominator = (la * lb * lc + np.einsum("ij,ij->i", a, b) * lc + np.einsum("ij,ij->i", b, c) * la
+                   + np.einsum("ij,ij->i", c, a) * lb)
+    return float(np.arctan2(numerator, denominator).sum() / (2.0 * np.pi))
+
+
+def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.ndarray) -> Cameras:
+    """Cameras on the mirror's triangles `faces`, sharing the corners whose vertex and normal agree."""
+    corner_face = np.repeat(faces, 3)
+    corner = np.tile(np.arange(3), len(faces))
+    if mirror_map.parallel:
+        shared = np.arange(len(corner_face))
+        first = shared
+    else:
+        vertex = mirror.triangles[faces].ravel()
+        normal = mirror.corner_normals[faces].reshape(-1, 3)
+        # rays that are lifted above their flat face are each face's own
+        lifted = mirror_map.lifted(corner_face, np.stack((corner == 1, corner == 2)).astype(np.float64))
+        keys = np.stack((*normal.T, np.where(lifted, corner_face, -1), vertex))
+        order = np.lexsort(keys)
+        new = np.ones(len(order), dtype=bool)
+        new[1:] = (keys[:, order[1:]] != keys[:, order[:-1]]).any(axis=0)
+        shared = np.empty(len(order), dtype=np.int64)
+        shared[order] = np.cumsum(new) - 1
+        first = order[new]
+    uv = np.stack((corner[first] == 1, corner[first] == 2)).astype(np.float64)
+    face = corner_face[first]
+    places = mirror_map.places(face, uv)
+    # each begins at its lowest corner in x, y, z, so that splitting does not depend on how the triangle was listed
+    rank = np.empty(len(first), dtype=np.int64)
+    rank[np.lexsort(places[::-1])] = np.arange(len(first))
+    corners = shared.reshape(-1, 3)
+    turn = (np.argmin(rank[corners], axis=1)[:, None] + np.arange(3)) % 3
+    return Cameras(np.take_along_axis(corners, turn, axis=1), faces, places, mirror_map.rays(face, uv))

@@ -1,0 +1,15 @@
+"""Which triangles and vertices a camera may see: bounding cones of its rays, traced through a k-d tree.
+
+In come cameras and meshes; out come candidates, pairs of a camera and a triangle with the linear functions that bound
+what the one sees of the other.
+"""
+from .candidates import Candidates, overlapping
+from .cones import Cones
+from .first_crossed import first_crossed
+from .magnification import Magnification
+from .point_tree import PointTree
+from .scene_and_mirrors import ABOVE, SceneAndMirrors
+from .scene_tree import SceneTree
+
+__all__ = ["ABOVE", "Candidates", "Cones", "Magnification", "PointTree", "SceneAndMirrors", "SceneTree",
+           "first_crossed", "overlapping"]

@@ -1,0 +1,53 @@
+"""Bounding cones of cameras: a disc at the mirror that widens along an axis, around all rays of a camera."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..cameras import Cameras
+from ..geometry import dot, norm, unit
+
+
+@dataclass(frozen=True)
+class Cones:
+    """One cone a camera, around every Q(W) + s R(W) with s >= 0.
+
+    Attributes
+    ----------
+    centre : (3, n) float64, of the disc in which the camera's corners lie
+    radius : (n,) float64, of that disc, in scene units
+    axis : (3, n) float64, unit
+    sine, cosine : (n,) float64, of the half opening angle; a cone of 90 degrees and more (cosine <= 0) holds everything
+    """
+
+    centre: np.ndarray
+    radius: np.ndarray
+    axis: np.ndarray
+    sine: np.ndarray
+    cosine: np.ndarray
+
+    @classmethod
+    def around(cls, cameras: Cameras) -> Cones:
+        places = cameras.origins[:, cameras.corners]
+        rays = unit(cameras.rays[:, cameras.corners])
+        centre = places.mean(axis=2)
+        radius = np.sqrt(((places - centre[:, :, None]) ** 2).sum(axis=0)).max(axis=1)
+        total = rays.sum(axis=2)
+        axis = unit(total)
+        # |axis - ray| = 2 sin(angle / 2) keeps its digits where the angle is small
+        half = 0.5 * np.sqrt(((rays - axis[:, :, None]) ** 2).sum(axis=0)).max(axis=1) + 1e-12
+        wide = (half >= 0.7) | (norm(total) < 1e-6)
+        cosine = np.where(wide, -1.0, 1.0 - 2.0 * half**2)
+        sine = 2.0 * half * np.sqrt(np.maximum(1.0 - half**2, 0.0))
+        return cls(centre, radius, axis, sine, cosine)
+
+    def touch(self, cone: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
+        """Whether cones `cone` (n,) may touch spheres with `centre` (3, n) and `radius` (n,); never a false no."""
+        offset = centre - np.take(self.centre, cone, axis=1)
+        axis = np.take(self.axis, cone, axis=1)
+        height = dot(offset, axis)
+        away = norm(offset - height * axis)
+        room = self.radius[cone] + radius
+        sine, cosine = self.sine[cone], self.cosine[cone]
+        return (cosine <= 0.0) | ((away * cosine - height * sine <= room) & (height >= -room))

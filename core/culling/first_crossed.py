@@ -1,0 +1,48 @@
+"""Rays traced one by one: the triangle of a tree that each meets first."""
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ..geometry import cross, dot, rows
+from ..support import breathe
+from .cones import Cones
+from .point_tree import PointTree
+from .scene_tree import SceneTree
+
+
+def first_crossed(tree: SceneTree | PointTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,
+                  asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """The triangle (n,) of a tree that each ray (3, n), a unit vector, meets first farther than `beyond`, -1 where it
+    meets none, and how far away, infinite there; of pairs (ray, triangle) only those that are `asked` for."""
+    count = ray.shape[1]
+    zero, first, best = np.zeros(count), np.full(count, -1), np.full(count, np.inf)
+    if isinstance(tree, PointTree):
+        return first, best
+    for own, triangle, _ in tree.traced(Cones(origin, zero, ray, zero, zero + 1.0), np.ones(count, dtype=bool)):
+        breathe()
+        if asked is not None and len(own):
+            kept = asked(own, triangle)
+            own, triangle = own[kept], triangle[kept]
+        a, b, c = (rows(tree.mesh.positions[tree.mesh.triangles[triangle, k]]) for k in range(3))
+        s = _crossed(a, b, c, origin[:, own], ray[:, own])
+        met = np.flatnonzero((s > beyond) & (s < best[own]))
+        met = met[np.lexsort((triangle[met], s[met], own[met]))]
+        found, nearest = np.unique(own[met], return_index=True)
+        first[found], best[found] = triangle[met[nearest]], s[met[nearest]]
+    return first, best
+
+
+def _crossed(a: np.ndarray, b: np.ndarray, c: np.ndarray, origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
+    """How far along rays (3, n) they pass through triangles with corners (3, n), infinite where they do not.
+
+    T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of Graphics Tools 1997.
+    """
+    u, v, offset = b - a, c - a, origin - a
+    turned, across = cross(ray, v), cross(offset, u)
+    determinant = dot(u, turned)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        second, third = dot(offset, turned) / determinant, dot(ray, across) / determinant
+        inside = (second >= 0.0) & (third >= 0.0) & (second + third <= 1.0)
+        return np.where(inside, dot(v, across) / determinant, np.inf)

@@ -1,0 +1,193 @@
+"""k-d tree over the vertices of a dense diffuse scene, for its rendering as points.
+
+Nodes hold vertices, not triangles. A node whose image in a camera is surely smaller than a pixel is not opened there:
+the vertex nearest its middle stands for all, so that the work is bounded by what the picture can show.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry import Order, TriangleMesh, norm, ordered, ranges, rows, unit
+from ..support import breathe
+from .cones import Cones
+from .magnification import Magnification
+from .scene_tree import FIRST_LEVEL, STRIDE, median_leaves, node_spheres
+
+BUCKET = 4
+CONES_AT_ONCE = 1024
+SMALL = 1.0  # pixels: the image of a node that one of its vertices may stand for
+
+
+@dataclass(frozen=True)
+class PointPairs:
+    """Pairs (p) of a camera and a vertex that it may see.
+
+    Attributes
+    ----------
+    camera, vertex : (p,) int64
+    stood : (p,) float64
+        Radius of the sphere round the vertices that this one stands for, 0 where it stands for itself alone.
+    visited : int
+        Tests of a cone against a node.
+    stood_for : int
+        Vertices of which another one is projected.
+    """
+
+    camera: np.ndarray
+    vertex: np.ndarray
+    stood: np.ndarray
+    visited: int
+    stood_for: int
+
+
+@dataclass(frozen=True)
+class PointTree:
+    """The vertices of a diffuse scene; build it once with `PointTree.build` while the scene stands still.
+
+    Attributes
+    ----------
+    mesh : TriangleMesh
+        The scene in its canonical order, which all that follows names.
+    given : Order
+        Where its parts are in the mesh that was given.
+    depth : int
+        The leaves are the 2**depth nodes of the last level.
+    spheres : list of (4, 2**level) float64
+        Centre and radius around the vertices of each node of each level; a radius of -inf where a node has none.
+    order : (n,) int64
+        The vertices, leaf after leaf: those of triangles with an area, or all where there are no triangles.
+    leaf_start : (2**depth + 1,) int64
+        Leaf i holds order[leaf_start[i]:leaf_start[i + 1]].
+    normal : (3, v) float64
+        Unit normal of the surface at each vertex of the mesh, up to its sign; zero where it has none.
+    reach : (v,) float64
+        Radius of a disc in that surface; those of all vertices cover it.
+    """
+
+    mesh: TriangleMesh
+    given: Order
+    depth: int
+    spheres: list
+    order: np.ndarray
+    leaf_start: np.ndarray
+    normal: np.ndarray
+    reach: np.ndarray
+
+    @classmethod
+    def build(cls, mesh: TriangleMesh) -> PointTree:
+        """The tree of a mesh whose vertices and triangles may come in any order."""
+        # of another copy of this package, as an extension's beside a checkout's, a mesh is a mesh too
+        if type(mesh).__name__ != TriangleMesh.__name__:
+            raise ValueError("The mesh of a PointTree must be a TriangleMesh; make one of its positions and triangles.")
+        mesh, given = ordered(mesh, shading=False)
+        used, normal, reach = _surface(mesh)
+        depth = max(0, int(np.ceil(np.log2(max(len(used), 1) / BUCKET))))
+        leaf = median_leaves(mesh.positions[used], depth)
+        order = np.argsort(leaf, kind="stable")
+        leaf_start = np.searchsorted(leaf[order], np.arange(2**depth + 1))
+        order = used[order]
+        points = rows(mesh.positions[order])
+        spheres = node_spheres(points, points, leaf_start, depth)
+        if not len(mesh.triangles):
+            # vertices without faces: what a leaf holds is spread evenly over a disc of the leaf's size
+            count = np.maximum(np.diff(leaf_start), 1)
+            reach[order] = np.repeat(2.0 * np.maximum(spheres[-1][3], 0.0) / np.sqrt(count), np.diff(leaf_start))
+        return cls(mesh, given, depth, spheres, order, leaf_start, normal, reach)
+
+    def __len__(self) -> int:
+        return len(self.order)
+
+    def trace(self, cones: Cones, magnification: Magnification) -> PointPairs:
+        """All pairs whose images together show what the cameras see of the vertices."""
+        none = np.zeros(0, dtype=np.int64)
+        cameras, vertices, radii, visited = [none], [none], [np.zeros(0)], 0
+        # +1 where the run of a node that is stood for begins in `order`, -1 behind its end
+        change = np.zeros(len(self.order) + 1, dtype=np.int64)
+        for start in range(0, len(cones.radius), CONES_AT_ONCE):
+            breathe()
+            cone = np.arange(start, min(start + CONES_AT_ONCE, len(cones.radius)))
+            level = min(FIRST_LEVEL, self.depth)
+            cone, node = np.repeat(cone, 2**level), np.tile(np.arange(2**level), len(cone))
+            while True:
+                visited += len(cone)
+                sphere = np.take(self.spheres[level], node, axis=1)
+                touching = np.flatnonzero(cones.touch(cone, sphere[:3], sphere[3]))
+                cone, node, sphere = cone[touching], node[touching], sphere[:, touching]
+                small = magnification.pixels(cones, cone, sphere) < SMALL
+                chosen = np.zeros(2**level, dtype=bool)
+                chosen[node[small]] = True
+                nodes = np.flatnonzero(chosen)
+                inverse = (np.cumsum(chosen) - 1)[node[small]]
+                begin, end = self._runs(level, nodes)
+                change += np.bincount(begin, minlength=len(change)) - np.bincount(end, minlength=len(change))
+                vertex, radius = self._representatives(level, nodes)
+                cameras.append(cone[small])
+                vertices.append(vertex[inverse])
+                radii.append(radius[inverse])
+                cone, node = cone[~small], node[~small]
+                if level == self.depth:
+                    break
+                fan = 2 ** min(STRIDE, self.depth - level)
+                level += min(STRIDE, self.depth - level)
+                cone = np.repeat(cone, fan)
+                node = (node[:, None] * fan + np.arange(fan)).ravel()
+            begin, end = self._runs(level, node)
+            entry, pair = ranges(begin, end - begin)
+            cone, vertex = cone[pair], self.order[entry]
+            touching = cones.touch(cone, rows(self.mesh.positions[vertex]), np.zeros(len(cone)))
+            cameras.append(cone[touching])
+            vertices.append(vertex[touching])
+            radii.append(np.zeros(int(touching.sum())))
+        camera, vertex, radius = (np.concatenate(parts) for parts in (cameras, vertices, radii))
+        covered = np.cumsum(change[:-1]) > 0
+        projected = np.zeros(len(self.mesh.positions), dtype=bool)
+        projected[vertex] = True
+        return PointPairs(camera, vertex, radius, visited, int((covered & ~projected[self.order]).sum()))
+
+    def _runs(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Where in `order` the vertices of nodes begin and end."""
+        fan = 2 ** (self.depth - level)
+        return self.leaf_start[node * fan], self.leaf_start[(node + 1) * fan]
+
+    def _representatives(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The vertex nearest the middle of each node, and how far from it the node's other vertices are at most."""
+        begin, end = self._runs(level, node)
+        if not len(node):
+            return np.zeros(0, dtype=np.int64), np.zeros(0)
+        entry, run = ranges(begin, end - begin)
+        middle = self.spheres[level][:3, node]
+        points = rows(self.mesh.positions[self.order[entry]])
+        away = norm(points - middle[:, run])
+        first = np.append(0, np.cumsum(end - begin)[:-1])
+        nearest = np.flatnonzero(away == np.minimum.reduceat(away, first)[run])
+        _, once = np.unique(run[nearest], return_index=True)
+        vertex = self.order[entry[nearest[once]]]
+        spread = norm(points - rows(self.mesh.positions[vertex])[:, run])
+        return vertex, np.maximum.reduceat(spread, first)
+
+
+def _surface(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices of triangles with an area, and of every vertex the normal (3, v) and the reach of its disc (v,).
+
+    Discs of radius L / sqrt(3) at the corners of a triangle cover it where L is its longest side.
+    """
+    count = len(mesh.positions)
+    normal, reach = np.zeros((3, count)), np.zeros(count)
+    if not len(mesh.triangles):
+        return np.flatnonzero(np.isfinite(mesh.positions).all(axis=1)), normal, reach
+    corners = rows(mesh.positions[mesh.triangles])
+    side = np.sqrt(((corners - np.roll(corners, -1, axis=2)) ** 2).sum(axis=0)).max(axis=1)
+    a, b = corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]
+    area = np.stack((a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]))
+    areal = np.flatnonzero(norm(area) > 1e-14 * side**2)
+    vertex = mesh.triangles[areal]
+    for row, part in zip(normal, area[:, areal]):
+        row += np.bincount(vertex.ravel(), weights=np.repeat(part, 3), minlength=count)
+    # of several assignments to one vertex the last, the largest, stays
+    order = np.argsort(side[areal])
+    reach[vertex[order].ravel()] = np.repeat(side[areal][order], 3) / np.sqrt(3.0)
+    used = np.zeros(count, dtype=bool)
+    used[vertex.ravel()] = True
+    return np.flatnonzero(used), unit(normal), reach

@@ -1,0 +1,170 @@
+"""What rays that leave a mirror may meet: the diffuse scene, and the mirrors themselves where they can be seen in it.
+
+A mirror hides what lies behind it in its own reflection, as it does in that of others, and where a second bounce is
+asked for it is the next mirror. Convex mirrors never see themselves: their triangles all lie below each other's planes.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from ..cameras import Cameras, MirrorSurface, ReflectionMap
+from ..geometry import SceneFrames, TriangleMesh, cross, dot, opposite_corners, rows, unit
+from .bounded_trace import bounded_trace
+from .candidates import Candidates
+from .cones import Cones
+from .first_crossed import first_crossed
+from .point_tree import PointTree
+from .scene_tree import SceneTree
+
+ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
+
+
+
+class SceneAndMirrors:
+    """Triangles that may be met: those of the diffuse scene, and behind them those of the mirrors.
+
+    Attributes
+    ----------
+    tree : SceneTree or PointTree
+        Of the diffuse scene.
+    positions : (n, 3) float64
+    triangles : (m, 3) int64
+    diffuse : int
+        How many triangles are diffuse; the others are the mirrors'.
+    surface : MirrorSurface
+        Of the mirrors.
+    mirror_tree : SceneTree
+    mirror_corners : (3, m, 3) float64
+        Of the mirrors' triangles, as [component, triangle, corner].
+    size : float
+        Of the mirrors: the longest side of the box round them, in scene units.
+    """
+
+    def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh) -> None:
+        self.tree, self.mirror_tree = tree, SceneTree.of_ordered(mirrors)
+        self.mirror_corners = rows(mirrors.positions[mirrors.triangles])
+        self.size = float(np.ptp(mirrors.positions[mirrors.triangles.ravel()], axis=0).max())
+        self.diffuse = len(tree.mesh.triangles)
+        self.surface = MirrorSurface(mirrors)
+        self._beyond = rows(opposite_corners(mirrors))
+        self.positions = np.concatenate((tree.mesh.positions, mirrors.positions))
+        self.triangles = np.concatenate((tree.mesh.triangles, mirrors.triangles + len(tree.mesh.positions)))
+
+    @property
+    def bounds(self) -> tuple[np.ndarray, float]:
+        """Centre (3,) and radius of a sphere round the diffuse scene."""
+        sphere = self.tree.spheres[0][:, 0]
+        return sphere[:3], float(sphere[3])
+
+    def showing_mirrors(self, mirror_map: ReflectionMap, cameras: Cameras, most: int) -> np.ndarray:
+        """Which faces of the map, by their number, may show a mirror in any of the cameras, those among them for which
+        more than `most` pairs of cameras and triangles would have to be looked at."""
+        camera, _, _, given_up = self.mirrors_in(mirror_map, cameras, most, np.ones(len(cameras)))
+        found = np.zeros(int(cameras.face.max(initial=-1)) + 1, dtype=bool)
+        found[cameras.face[camera]] = True
+        found[cameras.face[given_up]] = True
+        return found
+
+    def showing_scene(self, cameras: Cameras) -> np.ndarray:
+        """Which cameras (n,) may show the diffuse scene."""
+        centre, radius = self.bounds
+        count = len(cameras)
+        return Cones.around(cameras).touch(np.arange(count), np.repeat(centre[:, None], count, axis=1),
+                                           np.full(count, radius))
+
+    def trace(self, mirror_map: ReflectionMap, cameras: Cameras, showing: np.ndarray, most: int,
+              worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+        """Pairs of cameras and triangles that may be seen in them, how many tree nodes were visited for that, and which
+        cameras (n,) were given up, by their `worth` (n,), since there would be more than `most` pairs; mirrors are
+        looked for on the faces that `showing_mirrors` found."""
+        camera, triangle, visited, given_up = bounded_trace(self.tree, Cones.around(cameras), most, worth)
+        chosen = np.flatnonzero(showing[cameras.face])
+        mirror_camera, mirror_triangle, more, mirror_given_up = self.mirrors_in(mirror_map, cameras.select(chosen),
+                                                                                 most, worth[chosen])
+        given_up[chosen[mirror_given_up]] = True
+        camera = np.concatenate((camera, chosen[mirror_camera]))
+        triangle = np.concatenate((triangle, mirror_triangle + self.diffuse))
+        if given_up.any():
+            kept = ~given_up[camera]
+            camera, triangle = camera[kept], triangle[kept]
+        return camera, triangle, visited + more, given_up
+
+    def mirrors_in(self, mirror_map: ReflectionMap, cameras: Cameras, most: int,
+                    worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+        """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited; what was given up."""
+        # which side of its triangle the rays of a camera leave is asked once
+        sides = self._upper_sides(mirror_map, cameras)
+        return bounded_trace(self.mirror_tree, Cones.around(cameras), most, worth,
+                             lambda camera, triangle: self._above(sides, camera, triangle))
+
+    def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
+        """The triangle (n,) that each ray, from `origin` along unit vectors `ray` (3, n), meets first, -1 where none.
+        They leave mirrors on `sides`, a place and a normal (3, n) each; what does not rise above is not met."""
+        diffuse, near = first_crossed(self.tree, origin, ray)
+        mirror, nearer = first_crossed(self.mirror_tree, origin, ray, ABOVE * self.size,
+                                       lambda own, triangle: self._above(sides, own, triangle))
+        return np.where(nearer < near, mirror + self.diffuse, diffuse)
+
+    def first_distances(self, origin: np.ndarray, ray: np.ndarray) -> list[np.ndarray]:
+        """How far along rays (3, n), unit vectors, the diffuse scene and the mirrors lie, infinite where not at all."""
+        return [first_crossed(tree, origin, ray)[1] for tree in (self.tree, self.mirror_tree)]
+
+    def shown_in_middles(self, mirror_map: ReflectionMap, cameras: Cameras) -> np.ndarray:
+        """The triangle (n,) that the ray through the middle of each camera meets first, -1 where it meets none."""
+        middle = np.take(cameras.places, cameras.corners.T, axis=1).mean(axis=1)
+        origin, ray = mirror_map.leave(cameras.face, mirror_map.coordinates(cameras.face, middle))
+        return self.first_met(self._upper_sides(mirror_map, cameras), origin, unit(ray))
+
+    def _upper_sides(self, mirror_map: ReflectionMap, cameras: Cameras) -> tuple[np.ndarray, np.ndarray]:
+        """The planes (n) of the cameras' flat triangles: a place on each, and its normal on the side that the rays
+        leave."""
+        surface, face = mirror_map.last(cameras.face)
+        normal = surface.face_normal[:, face]
+        return surface.a[:, face], normal * np.sign(dot(cameras.rays[:, cameras.corners].sum(axis=2), normal))
+
+    def _above(self, sides: tuple[np.ndarray, np.ndarray], camera: np.ndarray, triangle: np.ndarray) -> np.ndarray:
+        """Whether triangles (p,) of the mirrors rise above the planes of the cameras (p,)."""
+        base, normal = (np.take(side, camera, axis=1) for side in sides)
+        found = np.zeros(len(camera), dtype=bool)
+        for corner in range(3):
+            offset = np.take(self.mirror_corners[:, :, corner], triangle, axis=1) - base
+            found |= dot(offset, normal) > ABOVE * self.size
+        return found
+
+    def shows_mirror(self, frames: SceneFrames) -> np.ndarray:
+        """Which columns (t,) of the frames are triangles of mirrors."""
+        return frames.triangle >= self.diffuse
+
+    def only_diffuse(self, frames: SceneFrames, candidates: Candidates) -> Candidates:
+        """Candidates without the mirrors' triangles."""
+        mirror = self.shows_mirror(frames)
+        return candidates.select(np.flatnonzero(~mirror[candidates.column])) if mirror.any() else candidates
+
+    def hiding_something(self, frames: SceneFrames, candidates: Candidates) -> Candidates:
+        """Candidates without the mirrors' triangles in cameras that see nothing else, which hide nothing."""
+        mirror = self.shows_mirror(frames)[candidates.column]
+        diffuse = np.zeros(int(candidates.camera.max(initial=-1)) + 1, dtype=bool)
+        diffuse[candidates.camera[~mirror]] = True
+        return candidates.select(np.flatnonzero(~mirror | diffuse[candidates.camera]))
+
+    def inner_sides(self, cameras: Cameras, frames: SceneFrames, candidates: Candidates) -> np.ndarray:
+        """(3, p): sides of the candidates over which a mirror goes on, seen from anywhere in the camera. They bound
+        nothing that is seen, as outlines do."""
+        inner = np.zeros((3, len(candidates)), dtype=bool)
+        pair = np.flatnonzero(self.shows_mirror(frames)[candidates.column])
+        if not len(pair):
+            return inner
+        triangle = frames.triangle[candidates.column[pair]] - self.diffuse
+        corners = cameras.corners[candidates.camera[pair]]
+        origins = np.moveaxis(cameras.origins[:, corners], 2, 0)
+        own = np.take(self.mirror_corners, triangle, axis=1)
+        for side in range(3):
+            beyond = np.take(self._beyond[:, :, side], triangle, axis=1)
+            start, end = own[:, :, (side + 1) % 3], own[:, :, (side + 2) % 3]
+            # a corner's place beside the plane through the side and a ray's origin is linear in the origin: three
+            # corners of a camera speak for all of it
+            planes = [cross(end - start, start - origin) for origin in origins]
+            near, far = (np.sign([dot(plane, corner - start) for plane in planes]).sum(axis=0)
+                         for corner in (own[:, :, side], beyond))
+            inner[side, pair] = near * far == -9.0
+        return inner

@@ -1,0 +1,60 @@
+"""How much work one reflection may be: what the picture can show of the mirror, and what the memory holds.
+
+All limits are counts, so that the same input gives the same result on any machine. They grow with the picture of the
+mirror and with the meshes; no sample meets one, and Suzanne comes to 0.7 of the limit on work. They are met
+where much lies over one another in few pixels, as in crowds of mirrors. There what is most crowded is shown by rays
+(`crowds`), and the result says so.
+"""
+from __future__ import annotations
+
+from dataclasses import astuple, dataclass
+
+from ..support import Settings
+
+CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES = 1200, 160, 1100  # of the arrays that each takes at most at one time
+LATER = 1.0 / 2.0  # of the limits of a bounce: those of the next
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Largest counts.
+
+    Attributes
+    ----------
+    cameras : int
+        Of a bounce, before its outlines are refined.
+    pairs : int
+        Of cones and triangles that touch.
+    candidates : int
+        Of cameras and triangles that overlap.
+    work : int
+        Candidates, each counted once more for every four mirrors that may hide it.
+    faces : int
+    rays : int
+        Through crowded cameras.
+    bounced : int
+        Cameras that a bounce hands on to the next.
+    """
+
+    cameras: int
+    pairs: int
+    candidates: int
+    work: int
+    faces: int
+    rays: int
+    bounced: int
+
+    @classmethod
+    def of(cls, settings: Settings, pixels: int, triangles: int) -> Limits:
+        """Limits for a mirror that is seen in so many pixels, of meshes with so many `triangles` altogether."""
+        memory, faces = 1e9 * settings.maximum_memory, settings.maximum_faces
+        return cls(int(min(10_000 + 4 * pixels, faces)),
+                   int(min(400_000 + 16 * pixels + 8 * triangles, memory / PAIR_BYTES)),
+                   int(min(100_000 + 8 * pixels + 4 * triangles, memory / CANDIDATE_BYTES, faces)),
+                   int(50_000 + 10 * pixels + 8 * triangles),
+                   int(min(200_000 + 32 * pixels + 16 * triangles, memory / FACE_BYTES, faces)),
+                   int(min(8000 + pixels, 250_000, faces)), int(min(8000 + pixels // 2, faces // 16)))
+
+    def of_next_bounce(self) -> Limits:
+        """Light that has met one mirror more shows less, each part of it smaller."""
+        return Limits(*(int(LATER * most) for most in astuple(self)))

@@ -1,0 +1,76 @@
+"""Probes: a few rays, traced backwards, that tell whether whole regions of the mirror are missing from the result.
+
+They share nothing with the way that the result was made but the meshes and the law of reflection: neither cameras nor
+what was found to be visible.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from ..cameras import MirrorMap
+from ..culling import SceneAndMirrors, SceneTree, first_crossed
+from ..geometry import TriangleMesh, View, dot, ranges, unit
+
+ACROSS = 16  # probes along each side of the box round the mirror in the picture
+MARGIN = 1.0  # pixels that a face may end before a place that it covers
+SAME_PLACE = 1e-6  # of its distance from the eye
+
+
+def missed_probes(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, met: SceneAndMirrors,
+                  mirror_position: np.ndarray, triangles: np.ndarray) -> tuple[int, int]:
+    """How many probes see a diffuse object in the mirror, and how many of them lie where no face shows anything.
+
+    Parameters
+    ----------
+    mirror_position : (n, 3) float64
+        Places of the vertices on the mirror.
+    triangles : (m, 3) int64
+        The faces.
+    """
+    low, step = _lattice(view, mirror)
+    y, x = np.divmod(np.arange(ACROSS * ACROSS), ACROSS)
+    origin, ray = (given.T for given in view.rays(low + step * (np.stack((x, y), axis=1) + 0.5)))
+    face, distance = first_crossed(SceneTree.of_ordered(mirror), origin, ray)
+    # what lies right behind an object that cuts through the mirror is not shown
+    nearest = np.minimum(*met.first_distances(origin, ray))
+    seen = np.flatnonzero((face >= 0) & (distance <= (1.0 + SAME_PLACE) * nearest))
+    place = origin[:, seen] + distance[seen] * ray[:, seen]
+    face = face[seen]
+    leaving = mirror_map.rays(face, mirror_map.coordinates(face, place))
+    flat = mirror_map.surface.face_normal[:, face]
+    shown = met.first_met((place, flat * np.sign(dot(leaving, flat))), place, unit(leaving))
+    expected = seen[(shown >= 0) & (shown < met.diffuse)]
+    covered = _covered(view.pixels(mirror_position)[triangles], low, step)
+    return len(expected), int((~covered[expected]).sum())
+
+
+def _lattice(view: View, mirror: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
+    """The low corner (2,) of the box round the mirror in the picture, and the distance of its probes."""
+    used = mirror.positions[mirror.triangles.ravel()]
+    resolution = np.array(view.resolution, dtype=np.float64)
+    low, high = np.zeros(2), resolution
+    if (view.depths(used) > 0.0).all():
+        pixels = np.clip(view.pixels(used), 0.0, resolution)
+        low, high = pixels.min(axis=0), pixels.max(axis=0)
+    return low, np.maximum(high - low, 1e-9) / ACROSS
+
+
+def _covered(corners: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """Which probes a face with corners (m, 3, 2) in the picture covers."""
+    places = (corners - low) / step - 0.5
+    first, last = (np.clip(np.nan_to_num(bound), -1, ACROSS).astype(np.int64) for bound in
+                   (np.ceil(places.min(axis=1) - MARGIN / step), np.floor(places.max(axis=1) + MARGIN / step)))
+    first, count = np.maximum(first, 0), np.minimum(last, ACROSS - 1) + 1 - np.maximum(first, 0)
+    face = np.flatnonzero((count > 0).all(axis=1))
+    y, row = ranges(first[face, 1], count[face, 1])
+    x, run = ranges(first[face[row], 0], count[face[row], 0])
+    face, y = face[row[run]], y[run]
+    offset = corners[face] - (low + step * (np.stack((x, y), axis=1) + 0.5))[:, None]
+    following = np.roll(offset, -1, axis=1)
+    across = offset[..., 0] * following[..., 1] - offset[..., 1] * following[..., 0]
+    away = across / np.maximum(np.linalg.norm(following - offset, axis=2), 1e-300)
+    away *= np.sign(across.sum(axis=1))[:, None]
+    covered = np.zeros(ACROSS * ACROSS, dtype=bool)
+    inside = away.min(axis=1) >= -MARGIN
+    covered[(y * ACROSS + x)[inside]] = True
+    return covered

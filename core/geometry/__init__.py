@@ -1,0 +1,16 @@
+"""Views, triangle meshes and vectors: plain geometry on arrays, component-first (3, n) inside the method.
+
+In come a camera's matrices and meshes as they were given; out come pixels, directions, meshes in an order that only
+their places decide, and which triangles lie beyond each other's sides.
+"""
+from .adjacency import neighbours, opposite_corners
+from .canonical_order import TURNS, Order, ordered
+from .scene_frames import SceneFrames, falling
+from .subdivision import edge_lengths, parent_side, shared_edges, split
+from .triangle_mesh import TriangleMesh, area_normals
+from .vectors import columns, cross, dot, groups, norm, ranges, rows, shares, solve, unit
+from .view import View
+
+__all__ = ["Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns", "cross", "dot",
+           "edge_lengths", "falling", "groups", "neighbours", "norm", "opposite_corners", "ordered", "parent_side",
+           "ranges", "rows", "shared_edges", "shares", "solve", "split", "unit"]

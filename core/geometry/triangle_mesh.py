@@ -1,0 +1,152 @@
+"""Triangles with shading normals: what both the mirror and the diffuse scene are made of."""
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..support import LARGEST, numbers, whole_numbers
+from .vectors import cross, norm, rows
+
+_UNIT_LENGTH = 2.0 ** -50
+"""A vector that was divided by its length is as long as 1 to within 6 roundings: dividing once more would only move it,
+and a mesh made of another one's normals would not be the same."""
+_CHUNK = 8192
+"""Triangles whose normals are worked out at once: their arrays stay in the caches."""
+_STRANGE = 1e100
+"""Normals longer than this, or shorter than its inverse, have squares that are no numbers or have lost digits."""
+
+
+@dataclass(frozen=True)
+class TriangleMesh:
+    """Triangles in world space, in scene units.
+
+    Parameters
+    ----------
+    positions : (n, 3) float64
+        No coordinate of a used vertex may be larger than 1e40.
+    triangles : (m, 3) int64
+        Indices into `positions`.
+    corner_normals : (m, 3, 3) float64, optional
+        Unit shading normal of each corner; equal normals at a shared vertex make the surface smooth there. The flat
+        normals of the triangles where omitted or zero. Only a mirror's are used.
+
+    Raises
+    ------
+    ValueError
+        Where shapes or kinds of numbers do not fit, an index is out of range, or a coordinate of a used vertex or a
+        normal is not finite or is too large.
+    """
+
+    positions: np.ndarray
+    triangles: np.ndarray
+    corner_normals: np.ndarray | None = None
+
+    def __post_init__(self) -> None:
+        positions = np.ascontiguousarray(numbers(
+            self.positions, (None, 3), "The positions must be an (n, 3) array of numbers; give each vertex its x, y "
+            "and z."))
+        triangles = np.ascontiguousarray(whole_numbers(
+            self.triangles, (None, 3), "The triangles must be an (m, 3) array of whole numbers; give each triangle "
+            "three indices into the positions and cut larger faces into triangles."))
+        if len(triangles) and (triangles.min() < 0 or triangles.max() >= len(positions)):
+            raise ValueError("A triangle names a vertex that the mesh does not have; rebuild the mesh.")
+        _check_places(positions, triangles)
+        object.__setattr__(self, "positions", positions)
+        object.__setattr__(self, "triangles", triangles)
+        if self.corner_normals is None:
+            normals = np.repeat(self.face_normals()[:, None, :], 3, axis=1)
+        else:
+            normals = numbers(self.corner_normals, (len(triangles), 3, 3), "The corner_normals must be an (m, 3, 3) "
+                              "array of numbers; give three normals for each triangle, or none at all.")
+            normals = _unit_normals(normals, positions, triangles)
+        object.__setattr__(self, "corner_normals", normals)
+
+    @staticmethod
+    def joined(meshes: Iterable[TriangleMesh]) -> TriangleMesh:
+        """One mesh of several, their triangles one behind another; an empty one of none."""
+        meshes = list(meshes) if isinstance(meshes, Iterable) else [meshes]
+        if not all(isinstance(mesh, TriangleMesh) for mesh in meshes):
+            raise ValueError("The meshes to join must be a list of TriangleMesh; make one of each part first.")
+        if len(meshes) == 1:
+            return meshes[0]
+        starts = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])
+        return TriangleMesh(np.concatenate([np.zeros((0, 3)), *(mesh.positions for mesh in meshes)]),
+                            np.concatenate([np.zeros((0, 3), dtype=np.int64),
+                                            *(mesh.triangles + start for mesh, start in zip(meshes, starts))]),
+                            np.concatenate([np.zeros((0, 3, 3)), *(mesh.corner_normals for mesh in meshes)]))
+
+    def like(self, positions: np.ndarray, triangles: np.ndarray, corner_normals: np.ndarray) -> TriangleMesh:
+        """A mesh of this one's parts in another order, which need not be checked again."""
+        mesh = object.__new__(TriangleMesh)
+        for name, value in (("positions", positions), ("triangles", triangles), ("corner_normals", corner_normals)):
+            object.__setattr__(mesh, name, value)
+        return mesh
+
+    def face_normals(self) -> np.ndarray:
+        """Unit normals (m, 3) of the flat triangles, zero where a triangle has no area.
+
+        To the last bit they do not depend on the corner that a triangle begins with, and turning it round turns their
+        sign alone.
+        """
+        return _flat_normals(self.positions, self.triangles)
+
+
+def area_normals(corners: np.ndarray) -> np.ndarray:
+    """Normals (3, m) of triangles with the corners (3, 3, m), component and corner first, twice as long as their area.
+
+    Of two edges that meet, rounded as they are, the product depends on the corner they meet at. It is the lowest one by
+    x, y, z here, whichever the triangle begins with.
+    """
+    edge = np.stack([corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)])
+    # the sign of the first difference tells which of two corners is the lower one
+    way = [np.where(x != 0.0, x, np.where(y != 0.0, y, z)) for x, y, z in edge]
+    first = (way[0] >= 0.0) & (way[2] <= 0.0)
+    second = way[1] >= 0.0
+    before = np.where(first, edge[2], np.where(second, edge[0], edge[1]))
+    after = np.where(first, edge[0], np.where(second, edge[1], edge[2]))
+    return cross(before, after)
+
+
+def _flat_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    normals = np.empty((len(triangles), 3))
+    for start in range(0, len(triangles), _CHUNK):
+        part = slice(start, start + _CHUNK)
+        # indices known to be good are gathered faster where NumPy need not say which one is wrong
+        normal = area_normals(rows(positions.take(triangles[part].T, axis=0, mode="clip")))
+        length = norm(normal)
+        normals[part] = (normal / np.where(length > 0.0, length, 1.0)).T
+    return normals
+
+
+def _check_places(positions: np.ndarray, triangles: np.ndarray) -> None:
+    with np.errstate(invalid="ignore"):
+        if -LARGEST <= positions.min(initial=0.0) and positions.max(initial=0.0) <= LARGEST:
+            return
+    # a vertex that nothing uses may be anything; of vertices without triangles those that are no place are left out
+    used = positions[triangles] if len(triangles) else positions[np.isfinite(positions).all(axis=1)]
+    if not np.isfinite(used).all():
+        raise ValueError("A vertex has a coordinate that is not a finite number; remove or repair it.")
+    if np.abs(used).max(initial=0.0) > LARGEST:
+        raise ValueError("A vertex has a coordinate larger than 1e40; move it nearer or make the scene smaller.")
+
+
+def _unit_normals(normals: np.ndarray, positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Normals (m, 3, 3) of unit length; the flat triangle's for those without a length."""
+    if not np.isfinite(normals).all():
+        raise ValueError("A shading normal is not a finite number; recalculate the normals.")
+    with np.errstate(over="ignore"):
+        length = np.linalg.norm(normals, axis=2, keepdims=True)
+    strange = (length > _STRANGE) | (length < 1.0 / _STRANGE)
+    if strange.any():
+        # a power of two changes no digit
+        power = np.frexp(np.abs(normals).max(axis=2, keepdims=True))[1]
+        normals = np.where(strange, np.ldexp(normals, -power), normals)
+        length = np.where(strange, np.linalg.norm(normals, axis=2, keepdims=True), length)
+    length[np.abs(length - 1.0) <= _UNIT_LENGTH] = 1.0
+    none = length[:, :, 0] == 0.0
+    normals = normals / np.where(none[:, :, None], 1.0, length)
+    flat = np.flatnonzero(none.any(axis=1))
+    normals[none] = np.repeat(_flat_normals(positions, triangles[flat]), none[flat].sum(axis=1), axis=0)
+    return normals

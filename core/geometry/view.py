@@ -1,0 +1,241 @@
+"""The eye: where view rays start, and where a point of the scene lands in the picture."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..support import LARGEST, number, numbers, whole_number
+
+SIZE_LIMIT = 65536
+"""Pixels along a side of the picture: Blender's own limit."""
+_LOOSE = 1e-3
+"""What the axes' lengths may be off: matrices come in single precision, or from many turns multiplied."""
+_EXACT = 1e-6
+"""Off by less than this is rounding of single precision; axes that leave no more room between them lie in a plane."""
+_NOTHING = 1e-12
+"""Of the projection's scale: what is left of a zero by arithmetic."""
+_NARROWEST = 1e-12
+"""The least field of view, in radians."""
+_STRETCH = {True: 1e50, False: 1e20}
+"""The largest scale of an orthographic and of a perspective projection, and the inverse of the smallest."""
+
+
+@dataclass(frozen=True)
+class View:
+    """A perspective or orthographic eye with its picture.
+
+    Parameters
+    ----------
+    camera_to_world : (4, 4) float64
+        Rigid placement of the eye, which looks along its own -Z with +Y up (Blender's and OpenGL's convention). Axes of
+        unit length are asked for; that they stand at right angles and that they are right-handed is not, since Blender
+        renders cameras that a parent shears or mirrors as they are.
+    projection : (4, 4) float64
+        Clip matrix in eye space, as OpenGL and `bpy.types.Object.calc_matrix_camera` define it: lens, shift, sensor
+        fit and pixel aspect are all in it. Its last row tells a perspective (0 0 -1 0) from an orthographic eye
+        (0 0 0 1).
+    resolution : (width, height)
+        Size of the picture in pixels, whole numbers up to 65536.
+
+    Raises
+    ------
+    ValueError
+        Where a matrix is none of these, or the resolution is no picture.
+    """
+
+    camera_to_world: np.ndarray
+    projection: np.ndarray
+    resolution: tuple[int, int]
+
+    def __post_init__(self) -> None:
+        for name in ("camera_to_world", "projection"):
+            wrong = f"View.{name} must be a finite 4 x 4 matrix of numbers."
+            matrix = numbers(getattr(self, name), (4, 4), wrong).copy()
+            if not np.isfinite(matrix).all():
+                raise ValueError(wrong)
+            object.__setattr__(self, name, matrix)
+        _check_placement(self.camera_to_world)
+        _check_projection(self.projection)
+        object.__setattr__(self, "resolution", _picture_size(self.resolution))
+
+    @classmethod
+    def looking_at(cls, eye, target, resolution, *, field_of_view: float = 0.7, orthographic_scale: float = 0.0,
+                   up=(0.0, 0.0, 1.0)) -> View:
+        """An eye at `eye` that looks at `target`.
+
+        Parameters
+        ----------
+        eye, target : (3,) float64
+        resolution : (width, height)
+            Size of the picture in pixels, whole numbers up to 65536.
+        field_of_view : float
+            In radians over the wider side of the picture, between 0 and pi.
+        orthographic_scale : float
+            Where it is greater than 0, the width in scene units of the wider side of an orthographic picture, whose
+            field of view says nothing.
+        up : (3,) float64
+            Direction that is up in the picture. Where it does not tell, being zero or that of the view, Y takes its
+            place, and X along Y.
+
+        Raises
+        ------
+        ValueError
+            Where one of these is no such number, or the eye is where it looks.
+        """
+        eye, target, up = _place(eye, "eye"), _place(target, "target"), _place(up, "up direction")
+        if (eye == target).all():
+            raise ValueError("The eye is where it looks; move the eye or the target.")
+        resolution = _picture_size(resolution)
+        size = np.array(resolution, dtype=np.float64)
+        back = _unit(eye - target)
+        right = np.cross(_of_ordinary_length(up), back)
+        for instead in ((0.0, 1.0, 0.0), (1.0, 0.0, 0.0)):
+            if np.linalg.norm(right) < 1e-9:
+                right = np.cross(instead, back)
+        right = _unit(right)
+        placement = np.eye(4)
+        placement[:3, 0], placement[:3, 1], placement[:3, 2], placement[:3, 3] = right, np.cross(back, right), back, eye
+        return cls(placement, _lens(size / size.max(), field_of_view, orthographic_scale), resolution)
+
+    @property
+    def orthographic(self) -> bool:
+        return bool(self.projection[3, 2] == 0.0)
+
+    @property
+    def eye(self) -> np.ndarray:
+        """World position of the eye (for an orthographic one, a point of its plane)."""
+        return self.camera_to_world[:3, 3]
+
+    @property
+    def forward(self) -> np.ndarray:
+        """Unit world direction in which the eye looks."""
+        axis = -self.camera_to_world[:3, 2]
+        return axis / np.linalg.norm(axis)
+
+    def directions(self, points: np.ndarray) -> np.ndarray:
+        """View directions d of the rays through `points` (n, 3): P - E, not normalised, or the constant forward."""
+        if self.orthographic:
+            return np.broadcast_to(self.forward, points.shape).copy()
+        return points - self.eye
+
+    def depths(self, points: np.ndarray) -> np.ndarray:
+        """Distances of `points` (n, 3) from the eye's plane, positive in front of it, in scene units, along the eye's
+        own axis."""
+        axes = self.camera_to_world[:3, :3]
+        sheared = np.abs(axes.T @ axes - np.eye(3)).max() > 4.0 * _LOOSE
+        return (points - self.eye) @ (-np.linalg.inv(axes)[2] if sheared else self.forward)
+
+    def clip(self, points: np.ndarray) -> np.ndarray:
+        """Homogeneous clip coordinates (n, 4) of `points` (n, 3)."""
+        rotation = self.camera_to_world[:3, :3]
+        local = (points - self.eye) @ np.linalg.inv(rotation).T
+        return local @ self.projection[:, :3].T + self.projection[:, 3]
+
+    def pixels(self, points: np.ndarray) -> np.ndarray:
+        """Picture positions (n, 2) of `points` (n, 3) in pixels, from the lower left corner, right and up.
+
+        Points on the plane of a perspective eye have no picture: their positions are not finite.
+        """
+        clip = self.clip(points)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * self.resolution
+
+    def pixel_derivatives(self, points: np.ndarray, moves: np.ndarray) -> np.ndarray:
+        """Pixels (n, 2) that the pictures of `points` (n, 3) move by where the points move by `moves` (n, 3), in the
+        first order."""
+        clip = self.clip(points)
+        turned = moves @ np.linalg.inv(self.camera_to_world[:3, :3]).T @ self.projection[:, :3].T
+        with np.errstate(divide="ignore", invalid="ignore"):
+            change = (turned[:, :2] - clip[:, :2] / clip[:, 3:] * turned[:, 3:]) / clip[:, 3:]
+        return 0.5 * change * self.resolution
+
+    def rays(self, pixels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """World origins and unit directions, (n, 3) each, of the rays through `pixels` (n, 2)."""
+        ndc = np.asarray(pixels, dtype=np.float64) / self.resolution * 2.0 - 1.0
+        scale = np.diag(self.projection)[:2]
+        rotation = self.camera_to_world[:3, :3]
+        local = np.zeros((len(ndc), 3))
+        if self.orthographic:
+            local[:, :2] = (ndc - self.projection[:2, 3]) / scale
+            origins = local @ rotation.T + self.eye
+            return origins, np.broadcast_to(self.forward, origins.shape).copy()
+        local[:, :2] = (ndc + self.projection[:2, 2]) / scale
+        local[:, 2] = -1.0
+        directions = local @ rotation.T
+        directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+        return np.broadcast_to(self.eye, directions.shape).copy(), directions
+
+
+def _check_placement(matrix: np.ndarray) -> None:
+    axes = matrix[:3, :3]
+    length = np.sqrt((np.clip(axes, -2.0, 2.0)**2).sum(axis=0))  # what is longer is too long, and must not overflow
+    if (np.abs(length - 1.0) > _LOOSE).any() or np.abs(matrix[3] - (0.0, 0.0, 0.0, 1.0)).max() > _LOOSE:
+        raise ValueError("View.camera_to_world must be a rigid placement with axes of unit length and a last row of "
+                         "0 0 0 1; take the scale out of it.")
+    if abs(np.linalg.det(axes)) < _EXACT:
+        raise ValueError("View.camera_to_world must be a rigid placement with axes that do not lie in a plane; make "
+                         "them stand at right angles.")
+
+
+def _check_projection(matrix: np.ndarray) -> None:
+    orthographic = matrix[3, 2] == 0.0
+    last = (0.0, 0.0, 0.0, 1.0) if orthographic else (0.0, 0.0, -1.0, 0.0)
+    scale = np.abs(np.diag(matrix)[:2])
+    # beside the scale there is but the shift, in the column that the last row tells
+    rest = np.abs(np.stack((matrix[[0, 1], [1, 0]], matrix[:2, 2 if orthographic else 3])))
+    if np.abs(matrix[3] - last).max() > _EXACT or (rest > _NOTHING * scale).any():
+        raise ValueError("View.projection must be the matrix of a perspective or of an orthographic camera, with a "
+                         "last row of 0 0 -1 0 or of 0 0 0 1.")
+    most = _STRETCH[orthographic]
+    if (scale > most).any() or (scale < 1.0 / most).any() or np.abs(matrix[:3]).max() > most:
+        raise ValueError("View.projection must be the matrix of a camera that shows something; its scale is as good as "
+                         "zero or infinite.")
+
+
+def _picture_size(resolution) -> tuple[int, int]:
+    wrong = f"View.resolution must be a width and a height in whole pixels, each from 1 to {SIZE_LIMIT}."
+    try:
+        size = tuple(whole_number(side) for side in resolution)
+    except TypeError as error:
+        raise ValueError(wrong) from error
+    if len(size) != 2 or not all(side is not None and 1 <= side <= SIZE_LIMIT for side in size):
+        raise ValueError(wrong)
+    return size
+
+
+def _place(given, name: str) -> np.ndarray:
+    wrong = f"The {name} must be three finite numbers up to 1e40."
+    place = numbers(given, (3,), wrong)
+    if not (np.abs(place) <= LARGEST).all():
+        raise ValueError(wrong)
+    return place
+
+
+def _lens(size: np.ndarray, field_of_view: float, orthographic_scale: float) -> np.ndarray:
+    """The projection onto a picture with sides of the lengths `size` (2,), the longer one 1."""
+    width, angle = number(orthographic_scale), number(field_of_view)
+    projection = np.zeros((4, 4))
+    if not 0.0 <= width <= LARGEST or 0.0 < width < 1.0 / LARGEST:
+        raise ValueError("The orthographic_scale must be a number of scene units from 1e-40 to 1e40, or 0 for a "
+                         "perspective view.")
+    if width > 0.0:
+        projection[0, 0], projection[1, 1] = 2.0 / (width * size)
+        projection[2, 2], projection[3, 3] = -1e-3, 1.0
+        return projection
+    if not _NARROWEST <= angle < np.pi:
+        raise ValueError("The field_of_view must be an angle in radians, at least 1e-12 and less than pi; turn degrees "
+                         "into radians.")
+    projection[0, 0], projection[1, 1] = 1.0 / (np.tan(0.5 * angle) * size)
+    projection[2, 2], projection[2, 3], projection[3, 2] = -1.0, -0.02, -1.0
+    return projection
+
+
+def _of_ordinary_length(vector: np.ndarray) -> np.ndarray:
+    """A vector's direction with its largest component between 1 and 2, digits as they are."""
+    return np.ldexp(vector, 1 - np.frexp(np.abs(vector).max())[1])
+
+
+def _unit(vector: np.ndarray) -> np.ndarray:
+    vector = _of_ordinary_length(vector)
+    return vector / np.linalg.norm(vector)

@@ -1,0 +1,79 @@
+"""Point-based rendering: every image of a diffuse vertex as a flat disc, for scenes finer than the picture.
+
+Nothing is clipped and nothing joined: where triangles are smaller than a pixel, what lies inside them cannot be seen.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from ..cameras import Cameras, MirrorMap, drawn_in, settle
+from ..culling import Cones, Magnification, PointTree, SceneAndMirrors
+from ..geometry import View, norm, rows
+from ..polygons import VertexImages, images_of_pairs, repeated
+from ..result import Discs, ReflectionMesh
+from ..result import place as placed
+from ..support import Progress
+from .beams import Beams
+from .disc_shapes import LARGEST, flat_discs, picture_ellipses
+from .hidden_points import hidden_by_mirrors
+
+PAIRS_AT_ONCE = 131072
+ON_CAUSTIC = 1e-9  # magnification
+
+
+def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: PointTree,
+                     met: SceneAndMirrors, placement: str, progress: Progress) -> ReflectionMesh:
+    """Every image of the tree's vertices in the cameras, once, as a point with its disc."""
+    progress.next(0.2, "cones through the tree")
+    cones = Cones.around(cameras)
+    pairs = tree.trace(cones, Magnification.of(view, cameras))
+    counts = {"nodes_visited": pairs.visited, "pairs": len(pairs.camera), "stood_for": pairs.stood_for,
+              "projections": 0, "roots": 0}
+    found, reach, beams = [], [], Beams.of(cameras, cones)
+    positions = tree.mesh.positions
+    for start in range(0, max(len(pairs.camera), 1), PAIRS_AT_ONCE):
+        progress.next(0.3 + 0.4 * start / max(len(pairs.camera), 1), "projection")
+        part = slice(start, start + PAIRS_AT_ONCE)
+        camera, vertex, stood = pairs.camera[part], pairs.vertex[part], pairs.stood[part]
+        held = beams.hold(camera, rows(positions[vertex]))
+        images, solved, pair = images_of_pairs(view, mirror_map, cameras, positions, camera[held], vertex[held])
+        found.append(images)
+        reach.append(stood[held][pair])
+        for name in ("projections", "roots"):
+            counts[name] += solved[name]
+    images, reach = VertexImages.joined(found), np.concatenate(reach)
+    face = cameras.face[images.camera]
+    face, uv, distance, real = settle(mirror_map, face, mirror_map.coordinates(face, images.place),
+                                      images.distance, rows(positions[images.vertex]))
+    # what lies between two triangles is shown on the edge of one
+    uv = drawn_in(uv)
+    place = mirror_map.places(face, uv)
+    images = VertexImages(images.vertex, images.camera, distance, place, view.pixels(place.T))
+    # of one image, that which stands for most is kept
+    order = np.lexsort((images.camera, -reach, images.vertex))
+    hidden = hidden_by_mirrors(met, mirror_map, cameras, images.camera, place, positions[images.vertex].T)
+    order = order[(real & ~hidden)[order]]
+    order = order[~repeated(images.select(order))]
+    images, reach, face, uv = images.select(order), reach[order], face[order], uv[:, order]
+    turned = mirror_map.turned(face, uv, images.distance)
+    parity = np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8)
+    counts["images"] = len(order)
+
+    progress.next(0.75, "discs")
+    alone = reach == 0.0
+    normal = np.where(alone, tree.normal[:, images.vertex], 0.0)
+    axes, wanted = picture_ellipses(view, mirror_map, face, uv, images.distance, normal,
+                                    tree.reach[images.vertex] + reach)
+    counts["coarse"] = int((wanted > LARGEST).sum())
+    point = rows(positions[images.vertex])
+    path = norm(point - images.place)
+    drawn = placed(view, images.place, path, placement)
+    slope = None if placement == "VIRTUAL" else mirror_map.surface.face_normal[:, face]
+    flat, radius = flat_discs(view, images.place, axes, slope, drawn)
+    return ReflectionMesh(
+        positions=drawn.T, triangles=np.zeros((0, 3), dtype=np.int64), reflected_position=point.T,
+        mirror_position=images.place.T, path_length=path, image_parity=parity,
+        source_face=np.zeros(0, dtype=np.int64), source_weights=np.zeros((0, 3, 3)),
+        mirror_face=np.zeros(0, dtype=np.int64), counts=counts,
+        estimated_error=float(np.percentile(np.minimum(wanted, LARGEST), 99)) if len(wanted) else 0.0,
+        discs=Discs(images.vertex, face, np.stack((1.0 - uv[0] - uv[1], *uv), axis=1), radius, flat))

@@ -1,0 +1,90 @@
+"""Caustics: faces that fold over are cut where the map's magnification is zero, so that each has one parity.
+
+Across a caustic the image of a point turns over, and two images are born or die; a face with corners on both sides
+would join images of different parity. The cut lies on the caustic itself, and both sides share it.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from ..cameras import Cameras, ReflectionMap
+from ..geometry import SceneFrames, cross, dot, norm, shared_edges
+from ..support import breathe
+from .polygon_corners import Nodes
+from .triangulation import Faces
+
+STEPS = 24
+PLACES_AT_ONCE = 32768
+
+
+def split_at_caustics(mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, nodes: Nodes,
+                      faces: Faces) -> tuple[Nodes, Faces, int]:
+    """Faces of one parity each; only cameras whose rays may cross are looked at.
+
+    Returns
+    -------
+    nodes, faces
+    cut : int
+        How many edges were cut.
+    """
+    folding = np.flatnonzero(_may_fold(cameras)[faces.camera])
+    chosen = faces.select(folding)
+    start, following = chosen.nodes.ravel(), np.roll(chosen.nodes, -1, axis=1).ravel()
+    face, column = np.repeat(cameras.face[chosen.camera], 3), np.repeat(chosen.column, 3)
+    turned = _magnification(mirror_map, frames, face, column, nodes.place[:, start])
+    mixed = turned * np.roll(turned.reshape(-1, 3), -1, axis=1).ravel() < 0.0
+    if not mixed.any():
+        return nodes, faces, 0
+    ends, _, edge = shared_edges(chosen.nodes)
+    owner = np.full(len(ends), -1)
+    owner[edge.ravel()[mixed]] = np.flatnonzero(mixed)
+    cut = owner >= 0
+    owner = owner[cut]
+    at = _zero(mirror_map, frames, face[owner], column[owner], nodes.place[:, start[owner]],
+               nodes.place[:, following[owner]])
+    new = np.full(len(ends), -1)
+    new[cut] = np.arange(cut.sum()) + len(nodes.distance)
+    children, _ = chosen.split(new[edge])
+    resting = np.ones(len(faces), dtype=bool)
+    resting[folding] = False
+    return nodes.joined(*at), Faces.joined([faces.select(resting), children]), int(cut.sum())
+
+
+def _magnification(mirror_map, frames, face, column, place) -> np.ndarray:
+    turned = np.empty(len(face))
+    for start in range(0, len(face), PLACES_AT_ONCE):
+        breathe()
+        part = slice(start, start + PLACES_AT_ONCE)
+        uv = mirror_map.coordinates(face[part], place[:, part])
+        s = frames.distance(column[part], *mirror_map.leave(face[part], uv))
+        turned[part] = mirror_map.turned(face[part], uv, s)
+    return turned
+
+
+def _zero(mirror_map, frames, face, column, start, end) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Where between two places of opposite parity the magnification is zero, by bisection; the point seen, and s."""
+    low, high = np.zeros(len(face)), np.ones(len(face))
+    sign = np.sign(_magnification(mirror_map, frames, face, column, start))
+    for _ in range(STEPS):
+        middle = 0.5 * (low + high)
+        same = _magnification(mirror_map, frames, face, column, start + middle * (end - start)) * sign > 0.0
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    place = start + 0.5 * (low + high) * (end - start)
+    origin, ray = mirror_map.leave(face, mirror_map.coordinates(face, place))
+    s = np.maximum(frames.distance(column, origin, ray), 0.0)
+    return place, origin + s * ray, s
+
+
+def _may_fold(cameras: Cameras) -> np.ndarray:
+    """Cameras whose rays may cross at some distance: the moved triangle's area across a corner's ray,
+    n0 + s n1 + s^2 n2, has coefficients of both signs."""
+    places, rays = cameras.origins[:, cameras.corners], cameras.rays[:, cameras.corners]
+    p, q = places[:, :, 1] - places[:, :, 0], places[:, :, 2] - places[:, :, 0]
+    r, t = rays[:, :, 1] - rays[:, :, 0], rays[:, :, 2] - rays[:, :, 0]
+    normals = cross(p, q), cross(p, t) + cross(r, q), cross(r, t)
+    coefficients = np.stack([dot(normal[:, :, None], rays) for normal in normals])
+    # curvature below rounding, as on flat mirrors, is none: places and rays may have different units
+    size, turn = norm(p) + norm(q), norm(r) + norm(t)
+    size, turn, length = size[:, None], turn[:, None], norm(rays)
+    noise = 1e-12 * length * np.stack((size * size + 0.0 * length, size * length, turn * length))
+    return (coefficients > noise).any(axis=(0, 2)) & (coefficients < -noise).any(axis=(0, 2))

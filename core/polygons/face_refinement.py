@@ -1,0 +1,173 @@
+"""Error-bounded refinement of the reflected faces.
+
+Inside a face, position and texture are interpolated; halfway along an edge the interpolated point and the one truly
+seen there differ by a vector in the plane of the diffuse triangle. Divided by the true map's derivative it is a
+displacement in pixels. Edges where it exceeds the tolerance are split at a point of the true map: an image of a diffuse
+edge at the image of its point, any other at the middle in the picture.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..cameras import Cameras, ReflectionMap
+from ..geometry import SceneFrames, View, dot, falling, norm, shared_edges
+from ..support import breathe
+from .polygon_corners import Nodes
+from .triangulation import Faces
+
+LEVELS = 10
+EDGES_AT_ONCE = 32768
+SHORTEST_EDGE = 0.25  # pixels
+MARGIN = 2.0  # pixels round the picture: nobody sees an edge beyond
+STRETCH = 4.0
+NEAR_MIDDLE = 0.45  # of an edge: how far from its middle it may be split
+
+
+@dataclass(frozen=True)
+class FaceRefinement:
+    """Splits faces on one mirror and one scene; `virtual` tells that faces are drawn at the virtual image's depth,
+    `beyond` which cameras lie beyond the horizon, where there is nothing to be exact about."""
+
+    view: View
+    mirror_map: ReflectionMap
+    cameras: Cameras
+    frames: SceneFrames
+    beyond: np.ndarray
+    virtual: bool
+
+    def refine(self, nodes: Nodes, faces: Faces, tolerance: float,
+               maximum: int) -> tuple[Nodes, Faces, np.ndarray, int]:
+        """Faces whose edges stray by less than `tolerance` pixels.
+
+        Returns
+        -------
+        nodes, faces
+        left : (2, e) float64
+            The displacements estimated on the edges that stay, and the lengths of these, in pixels.
+        limited : int
+            Edges that the bound on depth or count left unsplit.
+        """
+        finished, done, left = [], np.zeros((len(faces), 3), dtype=bool), []
+        for level in range(LEVELS + 1):
+            if not len(faces):
+                break
+            breathe()
+            marked, straying, chosen, middle = self._marked(nodes, faces, done, tolerance)
+            ends, edge, choice, middle_nodes = middle
+            stop = level == LEVELS or sum(map(len, finished)) + len(faces) + 2 * marked.sum() > maximum
+            if stop or not marked.any():
+                finished.append(faces)
+                return nodes, Faces.joined(finished), np.concatenate((*left, straying), axis=1), int(marked.sum())
+            left.append(straying[:, ~chosen])
+            new = np.full(len(ends), -1)
+            new[choice] = np.arange(marked.sum()) + len(nodes.distance)
+            nodes = nodes.joined(*middle_nodes)
+            faces, done = faces.split(new[edge])
+            resting = done.all(axis=1)
+            finished.append(faces.select(resting))
+            faces, done = faces.select(~resting), done[~resting]
+        left = np.concatenate((*left, np.zeros((2, 1))), axis=1)
+        return nodes, Faces.joined(finished) if finished else faces, left, 0
+
+    def _marked(self, nodes: Nodes, faces: Faces, done: np.ndarray, tolerance: float):
+        """Edges to split; of those that no neighbour has settled yet, what they stray by, their lengths, and whether
+        they are to be split; and the nodes in their middles."""
+        ends, first, edge = shared_edges(faces.nodes)
+        face = first // 3
+        open_ = np.flatnonzero(~done.reshape(-1)[first])
+        marked = np.zeros(len(ends), dtype=bool)
+        a, b = ends[open_].T
+        camera, column = faces.camera[face[open_]], faces.column[face[open_]]
+        mirror_face = self.cameras.face[camera]
+        place = self._middle(nodes, a, b)
+        shown = 0.5 * (nodes.point[:, a] + nodes.point[:, b])
+        uv = self.mirror_map.coordinates(mirror_face, place)
+        parts = []
+        for start in range(0, max(len(column), 1), EDGES_AT_ONCE):
+            breathe()
+            part = slice(start, start + EDGES_AT_ONCE)
+            parts.append(self._straying(mirror_face[part], uv[:, part], column[part], shown[:, part]))
+        drift, error, point, distance = (np.concatenate(side, axis=-1) for side in zip(*parts))
+        worth = np.zeros(len(ends), dtype=bool)
+        worth[edge[~self.beyond[faces.camera]]] = True
+        pixels = self.view.pixels(nodes.place.T)
+        beyond = np.concatenate((pixels < -MARGIN, pixels > np.add(self.view.resolution, MARGIN)), axis=1)
+        worth[open_] &= ~(beyond[a] & beyond[b]).any(axis=1)
+        drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
+        length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
+        # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight
+        outline = np.zeros(len(ends), dtype=bool)
+        outline[edge[faces.on_scene_edge]] = True
+        outline = outline[open_]
+        straying = np.minimum(error, length)
+        chosen = (np.minimum(np.where(outline, 2.0 * drift, error), length) > tolerance) & (length > SHORTEST_EDGE)
+        along = np.flatnonzero(chosen & outline)
+        if len(along):
+            on_face, target = mirror_face[along], shown[:, along]
+            found, s = self.mirror_map.locate(on_face, uv[:, along], distance[along], target)
+            spot = self.mirror_map.places(on_face, found)
+            away = np.linalg.norm(self.view.pixels(spot.T) - self.view.pixels(place[:, along].T), axis=1)
+            good = (away <= NEAR_MIDDLE * length[along]) & self.mirror_map.meets(on_face, found, s, target)
+            # an image at the edge's end, or none, straightens nothing however often the edge is split
+            chosen[along[~good]] = False
+            along = along[good]
+            # a point of the edge: the triangle on its other side shares the node
+            point[:, along], place[:, along], distance[along] = target[:, good], spot[:, good], s[good]
+        marked[open_] = chosen
+        place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]
+        return marked, np.stack((straying, length)), chosen, (ends, edge, marked, (place, point, distance))
+
+    def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        """Where on the mirror the middle of a drawn edge is seen."""
+        if not self.virtual or self.view.orthographic:
+            return 0.5 * (nodes.place[:, a] + nodes.place[:, b])
+        weight_a, weight_b = 1.0 + self._ways(nodes, a), 1.0 + self._ways(nodes, b)
+        return (weight_a * nodes.place[:, a] + weight_b * nodes.place[:, b]) / (weight_a + weight_b)
+
+    def _ways(self, nodes: Nodes, node: np.ndarray) -> np.ndarray:
+        """How far behind the mirror nodes are seen, to their distance from the eye."""
+        if not self.mirror_map.unit_rays:
+            return nodes.distance[node]
+        return nodes.distance[node] / norm(self.view.directions(nodes.place[:, node].T).T)
+
+    def _straying(self, face: np.ndarray, uv: np.ndarray, column: np.ndarray, shown: np.ndarray):
+        """Pixels between the places where `shown` is drawn and where it is truly seen, and as much of them as an eye
+        could tell inside a face; what is truly seen there, and its s.
+
+        Near a caustic the picture of a point is drawn out in one direction, and a shift in that direction shows
+        nothing: none counts for more than `STRETCH` times the pixels it would be where the picture is drawn out least.
+        """
+        one, zero = np.ones(len(face)), np.zeros(len(face))
+        origin, ray, moves = self.mirror_map.linearise(face, uv, np.stack((one, zero)), np.stack((zero, one)))
+        s = np.maximum(self.frames.distance(column, origin, ray), 0.0)
+        point = origin + s * ray
+        normal = np.take(self.frames.normal, column, axis=1)
+        speed = falling(normal, ray)
+        moving = []
+        for move, change in moves:
+            free = move + s * change
+            moving.append(free - dot(normal, free) / speed * ray)
+        (a, c), (b, d) = (self.frames.directions(column, along)[:2] for along in moving)
+        right = self.frames.directions(column, shown - point)[:2]
+        x, y = _solve(a, b, c, d, *right)
+        place = self.mirror_map.places(face, uv)
+        seen_u, seen_v = (self.view.pixel_derivatives(place.T, span.T).T for span in self.mirror_map.spans(face))
+        drift = np.hypot(*(x * seen_u + y * seen_v))
+        motion = [norm(x * moving[0] + y * moving[1]) for x, y in
+                  (_solve(seen_u[0], seen_v[0], seen_u[1], seen_v[1], *step) for step in ((1.0, 0.0), (0.0, 1.0)))]
+        with np.errstate(over="ignore"):
+            coarse = norm(shown - point) / np.maximum(np.maximum(*motion), 1e-300)
+            return drift, np.minimum(drift, STRETCH * coarse), point, s
+
+
+def _solve(a, b, c, d, right_x, right_y):
+    """x, y with a x + b y = right_x and c x + d y = right_y; zero where a, b, c and d are."""
+    straight, crossed = a * d, b * c
+    determinant = straight - crossed
+    # a map that rounding cannot tell from singular moves far, but not infinitely far
+    least = 1e-14 * (np.abs(straight) + np.abs(crossed))
+    determinant = np.where(np.abs(determinant) > least, determinant, least)
+    inverse = np.divide(1.0, determinant, out=np.zeros_like(determinant), where=np.abs(determinant) > 1e-150)
+    return (d * right_x - b * right_y) * inverse, (a * right_y - c * right_x) * inverse

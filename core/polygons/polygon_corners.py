@@ -1,0 +1,209 @@
+"""Nodes: the exact corners of all reflected polygons, each computed once and shared by the polygons round it.
+
+Three kinds bound every reflected triangle (S. Vallance, P. Calder, ACSC 2006): a scene vertex in a camera, a scene
+edge over a mirror edge, and a mirror corner's ray on a scene triangle. A fourth lies where mirror and scene touch.
+Clipping finds which of them a polygon has from linear functions; here each gets its place on the true reflection map.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..cameras import Cameras, ReflectionMap
+from ..culling import Candidates
+from ..geometry import SceneFrames, View, dot, groups
+from ..support import breathe
+from .clipping import CONTACT, HIDDEN, SCENE_EDGE, Polygons
+from .vertex_images import NEAR_IMAGE, VertexImages
+
+WELD = 1e-9  # of the size of what is seen: nodes closer than this are one
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """Nodes (n).
+
+    Attributes
+    ----------
+    place : (3, n) float64, Q on the mirror
+    point : (3, n) float64, the diffuse point seen there
+    distance : (n,) float64, s
+    """
+
+    place: np.ndarray
+    point: np.ndarray
+    distance: np.ndarray
+
+    def joined(self, place: np.ndarray, point: np.ndarray, distance: np.ndarray) -> Nodes:
+        return Nodes(np.concatenate((self.place, place), axis=1), np.concatenate((self.point, point), axis=1),
+                     np.concatenate((self.distance, distance)))
+
+
+@dataclass(frozen=True)
+class _Corners:
+    """What the corners of the polygons are made of, one row each; the arguments that all kinds of nodes need."""
+
+    view: View
+    mirror_map: ReflectionMap
+    cameras: Cameras
+    frames: SceneFrames
+    positions: np.ndarray
+    camera: np.ndarray
+    column: np.ndarray
+    weights: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+    def guess(self, chosen: np.ndarray) -> np.ndarray:
+        """Q (3, n) where the linear clip puts the corners."""
+        corners = self.cameras.corners[self.camera[chosen]].T
+        return (np.take(self.cameras.places, corners, axis=1) * self.weights[:, chosen]).sum(axis=1)
+
+    def near(self, moved: np.ndarray, guess: np.ndarray) -> np.ndarray:
+        """Whether places (3, n) moved from the guess by no more than straight outlines may miss; else they are another
+        image, or Newton's method went astray on a triangle seen edge on."""
+        with np.errstate(invalid="ignore", over="ignore"):
+            away = np.linalg.norm(self.view.pixels(moved.T) - self.view.pixels(guess.T), axis=1)
+        return away < NEAR_IMAGE
+
+    def seen(self, chosen: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The point (3, n) that the true ray at a place meets on the triangle's plane, and its s."""
+        face = self.cameras.face[self.camera[chosen]]
+        origin, ray = self.mirror_map.leave(face, self.mirror_map.coordinates(face, place))
+        s = np.maximum(self.frames.distance(self.column[chosen], origin, ray), 0.0)
+        return origin + s * ray, s
+
+    def mirror_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
+        """(n, 2) sorted camera corners of the mirror edge `label`."""
+        corners, row = self.cameras.corners[self.camera[chosen]], np.arange(len(chosen))
+        return np.sort(np.stack((corners[row, (label + 1) % 3], corners[row, (label + 2) % 3]), axis=1), axis=1)
+
+    def scene_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
+        """(n, 2) sorted scene vertices of the triangle's edge `label`."""
+        vertices, side = self.frames.vertices[:, self.column[chosen]], label - SCENE_EDGE
+        row = np.arange(len(chosen))
+        return np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row]), axis=1), axis=1)
+
+
+def polygon_nodes(view: View, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, positions: np.ndarray,
+                  candidates: Candidates, polygons: Polygons, images: VertexImages) -> tuple[Nodes, np.ndarray]:
+    """Nodes of the polygons, and for each corner of a polygon its node."""
+    pair = np.repeat(polygons.pair, np.diff(polygons.start))
+    low = np.minimum(polygons.before, polygons.after).astype(np.int64)
+    high = np.maximum(polygons.before, polygons.after).astype(np.int64)
+    corners = _Corners(view, mirror_map, cameras, frames, positions, candidates.camera[pair], candidates.column[pair],
+                       polygons.weights, low, high)
+    node_of = np.empty(len(pair), dtype=np.int64)
+    made, count = [], 0
+    on_mirror_edge = low < SCENE_EDGE
+    kinds = ((_mirror_corners, on_mirror_edge & (high < SCENE_EDGE)),
+             (_crossings, on_mirror_edge & (high >= SCENE_EDGE) & (high < CONTACT)),
+             (_vertices, ~on_mirror_edge & (high < CONTACT)),
+             (_contacts_of_mirror_edges, on_mirror_edge & (high == CONTACT)),
+             (_contacts_of_scene_edges, ~on_mirror_edge & (high == CONTACT)),
+             (_on_lines_of_hiding, high == HIDDEN))
+    for kind, chosen in kinds:
+        chosen = np.flatnonzero(chosen)
+        if len(chosen):
+            breathe()
+            part, shared = kind(corners, chosen, images)
+            made.append(part)
+            node_of[chosen] = shared + count
+            count += len(part[2])
+    if not made:
+        return Nodes(np.zeros((3, 0)), np.zeros((3, 0)), np.zeros(0)), node_of
+    return Nodes(*(np.concatenate(side, axis=-1) for side in zip(*made))), node_of
+
+
+def _mirror_corners(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+    camera, column = corners.camera[chosen], corners.column[chosen]
+    corner = corners.cameras.corners[camera, 3 - corners.low[chosen] - corners.high[chosen]]
+    first, group = groups(corner, column)
+    corner, column = corner[first], column[first]
+    origin, ray = corners.cameras.origins[:, corner], corners.cameras.rays[:, corner]
+    distance = np.maximum(corners.frames.distance(column, origin, ray), 0.0)
+    return (corners.cameras.places[:, corner], origin + distance * ray, distance), group
+
+
+def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+    mirror_edge = corners.mirror_edge(chosen, corners.low[chosen])
+    scene_edge = corners.scene_edge(chosen, corners.high[chosen])
+    first, group = groups(*mirror_edge.T, *scene_edge.T)
+    mirror_edge, scene_edge, chosen = mirror_edge[first], scene_edge[first], chosen[first]
+    places, mirror_map = corners.cameras.places, corners.mirror_map
+    face = corners.cameras.face[corners.camera[chosen]]
+    start, end = places[:, mirror_edge[:, 0]], places[:, mirror_edge[:, 1]]
+    place = corners.guess(chosen)
+    way = end - start
+    t = _share(place - start, way)
+    uv_start, uv_end = mirror_map.coordinates(face, start), mirror_map.coordinates(face, end)
+    seen, seen_s = corners.seen(chosen, place)
+    point = corners.positions[scene_edge[:, 0]].T
+    edge = corners.positions[scene_edge[:, 1]].T - point
+    t, along, s = mirror_map.meet(face, uv_start, uv_end, t, seen_s, point, edge)
+    met = start + np.clip(t, 0.0, 1.0) * way
+    near = corners.near(met, place) & (s >= 0.0)
+    # just beyond an end of the edge, by no more than straight outlines miss, the end stands in
+    along = np.clip(np.where(near, along, _share(seen - point, edge)), 0.0, 1.0)
+    return (np.where(near, met, place), point + along * edge, np.where(near, s, seen_s)), group
+
+
+def _share(offset: np.ndarray, way: np.ndarray) -> np.ndarray:
+    """The part of the `way` (3, n) that an offset goes along it; none of a way without a length."""
+    square = dot(way, way)
+    return np.divide(dot(offset, way), square, out=np.zeros_like(square), where=square > 0.0)
+
+
+def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+    camera, column = corners.camera[chosen], corners.column[chosen]
+    side = 3 - (corners.low[chosen] - SCENE_EDGE) - (corners.high[chosen] - SCENE_EDGE)
+    vertex = corners.frames.vertices[side, column]
+    guess = corners.guess(chosen)
+    image = images.nearest(vertex, camera, corners.view.pixels(guess.T))
+    # a vertex on the wrong side of a bent mirror edge by less than the linear clip sees has no image of its own here
+    lone = image < 0
+    first, group = groups(np.where(lone, camera, -1) + 1, np.where(lone, vertex + len(images.vertex), image))
+    image, lone = image[first], lone[first]
+    place, distance = np.empty((3, len(first))), np.empty(len(first))
+    place[:, ~lone], distance[~lone] = images.place[:, image[~lone]], images.distance[image[~lone]]
+    point = corners.positions[vertex[first]].T
+    own = first[lone]
+    face, mirror_map = corners.cameras.face[camera[own]], corners.mirror_map
+    start = guess[:, own]
+    _, seen_s = corners.seen(chosen[own], start)
+    moved, found = mirror_map.locate(face, mirror_map.coordinates(face, start), seen_s, point[:, lone])
+    moved_place = mirror_map.places(face, moved)
+    near = corners.near(moved_place, start) & mirror_map.meets(face, moved, found, point[:, lone])
+    place[:, lone] = np.where(near, moved_place, start)
+    distance[lone] = np.where(near, found, seen_s)
+    return (place, point, distance), group
+
+
+def _contacts_of_mirror_edges(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+    mirror_edge = corners.mirror_edge(chosen, corners.low[chosen])
+    first, group = groups(*mirror_edge.T, corners.column[chosen])
+    return _contact(corners, chosen[first]), group
+
+
+def _contacts_of_scene_edges(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+    scene_edge = corners.scene_edge(chosen, corners.low[chosen])
+    first, group = groups(corners.cameras.face[corners.camera[chosen]], *scene_edge.T)
+    return _contact(corners, chosen[first]), group
+
+
+def _on_lines_of_hiding(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+    place = corners.guess(chosen)
+    point, distance = corners.seen(chosen, place)
+    # the lines have no names by which neighbours could share them: what meets in one place is one node
+    both = np.concatenate((place, point))
+    low, size = both.min(axis=1, keepdims=True), np.ptp(both, axis=1).max()
+    first, group = groups(*np.rint((both - low) / (WELD * max(size, 1e-300))).astype(np.int64))
+    return (place[:, first], point[:, first], distance[first]), group
+
+
+def _contact(corners: _Corners, chosen: np.ndarray):
+    place = corners.guess(chosen)
+    face = corners.cameras.face[corners.camera[chosen]]
+    origin, _ = corners.mirror_map.leave(face, corners.mirror_map.coordinates(face, place))
+    return place, origin, np.zeros(len(chosen))

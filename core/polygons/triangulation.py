@@ -1,0 +1,95 @@
+"""Connection: the reflected polygons as faces on shared nodes."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..culling import Candidates
+from ..geometry import parent_side, ranges, split
+from .clipping import CONTACT, SCENE_EDGE, Polygons
+
+
+@dataclass(frozen=True)
+class Faces:
+    """Triangles between nodes.
+
+    Attributes
+    ----------
+    nodes : (f, 3) int64
+    camera : (f,) int64
+    column : (f,) int64, of the diffuse triangle in the frames
+    on_scene_edge : (f, 3) bool, whether the edges 01, 12, 20 are images of the diffuse triangle's own edges
+    """
+
+    nodes: np.ndarray
+    camera: np.ndarray
+    column: np.ndarray
+    on_scene_edge: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.camera)
+
+    def select(self, chosen: np.ndarray) -> Faces:
+        return Faces(self.nodes[chosen], self.camera[chosen], self.column[chosen], self.on_scene_edge[chosen])
+
+    def split(self, middle: np.ndarray) -> tuple[Faces, np.ndarray]:
+        """Faces split at the nodes `middle` (f, 3) of their edges, -1 for none.
+
+        Returns
+        -------
+        children : Faces
+        whole : (m, 3) bool
+            Which of their edges are whole edges of their parents.
+        """
+        parent, local = split(middle >= 0)
+        six = np.concatenate((self.nodes, middle), axis=1)[parent]
+        side = parent_side(local)
+        row = np.arange(len(parent))[:, None]
+        on_edge = np.where(side < 3, self.on_scene_edge[parent][row, np.minimum(side, 2)], False)
+        whole = (local < 3) & (np.roll(local, -1, axis=1) < 3) & (side < 3)
+        nodes = np.take_along_axis(six, local, axis=1)
+        return Faces(nodes, self.camera[parent], self.column[parent], on_edge), whole
+
+    @staticmethod
+    def joined(parts: list[Faces]) -> Faces:
+        return Faces(*(np.concatenate([getattr(part, name) for part in parts])
+                       for name in ("nodes", "camera", "column", "on_scene_edge")))
+
+
+def connect(candidates: Candidates, polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Faces:
+    """Fans of faces over the polygons, each fan from the corner that gives the least skinny faces.
+
+    Parameters
+    ----------
+    node_of : (k,) int64
+        Node of each polygon corner.
+    pixels : (n, 2) float64
+        Picture positions of the nodes.
+    """
+    size = np.diff(polygons.start)
+    polygon = np.repeat(np.arange(len(size)), size)
+    start, length = polygons.start[:-1][polygon], size[polygon]
+    local = np.arange(len(polygon)) - start
+    # the corner with the shortest diagonals: sum of squared distances to the corners that are not its neighbours
+    spots = pixels[node_of]
+    total = np.add.reduceat(spots, polygons.start[:-1], axis=0)[polygon] if len(size) else spots
+    squares = (spots**2).sum(axis=1)
+    square_total = np.add.reduceat(squares, polygons.start[:-1])[polygon] if len(size) else squares
+    before, after = start + (local - 1) % length, start + (local + 1) % length
+    spread = length * squares - 2.0 * (spots * total).sum(axis=1) + square_total
+    spread -= ((spots - spots[before]) ** 2).sum(axis=1) + ((spots - spots[after]) ** 2).sum(axis=1)
+    order = np.lexsort((spread, polygon))
+    apex = local[order[polygons.start[:-1]]]
+
+    step, fan = ranges(np.ones(len(size), dtype=np.int64), size - 2)
+    base, length = polygons.start[:-1][fan], size[fan]
+    corner = [base + (apex[fan] + k) % length for k in (np.zeros_like(step), step, step + 1)]
+    scene = (polygons.after >= SCENE_EDGE) & (polygons.after < CONTACT)
+    first, last = step == 1, step + 2 == length
+    edges = np.stack((scene[corner[0]] & first, scene[corner[1]], scene[corner[2]] & last), axis=1)
+    nodes = np.stack([node_of[c] for c in corner], axis=1)
+    pair = polygons.pair[fan]
+    faces = Faces(nodes, candidates.camera[pair], candidates.column[pair], edges)
+    a, b, c = faces.nodes.T
+    return faces.select((a != b) & (b != c) & (c != a))

@@ -1,0 +1,121 @@
+"""Images of the diffuse vertices in the cameras: the cubic's roots, brought onto the true reflection map."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ..cameras import Cameras, ReflectionMap
+from ..culling import Candidates, Cones
+from ..geometry import SceneFrames, View, ranges
+from ..solver import project
+
+SAME_IMAGE = 1e-3  # pixels: closer images of one vertex are one image, found from both sides of a shared edge
+NEAR_IMAGE = 3.0  # pixels: how far the straight outlines of the clip may put a vertex from its image
+
+
+@dataclass(frozen=True)
+class VertexImages:
+    """Images, sorted by vertex.
+
+    Attributes
+    ----------
+    vertex, camera : (n,) int64
+    distance : (n,) float64, s
+    place : (3, n) float64, Q
+    pixel : (n, 2) float64
+    """
+
+    vertex: np.ndarray
+    camera: np.ndarray
+    distance: np.ndarray
+    place: np.ndarray
+    pixel: np.ndarray
+
+    def select(self, chosen: np.ndarray) -> VertexImages:
+        return VertexImages(self.vertex[chosen], self.camera[chosen], self.distance[chosen], self.place[:, chosen],
+                            self.pixel[chosen])
+
+    @staticmethod
+    def joined(parts: Sequence[VertexImages]) -> VertexImages:
+        return VertexImages(*(np.concatenate([getattr(part, field.name) for part in parts],
+                                             axis=1 if field.name == "place" else 0) for field in fields(VertexImages)))
+
+    def nearest(self, vertex: np.ndarray, camera: np.ndarray, pixel: np.ndarray) -> np.ndarray:
+        """Index of the image within `NEAR_IMAGE` pixels that a guess (vertex, camera, pixel), n of each, means: one in
+        the same camera before one in a neighbouring camera, else -1."""
+        start, stop = np.searchsorted(self.vertex, vertex), np.searchsorted(self.vertex, vertex, side="right")
+        image, guess = ranges(start, stop - start)
+        away = np.linalg.norm(self.pixel[image] - pixel[guess], axis=1)
+        own = self.camera[image] == camera[guess]
+        meant = away < NEAR_IMAGE
+        guess, image, away, own = guess[meant], image[meant], away[meant], own[meant]
+        order = np.lexsort((away, ~own, guess))
+        found, first = np.unique(guess[order], return_index=True)
+        result = np.full(len(vertex), -1)
+        result[found] = image[order[first]]
+        return result
+
+
+def vertex_images(view: View, mirror_map: ReflectionMap, cameras: Cameras, cones: Cones, positions: np.ndarray,
+                  frames: SceneFrames, candidates: Candidates) -> tuple[VertexImages, dict]:
+    """Images of the vertices of the candidate triangles, each in the cameras that it is a candidate of.
+
+    Returns
+    -------
+    images : VertexImages
+    counts : dict
+        Pairs solved, roots found, images kept.
+    """
+    vertices = frames.vertices[:, candidates.column]
+    key = np.unique((candidates.camera * len(positions) + vertices).ravel())
+    camera, vertex = key // len(positions), key % len(positions)
+    points = positions[vertex].T
+    touching = cones.touch(camera, points, np.zeros(len(camera)))
+    images, counts, _ = images_of_pairs(view, mirror_map, cameras, positions, camera[touching], vertex[touching])
+    images = images.select(np.lexsort((images.camera, images.vertex)))
+    images = images.select(~repeated(images))
+    counts["images"] = len(images.vertex)
+    return images, counts
+
+
+def images_of_pairs(view: View, mirror_map: ReflectionMap, cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
+                    vertex: np.ndarray) -> tuple[VertexImages, dict, np.ndarray]:
+    """Images in pairs of a camera and a vertex, not sorted; what lies on a shared edge comes from both its sides.
+
+    Returns
+    -------
+    images : VertexImages
+    counts : dict
+        Pairs solved, roots found.
+    pair : (n,) int64
+        The pair that each image was found in.
+    """
+    corners = cameras.corners[camera]
+    found = project(np.moveaxis(cameras.origins[:, corners], 0, 2), np.moveaxis(cameras.rays[:, corners], 0, 2),
+                    positions[vertex])
+    counts = {"projections": len(camera), "roots": len(found.pair)}
+    camera, vertex = camera[found.pair], vertex[found.pair]
+    guess = (cameras.places[:, cameras.corners[camera]] * found.weights).sum(axis=2)
+    face = cameras.face[camera]
+    uv, distance = mirror_map.locate(face, mirror_map.coordinates(face, guess), found.distance, positions[vertex].T)
+    place = mirror_map.places(face, uv)
+    pixel = view.pixels(place.T)
+    near = np.linalg.norm(pixel - view.pixels(guess.T), axis=1) < 8.0 + 0.1 * max(view.resolution)
+    near &= mirror_map.meets(face, uv, distance, positions[vertex].T)
+    kept = np.flatnonzero(np.isfinite(pixel).all(axis=1) & near)
+    images = VertexImages(vertex[kept], camera[kept], distance[kept], place[:, kept], pixel[kept])
+    return images, counts, found.pair[kept]
+
+
+def repeated(images: VertexImages) -> np.ndarray:
+    """Which images, sorted by vertex, an earlier camera already found: those on a shared edge or mirror vertex."""
+    again = np.zeros(len(images.vertex), dtype=bool)
+    for gap in range(1, 9):
+        same = np.flatnonzero(images.vertex[gap:] == images.vertex[:-gap]) + gap
+        if not len(same):
+            break
+        away = np.linalg.norm(images.pixel[same] - images.pixel[same - gap], axis=1)
+        again[same[away < SAME_IMAGE]] = True
+    return again

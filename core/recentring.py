@@ -1,0 +1,64 @@
+"""Far from the origin: a scene whose coordinates dwarf its mirror is worked on beside the origin.
+
+Coordinates far out spend their digits on where the mirror is, and leave few for what it looks like: places and rays
+would be rounded to the spacing of numbers out there over and over. The difference of two numbers as near to each
+other as those of one scene is exact or rounded no more than they were themselves, so moving everything by a corner of
+the mirror's box loses nothing, and what follows has all digits.
+"""
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import replace
+
+import numpy as np
+
+from .culling import PointTree, SceneTree
+from .geometry import TriangleMesh, View
+from .result import ReflectionMesh
+
+FAR = 1024.0  # sizes of the mirror: nearer ones keep 43 of 53 bits
+
+
+def far_corner(mirror: TriangleMesh) -> np.ndarray | None:
+    """The low corner (3,) of the box round a mirror that is far from the origin for its size, None for any other.
+
+    It is made of the mirror's own coordinates, so that it moves and scales with the scene to the last bit.
+    """
+    used = mirror.positions[mirror.triangles.ravel()]
+    low = used.min(axis=0)
+    return low if np.abs(low).max() > FAR * (used.max(axis=0) - low).max() else None
+
+
+def moved_view(view: View, offset: np.ndarray) -> View:
+    placement = view.camera_to_world.copy()
+    placement[:3, 3] += offset
+    return replace(view, camera_to_world=placement)
+
+
+def moved_surface(surface: TriangleMesh | SceneTree | PointTree,
+                  offset: np.ndarray) -> TriangleMesh | SceneTree | PointTree:
+    """A copy moved by `offset` (3,); of a tree, with spheres that hold what the moving rounds."""
+    if isinstance(surface, TriangleMesh):
+        return _with(surface, positions=surface.positions + offset)
+    parts = {"mesh": moved_surface(surface.mesh, offset), "spheres": [_moved(part, offset) for part in surface.spheres]}
+    if isinstance(surface, SceneTree):
+        parts["triangle_spheres"] = _moved(surface.triangle_spheres, offset)
+    return _with(surface, **parts)
+
+
+def moved_mesh(mesh: ReflectionMesh, offset: np.ndarray) -> ReflectionMesh:
+    return replace(mesh, **{name: getattr(mesh, name) + offset
+                            for name in ("positions", "reflected_position", "mirror_position")})
+
+
+def _moved(spheres: np.ndarray, offset: np.ndarray) -> np.ndarray:
+    room = np.finfo(np.float64).eps * (np.abs(spheres[:3]).max(axis=0) + np.abs(offset).max())
+    return np.concatenate((spheres[:3] + offset[:, None], (spheres[3] + 4.0 * room)[None]))
+
+
+def _with(surface, **values):
+    """A copy with other values, which are known to be good."""
+    copied = copy(surface)
+    for name, value in values.items():
+        object.__setattr__(copied, name, value)
+    return copied

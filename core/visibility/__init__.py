@@ -1,0 +1,14 @@
+"""What hides what: the eye's plane, the mirror's own body, things that pass through it, mirrors before the scene.
+
+In come cameras or polygons; out come those parts that are seen, cut along outlines, which are linear in a camera's
+weights.
+"""
+from .eye_plane import cut_before_eye
+from .mirror_occlusion import cut_behind_mirrors
+from .mirror_visibility import without_hidden
+from .scene_contacts import drop_behind_contacts
+from .self_occlusion import without_occluded
+from .touching_mirrors import without_touching
+
+__all__ = ["cut_before_eye", "cut_behind_mirrors", "drop_behind_contacts", "without_hidden", "without_occluded",
+           "without_touching"]

@@ -1,0 +1,61 @@
+"""The eye's plane: of mirrors that run on behind the eye, only what lies before it is seen.
+
+Nothing on the plane of a perspective eye has a place in the picture, and what lies behind it would have a wrong one.
+So cameras, and the triangles that may hide them, are cut before it. An orthographic eye sees from its plane on. What
+a perspective eye sees of a triangle lies no nearer to its plane than the triangle's plane lies to the eye, times the
+cosine of the angle to the picture's corners; half of that is left out of the picture, but has a place in it.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from ..cameras import Cameras, MirrorMap, with_pieces
+from ..geometry import TriangleMesh, View, cross, dot, norm, rows
+from ..polygons import ConvexParts
+
+ON_PLANE = 1e-12  # of the distance from an orthographic eye: nearer to its plane is on it by rounding
+LEAST = 0.5  # of what a perspective eye can see: as near to its plane are triangles cut
+
+
+def cut_before_eye(view: View, mirror_map: MirrorMap, cameras: Cameras) -> Cameras:
+    """The cameras, those across the eye's plane without what lies behind it."""
+    whole, parent, weights = _before(view, cameras.places[:, cameras.corners.T])
+    return cameras if whole.all() else with_pieces(mirror_map, cameras, whole, parent, weights)[0]
+
+
+def triangles_before_eye(view: View, mesh: TriangleMesh, chosen: np.ndarray) -> tuple[TriangleMesh, np.ndarray]:
+    """The triangles `chosen` (n,) of a mesh before the eye, and for each of the result which one of the mesh it is or
+    is a part of; without normals."""
+    corners = rows(mesh.positions[mesh.triangles[chosen]]).swapaxes(1, 2)
+    whole, parent, weights = _before(view, corners)
+    if not len(parent):
+        return mesh.like(mesh.positions, mesh.triangles[chosen], None), chosen
+    places = np.einsum("xjn,jkn->nkx", corners[:, :, parent], weights).reshape(-1, 3)
+    new = len(mesh.positions) + np.arange(len(places)).reshape(-1, 3)
+    parts = mesh.like(np.concatenate((mesh.positions, places)),
+                      np.concatenate((mesh.triangles[chosen[whole]], new)), None)
+    return parts, np.concatenate((chosen[whole], chosen[parent]))
+
+
+def _before(view: View, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Which triangles, corners (3, 3, n) as [component, corner], lie before the eye whole; and the parts of others:
+    which triangle each is of, and its corners' weights (3, 3, m), entry [i, k]: weight i of corner k."""
+    count = corners.shape[2]
+    depth = view.depths(corners.reshape(3, -1).T).reshape(3, count)
+    whole = (depth > 0.0).all(axis=0)
+    across = np.flatnonzero(~whole & (depth > 0.0).any(axis=0))
+    parts = ConvexParts.whole(len(across)).cut(depth[:, across] - _least_depth(view, corners[:, :, across]), 0)
+    piece, weights = parts.triangles(len(across))
+    return whole, across[piece], weights
+
+
+def _least_depth(view: View, corners: np.ndarray) -> np.ndarray:
+    """How near to the eye's plane what the picture holds of triangles may come."""
+    if view.orthographic:
+        return ON_PLANE * np.abs(corners - view.eye[:, None, None]).max(axis=(0, 1))
+    a, b, c = np.moveaxis(corners, 1, 0)
+    normal = cross(b - a, c - a)
+    height = np.abs(dot(normal, a - view.eye[:, None])) / np.maximum(norm(normal), 1e-300)
+    width, top = view.resolution
+    _, towards = view.rays(np.array([(0, 0), (width, 0), (0, top), (width, top)], dtype=np.float64))
+    return LEAST * (towards @ view.forward).min() * height

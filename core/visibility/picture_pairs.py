@@ -1,0 +1,105 @@
+"""Pairs of cameras and triangles of the mirror that may lie over one another in the picture, by boxes on a grid."""
+from __future__ import annotations
+
+from collections.abc import Generator
+
+import numpy as np
+
+from ..cameras import Cameras
+from ..geometry import TriangleMesh, View, ranges, rows, shares
+from ..support import breathe
+from .mirror_visibility import DepthGrid
+
+COARSER = 9  # times that the cells may be doubled
+MOST_PAIRS = 1 << 26  # more are not looked at, and the mirror is left as it is
+
+
+def pairs_in_picture(view: View, cameras: Cameras, mirror: TriangleMesh, owner: np.ndarray, grid: DepthGrid,
+                     at_once: int) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
+    """Pairs of cameras and triangles of the mirror, parts of those that `owner` (m,) names and no camera's own, whose
+    boxes in the picture overlap where the mirror lies several times over, by the cells of the grid; each once, in
+    shares of about `at_once`.
+
+    Cells are made as coarse as gives the least work: large triangles share many small cells.
+    """
+    several = np.pad(grid.layers > 1, 1)
+    height, width = grid.layers.shape
+    several = np.logical_or.reduce([several[y:y + height, x:x + width] for y in range(3) for x in range(3)])
+    if not several.any():
+        return
+    boxes, others = (_boxes(view, corners, grid.scale) for corners in
+                     (cameras.places[:, cameras.corners], rows(mirror.positions[mirror.triangles])))
+    levels = [several]
+    for _ in range(COARSER):
+        levels.append(_halved(levels[-1]))
+    work = []
+    for level, taken in enumerate(levels):
+        breathe()
+        work.append((_counts(boxes, level, taken) * _counts(others, level, taken) * taken).sum())
+    level = int(np.argmin(work))
+    if work[level] > MOST_PAIRS:
+        return
+    (cell, camera), (other_cell, column) = (_cells(part, level, levels[level]) for part in (boxes, others))
+    breathe()
+    order = np.argsort(camera, kind="stable")  # all that is said of one camera comes together
+    cell, camera = cell[order], camera[order]
+    order = np.argsort(other_cell, kind="stable")
+    other_cell, column = other_cell[order], column[order]
+    start, stop = (np.searchsorted(other_cell, cell, side=side) for side in ("left", "right"))
+    ends = np.append(0, np.flatnonzero(np.diff(camera, append=-1)) + 1)
+    before = np.append(0, np.cumsum(stop - start))[ends]
+    for part in shares(np.diff(before), at_once):
+        own = slice(ends[part.start], ends[part.stop])
+        entry, run = ranges(start[own], (stop - start)[own])
+        near, far = camera[own][run], column[entry]
+        meet = ((boxes[0][near] < others[1][far]) & (others[0][far] < boxes[1][near])).all(axis=1)
+        meet &= cameras.face[near] != owner[far]
+        pairs = np.unique(near[meet] * len(owner) + far[meet])
+        if len(pairs):
+            yield pairs // len(owner), pairs % len(owner)
+
+
+def _boxes(view: View, corners: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarray]:
+    """Boxes `low` and `high` (n, 2) of triangles (3, n, 3) in cells of the grid; those that are not before the eye
+    have none: theirs end before they begin."""
+    flat = corners.reshape(3, -1).T
+    before = (view.depths(flat) > 0.0).reshape(-1, 3).all(axis=1)
+    pixels = np.nan_to_num(view.pixels(flat)).reshape(-1, 3, 2) * scale
+    return (np.where(before[:, None], pixels.min(axis=1), 0.0),
+            np.where(before[:, None], pixels.max(axis=1), -1.0))
+
+
+def _halved(taken: np.ndarray) -> np.ndarray:
+    """Cells of twice the size, which hold any of those `taken`."""
+    taken = np.pad(taken, ((0, taken.shape[0] % 2), (0, taken.shape[1] % 2)))
+    return taken[::2, ::2] | taken[1::2, ::2] | taken[::2, 1::2] | taken[1::2, 1::2]
+
+
+def _extents(boxes: tuple[np.ndarray, np.ndarray], level: int, taken: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """First cell of each box and the cell behind its last, (n, 2) each, column and row."""
+    size = taken.shape[::-1]
+    first = np.clip(np.floor(boxes[0] / 2.0**level), 0, size).astype(np.int64)
+    return first, np.maximum(np.clip(np.floor(boxes[1] / 2.0**level) + 1, 0, size).astype(np.int64), first)
+
+
+def _counts(boxes: tuple[np.ndarray, np.ndarray], level: int, taken: np.ndarray) -> np.ndarray:
+    """How many boxes touch each cell, as (height, width) float64."""
+    first, behind = _extents(boxes, level, taken)
+    # an empty side takes the other away with it
+    real = (behind > first).all(axis=1)
+    first, behind = first[real], behind[real]
+    height, width = taken.shape
+    change = np.zeros((height + 1) * (width + 1))
+    for x, y, sign in ((first, first, 1.0), (behind, first, -1.0), (first, behind, -1.0), (behind, behind, 1.0)):
+        change += sign * np.bincount(y[:, 1] * (width + 1) + x[:, 0], minlength=len(change))
+    return change.reshape(height + 1, width + 1).cumsum(axis=0).cumsum(axis=1)[:height, :width]
+
+
+def _cells(boxes: tuple[np.ndarray, np.ndarray], level: int, taken: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The cells among those `taken` that each box touches, and which box."""
+    first, behind = _extents(boxes, level, taken)
+    y, row = ranges(first[:, 1], behind[:, 1] - first[:, 1])
+    x, run = ranges(first[row, 0], (behind - first)[row, 0])
+    cell, box = y[run] * taken.shape[1] + x, row[run]
+    kept = taken.ravel()[cell]
+    return cell[kept], box[kept]

@@ -1,0 +1,135 @@
+"""Self-occlusion: what nearer parts of the mirror hide of a camera is cut off exactly.
+
+Hidden parts would cost work and, where the hiding part lies closer before them than reflections slide towards the eye,
+come out in front of it. What one triangle hides of a camera is convex (see `scene_contacts`). The borders of those
+parts that no two hiding triangles share are outlines of the mirror, or lines in which it pierces itself; along these
+the camera is cut, and of the pieces those are kept whose middle the eye sees.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from ..cameras import Cameras, MirrorMap, with_pieces
+from ..geometry import SceneFrames, TriangleMesh, View, cross, dot, groups, norm, ranges, rows, shares
+from ..polygons import CONTACT, SCENE_EDGE, SMALLEST, ConvexParts, Lines, divide
+from ..support import breathe
+from .eye_plane import triangles_before_eye
+from .mirror_visibility import DepthGrid
+from .picture_pairs import pairs_in_picture
+from .scene_contacts import hidden_sides
+
+PAIRS_AT_ONCE = 1 << 17
+MOST_PIECES = 1 << 20  # as many as cameras are cut into altogether
+MOST_HIDING = 64  # triangles that each hide a part of one camera; with more it is left whole
+DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden places lie; doubled faces hide nothing
+
+
+def without_occluded(view: View, mirror_map: MirrorMap, mirror: TriangleMesh, cameras: Cameras,
+                     grid: DepthGrid) -> tuple[Cameras, int, int]:
+    """Cameras without the parts that other triangles of the mirror hide; how many were cut, and how many are left
+    whole, hidden parts and all, for too much of the mirror lies over them."""
+    mirror, owner = triangles_before_eye(view, mirror, np.unique(cameras.face))
+    frames = SceneFrames.of(mirror, np.arange(len(owner)))
+    shown = np.ones(len(cameras), dtype=bool)
+    parts = []
+    for pairs in pairs_in_picture(view, cameras, mirror, owner, grid, PAIRS_AT_ONCE):
+        breathe()
+        parts.append(_hidden_parts(*_hiding(view, cameras, frames, mirror.positions, *pairs), shown))
+    if not parts:
+        return cameras, 0, 0
+    count = sum(np.bincount(part[2], minlength=len(cameras)) for part in parts)
+    crowded = shown & (count > MOST_HIDING)
+    hidden, sides, camera, column = _joined(parts, shown & ~crowded)
+    whole = shown.copy()
+    if len(camera):
+        lines = _outlines(view, frames, mirror.positions, hidden, sides, camera, column)
+        cut_cameras = np.unique(camera)
+        owner, pieces = divide(cut_cameras, lines, MOST_PIECES)
+        parent, triangles = _seen_pieces(cut_cameras, owner, pieces, camera, sides)
+        whole[cut_cameras] = False
+        cut = with_pieces(mirror_map, cameras, whole, parent, triangles)[0]
+    else:
+        cut = cameras.select(whole)
+    return cut, int((count > 0).sum() - crowded.sum()), int(crowded.sum())
+
+
+def _joined(parts: list, kept: np.ndarray):
+    """The hidden parts of the cameras `kept` (n,), joined."""
+    hidden, start = [], 0
+    for part, _, camera, _ in parts:
+        part = part.select(kept[camera])
+        hidden.append((part.weights, part.after, part.polygon + start))
+        start += int(kept[camera].sum())
+    weights, after, polygon = (np.concatenate(side, axis=-1) for side in zip(*hidden))
+    chosen = [kept[part[2]] for part in parts]
+    sides, camera, column = (np.concatenate([part[k][..., own] for part, own in zip(parts, chosen)], axis=-1)
+                             for k in (1, 2, 3))
+    return ConvexParts(weights, after, polygon), sides, camera, column
+
+
+def _hiding(view, cameras, frames, positions, camera, column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The pairs in which the triangle may hide a part of the camera, behind its four functions; see `hidden_sides`."""
+    sides, solid = hidden_sides(view, cameras, frames, positions, camera, column)
+    size = np.ptp(cameras.places, axis=1).max()
+    sides[3] -= DEEPER * size * norm(frames.normal)[column]
+    chosen = np.flatnonzero(solid & (sides.max(axis=1) > 0.0).all(axis=0))
+    camera, column, sides = camera[chosen], column[chosen], sides[:, :, chosen]
+    return sides, camera, column
+
+
+def _hidden_parts(sides, camera, column, shown):
+    """What each pair's triangle hides of its camera, without the pairs in which that is nothing; takes the cameras of
+    which one triangle hides all from those `shown` (n,)."""
+    hidden = ConvexParts.whole(len(camera))
+    for label, values in zip((SCENE_EDGE, SCENE_EDGE + 1, SCENE_EDGE + 2, CONTACT), sides):
+        hidden = hidden.cut(values, label)
+    area = hidden.areas(len(camera))
+    real = area > SMALLEST
+    shown[camera[area > 1.0 - SMALLEST]] = False
+    real &= shown[camera]
+    return hidden.select(real), sides[:, :, real], camera[real], column[real]
+
+
+def _outlines(view, frames, positions, hidden: ConvexParts, sides, camera, column) -> Lines:
+    """The borders of the hidden parts that no two triangles side by side share."""
+    corner = np.flatnonzero(hidden.after >= SCENE_EDGE)
+    pair, label = hidden.polygon[corner], hidden.after[corner].astype(np.int64) - SCENE_EDGE
+    on_side = label < 3
+    _, vertex = np.unique(positions, axis=0, return_inverse=True)
+    vertices, own = frames.vertices[:, column[pair]], np.arange(len(pair))
+    a, b, third = (vertices[(label + step) % 3, own] for step in (1, 2, 0))
+    turned = vertex[a] > vertex[b]
+    a, b = np.where(turned, b, a), np.where(turned, a, b)
+    pa, pb, pc = (rows(positions[v]) for v in (a, b, third))
+    if view.orthographic:
+        across = dot(cross(pb - pa, view.forward[:, None]), pc - pa) > 0.0
+    else:
+        eye = view.eye[:, None]
+        across = dot(cross(pa - eye, pb - eye), pc - eye) > 0.0
+    first, edge = groups(camera[pair], vertex[a], vertex[b])
+    both = np.ones(len(first), dtype=bool)
+    for side in (across, ~across):
+        both &= np.bincount(edge[on_side & side], minlength=len(first)) > 0
+    outline = ~(on_side & both[edge])
+    corner, pair, label = corner[outline], pair[outline], label[outline]
+    return Lines(camera[pair], sides[label, :, pair].T, hidden.weights[:, corner],
+                  hidden.weights[:, hidden.following()[corner]])
+
+
+def _seen_pieces(cameras, owner, pieces: ConvexParts, camera, sides) -> tuple[np.ndarray, np.ndarray]:
+    """The pieces that no triangle hides, as triangles: the camera each lies in and its corners' weights (3, 3, n)."""
+    count = np.bincount(pieces.polygon, minlength=len(owner))
+    middle = np.stack([np.bincount(pieces.polygon, weight, minlength=len(owner)) for weight in pieces.weights])
+    middle /= np.maximum(count, 1)
+    order = np.argsort(camera, kind="stable")
+    start, stop = (np.searchsorted(camera[order], cameras[owner], side=side) for side in ("left", "right"))
+    seen = np.ones(len(owner), dtype=bool)
+    for part in shares(stop - start, PAIRS_AT_ONCE):
+        breathe()
+        entry, piece = ranges(start[part], (stop - start)[part])
+        piece += part.start
+        behind = ((sides[:, :, order[entry]] * middle[:, piece]).sum(axis=1) > 0.0).all(axis=0)
+        seen[piece[behind]] = False
+    seen &= pieces.areas(len(owner)) > SMALLEST
+    piece, weights = pieces.select(seen).triangles(int(seen.sum()))
+    return cameras[owner[seen][piece]], weights
