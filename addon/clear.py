@@ -3,10 +3,8 @@ from __future__ import annotations
 
 import bpy
 
-from .disc_nodes import disc_nodes, forget_nodes
-from .roles import results_of
-from .unforeseen import in_one_sentence
-from .write_object import show_to_camera
+from .blender_data import disc_nodes, forget_nodes, results_of, show_to_camera
+from .faults import in_one_sentence
 
 
 def results_to_clear(context: bpy.types.Context) -> list:

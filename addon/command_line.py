@@ -11,14 +11,13 @@ import bpy
 
 from .. import core
 from . import benchmark
+from .blender_data import Participants, choose
 from .compare import compare
 from .compare import summary as comparison
+from .faults import STATUS, sentence
 from .files import check_place, save_blend, staged
 from .generate import Outcome, generation
-from .interrupts import STATUS
 from .properties import METHODS, PLACEMENTS, settings_of
-from .roles import Participants, choose
-from .unforeseen import sentence
 
 COMMAND = "reflection_mesh"
 _commands = []

@@ -8,20 +8,15 @@ import bpy
 import numpy as np
 
 from ..core import ReflectionError, Settings
-from .all_or_nothing import AllOrNothing
+from .blender_data import Participants, participants, read_view, results_of
 from .clear import clear
-from .compare_numbers import measure, without_packing
-from .compare_pictures import render_comparison
-from .compare_report import write_report
-from .cycles_scene import copied_scene
+from .comparison import load_pictures, remember, render_comparison, show_picture, write_report
+from .faults import AllOrNothing, in_one_sentence
 from .files import staged
 from .generate import generation
-from .picture_metrics import picture_errors
+from .judge import copied_scene
+from .metrics import measure, picture_errors, without_packing
 from .properties import SettingsProperties, settings_of
-from .read_view import read_view
-from .roles import Participants, participants, results_of
-from .show_comparison import load_pictures, remember, show_picture
-from .unforeseen import in_one_sentence
 
 # Blender 4.5 and newer want to be told that a path may start with "//"; older ones do not know the word
 RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()

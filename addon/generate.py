@@ -8,16 +8,20 @@ from dataclasses import dataclass
 import bpy
 
 from .. import core
-from .all_or_nothing import AllOrNothing
-from .join_meshes import read_mirror, read_scene
+from .blender_data import (
+    Participants,
+    choose,
+    mesh_arrays,
+    origin_of,
+    point_arrays,
+    read_mirror,
+    read_scene,
+    read_view,
+    write_object,
+)
+from .faults import AllOrNothing, SteppedOperator
 from .properties import SettingsProperties, settings_of
-from .read_view import read_view
-from .roles import Participants, choose
 from .shortcomings import shortcomings
-from .stepped_operator import SteppedOperator
-from .write_mesh import mesh_arrays
-from .write_object import origin_of, write_object
-from .write_points import point_arrays
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1

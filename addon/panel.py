@@ -4,7 +4,8 @@ from __future__ import annotations
 import bpy
 
 from ..core.result.reflection_mesh import filled_share
-from . import records, show_comparison
+from .blender_data import records
+from .comparison import show_comparison
 from .properties import SETTINGS
 
 

@@ -55,4 +55,6 @@ def _run(arguments: list[str], scene: str) -> int:
 
 
 if __name__ == "__main__":
+    # Python puts this folder first, where Blender's own add-ons would find ours in place of theirs
+    sys.path.pop(0)
     sys.exit(main(sys.argv[1:]))

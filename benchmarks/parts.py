@@ -63,7 +63,7 @@ def _generated(sample: str) -> tuple:
         if modifier.type == "SUBSURF":
             # what is reflected is the viewport's mesh: a render shows no finer one
             modifier.render_levels = modifier.levels
-    chosen = _room("addon.roles").choose(bpy.context)
+    chosen = _room("addon.blender_data.roles").choose(bpy.context)
     steps = _room("addon.generate").generation(bpy.context, chosen, _room("core").Settings())
     while True:
         try:

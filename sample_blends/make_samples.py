@@ -17,8 +17,8 @@ from math import pi, radians
 from pathlib import Path
 
 os.environ["HOME"] = os.sep  # a .blend remembers the home folder of whoever wrote it, in its file browsers
-import bmesh
 import bpy  # first: outside Blender it is what makes bmesh and mathutils importable
+import bmesh
 import numpy as np
 from mathutils import Vector
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from ...core.rivals import PrimaryHits
-from ..report_data import Run
+from ..report import Run
 from .case import Case
 from .truth import Truth
 

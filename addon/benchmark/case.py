@@ -7,10 +7,8 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, TriangleMesh, View
-from ..cycles_truth import polygons
-from ..join_meshes import DiffuseScene, read_mirror, read_scene
-from ..read_view import read_view, render_size
-from ..roles import choose
+from ..blender_data import DiffuseScene, choose, read_mirror, read_scene, read_view, render_size
+from ..judge import polygons
 
 LEAST_PIXELS = 8
 

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from ...core import ReflectionError
 from ...core.rivals import METHODS, primary_hits
 from ...core.rivals.made_scenes import MadeScene, with_mirror_triangles, with_vertices
-from ..report_data import Growth
-from ..rival_bvhtree import RIVAL as BVHTREE
+from ..report import Growth
+from .rival_bvhtree import RIVAL as BVHTREE
 
 PIXELS = 512
 VERTICES = (1_000, 3_000, 10_000, 30_000, 100_000, 1_000_000)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.rivals import RivalPicture
-from ..compare_numbers import OTHER_SURFACE
+from ..metrics import OTHER_SURFACE
 from .case import Case
 from .truth import Truth
 
@@ -49,7 +49,7 @@ def errors(case: Case, truths: list[Truth], made: Sampled) -> dict:
         `mean_error_px`: the displacement, at most one pixel, averaged over the places at which the truth shows the
         scene; a hole or a wrong layer counts as one there, and each place of spill adds one. `displacement_px`:
         median, p95, p99 and max where the same surface is shown. `coverage_percent`: hole, spill, wrong layer and
-        all, of the judged places of the mirror. All as `compare_numbers.measure` defines them.
+        all, of the judged places of the mirror. All as `pixel_errors.measure` defines them.
     """
     tallies = [_tally(case, truth, *look(made, truth)) for truth in truths]
     displacement = np.concatenate([tally.pop("displacement") for tally in tallies])

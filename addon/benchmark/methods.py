@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 
 from ...core.rivals import METHODS as CORE
 from ...core.rivals import PrimaryHits, Rival, RivalPicture, primary_hits
-from ..rival_bvhtree import RIVAL as BVHTREE
 from .case import Case
 from .judging import Sampled
+from .rival_bvhtree import RIVAL as BVHTREE
 
 EYE = "more places seen by the eye"
 SAMPLES = "samples across a pixel"

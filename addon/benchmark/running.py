@@ -7,7 +7,7 @@ import numpy as np
 
 from ...core import ReflectionError
 from ...core.rivals import PrimaryHits
-from ..report_data import LEAST, Run, pareto
+from ..report import LEAST, Run, pareto
 from .case import Case
 from .judging import Sampled, errors
 from .methods import Method

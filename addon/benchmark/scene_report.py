@@ -12,15 +12,11 @@ import numpy as np
 from ...core import ReflectionError, Settings, reflect
 from ...core.rivals import PrimaryHits, primary_hits
 from ...core.rivals.forward import drawn_mesh
-from ..compare_images import comparison_pictures
-from ..compare_numbers import NOTHING, CodedPicture, measure
-from ..compare_pictures import pictures
-from ..cycles_codes import CodedMaterials
-from ..cycles_scene import CopiedScene, copied_scene
-from ..cycles_truth import dress, reflecting
-from ..report_data import Scene
-from ..write_mesh import mesh_arrays, write_mesh
-from ..write_object import RAYS, origin_of
+from ..blender_data import RAYS, mesh_arrays, origin_of, write_mesh
+from ..comparison import comparison_pictures, pictures
+from ..judge import CodedMaterials, CopiedScene, copied_scene, dress, reflecting
+from ..metrics import NOTHING, CodedPicture, measure
+from ..report import Scene
 from .answer import facts, summary
 from .case import Case, read_case
 from .methods import METHODS

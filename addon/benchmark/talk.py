@@ -6,7 +6,7 @@ from functools import partial
 from ...core.rivals import METHODS, primary_hits
 from ...core.rivals.made_scenes import talk_setting
 from ...core.rivals.morphing import morphed
-from ..report_data import Cost
+from ..report import Cost
 
 KINDS = {"intersections": "Ti", "traversals": "Tt", "projections": "Tp"}
 LINES = (

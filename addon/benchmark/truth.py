@@ -14,11 +14,9 @@ import numpy as np
 
 from ...core import View
 from ...core.rivals import eye_depths
-from .. import compat, cycles_render
-from ..compare_numbers import ITSELF, NOTHING, CodedPicture, motion_per_pixel
-from ..cycles_codes import CodedMaterials
-from ..cycles_scene import CopiedScene
-from ..cycles_truth import CodedTruth, lowest_corner
+from ..blender_data import compat
+from ..judge import CodedMaterials, CodedTruth, CopiedScene, cycles_render, lowest_corner
+from ..metrics import ITSELF, NOTHING, CodedPicture, motion_per_pixel
 from .case import Case
 
 SEED = 20060301

@@ -10,9 +10,7 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 
-from ..report_data import Report, Scene, csv_text, document, run_rows
-from ..report_page import page
-from ..report_plots import plot_files
+from ..report import Report, Scene, csv_text, document, page, plot_files, run_rows
 from .answer import NOTES
 from .growth import growths
 from .scene_report import Options

@@ -8,7 +8,7 @@ from contextlib import contextmanager, suppress
 from itertools import count
 
 from ...core import ReflectionError
-from ..all_or_nothing import AllOrNothing
+from ..faults import AllOrNothing
 from .scratch import scratch_folder
 
 

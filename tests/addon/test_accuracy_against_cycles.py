@@ -10,8 +10,8 @@ import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
-import bmesh
 import bpy
+import bmesh
 import numpy as np
 import pytest
 from mathutils import Matrix

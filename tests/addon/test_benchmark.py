@@ -17,9 +17,10 @@ PIXELS = 96
 
 @pytest.fixture(scope="module")
 def rooms(room) -> SimpleNamespace:
-    names = ("benchmark", "compare_numbers", "command_line", "cycles_scene", "report_data")
+    names = ("benchmark", "metrics.pixel_errors", "command_line", "judge.cycles_scene", "report.report_data")
     inner = ("case", "growth", "judging", "methods", "running", "scene_report", "talk", "truth")
-    found = {name: room(f"addon.{name}") for name in names} | {name: room(f"addon.benchmark.{name}") for name in inner}
+    names += tuple(f"benchmark.{name}" for name in inner)
+    found = {name.rpartition(".")[2]: room(f"addon.{name}") for name in names}
     return SimpleNamespace(core=room("core"), rivals=room("core.rivals"), **found)
 
 
@@ -101,10 +102,10 @@ def test_errors_at_the_centres_are_those_of_a_comparison(rooms, ball):
     picture = made(rooms, scene, "ENVIRONMENT", 64).picture
     found = rooms.judging.errors(scene.case, [scene.centres], rooms.judging.Sampled(picture))
     shown, triangle = picture.triangle >= 0, np.maximum(picture.triangle, 0)
-    coded = rooms.compare_numbers.CodedPicture(np.where(shown, scene.case.scene.source_object[triangle], -1),
+    coded = rooms.pixel_errors.CodedPicture(np.where(shown, scene.case.scene.source_object[triangle], -1),
                                                scene.case.polygon[triangle], picture.position)
     mirror, bent, truth = scene.pictures
-    expected = rooms.compare_numbers.measure(mirror, bent, truth, coded)
+    expected = rooms.pixel_errors.measure(mirror, bent, truth, coded)
     for name in ("hole", "spill", "wrong_layer", "all"):
         assert found["coverage_percent"][name] == pytest.approx(expected.numbers["coverage_percent"][name], abs=1e-9)
     for name in ("median", "p99", "max"):

@@ -15,9 +15,9 @@ COUNTED = ("objects", "meshes", "materials", "scenes", "cameras", "lights", "wor
 @pytest.fixture(scope="module")
 def rooms(room) -> SimpleNamespace:
     """The extension's rooms for comparing."""
-    names = ("compat", "compare", "compare_numbers", "compare_pictures", "cycles_codes", "cycles_render",
-             "cycles_scene", "read_view")
-    return SimpleNamespace(**{name: room(f"addon.{name}") for name in names})
+    names = ("blender_data.compat", "compare", "metrics.pixel_errors", "comparison.compare_pictures",
+             "judge.cycles_codes", "judge.cycles_render", "judge.cycles_scene", "blender_data.read_view")
+    return SimpleNamespace(**{name.rpartition(".")[2]: room(f"addon.{name}") for name in names})
 
 
 # ---- arithmetic ---------------------------------------------------------------------------------------------------
@@ -30,25 +30,25 @@ def plane_picture(numbers, step=(0.5, 0.25), shear=0.0):
 
 
 def test_motion_is_the_larger_step_of_both_axes(rooms):
-    truth = plane_picture(rooms.compare_numbers, shear=1.2)
-    assert np.allclose(rooms.compare_numbers.motion_per_pixel(truth), np.hypot(1.2, 0.25), rtol=1e-12)
+    truth = plane_picture(rooms.pixel_errors, shear=1.2)
+    assert np.allclose(rooms.pixel_errors.motion_per_pixel(truth), np.hypot(1.2, 0.25), rtol=1e-12)
 
 
 def test_motion_does_not_cross_to_another_object(rooms):
-    truth = plane_picture(rooms.compare_numbers)
+    truth = plane_picture(rooms.pixel_errors)
     truth.source[:, 15:] = 1
     truth.position[:, 15:] += 100.0
-    assert np.allclose(rooms.compare_numbers.motion_per_pixel(truth), 0.5, rtol=1e-12)
+    assert np.allclose(rooms.pixel_errors.motion_per_pixel(truth), 0.5, rtol=1e-12)
 
 
 def test_motion_of_a_lone_pixel_is_unknown(rooms):
-    truth = plane_picture(rooms.compare_numbers)
+    truth = plane_picture(rooms.pixel_errors)
     truth.source[5, 5] = 3
-    assert np.isnan(rooms.compare_numbers.motion_per_pixel(truth)[5, 5])
+    assert np.isnan(rooms.pixel_errors.motion_per_pixel(truth)[5, 5])
 
 
 def test_a_shift_is_measured_in_pixels(rooms):
-    numbers = rooms.compare_numbers
+    numbers = rooms.pixel_errors
     truth, shown = plane_picture(numbers), plane_picture(numbers)
     shown.position[..., 0] += 0.2
     mirror, bent = np.ones((20, 30), dtype=bool), np.zeros((20, 30), dtype=bool)
@@ -59,7 +59,7 @@ def test_a_shift_is_measured_in_pixels(rooms):
 
 
 def test_each_kind_of_wrong_pixel_is_counted(rooms):
-    numbers = rooms.compare_numbers
+    numbers = rooms.pixel_errors
     truth, shown = plane_picture(numbers), plane_picture(numbers)
     mirror, bent = np.ones((20, 30), dtype=bool), np.zeros((20, 30), dtype=bool)
     mirror[:, :2] = False
@@ -81,7 +81,7 @@ def test_each_kind_of_wrong_pixel_is_counted(rooms):
 
 
 def test_far_off_on_the_same_face_is_displacement_and_not_another_layer(rooms):
-    numbers = rooms.compare_numbers
+    numbers = rooms.pixel_errors
     truth, shown = plane_picture(numbers), plane_picture(numbers)
     shown.position[..., 1] += 4.0
     everywhere = np.ones((20, 30), dtype=bool)

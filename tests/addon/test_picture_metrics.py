@@ -12,8 +12,8 @@ EVERYWHERE = np.ones(SIZE, dtype=bool)
 
 @pytest.fixture(scope="module")
 def rooms(room) -> SimpleNamespace:
-    names = ("picture_metrics", "picture_flip", "picture_filters")
-    return SimpleNamespace(**{name: room(f"addon.{name}") for name in names})
+    names = ("metrics.picture_metrics", "metrics.picture_flip", "metrics.picture_filters")
+    return SimpleNamespace(**{name.rpartition(".")[2]: room(f"addon.{name}") for name in names})
 
 
 def painted(seed: int = 3) -> np.ndarray:

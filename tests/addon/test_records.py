@@ -120,7 +120,7 @@ def test_a_redraw_reads_a_record_once_and_never_the_disk(scene, room, tmp_path, 
     def touched(*_, **__):
         raise AssertionError("A redraw touched the disk, or read a record again.")
     for place, name in ((os, "stat"), (os, "lstat"), (os, "listdir"), (os, "scandir"), (os, "open"), (io, "open"),
-                        (Path, "is_file"), (Path, "exists"), (room("addon.records").json, "loads")):
+                        (Path, "is_file"), (Path, "exists"), (room("addon.blender_data.records").json, "loads")):
         monkeypatch.setattr(place, name, touched)
     assert drawn(room).made["wm.url_open"].url.startswith("file:///")
     monkeypatch.undo()
@@ -138,7 +138,7 @@ def test_a_folder_that_a_file_brings_is_not_offered(scene, room, tmp_path, folde
 def test_the_page_is_offered_in_its_session_and_scene_alone(scene, room, tmp_path):
     bpy.ops.reflection_mesh.compare(filepath=str(tmp_path / "one"), samples=1)
     first = scene.reflection_mesh.comparison
-    address = room("addon.show_comparison").page_address
+    address = room("addon.comparison.show_comparison").page_address
     other = bpy.data.scenes.new("Other")
     other.reflection_mesh.comparison = first
     assert address(other) == "" and address(scene) == (tmp_path / "one" / "report.html").as_uri()

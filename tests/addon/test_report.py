@@ -20,9 +20,10 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 @pytest.fixture(scope="module")
 def rooms(room) -> SimpleNamespace:
-    names = ("colour_map", "compare_images", "compare_numbers", "panel", "png_file", "report_data", "report_page",
-             "show_comparison", "svg_axes", "svg_plots")
-    return SimpleNamespace(**{name: room(f"addon.{name}") for name in names})
+    names = ("report.colour_map", "comparison.compare_images", "metrics.pixel_errors", "panel", "report.png_file",
+             "report.report_data", "report.report_page", "comparison.show_comparison", "report.svg_axes",
+             "report.svg_plots")
+    return SimpleNamespace(**{name.rpartition(".")[2]: room(f"addon.{name}") for name in names})
 
 
 def decoded(data: bytes, folder) -> np.ndarray:
@@ -154,7 +155,7 @@ def test_wrong_pixels_show_in_a_large_picture(rooms):
     empty = np.zeros(shape, dtype=bool)
     hole, mirror = empty.copy(), ~empty
     hole[450, 300] = True
-    measurement = rooms.compare_numbers.Measurement(np.zeros(shape), mirror, hole, empty, empty, {})
+    measurement = rooms.pixel_errors.Measurement(np.zeros(shape), mirror, hole, empty, empty, {})
     names = list(rooms.compare_images.KINDS)
     picture = rooms.compare_images.coverage_picture(mirror, measurement)
     where = np.argwhere(picture == names.index("hole"))
@@ -273,7 +274,7 @@ def test_the_answer_tells_of_what_is_wrong(room):
     report = {"judged_pixels": 1000, "displacement_px": {"median": 0.04, "p99": 0.26},
               "coverage_percent": {"all": 12.5}, "generate_seconds": 0.5, "picture": {"samples": 1, "mirror": {}},
               "render_seconds": {"reference": 3.0, "result": 2.0}}
-    page = room("addon.compare_page")
+    page = room("addon.comparison.compare_page")
     answer, more = page.summary(report)
     assert "87.50 % of the mirror" in answer and "0.26 px" in answer and "0.50 s" in answer
     assert "3.0 s" in answer and "1 sample a pixel" in answer and "125 of 1000 pixels" in more

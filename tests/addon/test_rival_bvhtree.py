@@ -11,7 +11,7 @@ PIXELS = 48
 
 @pytest.mark.parametrize("name", ["sphere", "flat_ortho", "bowl", "sphere_far"])
 def test_its_rays_show_the_truth(room, name):
-    rival, rivals = room("addon.rival_bvhtree").RIVAL, room("core.rivals")
+    rival, rivals = room("addon.benchmark.rival_bvhtree").RIVAL, room("core.rivals")
     case = SCENES[name]((PIXELS, PIXELS))
     truth = trace(case.view, case.mirror, case.scene)
     hits = rivals.primary_hits(case.view, case.mirror, case.scene)
@@ -26,7 +26,7 @@ def test_its_rays_show_the_truth(room, name):
 
 
 def test_blocks_of_pixels_are_those_of_the_other_ray_tracer(room):
-    rival, rivals = room("addon.rival_bvhtree").RIVAL, room("core.rivals")
+    rival, rivals = room("addon.benchmark.rival_bvhtree").RIVAL, room("core.rivals")
     case = SCENES["sphere"]((PIXELS, PIXELS))
     hits = rivals.primary_hits(case.view, case.mirror, case.scene)
     own, other = (method.run(case.view, case.mirror, case.scene, 4, hits) for method in (rival, rivals.METHODS["RAYS"]))

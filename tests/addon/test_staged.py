@@ -72,7 +72,7 @@ def test_a_pipe_in_the_way_stays(saved_scene, tmp_path):
 
 def test_a_full_target_is_named(saved_scene, room, tmp_path, monkeypatch):
     folder = tmp_path / "out"
-    monkeypatch.setattr(room("addon.compare_report"), "page", lambda report: "x" * 5_000_000)
+    monkeypatch.setattr(room("addon.comparison.compare_report"), "page", lambda report: "x" * 5_000_000)
     for existing in (False, True):
         if existing:
             folder.mkdir()
@@ -83,7 +83,7 @@ def test_a_full_target_is_named(saved_scene, room, tmp_path, monkeypatch):
 
 
 def test_a_picture_that_does_not_become_whole_is_told(saved_scene, room, tmp_path, monkeypatch):
-    monkeypatch.setattr(room("addon.compare_images"), "is_whole", lambda path: not path.endswith(".png"))
+    monkeypatch.setattr(room("addon.comparison.compare_images"), "is_whole", lambda path: not path.endswith(".png"))
     assert str(tmp_path / "out") in refused(tmp_path / "out")
 
 

@@ -71,7 +71,7 @@ def sentence_of(operator, capfd, **options) -> str:
 @pytest.mark.parametrize(("verb", "place", "name", "label"), [
     ("generate", "generate", "read_scene", "Generate Reflection"),
     ("generate", "generate", "choose", "Generate Reflection"),
-    ("generate", "write_object", "write_mesh", "Generate Reflection"),
+    ("generate", "blender_data.write_object", "write_mesh", "Generate Reflection"),
     ("compare", "compare", "measure", "Compare with Cycles"),
     ("compare", "compare", "write_report", "Compare with Cycles"),
     ("compare", "compare", "participants", "Compare with Cycles"),
@@ -89,7 +89,7 @@ def test_an_operator_says_one_sentence(scene, room, monkeypatch, capfd, tmp_path
 
 
 def test_a_long_error_is_cut_and_an_empty_one_is_named(room):
-    sentence = room("addon.unforeseen").sentence
+    sentence = room("addon.faults.unforeseen").sentence
     assert len(sentence(KeyError("x" * 10_000), "It")) < 400
     assert "(RuntimeError)" in sentence(RuntimeError(), "It")
 
@@ -135,13 +135,13 @@ def test_what_is_no_exception_passes(scene, room, monkeypatch, tmp_path):
 # ---- all results, or none -----------------------------------------------------------------------------------------
 
 def started(room, **settings):
-    chosen = room("addon.roles").choose(bpy.context)
+    chosen = room("addon.blender_data.roles").choose(bpy.context)
     return room("addon.generate").generation(bpy.context, chosen, room("core").Settings(**settings))
 
 
 def break_second(room, monkeypatch, name: str, error, late: bool = False) -> None:
     """Let the second call of one step of writing fail: before it has done its work, or behind it."""
-    place, count = room("addon.write_object"), []
+    place, count = room("addon.blender_data.write_object"), []
     work = getattr(place, name)
 
     def broken(*arguments):

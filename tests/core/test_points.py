@@ -22,7 +22,7 @@ POINTS = Settings(method="POINTS")
 @pytest.fixture
 def each_for_itself(monkeypatch):
     """No vertex stands for others."""
-    monkeypatch.setattr(core.point_tree, "SMALL", -1.0)
+    monkeypatch.setattr(core.culling.point_tree, "SMALL", -1.0)
 
 
 def points_of(case, **settings):
@@ -178,7 +178,7 @@ def test_nodes_smaller_than_a_pixel_stand_for_their_vertices(monkeypatch):
     case = dense("sphere", 7, 200)
     truth = trace(case.view, case.mirror, case.scene)
     mesh = points_of(case)
-    monkeypatch.setattr(core.point_tree, "SMALL", -1.0)
+    monkeypatch.setattr(core.culling.point_tree, "SMALL", -1.0)
     every = points_of(case)
     assert every.counts["stood_for"] == 0 and mesh.counts["stood_for"] > 0.4 * len(case.scene.positions)
     assert len(mesh.positions) < 0.6 * len(every.positions)

@@ -3,8 +3,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import bmesh
 import bpy
+import bmesh
 import numpy as np
 
 from tests import hard_meshes, shapes

@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core import ReflectionMesh, View
+from ...core import ReflectionMesh, View
 from .join_meshes import DiffuseScene
 from .write_mesh import MOST_UV_MAPS, first
 

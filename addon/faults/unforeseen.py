@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import bpy
 
-from ..core import ReflectionError
+from ...core import ReflectionError
 
 LONGEST = 200   # characters of an error's own words
 

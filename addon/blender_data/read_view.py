@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core import ReflectionError, View
+from ...core import ReflectionError, View
 
 
 def read_view(context: bpy.types.Context, size: tuple[int, int] | None = None) -> View:

@@ -8,10 +8,10 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 
-from ..core import ReflectionError
-from .files import has_room, is_whole, scratch_folder, scratch_is_full
-from .interrupts import interrupt_held
-from .read_view import render_size
+from ...core import ReflectionError
+from ..blender_data import render_size
+from ..faults import interrupt_held
+from ..files import has_room, is_whole, scratch_folder, scratch_is_full
 
 SLOT = "Reflection Comparison"
 OWN_SETTINGS = ("samples", "use_adaptive_sampling", "adaptive_threshold", "adaptive_min_samples", "use_denoising",

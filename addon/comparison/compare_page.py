@@ -1,7 +1,7 @@
 """The words of a comparison's page: its answer, its facts, and how they were measured."""
 from __future__ import annotations
 
-from .report_data import Picture, Scene, number
+from ..report import Picture, Scene, number
 
 NOTES = (
     "Displacement: the scene is rendered once in materials that emit positions, in the mirror and on the mesh. How "

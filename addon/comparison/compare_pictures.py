@@ -7,12 +7,21 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 
-from ..core import ReflectionError
-from . import compat, cycles_render, records
-from .compare_numbers import CodedPicture
-from .cycles_codes import CodedMaterials
-from .cycles_scene import CopiedScene
-from .cycles_truth import CodedTruth, decode, dress, lowest_corner, polygons, reflecting, show
+from ...core import ReflectionError
+from ..blender_data import compat, records
+from ..judge import (
+    CodedMaterials,
+    CodedTruth,
+    CopiedScene,
+    cycles_render,
+    decode,
+    dress,
+    lowest_corner,
+    polygons,
+    reflecting,
+    show,
+)
+from ..metrics import CodedPicture
 
 DEEPEST = 1000  # bounces that are followed; Cycles knows 1024, four of them for other rays
 

@@ -7,11 +7,10 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core import ReflectionMesh, TriangleMesh, View
-from .all_or_nothing import AllOrNothing
+from ...core import ReflectionMesh, TriangleMesh, View
+from ..faults import AllOrNothing, keep_mesh, keep_mirror, keep_object, keep_others_mesh
 from .disc_nodes import hide_discs, show_discs
 from .roles import results_of
-from .take_back import keep_mesh, keep_mirror, keep_object, keep_others_mesh
 from .write_mesh import write_mesh
 from .write_points import write_points
 

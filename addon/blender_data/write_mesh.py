@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core import ReflectionMesh
+from ...core import ReflectionMesh
 from .join_meshes import DiffuseScene
 
 # a Blender mesh holds no more

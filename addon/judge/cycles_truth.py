@@ -4,11 +4,11 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from ..blender_data import is_mirror
+from ..metrics import ITSELF, NOTHING, CodedPicture
 from . import cycles_codes, cycles_render
-from .compare_numbers import ITSELF, NOTHING, CodedPicture
 from .cycles_codes import CodedMaterials
 from .cycles_scene import CopiedScene
-from .mirror_materials import is_mirror
 
 
 class CodedTruth:

@@ -7,11 +7,10 @@ import os
 import bpy
 import numpy as np
 
+from ..metrics import Measurement
+from ..report import Report, csv_text, flat, page
 from .compare_images import comparison_pictures
-from .compare_numbers import Measurement
 from .compare_page import NOTES, environment, scene_of
-from .report_data import Report, csv_text, flat
-from .report_page import page
 
 
 def write_report(folder: str, scene: bpy.types.Scene, reference: np.ndarray, result: np.ndarray, mirror: np.ndarray,

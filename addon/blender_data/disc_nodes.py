@@ -5,7 +5,7 @@ import math
 
 import bpy
 
-from .all_or_nothing import AllOrNothing
+from ..faults import AllOrNothing
 
 MODIFIER = "Reflection Points"
 SIDES = 6  # of a disc; it is the polygon round the circle, so that discs that touch leave no gap

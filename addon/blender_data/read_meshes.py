@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core import ReflectionError
+from ...core import ReflectionError
 from . import compat
 
 FARTHEST = 1e17  # units: squares of what lies somewhat further must still be numbers of single precision

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core import ReflectionError, TriangleMesh
+from ...core import ReflectionError, TriangleMesh
 from .mirror_materials import is_mirror
 from .read_meshes import Placed, read_meshes
 

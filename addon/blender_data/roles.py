@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..core import ReflectionError
+from ...core import ReflectionError
 from .mirror_materials import is_mirror
 
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}

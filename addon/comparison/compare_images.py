@@ -8,11 +8,9 @@ from contextlib import suppress
 import bpy
 import numpy as np
 
-from .colour_map import heat_map
-from .compare_numbers import Measurement
-from .files import is_whole
-from .png_file import png_bytes
-from .report_data import Picture
+from ..files import is_whole
+from ..metrics import Measurement
+from ..report import Picture, heat_map, png_bytes
 
 # what a pixel of holes.png is, and its colour: of M. Okabe and K. Ito's set, safe for all kinds of colour vision
 KINDS = {"no mirror": (20, 20, 20), "left out": (62, 62, 68), "right": (130, 130, 130), "hole": (213, 94, 0),
