@@ -81,12 +81,7 @@ def _room(name: str):
 @contextmanager
 def _nothing_filled() -> Iterator[None]:
     """Leave the step `filling` out of the method: what it would fill stays as clipping left it."""
-    bounce = _room("core.bounce")
-
-    def without(view, mirror_map, cameras, frames, candidates, crowds, met, most):
-        return cameras, frames, candidates, 0, 0
-
-    with mock.patch.object(bounce, "with_crowds", without):
+    with mock.patch.object(_room("core.filling").Crowds, "filled", lambda crowds, candidates: (candidates, 0, 0)):
         yield
 
 

@@ -18,7 +18,7 @@ def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement:
     """The faces as arrays, no two on the same nodes, without unused nodes, all turned to the eye."""
     parts, start = [], 0
     for number, bounce in enumerate(bounces, 1):
-        part = _arrays(view, bounces[0].mirror_map, bounce, met)
+        part = _arrays(view, bounces[0].cameras.mirror_map, bounce, met)
         part["bounces"] = np.full(len(part["triangles"]), number, dtype=np.int8)
         part["triangles"] = part["triangles"] + start
         start += len(part["path_length"])
@@ -29,7 +29,8 @@ def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement:
 
 
 def _arrays(view: View, first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> dict:
-    mirror_map, frames, nodes, faces = bounce.mirror_map, bounce.frames, bounce.nodes, bounce.faces
+    frames, nodes, faces = bounce.frames, bounce.nodes, bounce.faces
+    mirror_map = bounce.cameras.mirror_map
     # mirrors are seen by what they show
     faces = faces.select(~met.shows_mirror(frames)[faces.column])
     # doubled triangles of the scene, and polygons that fold flat, give the same face twice

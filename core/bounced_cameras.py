@@ -6,39 +6,36 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import BouncedMap, Cameras
 from .culling import SceneAndMirrors
-from .geometry import View, groups, norm
+from .geometry import groups, norm
 
 SAME_RAY = 1e-7  # of its length: rays at one node that differ by less are one ray
 PATCHES = 8  # smooth patches of a mirror that meet in a node; more share no corners
 SMALLEST = 1e-4  # square pixels: a smaller image of a mirror shows nothing
 
 
-def bounced_cameras(view: View, bounce: Bounce, met: SceneAndMirrors) -> tuple[BouncedMap, Cameras]:
+def bounced_cameras(bounce: Bounce, met: SceneAndMirrors) -> Cameras:
     """A camera on each face that shows a mirror, sharing the corners at which the ray goes on the same way.
 
     Returns
     -------
-    mirror_map : BouncedMap
-        The map of one bounce more, on the chains of triangles that are seen.
     cameras : Cameras
-        Their faces are the chains.
+        On the map of one bounce more; their faces are the chains of triangles that are seen.
     """
-    frames, nodes, faces = bounce.frames, bounce.nodes, bounce.faces
+    frames, nodes, faces, before = bounce.frames, bounce.nodes, bounce.faces, bounce.cameras.mirror_map
     triangle = frames.triangle[faces.column] - met.diffuse
-    pixels = view.pixels(nodes.place.T)[faces.nodes]
+    pixels = before.view.pixels(nodes.place.T)[faces.nodes]
     u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
     large = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > SMALLEST
     seen = np.flatnonzero(met.shows_mirror(frames)[faces.column] & large)
     face_before, triangle = bounce.cameras.face[faces.camera[seen]], triangle[seen]
     first, chain = groups(face_before, triangle)
-    bounced = BouncedMap(bounce.mirror_map, met.surface, face_before[first], triangle[first],
-                         bounce.mirror_map.unit_rays)
+    bounced = BouncedMap(before, met.surface, face_before[first], triangle[first], before.unit_rays)
 
     node, face = faces.nodes[seen].ravel(), np.repeat(chain, 3)
     origins, rays = bounced.leave(face, bounced.coordinates(face, nodes.place[:, node]))
     corner, chosen = _shared(node, rays)
     places, origins, rays = nodes.place[:, node[chosen]], origins[:, chosen], rays[:, chosen]
-    return bounced, Cameras(corner.reshape(-1, 3), chain, places, rays, origins)
+    return Cameras(corner.reshape(-1, 3), chain, places, rays, origins, bounced)
 
 
 def _shared(node: np.ndarray, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

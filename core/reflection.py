@@ -7,9 +7,17 @@ from dataclasses import replace
 import numpy as np
 
 from .assembly import assemble
-from .bounce import bounced, refined
+from .bounce import Bounce, Task, bounced, refined
 from .bounced_cameras import bounced_cameras
-from .cameras import MirrorMap, cut_at_horizon, in_picture, picture_areas, three_ray_cameras, visible_triangles
+from .cameras import (
+    Cameras,
+    MirrorMap,
+    cut_at_horizon,
+    in_picture,
+    picture_areas,
+    three_ray_cameras,
+    visible_triangles,
+)
 from .culling import PointTree, SceneAndMirrors, SceneTree
 from .filling import Limits, missed_probes
 from .geometry import TriangleMesh, View, area_normals, cross, dot, norm, ordered, rows
@@ -91,49 +99,55 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     progress.next(0.1, "cameras")
     mirror_map = MirrorMap(view, mirror, settings.method == "PARALLEL")
     cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
-    cameras = cameras.select(in_picture(view, cameras))
+    cameras = cameras.select(in_picture(cameras))
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
-    cameras = cut_before_eye(view, mirror_map, cameras)
-    cameras, grid = without_hidden(view, cameras)
-    cameras, occluded, crowded = without_occluded(view, mirror_map, mirror, cameras, grid)
-    cameras = cut_at_horizon(view, mirror_map, cameras)
+    cameras = cut_before_eye(cameras)
+    cameras, grid = without_hidden(cameras)
+    cameras, occluded, crowded = without_occluded(mirror, cameras, grid)
+    cameras = cut_at_horizon(cameras)
     progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
                   limited=crowded)
 
     limits = Limits.of(settings, grid.mirror_pixels, len(met.triangles))
     if settings.method == "POINTS":
-        cameras = refined(view, mirror_map, cameras, met, None, settings.tolerance, limits.cameras, progress)
-        mesh = reflected_points(view, mirror_map, cameras, tree, met, settings.placement, progress)
+        cameras = refined(cameras, Task(met, settings, limits, True, progress), None)
+        mesh = reflected_points(cameras, tree, met, settings.placement, progress)
         progress.done("points", **mesh.counts)
         return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds)
-
-    bounces = []
-    for number in range(settings.depth):
-        progress.start, progress.share = 0.15 + 0.8 * number / settings.depth, 0.8 / settings.depth
-        last = number + 1 == settings.depth
-        bounces.append(bounced(view, mirror_map, cameras, met, settings, limits, last, progress))
-        if not last:
-            mirror_map, cameras = bounced_cameras(view, bounces[-1], met)
-            # of mirrors that scatter what they show only the largest parts are followed
-            limits, found = limits.of_next_bounce(), len(cameras)
-            if found > limits.bounced:
-                largest = np.argsort(-picture_areas(view, cameras), kind="stable")[:limits.bounced]
-                cameras = cameras.select(np.sort(largest))
-            cameras = cut_at_horizon(view, mirror_map, cameras)
-            progress.done("cameras", bounced_cameras=len(cameras), unfollowed=max(found - limits.bounced, 0))
-            if not len(cameras):
-                break
+    bounces = _bounces(cameras, met, settings, limits, progress)
 
     progress.start, progress.share = 0.0, 1.0
     progress.next(0.95, "depth order")
     mesh = in_given_order(assemble(view, bounces, met, settings.placement), tree.given, given)
     progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
-    probes, missed = missed_probes(view, mirror, bounces[0].mirror_map, met, mesh.mirror_position, mesh.triangles)
+    probes, missed = missed_probes(view, mirror, mirror_map, met, mesh.mirror_position, mesh.triangles)
     progress.done("probes", probes=probes, missed=missed)
     left = np.concatenate([bounce.left for bounce in bounces], axis=1)
-    return replace(mesh, counts=progress.counts, seconds=progress.seconds,
-                   estimated_error=_estimate(*left))
+    return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=_estimate(*left))
+
+
+def _bounces(cameras: Cameras, met: SceneAndMirrors, settings: Settings, limits: Limits,
+             progress: Progress) -> list[Bounce]:
+    """What is seen after one mirror, after two, and so on to the depth asked for, or until nothing is left to see."""
+    bounces = []
+    for number in range(settings.depth):
+        progress.start, progress.share = 0.15 + 0.8 * number / settings.depth, 0.8 / settings.depth
+        last = number + 1 == settings.depth
+        bounces.append(bounced(cameras, Task(met, settings, limits, last, progress)))
+        if last:
+            break
+        cameras = bounced_cameras(bounces[-1], met)
+        # of mirrors that scatter what they show only the largest parts are followed
+        limits, found = limits.of_next_bounce(), len(cameras)
+        if found > limits.bounced:
+            largest = np.argsort(-picture_areas(cameras), kind="stable")[:limits.bounced]
+            cameras = cameras.select(np.sort(largest))
+        cameras = cut_at_horizon(cameras)
+        progress.done("cameras", bounced_cameras=len(cameras), unfollowed=max(found - limits.bounced, 0))
+        if not len(cameras):
+            break
+    return bounces
 
 
 def _estimate(straying: np.ndarray, length: np.ndarray) -> float:

@@ -35,6 +35,7 @@ class BouncedMap(ReflectionMap):
 
     def __init__(self, before: ReflectionMap, surface: MirrorSurface, face_before: np.ndarray, triangle: np.ndarray,
                  orthographic: bool) -> None:
+        self.view, self.bounce = before.view, before.bounce + 1
         self.before, self.surface = before, surface
         self.face_before, self.triangle = face_before, triangle
         self.orthographic = orthographic

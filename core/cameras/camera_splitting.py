@@ -3,15 +3,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import View, groups, shared_edges, split, unit
-from .reflection_map import ReflectionMap
+from ..geometry import groups, shared_edges, split, unit
 from .three_ray_cameras import Cameras
 
 WELD = 1e-9  # of the mirror's size: corners closer than this are one
 SAME_RAY = 1e-6  # radians: at a sharp edge of the mirror each side has rays of its own
 
 
-def split_cameras(view: View, mirror_map: ReflectionMap, cameras: Cameras,
+def split_cameras(cameras: Cameras,
                   marked: np.ndarray) -> tuple[Cameras, np.ndarray, np.ndarray]:
     """Cameras split along the `marked` (n, 3) edges, each from a corner to the next, on both sides of each edge.
 
@@ -27,14 +26,15 @@ def split_cameras(view: View, mirror_map: ReflectionMap, cameras: Cameras,
     ends, first, edge = shared_edges(cameras.corners)
     chosen = np.zeros(len(ends), dtype=bool)
     chosen[edge[marked]] = True
-    cameras, parent = split_at(cameras, chosen, edge, *edge_middles(mirror_map, cameras, ends, first))
-    seen = in_picture(view, cameras)
+    cameras, parent = split_at(cameras, chosen, edge, *edge_middles(cameras, ends, first))
+    seen = in_picture(cameras)
     return cameras.select(seen), parent[seen], chosen[edge].any(axis=1)[parent[seen]]
 
 
-def edge_middles(mirror_map: ReflectionMap, cameras: Cameras, ends: np.ndarray,
+def edge_middles(cameras: Cameras, ends: np.ndarray,
                  first: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Places (3, e) halfway along edges `ends` (e, 2), and origins and directions of the true rays there."""
+    mirror_map = cameras.mirror_map
     middles = 0.5 * (cameras.places[:, ends[:, 0]] + cameras.places[:, ends[:, 1]])
     face = cameras.face[first // 3]
     return middles, *mirror_map.leave(face, mirror_map.coordinates(face, middles))
@@ -51,10 +51,11 @@ def split_at(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np
                             origins[:, marked], rays[:, marked]), parent
 
 
-def with_pieces(mirror_map: ReflectionMap, cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
+def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
                 weights: np.ndarray) -> tuple[Cameras, np.ndarray]:
     """The `whole` cameras (n,) and behind them pieces (m) of the cameras `parent`, with weights (3, 3, m) of their
     corners, entry [i, k]: weight i of corner k; and the parents. New corners are welded where place and ray agree."""
+    mirror_map = cameras.mirror_map
     places = np.einsum("xjn,jkn->xkn", np.take(cameras.places, cameras.corners[parent].T, axis=1), weights)
     places, face = places.reshape(3, -1), np.tile(cameras.face[parent], 3)
     corner = np.empty(len(face), dtype=np.int64)
@@ -75,8 +76,9 @@ def with_pieces(mirror_map: ReflectionMap, cameras: Cameras, whole: np.ndarray, 
                             rays[:, first]), parent
 
 
-def in_picture(view: View, cameras: Cameras) -> np.ndarray:
+def in_picture(cameras: Cameras) -> np.ndarray:
     """Which cameras may touch the picture: not all three corners beyond the same side of the view's pyramid."""
+    view = cameras.view
     clip = view.clip(cameras.places.T)
     margin = 1.0 + 2.0 / np.array(view.resolution)
     x, y, w = clip[:, 0], clip[:, 1], clip[:, 3]

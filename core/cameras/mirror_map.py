@@ -24,6 +24,7 @@ class MirrorMap(ReflectionMap):
     """
 
     def __init__(self, view: View, mirror: TriangleMesh, parallel: bool = False) -> None:
+        self.view, self.bounce = view, 1
         self.surface, self._mirror = MirrorSurface(mirror), mirror
         self.orthographic = view.orthographic
         self.eye, self.forward = view.eye[:, None], view.forward[:, None]

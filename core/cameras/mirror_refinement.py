@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import View, dot, norm, shared_edges, unit
+from ..geometry import dot, norm, shared_edges, unit
 from ..support import breathe
 from .camera_splitting import edge_middles, in_picture, split_at
-from .reflection_map import ReflectionMap
 from .shading_horizon import beyond_horizon
 from .three_ray_cameras import Cameras
 
@@ -20,7 +19,7 @@ LEVELS = 12
 SHORTEST_EDGE = 0.5  # pixels: a shorter edge cannot stray by a visible amount
 
 
-def refine_mirror(view: View, mirror_map: ReflectionMap, cameras: Cameras, tolerance: float, reach: float,
+def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
                   maximum: int) -> tuple[Cameras, bool]:
     """Cameras in the picture, split until each edge strays by less than `tolerance` pixels.
 
@@ -37,19 +36,19 @@ def refine_mirror(view: View, mirror_map: ReflectionMap, cameras: Cameras, toler
     limited : bool
         Whether the bound on depth or count stopped the refinement.
     """
-    cameras, finished = cameras.select(in_picture(view, cameras)), []
+    cameras, finished = cameras.select(in_picture(cameras)), []
     limited = True
     for _ in range(LEVELS):
         breathe()
         if sum(map(len, finished)) + len(cameras) > maximum:
             break
         ends, first, edge = shared_edges(cameras.corners)
-        middles, origins, rays = edge_middles(mirror_map, cameras, ends, first)
-        marked = _straying(view, cameras, ends, rays, reach) > tolerance
+        middles, origins, rays = edge_middles(cameras, ends, first)
+        marked = _straying(cameras, ends, rays, reach) > tolerance
         # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
         asked = np.flatnonzero(marked[edge].any(axis=1))
         worth = np.zeros(len(ends), dtype=bool)
-        worth[edge[asked[~beyond_horizon(mirror_map, cameras.select(asked))]]] = True
+        worth[edge[asked[~beyond_horizon(cameras.select(asked))]]] = True
         marked &= worth
         if not marked.any():
             limited = False
@@ -58,14 +57,15 @@ def refine_mirror(view: View, mirror_map: ReflectionMap, cameras: Cameras, toler
         divided = marked[edge].any(axis=1)
         finished.append(cameras.select(~divided))
         cameras, _ = split_at(cameras.select(divided), marked, edge[divided], middles, origins, rays)
-        cameras = cameras.select(in_picture(view, cameras))
+        cameras = cameras.select(in_picture(cameras))
     parts = [*finished, cameras]
     return Cameras(np.concatenate([part.corners for part in parts]), np.concatenate([part.face for part in parts]),
-                   cameras.places, cameras.rays, cameras.origins), limited
+                   cameras.places, cameras.rays, cameras.origins, cameras.mirror_map), limited
 
 
-def _straying(view: View, cameras: Cameras, ends: np.ndarray, middle_rays: np.ndarray, reach: float) -> np.ndarray:
+def _straying(cameras: Cameras, ends: np.ndarray, middle_rays: np.ndarray, reach: float) -> np.ndarray:
     """Pixels by which the cameras stray from the true map halfway along edges `ends` (e, 2)."""
+    view = cameras.view
     a, b = ends[:, 0], ends[:, 1]
     va, vb, ra, rb = cameras.origins[:, a], cameras.origins[:, b], cameras.rays[:, a], cameras.rays[:, b]
     with np.errstate(invalid="ignore", over="ignore"):

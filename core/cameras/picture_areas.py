@@ -3,27 +3,28 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import View
 from .three_ray_cameras import Cameras
 
 LEAST_WORTH = 1.0 / 16.0  # square pixels: no camera counts for less
 
 
-def picture_areas(view: View, cameras: Cameras) -> np.ndarray:
+def picture_areas(cameras: Cameras) -> np.ndarray:
     """What cameras (n,) are worth: the pixels that they cover, and a little more."""
-    return LEAST_WORTH + pixels_of(view, cameras)
+    return LEAST_WORTH + pixels_of(cameras)
 
 
-def pixels_of(view: View, cameras: Cameras) -> np.ndarray:
+def pixels_of(cameras: Cameras) -> np.ndarray:
     """About how many pixels of the picture cameras (n,) cover."""
+    view = cameras.view
     pixels = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
     u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
     return 0.5 * np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
 
 
-def covered_pixels(view: View, cameras: Cameras) -> int:
+def covered_pixels(cameras: Cameras) -> int:
     """About how many pixels of the picture cameras cover together, each pixel once."""
+    view = cameras.view
     places = cameras.places[:, cameras.corners].mean(axis=2)
     pixels = np.floor(np.clip(view.pixels(places.T), 0.0, np.subtract(view.resolution, 1))).astype(np.int64)
     _, pixel = np.unique(pixels @ (1, view.resolution[0]), return_inverse=True)
-    return round(float(np.minimum(np.bincount(pixel, pixels_of(view, cameras)), 1.0).sum()))
+    return round(float(np.minimum(np.bincount(pixel, pixels_of(cameras)), 1.0).sum()))

@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
-from ..geometry import cross, dot, norm, solve
+from ..geometry import View, cross, dot, norm, solve
 from .mirror_surface import MirrorSurface
 
 ARRIVED = 1e-10  # of the path and the viewing distance: by how much a ray that Newton's method found may miss
@@ -21,6 +21,10 @@ class ReflectionMap(ABC):
 
     Attributes
     ----------
+    view : View
+        Who looks.
+    bounce : int
+        How many mirrors light has met when it leaves the last one: 1 for what the eye sees in the mirror.
     parallel : bool
         Every face sends all its rays along one direction; the map jumps between faces.
     orthographic : bool
@@ -29,6 +33,8 @@ class ReflectionMap(ABC):
         Faces on which some ray may be lifted.
     """
 
+    view: View
+    bounce: int
     parallel: bool
     orthographic: bool
     grazing: np.ndarray

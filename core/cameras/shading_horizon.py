@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import View, edge_lengths, split
+from ..geometry import edge_lengths, split
 from ..support import breathe
 from .camera_splitting import split_cameras
-from .reflection_map import ReflectionMap
 from .three_ray_cameras import Cameras
 
 STEPS = 30
@@ -21,13 +20,14 @@ ON_LINE = 1e-6  # rise of rays on the horizon itself, which belong to both its s
 _PROBES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [1 / 3] * 3]).T
 
 
-def beyond_horizon(mirror_map: ReflectionMap, cameras: Cameras) -> np.ndarray:
+def beyond_horizon(cameras: Cameras) -> np.ndarray:
     """Which cameras (n,) lie beyond the horizon whole, made of lifted rays alone: nothing there is worth refining."""
-    return _lifted_probes(mirror_map, cameras, ON_LINE).all(axis=0)
+    return _lifted_probes(cameras, ON_LINE).all(axis=0)
 
 
-def _lifted_probes(mirror_map: ReflectionMap, cameras: Cameras, slack: float) -> np.ndarray:
+def _lifted_probes(cameras: Cameras, slack: float) -> np.ndarray:
     """(7, n): whether the rays at the corners, the edges' middles and the middle of the cameras are lifted."""
+    mirror_map = cameras.mirror_map
     found = np.zeros((_PROBES.shape[1], len(cameras)), dtype=bool)
     grazing = np.flatnonzero(mirror_map.grazing[cameras.face])
     for start in range(0, len(grazing), CAMERAS_AT_ONCE):
@@ -40,23 +40,25 @@ def _lifted_probes(mirror_map: ReflectionMap, cameras: Cameras, slack: float) ->
     return found
 
 
-def cut_at_horizon(view: View, mirror_map: ReflectionMap, cameras: Cameras) -> Cameras:
+def cut_at_horizon(cameras: Cameras) -> Cameras:
     """The cameras, those across the horizon cut along it; large ones over whose side it bulges are split first."""
+    view = cameras.view
     for _ in range(LEVELS):
         breathe()
-        probes = _lifted_probes(mirror_map, cameras, 0.0)
+        probes = _lifted_probes(cameras, 0.0)
         pixels = view.pixels(cameras.places.T)[cameras.corners]
         long = edge_lengths(pixels) > LONG_EDGE
         whole = (probes[:3] == probes[0]).all(axis=0)
         bulging = (whole & (probes[3:] != probes[0]).any(axis=0))[:, None] & long
         if not bulging.any():
             break
-        cameras, *_ = split_cameras(view, mirror_map, cameras, bulging)
-    return _cut(mirror_map, cameras)
+        cameras, *_ = split_cameras(cameras, bulging)
+    return _cut(cameras)
 
 
-def _cut(mirror_map: ReflectionMap, cameras: Cameras) -> Cameras:
+def _cut(cameras: Cameras) -> Cameras:
     """Cameras with corners on both sides of the horizon in up to three parts."""
+    mirror_map = cameras.mirror_map
     near = np.flatnonzero(mirror_map.grazing[cameras.face])
     corner_places = cameras.places[:, cameras.corners[near]].reshape(3, -1)
     face = np.repeat(cameras.face[near], 3)

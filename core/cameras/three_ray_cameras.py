@@ -12,6 +12,7 @@ import numpy as np
 
 from ..geometry import TriangleMesh, View
 from .mirror_map import MirrorMap
+from .reflection_map import ReflectionMap
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,8 @@ class Cameras:
         R, reflected rays of the corners, as long as the whole way from the eye.
     origins : (3, c) float64, optional
         V, where the rays leave the last mirror: the places themselves where there is but one.
+    mirror_map : ReflectionMap, optional
+        The true map that the rays were taken from.
     """
 
     corners: np.ndarray
@@ -38,6 +41,7 @@ class Cameras:
     places: np.ndarray
     rays: np.ndarray
     origins: np.ndarray | None = None
+    mirror_map: ReflectionMap | None = None
 
     def __post_init__(self) -> None:
         if self.origins is None:
@@ -47,15 +51,20 @@ class Cameras:
         return len(self.face)
 
     def select(self, chosen: np.ndarray) -> Cameras:
-        return Cameras(self.corners[chosen], self.face[chosen], self.places, self.rays, self.origins)
+        return Cameras(self.corners[chosen], self.face[chosen], self.places, self.rays, self.origins, self.mirror_map)
 
     def replaced(self, corners: np.ndarray, face: np.ndarray, places: np.ndarray, origins: np.ndarray,
                  rays: np.ndarray) -> Cameras:
         """Other cameras on these corners and on more of them: `places`, `origins` and `rays` (3, k) come behind."""
-        one_bounce = self.origins is self.places
         places = np.concatenate((self.places, places), axis=1)
         return Cameras(corners, face, places, np.concatenate((self.rays, rays), axis=1),
-                       places if one_bounce else np.concatenate((self.origins, origins), axis=1))
+                       None if self.mirror_map.bounce == 1 else np.concatenate((self.origins, origins), axis=1),
+                       self.mirror_map)
+
+    @property
+    def view(self) -> View:
+        """Who looks."""
+        return self.mirror_map.view
 
 
 def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
@@ -128,4 +137,5 @@ def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.nda
     rank[np.lexsort(places[::-1])] = np.arange(len(first))
     corners = shared.reshape(-1, 3)
     turn = (np.argmin(rank[corners], axis=1)[:, None] + np.arange(3)) % 3
-    return Cameras(np.take_along_axis(corners, turn, axis=1), faces, places, mirror_map.rays(face, uv))
+    return Cameras(np.take_along_axis(corners, turn, axis=1), faces, places, mirror_map.rays(face, uv),
+                   mirror_map=mirror_map)

@@ -8,7 +8,7 @@ halfway along the camera's edges bounds the error of that.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -18,6 +18,7 @@ from ..geometry import SceneFrames
 from ..support import breathe
 
 PAIRS_AT_ONCE = 65536
+PER_PAIR = ("camera", "column", "sides", "ahead", "bend")
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,9 @@ class Candidates:
 
     Attributes
     ----------
+    cameras : Cameras
+    frames : SceneFrames
+        Of all triangles that some camera may see.
     camera : (p,) int64
     column : (p,) int64, the triangle's column in the frames
     sides : (3, 3, p) float64, entry [j, i]: barycentric coordinate j, times b and the sign of b, at camera corner i
@@ -34,6 +38,8 @@ class Candidates:
         from corner k to the next
     """
 
+    cameras: Cameras
+    frames: SceneFrames
     camera: np.ndarray
     column: np.ndarray
     sides: np.ndarray
@@ -44,19 +50,25 @@ class Candidates:
         return len(self.camera)
 
     def select(self, chosen: np.ndarray) -> Candidates:
-        return Candidates(self.camera[chosen], self.column[chosen], self.sides[:, :, chosen], self.ahead[:, chosen],
-                          self.bend[:, :, chosen])
+        return replace(self, **{name: getattr(self, name)[..., chosen] for name in PER_PAIR})
 
     @staticmethod
     def joined(parts: Sequence[Candidates]) -> Candidates:
-        return Candidates(*(np.concatenate([getattr(part, field.name) for part in parts], axis=-1)
-                            for field in fields(Candidates)))
+        """All pairs of the parts, which have the same cameras and frames."""
+        return replace(parts[0], **{name: np.concatenate([getattr(part, name) for part in parts], axis=-1)
+                                    for name in PER_PAIR})
 
     @staticmethod
-    def unknown(camera: np.ndarray, column: np.ndarray) -> Candidates:
+    def unknown(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray) -> Candidates:
         """Pairs (n,) of which nothing is known but that the camera shows the triangle, and clipping leaves it whole."""
         count = len(camera)
-        return Candidates(camera, column, np.zeros((3, 3, count)), np.ones((3, count)), np.zeros((3, 3, count)))
+        return Candidates(cameras, frames, camera, column, np.zeros((3, 3, count)), np.ones((3, count)),
+                          np.zeros((3, 3, count)))
+
+    def on(self, cameras: Cameras, now: np.ndarray) -> Candidates:
+        """The pairs on other `cameras`, of which `now` (n,) tells the numbers of ours, -1 for those that are gone."""
+        kept = self.select(now[self.camera] >= 0)
+        return replace(kept, cameras=cameras, camera=now[kept.camera])
 
     @cached_property
     def rate(self) -> np.ndarray:
@@ -79,7 +91,7 @@ def overlapping(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, colum
         breathe()
         part = slice(start, start + PAIRS_AT_ONCE)
         parts.append(_overlapping(cameras, frames, camera[part], column[part]))
-    return Candidates(*(np.concatenate(side, axis=-1) for side in zip(*parts)))
+    return Candidates(cameras, frames, *(np.concatenate(side, axis=-1) for side in zip(*parts)))
 
 
 def _overlapping(cameras, frames, camera, column):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import View, dot, norm, unit
+from ..geometry import dot, norm, unit
 from .cones import Cones
 
 
@@ -37,7 +37,8 @@ class Magnification:
     speed: np.ndarray
 
     @classmethod
-    def of(cls, view: View, cameras: Cameras) -> Magnification:
+    def of(cls, cameras: Cameras) -> Magnification:
+        view = cameras.view
         places = np.take(cameras.places, cameras.corners.T, axis=1)
         rays = np.take(cameras.rays, cameras.corners.T, axis=1)
         axis = unit(unit(rays).sum(axis=1))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, MirrorSurface, ReflectionMap
+from ..cameras import Cameras, MirrorSurface
 from ..geometry import SceneFrames, TriangleMesh, cross, dot, opposite_corners, rows, unit
 from .bounded_trace import bounded_trace
 from .candidates import Candidates
@@ -56,10 +56,10 @@ class SceneAndMirrors:
         sphere = self.tree.spheres[0][:, 0]
         return sphere[:3], float(sphere[3])
 
-    def showing_mirrors(self, mirror_map: ReflectionMap, cameras: Cameras, most: int) -> np.ndarray:
+    def showing_mirrors(self, cameras: Cameras, most: int) -> np.ndarray:
         """Which faces of the map, by their number, may show a mirror in any of the cameras, those among them for which
         more than `most` pairs of cameras and triangles would have to be looked at."""
-        camera, _, _, given_up = self.mirrors_in(mirror_map, cameras, most, np.ones(len(cameras)))
+        camera, _, _, given_up = self.mirrors_in(cameras, most, np.ones(len(cameras)))
         found = np.zeros(int(cameras.face.max(initial=-1)) + 1, dtype=bool)
         found[cameras.face[camera]] = True
         found[cameras.face[given_up]] = True
@@ -72,14 +72,14 @@ class SceneAndMirrors:
         return Cones.around(cameras).touch(np.arange(count), np.repeat(centre[:, None], count, axis=1),
                                            np.full(count, radius))
 
-    def trace(self, mirror_map: ReflectionMap, cameras: Cameras, showing: np.ndarray, most: int,
+    def trace(self, cameras: Cameras, showing: np.ndarray, most: int,
               worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
         """Pairs of cameras and triangles that may be seen in them, how many tree nodes were visited for that, and which
         cameras (n,) were given up, by their `worth` (n,), since there would be more than `most` pairs; mirrors are
         looked for on the faces that `showing_mirrors` found."""
         camera, triangle, visited, given_up = bounded_trace(self.tree, Cones.around(cameras), most, worth)
         chosen = np.flatnonzero(showing[cameras.face])
-        mirror_camera, mirror_triangle, more, mirror_given_up = self.mirrors_in(mirror_map, cameras.select(chosen),
+        mirror_camera, mirror_triangle, more, mirror_given_up = self.mirrors_in(cameras.select(chosen),
                                                                                  most, worth[chosen])
         given_up[chosen[mirror_given_up]] = True
         camera = np.concatenate((camera, chosen[mirror_camera]))
@@ -89,11 +89,11 @@ class SceneAndMirrors:
             camera, triangle = camera[kept], triangle[kept]
         return camera, triangle, visited + more, given_up
 
-    def mirrors_in(self, mirror_map: ReflectionMap, cameras: Cameras, most: int,
+    def mirrors_in(self, cameras: Cameras, most: int,
                     worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
         """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited; what was given up."""
         # which side of its triangle the rays of a camera leave is asked once
-        sides = self._upper_sides(mirror_map, cameras)
+        sides = self._upper_sides(cameras)
         return bounded_trace(self.mirror_tree, Cones.around(cameras), most, worth,
                              lambda camera, triangle: self._above(sides, camera, triangle))
 
@@ -109,15 +109,17 @@ class SceneAndMirrors:
         """How far along rays (3, n), unit vectors, the diffuse scene and the mirrors lie, infinite where not at all."""
         return [first_crossed(tree, origin, ray)[1] for tree in (self.tree, self.mirror_tree)]
 
-    def shown_in_middles(self, mirror_map: ReflectionMap, cameras: Cameras) -> np.ndarray:
+    def shown_in_middles(self, cameras: Cameras) -> np.ndarray:
         """The triangle (n,) that the ray through the middle of each camera meets first, -1 where it meets none."""
+        mirror_map = cameras.mirror_map
         middle = np.take(cameras.places, cameras.corners.T, axis=1).mean(axis=1)
         origin, ray = mirror_map.leave(cameras.face, mirror_map.coordinates(cameras.face, middle))
-        return self.first_met(self._upper_sides(mirror_map, cameras), origin, unit(ray))
+        return self.first_met(self._upper_sides(cameras), origin, unit(ray))
 
-    def _upper_sides(self, mirror_map: ReflectionMap, cameras: Cameras) -> tuple[np.ndarray, np.ndarray]:
+    def _upper_sides(self, cameras: Cameras) -> tuple[np.ndarray, np.ndarray]:
         """The planes (n) of the cameras' flat triangles: a place on each, and its normal on the side that the rays
         leave."""
+        mirror_map = cameras.mirror_map
         surface, face = mirror_map.last(cameras.face)
         normal = surface.face_normal[:, face]
         return surface.a[:, face], normal * np.sign(dot(cameras.rays[:, cameras.corners].sum(axis=2), normal))
@@ -135,23 +137,28 @@ class SceneAndMirrors:
         """Which columns (t,) of the frames are triangles of mirrors."""
         return frames.triangle >= self.diffuse
 
-    def only_diffuse(self, frames: SceneFrames, candidates: Candidates) -> Candidates:
-        """Candidates without the mirrors' triangles."""
-        mirror = self.shows_mirror(frames)
-        return candidates.select(np.flatnonzero(~mirror[candidates.column])) if mirror.any() else candidates
+    def are_mirrors(self, candidates: Candidates) -> np.ndarray:
+        """Which candidates (p,) are triangles of mirrors."""
+        return self.shows_mirror(candidates.frames)[candidates.column]
 
-    def hiding_something(self, frames: SceneFrames, candidates: Candidates) -> Candidates:
+    def only_diffuse(self, candidates: Candidates) -> Candidates:
+        """Candidates without the mirrors' triangles."""
+        mirror = self.are_mirrors(candidates)
+        return candidates.select(np.flatnonzero(~mirror)) if mirror.any() else candidates
+
+    def hiding_something(self, candidates: Candidates) -> Candidates:
         """Candidates without the mirrors' triangles in cameras that see nothing else, which hide nothing."""
-        mirror = self.shows_mirror(frames)[candidates.column]
+        mirror = self.are_mirrors(candidates)
         diffuse = np.zeros(int(candidates.camera.max(initial=-1)) + 1, dtype=bool)
         diffuse[candidates.camera[~mirror]] = True
         return candidates.select(np.flatnonzero(~mirror | diffuse[candidates.camera]))
 
-    def inner_sides(self, cameras: Cameras, frames: SceneFrames, candidates: Candidates) -> np.ndarray:
+    def inner_sides(self, candidates: Candidates) -> np.ndarray:
         """(3, p): sides of the candidates over which a mirror goes on, seen from anywhere in the camera. They bound
         nothing that is seen, as outlines do."""
+        cameras, frames = candidates.cameras, candidates.frames
         inner = np.zeros((3, len(candidates)), dtype=bool)
-        pair = np.flatnonzero(self.shows_mirror(frames)[candidates.column])
+        pair = np.flatnonzero(self.are_mirrors(candidates))
         if not len(pair):
             return inner
         triangle = frames.triangle[candidates.column[pair]] - self.diffuse

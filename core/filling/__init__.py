@@ -1,6 +1,6 @@
 """The talk's holes filled with rays: what is too crowded to be cut, within limits of work and memory; and probes."""
-from .crowds import thinned, with_crowds
+from .crowds import Crowds
 from .limits import Limits
 from .probes import missed_probes
 
-__all__ = ["Limits", "missed_probes", "thinned", "with_crowds"]
+__all__ = ["Crowds", "Limits", "missed_probes"]

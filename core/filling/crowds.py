@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..cameras import Cameras, ReflectionMap, picture_areas, pixels_of, with_pieces
+from ..cameras import Cameras, covered_pixels, picture_areas, pixels_of, with_pieces
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, View, edge_lengths, groups
+from ..geometry import SceneFrames, edge_lengths, groups
 from ..support import crowded
 from .limits import Limits
 from .picture_squares import in_squares
@@ -25,67 +25,91 @@ CROSSED = 2.0 / np.pi  # half as many lines of a square grid as a line of any di
 SMALLEST = 1e-9  # square pixels: smaller cells are nothing
 
 
-def thinned(view: View, cameras: Cameras, candidates: Candidates, mirror: np.ndarray, crowd: np.ndarray,
-            limits: Limits) -> tuple[Cameras, Candidates, np.ndarray]:
-    """Cameras and their candidates within the limits; and which cameras (n,) are too crowded for that, those that
-    `crowd` (n,) names among them. `mirror` (p,) tells which candidates are mirrors: of these each may hide a part of
-    all others in its camera."""
-    count, hiding = (np.bincount(candidates.camera, weights, len(cameras)) for weights in (None, mirror))
-    load, worth = count * (1.0 + HIDING * np.minimum(hiding, OVERLAPPING)), picture_areas(view, cameras)
-    crowd = crowd | crowded(count, worth, limits.candidates) | crowded(load, worth, limits.work)
-    if not crowd.any():
-        return cameras, candidates, crowd
-    candidates = candidates.select(np.flatnonzero(~crowd[candidates.camera]))
-    candidates = replace(candidates, camera=(np.cumsum(~crowd) - 1)[candidates.camera])
-    return cameras.select(~crowd), candidates, crowd
+class Crowds:
+    """Cameras that are too crowded to be cut, collected until rays fill them.
+
+    Parameters
+    ----------
+    met : SceneAndMirrors
+    limits : Limits
+    """
+
+    def __init__(self, met: SceneAndMirrors, limits: Limits) -> None:
+        self.met, self.limits = met, limits
+        self._cameras: list[Cameras] = []
+
+    def __len__(self) -> int:
+        return sum(map(len, self._cameras))
+
+    def without_most(self, cameras: Cameras) -> Cameras:
+        """The cameras within the limits."""
+        crowd = crowded(np.ones(len(cameras)), picture_areas(cameras), self.limits.cameras)
+        self._cameras.append(cameras.select(crowd))
+        return cameras.select(~crowd)
+
+    def thinned(self, candidates: Candidates, crowd: np.ndarray) -> Candidates:
+        """Candidates within the limits, without those of the cameras that `crowd` (n,) names. Each mirror among them
+        may hide a part of all others in its camera."""
+        cameras = candidates.cameras
+        count, hiding = (np.bincount(candidates.camera, weights, len(cameras))
+                         for weights in (None, self.met.are_mirrors(candidates)))
+        load, worth = count * (1.0 + HIDING * np.minimum(hiding, OVERLAPPING)), picture_areas(cameras)
+        crowd = crowd | crowded(count, worth, self.limits.candidates) | crowded(load, worth, self.limits.work)
+        self._cameras.append(cameras.select(crowd))
+        if crowd.any():
+            candidates = candidates.on(cameras.select(~crowd), np.where(crowd, -1, np.cumsum(~crowd) - 1))
+        return candidates
+
+    def filled(self, candidates: Candidates) -> tuple[Candidates, int, int]:
+        """The candidates, and behind their cameras the cells of the crowds, each with the one triangle that it shows as
+        its candidate; how many rays were traced, and how many pixels they have filled with the diffuse scene."""
+        if not len(self):
+            return candidates, 0, 0
+        # all lie on corners that the cameras have too: whoever splits cameras adds corners behind those there are
+        cameras, frames = candidates.cameras, candidates.frames
+        corners, face = (np.concatenate([getattr(crowd, name) for crowd in self._cameras])
+                         for name in ("corners", "face"))
+        cells, triangle, rays = _cells_and_triangles(replace(cameras, corners=corners, face=face), self.met,
+                                                     self.limits.rays)
+        seen = np.union1d(frames.triangle, triangle)
+        frames, column = SceneFrames.of(self.met, seen), np.searchsorted(seen, frames.triangle)
+        whole = replace(cells, corners=np.concatenate((cameras.corners, cells.corners)),
+                        face=np.concatenate((cameras.face, cells.face)))
+        pairs = Candidates.unknown(whole, frames, np.arange(len(cells)) + len(cameras), np.searchsorted(seen, triangle))
+        exact = replace(candidates, cameras=whole, frames=frames, column=column[candidates.column])
+        pixels = covered_pixels(cells.select(~self.met.are_mirrors(pairs)))
+        return Candidates.joined((exact, pairs)), rays, pixels
 
 
-def with_crowds(view: View, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, candidates: Candidates,
-                crowds: list[Cameras], met: SceneAndMirrors,
-                most: int) -> tuple[Cameras, SceneFrames, Candidates, int, int]:
-    """The cameras and behind them the cells of those that are too crowded, each with the one triangle that it shows as
-    its candidate; how many cells there are, and how many rays were traced."""
-    # all lie on corners that the cameras have too: whoever splits cameras adds corners behind those there are
-    corners, face = (np.concatenate([getattr(crowd, name) for crowd in crowds]) for name in ("corners", "face"))
-    crowd = Cameras(corners, face, cameras.places, cameras.rays, cameras.origins)
-    cells, triangle, rays = _cells_and_triangles(view, mirror_map, crowd, met, most)
-    seen = np.union1d(frames.triangle, triangle)
-    column = np.searchsorted(seen, frames.triangle)
-    pairs = Candidates.unknown(np.arange(len(cells)) + len(cameras), np.searchsorted(seen, triangle))
-    candidates = Candidates.joined((replace(candidates, column=column[candidates.column]), pairs))
-    whole = Cameras(np.concatenate((cameras.corners, cells.corners)), np.concatenate((cameras.face, cells.face)),
-                    cells.places, cells.rays, cells.origins)
-    return whole, SceneFrames.of(met, seen), candidates, len(cells), rays
-
-
-def _cells_and_triangles(view: View, mirror_map: ReflectionMap, cameras: Cameras, met: SceneAndMirrors,
-                         most: int) -> tuple[Cameras, np.ndarray, int]:
+def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, most: int) -> tuple[Cameras, np.ndarray, int]:
     """Cells of crowded cameras that show something, the triangle (m,) that each shows, and how many rays, about `most`
     at most, were traced for it."""
     # a camera lies in about as many squares as its area holds, its edges cross more, and one
-    area, crossed = pixels_of(view, cameras).sum(), CROSSED * _lengths(view, cameras).sum()
+    area, crossed = pixels_of(cameras).sum(), CROSSED * _lengths(cameras).sum()
     room = max(most - len(cameras), most / 2)
     size = max(SQUARE, 2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300))
-    cells, square = _cells(view, mirror_map, cameras, size)
+    cells, square = _cells(cameras, size)
     first, group = groups(cells.face, *square)
     if len(first) > most:
         first, group = groups(*square)
-    triangle = met.shown_in_middles(mirror_map, cells.select(first))[group]
+    triangle = met.shown_in_middles(cells.select(first))[group]
     shown = np.flatnonzero(triangle >= 0)
     return cells.select(shown), triangle[shown], len(first)
 
 
-def _lengths(view: View, cameras: Cameras) -> np.ndarray:
+def _lengths(cameras: Cameras) -> np.ndarray:
     """The lengths (n,) of the way round cameras, about as far as it lies in the picture."""
+    view = cameras.view
     corners = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
     return edge_lengths(corners).sum(axis=1)
 
 
-def _cells(view: View, mirror_map: ReflectionMap, cameras: Cameras, size: float) -> tuple[Cameras, np.ndarray]:
+def _cells(cameras: Cameras, size: float) -> tuple[Cameras, np.ndarray]:
     """The parts of the cameras in squares of `size` pixels of the picture, and which square (2, n) each lies in."""
-    parts, camera = in_squares(view, cameras, size)
+    view = cameras.view
+    parts, camera = in_squares(cameras, size)
     polygon, weights = parts.triangles(len(camera), 0.0)
-    cells, _ = with_pieces(mirror_map, cameras, np.zeros(len(cameras), dtype=bool), camera[polygon], weights)
-    cells = cells.select(pixels_of(view, cells) > SMALLEST)
+    cells, _ = with_pieces(cameras, np.zeros(len(cameras), dtype=bool), camera[polygon], weights)
+    cells = cells.select(pixels_of(cells) > SMALLEST)
     middle = view.pixels(cells.places[:, cells.corners].mean(axis=2).T)
     return cells, np.floor(middle.T / size).astype(np.int64)

@@ -4,7 +4,6 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import View
 from ..polygons import ConvexParts
 from ..support import breathe
 
@@ -12,9 +11,10 @@ CUTS = 64  # halvings one after another: enough for 2^32 squares along both side
 TOUCHING = 1e-6  # of a square: what reaches less far into it only touches it
 
 
-def in_squares(view: View, cameras: Cameras, size: float) -> tuple[ConvexParts, np.ndarray]:
+def in_squares(cameras: Cameras, size: float) -> tuple[ConvexParts, np.ndarray]:
     """The parts of cameras in squares of `size` pixels, from the picture's lower left corner; beyond the picture
     nothing. And the camera (m,) of each part."""
+    view = cameras.view
     width, height = view.resolution
     clip = view.clip(cameras.places.T)[cameras.corners.T]  # as (corner, camera, component)
     depth = clip[..., 3]

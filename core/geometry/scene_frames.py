@@ -25,6 +25,7 @@ class SceneFrames:
     ----------
     triangle : (t,) int64, sorted: the triangles of the scene that the columns below belong to
     vertices : (3, t) int64, their vertices
+    positions : (n, 3) float64, of all vertices
     origin : (3, t) float64, the third vertex
     first, second : (3, t) float64, gradients of the barycentric coordinates of the first and second vertex
     normal : (3, t) float64, along the plane's normal, scaled to the gradients' size
@@ -32,6 +33,7 @@ class SceneFrames:
 
     triangle: np.ndarray
     vertices: np.ndarray
+    positions: np.ndarray
     origin: np.ndarray
     first: np.ndarray
     second: np.ndarray
@@ -46,7 +48,7 @@ class SceneFrames:
         normal = cross(u, v)
         area = dot(normal, normal)
         size = np.sqrt(area)
-        return cls(triangle, vertices, c, cross(v, normal) / area, cross(normal, u) / area,
+        return cls(triangle, vertices, mesh.positions, c, cross(v, normal) / area, cross(normal, u) / area,
                    normal / (size * np.sqrt(size)))
 
     def columns(self, triangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, ReflectionMap
+from ..cameras import Cameras
 from ..culling import ABOVE, Cones, SceneAndMirrors
 from ..geometry import cross, dot, norm, ranges, shares, unit
 from ..support import breathe
@@ -12,10 +12,10 @@ IMAGES_AT_ONCE = 500_000  # pairs of an image and a triangle of a mirror that ma
 MOST_PAIRS = 1 << 22  # of cameras and triangles of mirrors that are asked which images they hide
 
 
-def hidden_by_mirrors(met: SceneAndMirrors, mirror_map: ReflectionMap, cameras: Cameras, camera: np.ndarray,
+def hidden_by_mirrors(met: SceneAndMirrors, cameras: Cameras, camera: np.ndarray,
                       places: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Which of the `points` (3, n), seen at `places` (3, n) in the cameras (n,), lie behind a mirror."""
-    owner, triangle, _, given_up = met.mirrors_in(mirror_map, cameras, MOST_PAIRS, np.ones(len(cameras)))
+    owner, triangle, _, given_up = met.mirrors_in(cameras, MOST_PAIRS, np.ones(len(cameras)))
     order = np.argsort(owner, kind="stable")
     owner, triangle = owner[order], triangle[order]
     start = np.searchsorted(owner, camera)

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, MirrorMap, drawn_in, settle
+from ..cameras import Cameras, drawn_in, settle
 from ..culling import Cones, Magnification, PointTree, SceneAndMirrors
-from ..geometry import View, norm, rows
+from ..geometry import norm, rows
 from ..polygons import VertexImages, images_of_pairs, repeated
 from ..result import Discs, ReflectionMesh
 from ..result import place as placed
@@ -21,12 +21,13 @@ PAIRS_AT_ONCE = 131072
 ON_CAUSTIC = 1e-9  # magnification
 
 
-def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: PointTree,
+def reflected_points(cameras: Cameras, tree: PointTree,
                      met: SceneAndMirrors, placement: str, progress: Progress) -> ReflectionMesh:
     """Every image of the tree's vertices in the cameras, once, as a point with its disc."""
+    view, mirror_map = cameras.view, cameras.mirror_map
     progress.next(0.2, "cones through the tree")
     cones = Cones.around(cameras)
-    pairs = tree.trace(cones, Magnification.of(view, cameras))
+    pairs = tree.trace(cones, Magnification.of(cameras))
     counts = {"nodes_visited": pairs.visited, "pairs": len(pairs.camera), "stood_for": pairs.stood_for,
               "projections": 0, "roots": 0}
     found, reach, beams = [], [], Beams.of(cameras, cones)
@@ -36,7 +37,7 @@ def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: 
         part = slice(start, start + PAIRS_AT_ONCE)
         camera, vertex, stood = pairs.camera[part], pairs.vertex[part], pairs.stood[part]
         held = beams.hold(camera, rows(positions[vertex]))
-        images, solved, pair = images_of_pairs(view, mirror_map, cameras, positions, camera[held], vertex[held])
+        images, solved, pair = images_of_pairs(cameras, positions, camera[held], vertex[held])
         found.append(images)
         reach.append(stood[held][pair])
         for name in ("projections", "roots"):
@@ -51,7 +52,7 @@ def reflected_points(view: View, mirror_map: MirrorMap, cameras: Cameras, tree: 
     images = VertexImages(images.vertex, images.camera, distance, place, view.pixels(place.T))
     # of one image, that which stands for most is kept
     order = np.lexsort((images.camera, -reach, images.vertex))
-    hidden = hidden_by_mirrors(met, mirror_map, cameras, images.camera, place, positions[images.vertex].T)
+    hidden = hidden_by_mirrors(met, cameras, images.camera, place, positions[images.vertex].T)
     order = order[(real & ~hidden)[order]]
     order = order[~repeated(images.select(order))]
     images, reach, face, uv = images.select(order), reach[order], face[order], uv[:, order]

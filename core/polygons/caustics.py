@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, ReflectionMap
+from ..cameras import Cameras
 from ..geometry import SceneFrames, cross, dot, norm, shared_edges
 from ..support import breathe
 from .polygon_corners import Nodes
@@ -17,7 +17,7 @@ STEPS = 24
 PLACES_AT_ONCE = 32768
 
 
-def split_at_caustics(mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, nodes: Nodes,
+def split_at_caustics(cameras: Cameras, frames: SceneFrames, nodes: Nodes,
                       faces: Faces) -> tuple[Nodes, Faces, int]:
     """Faces of one parity each; only cameras whose rays may cross are looked at.
 
@@ -27,6 +27,7 @@ def split_at_caustics(mirror_map: ReflectionMap, cameras: Cameras, frames: Scene
     cut : int
         How many edges were cut.
     """
+    mirror_map = cameras.mirror_map
     folding = np.flatnonzero(_may_fold(cameras)[faces.camera])
     chosen = faces.select(folding)
     start, following = chosen.nodes.ravel(), np.roll(chosen.nodes, -1, axis=1).ravel()

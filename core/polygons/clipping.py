@@ -29,12 +29,14 @@ class Polygons:
 
     Attributes
     ----------
+    candidates : Candidates
     pair : (q,) int64, the candidate pair of each polygon
     start : (q + 1,) int64, the corners of polygon i are the columns start[i]:start[i + 1] below
     weights : (3, k) float64, of the corners in their cameras
     before, after : (k,) int8, the lines that meet in the corner: the one that ends and the one that starts there
     """
 
+    candidates: Candidates
     pair: np.ndarray
     start: np.ndarray
     weights: np.ndarray
@@ -42,7 +44,8 @@ class Polygons:
     after: np.ndarray
 
     @staticmethod
-    def of(pairs: np.ndarray, weights: np.ndarray, after: np.ndarray, polygon: np.ndarray) -> Polygons:
+    def of(candidates: Candidates, pairs: np.ndarray, weights: np.ndarray, after: np.ndarray,
+           polygon: np.ndarray) -> Polygons:
         """Polygons of corners (k) that lie one behind another, `polygon` (k,) rising; those with fewer than three are
         left out. `pairs` are the candidate pairs of all."""
         size = np.bincount(polygon, minlength=len(pairs))
@@ -52,27 +55,21 @@ class Polygons:
         start = np.append(start, len(polygon))
         last = np.arange(len(polygon)) - 1
         last[start[:-1]] = start[1:] - 1
-        return Polygons(pairs[found], start, weights, after[last], after)
+        return Polygons(candidates, pairs[found], start, weights, after[last], after)
 
     def select(self, chosen: np.ndarray) -> Polygons:
         """The polygons `chosen`, as indices or as a mask."""
         size = np.diff(self.start)
         corner, _ = ranges(self.start[:-1][chosen], size[chosen])
-        return Polygons(self.pair[chosen], np.append(0, np.cumsum(size[chosen])), self.weights[:, corner],
-                        self.before[corner], self.after[corner])
-
-    @staticmethod
-    def none() -> Polygons:
-        """No polygon at all."""
-        whole = np.zeros(0, dtype=np.int64)
-        return Polygons(whole, np.zeros(1, dtype=np.int64), np.zeros((3, 0)), *np.zeros((2, 0), dtype=np.int8))
+        return Polygons(self.candidates, self.pair[chosen], np.append(0, np.cumsum(size[chosen])),
+                        self.weights[:, corner], self.before[corner], self.after[corner])
 
     @staticmethod
     def joined(parts: Sequence[Polygons]) -> Polygons:
-        """All polygons of the parts, one part behind another; of no part, none."""
-        parts = parts or [Polygons.none()]
+        """All polygons of the parts, at least one, of the same candidates, one part behind another."""
         size = np.concatenate([np.diff(part.start) for part in parts])
-        return Polygons(np.concatenate([part.pair for part in parts]), np.append(0, np.cumsum(size)),
+        return Polygons(parts[0].candidates, np.concatenate([part.pair for part in parts]),
+                        np.append(0, np.cumsum(size)),
                         np.concatenate([part.weights for part in parts], axis=1),
                         np.concatenate([part.before for part in parts]), np.concatenate([part.after for part in parts]))
 
@@ -84,7 +81,8 @@ class Polygons:
     def cut_with(self, corner_values: np.ndarray, label: int) -> tuple[Polygons, np.ndarray]:
         """The same, and which polygon each is left of."""
         polygon = np.repeat(np.arange(len(self.pair)), np.diff(self.start))
-        left = Polygons.of(np.arange(len(self.pair)), *cut(self.weights, self.after, polygon, corner_values, label))
+        left = Polygons.of(self.candidates, np.arange(len(self.pair)),
+                           *cut(self.weights, self.after, polygon, corner_values, label))
         left = left.select(left.areas() > SMALLEST)
         return replace(left, pair=self.pair[left.pair]), left.pair
 
@@ -92,6 +90,16 @@ class Polygons:
         """(3, q): weights of the mean of each polygon's corners."""
         total = np.add.reduceat(self.weights, self.start[:-1], axis=1) if len(self.pair) else np.zeros((3, 0))
         return total / np.diff(self.start)
+
+    @property
+    def camera(self) -> np.ndarray:
+        """(q,): the camera of each polygon."""
+        return self.candidates.camera[self.pair]
+
+    @property
+    def column(self) -> np.ndarray:
+        """(q,): the triangle's column in the frames of the candidates."""
+        return self.candidates.column[self.pair]
 
     def areas(self) -> np.ndarray:
         """(q,): the part of its camera that each polygon covers."""
@@ -105,10 +113,10 @@ class Polygons:
 def clip(candidates: Candidates) -> Polygons:
     """Polygons of the candidates that really overlap."""
     parts = []
-    for start in range(0, len(candidates), PAIRS_AT_ONCE):
+    for start in range(0, max(len(candidates), 1), PAIRS_AT_ONCE):
         breathe()
         part = _clip(candidates.select(slice(start, start + PAIRS_AT_ONCE)))
-        parts.append(replace(part, pair=part.pair + start))
+        parts.append(replace(part, candidates=candidates, pair=part.pair + start))
     return Polygons.joined(parts)
 
 
@@ -122,7 +130,7 @@ def _clip(candidates: Candidates) -> Polygons:
         planes.append((CONTACT, candidates.ahead))
     for label, corner_values in planes:
         weights, after, polygon = cut(weights, after, polygon, corner_values, label)
-    return Polygons.of(np.arange(count), weights, after, polygon)
+    return Polygons.of(candidates, np.arange(count), weights, after, polygon)
 
 
 def whole_triangles(polygons: Polygons) -> int:

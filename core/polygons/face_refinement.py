@@ -30,12 +30,18 @@ class FaceRefinement:
     """Splits faces on one mirror and one scene; `virtual` tells that faces are drawn at the virtual image's depth,
     `beyond` which cameras lie beyond the horizon, where there is nothing to be exact about."""
 
-    view: View
-    mirror_map: ReflectionMap
     cameras: Cameras
     frames: SceneFrames
     beyond: np.ndarray
     virtual: bool
+
+    @property
+    def _map(self) -> ReflectionMap:
+        return self.cameras.mirror_map
+
+    @property
+    def _view(self) -> View:
+        return self.cameras.view
 
     def refine(self, nodes: Nodes, faces: Faces, tolerance: float,
                maximum: int) -> tuple[Nodes, Faces, np.ndarray, int]:
@@ -83,7 +89,7 @@ class FaceRefinement:
         mirror_face = self.cameras.face[camera]
         place = self._middle(nodes, a, b)
         shown = 0.5 * (nodes.point[:, a] + nodes.point[:, b])
-        uv = self.mirror_map.coordinates(mirror_face, place)
+        uv = self._map.coordinates(mirror_face, place)
         parts = []
         for start in range(0, max(len(column), 1), EDGES_AT_ONCE):
             breathe()
@@ -92,8 +98,8 @@ class FaceRefinement:
         drift, error, point, distance = (np.concatenate(side, axis=-1) for side in zip(*parts))
         worth = np.zeros(len(ends), dtype=bool)
         worth[edge[~self.beyond[faces.camera]]] = True
-        pixels = self.view.pixels(nodes.place.T)
-        beyond = np.concatenate((pixels < -MARGIN, pixels > np.add(self.view.resolution, MARGIN)), axis=1)
+        pixels = self._view.pixels(nodes.place.T)
+        beyond = np.concatenate((pixels < -MARGIN, pixels > np.add(self._view.resolution, MARGIN)), axis=1)
         worth[open_] &= ~(beyond[a] & beyond[b]).any(axis=1)
         drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
         length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
@@ -106,10 +112,10 @@ class FaceRefinement:
         along = np.flatnonzero(chosen & outline)
         if len(along):
             on_face, target = mirror_face[along], shown[:, along]
-            found, s = self.mirror_map.locate(on_face, uv[:, along], distance[along], target)
-            spot = self.mirror_map.places(on_face, found)
-            away = np.linalg.norm(self.view.pixels(spot.T) - self.view.pixels(place[:, along].T), axis=1)
-            good = (away <= NEAR_MIDDLE * length[along]) & self.mirror_map.meets(on_face, found, s, target)
+            found, s = self._map.locate(on_face, uv[:, along], distance[along], target)
+            spot = self._map.places(on_face, found)
+            away = np.linalg.norm(self._view.pixels(spot.T) - self._view.pixels(place[:, along].T), axis=1)
+            good = (away <= NEAR_MIDDLE * length[along]) & self._map.meets(on_face, found, s, target)
             # an image at the edge's end, or none, straightens nothing however often the edge is split
             chosen[along[~good]] = False
             along = along[good]
@@ -121,16 +127,16 @@ class FaceRefinement:
 
     def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Where on the mirror the middle of a drawn edge is seen."""
-        if not self.virtual or self.view.orthographic:
+        if not self.virtual or self._view.orthographic:
             return 0.5 * (nodes.place[:, a] + nodes.place[:, b])
         weight_a, weight_b = 1.0 + self._ways(nodes, a), 1.0 + self._ways(nodes, b)
         return (weight_a * nodes.place[:, a] + weight_b * nodes.place[:, b]) / (weight_a + weight_b)
 
     def _ways(self, nodes: Nodes, node: np.ndarray) -> np.ndarray:
         """How far behind the mirror nodes are seen, to their distance from the eye."""
-        if not self.mirror_map.unit_rays:
+        if not self._map.unit_rays:
             return nodes.distance[node]
-        return nodes.distance[node] / norm(self.view.directions(nodes.place[:, node].T).T)
+        return nodes.distance[node] / norm(self._view.directions(nodes.place[:, node].T).T)
 
     def _straying(self, face: np.ndarray, uv: np.ndarray, column: np.ndarray, shown: np.ndarray):
         """Pixels between the places where `shown` is drawn and where it is truly seen, and as much of them as an eye
@@ -140,7 +146,7 @@ class FaceRefinement:
         nothing: none counts for more than `STRETCH` times the pixels it would be where the picture is drawn out least.
         """
         one, zero = np.ones(len(face)), np.zeros(len(face))
-        origin, ray, moves = self.mirror_map.linearise(face, uv, np.stack((one, zero)), np.stack((zero, one)))
+        origin, ray, moves = self._map.linearise(face, uv, np.stack((one, zero)), np.stack((zero, one)))
         s = np.maximum(self.frames.distance(column, origin, ray), 0.0)
         point = origin + s * ray
         normal = np.take(self.frames.normal, column, axis=1)
@@ -152,8 +158,8 @@ class FaceRefinement:
         (a, c), (b, d) = (self.frames.directions(column, along)[:2] for along in moving)
         right = self.frames.directions(column, shown - point)[:2]
         x, y = _solve(a, b, c, d, *right)
-        place = self.mirror_map.places(face, uv)
-        seen_u, seen_v = (self.view.pixel_derivatives(place.T, span.T).T for span in self.mirror_map.spans(face))
+        place = self._map.places(face, uv)
+        seen_u, seen_v = (self._view.pixel_derivatives(place.T, span.T).T for span in self._map.spans(face))
         drift = np.hypot(*(x * seen_u + y * seen_v))
         motion = [norm(x * moving[0] + y * moving[1]) for x, y in
                   (_solve(seen_u[0], seen_v[0], seen_u[1], seen_v[1], *step) for step in ((1.0, 0.0), (0.0, 1.0)))]

@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..cameras import Cameras, ReflectionMap, beyond_horizon, split_cameras
+from ..cameras import beyond_horizon, split_cameras
 from ..culling import Candidates, SceneAndMirrors, overlapping
-from ..geometry import SceneFrames, View, edge_lengths, ranges
+from ..geometry import edge_lengths, ranges
 from ..support import breathe
 from .clipping import CONTACT, SCENE_EDGE, clip
 
@@ -21,15 +21,13 @@ SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
 CROWD = 6  # outlines of mirrors that a camera may hold: all that it sees is cut along each
 
 
-def refine_for_outlines(view: View, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames,
-                        candidates: Candidates, tolerance: float, maximum: int,
-                        met: SceneAndMirrors) -> tuple[Cameras, Candidates, np.ndarray, int]:
-    """Cameras split until no outline in them misses the true one by more than `tolerance` pixels, or until there are
-    `maximum` candidates.
+def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int,
+                        met: SceneAndMirrors) -> tuple[Candidates, np.ndarray, int]:
+    """Candidates of cameras split until no outline in them misses the true one by more than `tolerance` pixels, or
+    until there are `maximum` candidates.
 
     Returns
     -------
-    cameras : Cameras
     candidates : Candidates
         The pairs that may really overlap.
     open_ : (n,) bool
@@ -37,33 +35,28 @@ def refine_for_outlines(view: View, mirror_map: ReflectionMap, cameras: Cameras,
     limited : int
         Edges of cameras that the bound on depth or count left unsplit.
     """
+    cameras, frames = candidates.cameras, candidates.frames
     settled, open_ = candidates.select(np.zeros(0, dtype=np.int64)), np.zeros(len(cameras), dtype=bool)
     for level in range(LEVELS + 1):
         breathe()
         candidates, lines = _really_overlapping(candidates)
-        lines &= ~met.inner_sides(cameras, frames, candidates)
-        bent, long = _bent_edges(view, cameras, candidates, lines, tolerance)
-        bent &= ~beyond_horizon(mirror_map, cameras)[:, None]
-        crowded = _crowded(cameras, candidates, lines & met.shows_mirror(frames)[candidates.column])
+        lines &= ~met.inner_sides(candidates)
+        bent, long = _bent_edges(candidates, lines, tolerance)
+        bent &= ~beyond_horizon(cameras)[:, None]
+        crowded = _crowded(candidates, lines & met.are_mirrors(candidates))
         split = (bent | crowded[:, None]) & long
         settled = Candidates.joined((settled, candidates))
         if level == LEVELS or not split.any() or len(settled) > maximum:
             break
         open_ |= (bent & ~long).any(axis=1)
         before = len(cameras)
-        cameras, parent, new = split_cameras(view, mirror_map, cameras, split)
+        cameras, parent, new = split_cameras(cameras, split)
         now = np.full(before, -1)
         now[parent[~new]] = np.flatnonzero(~new)
         open_ = open_[parent] & ~new
         candidates = overlapping(cameras, frames, *_children(settled, parent, new, before, len(frames.triangle)))
-        settled = _renumbered(settled, now)
-    return cameras, settled, open_ | (bent.any(axis=1) & ~long.any(axis=1)), int((bent & long).sum())
-
-
-def _renumbered(candidates: Candidates, now: np.ndarray) -> Candidates:
-    """Candidates under the cameras' numbers `now`, without those of cameras that are no more (-1)."""
-    kept = candidates.select(now[candidates.camera] >= 0)
-    return replace(kept, camera=now[kept.camera])
+        settled = settled.on(cameras, now)
+    return settled, open_ | (bent.any(axis=1) & ~long.any(axis=1)), int((bent & long).sum())
 
 
 def _children(candidates: Candidates, parent: np.ndarray, new: np.ndarray, before: int,
@@ -81,8 +74,7 @@ def _children(candidates: Candidates, parent: np.ndarray, new: np.ndarray, befor
 def _really_overlapping(candidates: Candidates) -> tuple[Candidates, np.ndarray]:
     """Candidates that overlap when each side moves out by all that its quadratic part may add; and (3, p), which of the
     triangle's sides then still bound the overlap."""
-    wide = Candidates(candidates.camera, candidates.column, candidates.sides + candidates.room[:, None],
-                      candidates.ahead, candidates.bend)
+    wide = replace(candidates, sides=candidates.sides + candidates.room[:, None])
     polygons = clip(wide)
     row = np.repeat(np.arange(len(polygons.pair)), np.diff(polygons.start))
     scene = (polygons.after >= SCENE_EDGE) & (polygons.after < CONTACT)
@@ -91,15 +83,16 @@ def _really_overlapping(candidates: Candidates) -> tuple[Candidates, np.ndarray]
     return candidates.select(polygons.pair), lines
 
 
-def _crowded(cameras: Cameras, candidates: Candidates, outlines: np.ndarray) -> np.ndarray:
+def _crowded(candidates: Candidates, outlines: np.ndarray) -> np.ndarray:
     """Which cameras (n,) hold too many `outlines` (3, p) of mirrors."""
-    return np.bincount(candidates.camera, outlines.sum(axis=0), minlength=len(cameras)) > CROWD
+    return np.bincount(candidates.camera, outlines.sum(axis=0), minlength=len(candidates.cameras)) > CROWD
 
 
-def _bent_edges(view: View, cameras: Cameras, candidates: Candidates, lines: np.ndarray,
-                tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+def _bent_edges(candidates: Candidates, lines: np.ndarray, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses too much; and those
     that are long enough to be split."""
+    cameras = candidates.cameras
+    view = cameras.view
     pixels = view.pixels(cameras.places.T)[cameras.corners]
     across, up = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
     area = np.abs(across[:, 0] * up[:, 1] - across[:, 1] * up[:, 0])

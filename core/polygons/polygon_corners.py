@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, ReflectionMap
-from ..culling import Candidates
-from ..geometry import SceneFrames, View, dot, groups
+from ..geometry import SceneFrames, dot, groups
 from ..support import breathe
 from .clipping import CONTACT, HIDDEN, SCENE_EDGE, Polygons
 from .vertex_images import NEAR_IMAGE, VertexImages
@@ -44,16 +43,17 @@ class Nodes:
 class _Corners:
     """What the corners of the polygons are made of, one row each; the arguments that all kinds of nodes need."""
 
-    view: View
-    mirror_map: ReflectionMap
     cameras: Cameras
     frames: SceneFrames
-    positions: np.ndarray
     camera: np.ndarray
     column: np.ndarray
     weights: np.ndarray
     low: np.ndarray
     high: np.ndarray
+
+    @property
+    def mirror_map(self) -> ReflectionMap:
+        return self.cameras.mirror_map
 
     def guess(self, chosen: np.ndarray) -> np.ndarray:
         """Q (3, n) where the linear clip puts the corners."""
@@ -64,7 +64,7 @@ class _Corners:
         """Whether places (3, n) moved from the guess by no more than straight outlines may miss; else they are another
         image, or Newton's method went astray on a triangle seen edge on."""
         with np.errstate(invalid="ignore", over="ignore"):
-            away = np.linalg.norm(self.view.pixels(moved.T) - self.view.pixels(guess.T), axis=1)
+            away = np.linalg.norm(self.cameras.view.pixels(moved.T) - self.cameras.view.pixels(guess.T), axis=1)
         return away < NEAR_IMAGE
 
     def seen(self, chosen: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -86,15 +86,14 @@ class _Corners:
         return np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row]), axis=1), axis=1)
 
 
-def polygon_nodes(view: View, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames, positions: np.ndarray,
-                  candidates: Candidates, polygons: Polygons, images: VertexImages) -> tuple[Nodes, np.ndarray]:
+def polygon_nodes(polygons: Polygons, images: VertexImages) -> tuple[Nodes, np.ndarray]:
     """Nodes of the polygons, and for each corner of a polygon its node."""
-    pair = np.repeat(polygons.pair, np.diff(polygons.start))
+    size = np.diff(polygons.start)
     low = np.minimum(polygons.before, polygons.after).astype(np.int64)
     high = np.maximum(polygons.before, polygons.after).astype(np.int64)
-    corners = _Corners(view, mirror_map, cameras, frames, positions, candidates.camera[pair], candidates.column[pair],
-                       polygons.weights, low, high)
-    node_of = np.empty(len(pair), dtype=np.int64)
+    corners = _Corners(polygons.candidates.cameras, polygons.candidates.frames, np.repeat(polygons.camera, size),
+                       np.repeat(polygons.column, size), polygons.weights, low, high)
+    node_of = np.empty(len(low), dtype=np.int64)
     made, count = [], 0
     on_mirror_edge = low < SCENE_EDGE
     kinds = ((_mirror_corners, on_mirror_edge & (high < SCENE_EDGE)),
@@ -139,8 +138,8 @@ def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     t = _share(place - start, way)
     uv_start, uv_end = mirror_map.coordinates(face, start), mirror_map.coordinates(face, end)
     seen, seen_s = corners.seen(chosen, place)
-    point = corners.positions[scene_edge[:, 0]].T
-    edge = corners.positions[scene_edge[:, 1]].T - point
+    point = corners.frames.positions[scene_edge[:, 0]].T
+    edge = corners.frames.positions[scene_edge[:, 1]].T - point
     t, along, s = mirror_map.meet(face, uv_start, uv_end, t, seen_s, point, edge)
     met = start + np.clip(t, 0.0, 1.0) * way
     near = corners.near(met, place) & (s >= 0.0)
@@ -160,14 +159,14 @@ def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     side = 3 - (corners.low[chosen] - SCENE_EDGE) - (corners.high[chosen] - SCENE_EDGE)
     vertex = corners.frames.vertices[side, column]
     guess = corners.guess(chosen)
-    image = images.nearest(vertex, camera, corners.view.pixels(guess.T))
+    image = images.nearest(vertex, camera, corners.cameras.view.pixels(guess.T))
     # a vertex on the wrong side of a bent mirror edge by less than the linear clip sees has no image of its own here
     lone = image < 0
     first, group = groups(np.where(lone, camera, -1) + 1, np.where(lone, vertex + len(images.vertex), image))
     image, lone = image[first], lone[first]
     place, distance = np.empty((3, len(first))), np.empty(len(first))
     place[:, ~lone], distance[~lone] = images.place[:, image[~lone]], images.distance[image[~lone]]
-    point = corners.positions[vertex[first]].T
+    point = corners.frames.positions[vertex[first]].T
     own = first[lone]
     face, mirror_map = corners.cameras.face[camera[own]], corners.mirror_map
     start = guess[:, own]

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..culling import Candidates
 from ..geometry import parent_side, ranges, split
 from .clipping import CONTACT, SCENE_EDGE, Polygons
 
@@ -57,7 +56,7 @@ class Faces:
                        for name in ("nodes", "camera", "column", "on_scene_edge")))
 
 
-def connect(candidates: Candidates, polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Faces:
+def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Faces:
     """Fans of faces over the polygons, each fan from the corner that gives the least skinny faces.
 
     Parameters
@@ -89,7 +88,6 @@ def connect(candidates: Candidates, polygons: Polygons, node_of: np.ndarray, pix
     first, last = step == 1, step + 2 == length
     edges = np.stack((scene[corner[0]] & first, scene[corner[1]], scene[corner[2]] & last), axis=1)
     nodes = np.stack([node_of[c] for c in corner], axis=1)
-    pair = polygons.pair[fan]
-    faces = Faces(nodes, candidates.camera[pair], candidates.column[pair], edges)
+    faces = Faces(nodes, polygons.camera[fan], polygons.column[fan], edges)
     a, b, c = faces.nodes.T
     return faces.select((a != b) & (b != c) & (c != a))

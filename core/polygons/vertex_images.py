@@ -6,9 +6,9 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..cameras import Cameras, ReflectionMap
+from ..cameras import Cameras
 from ..culling import Candidates, Cones
-from ..geometry import SceneFrames, View, ranges
+from ..geometry import ranges
 from ..solver import project
 
 SAME_IMAGE = 1e-3  # pixels: closer images of one vertex are one image, found from both sides of a shared edge
@@ -58,8 +58,7 @@ class VertexImages:
         return result
 
 
-def vertex_images(view: View, mirror_map: ReflectionMap, cameras: Cameras, cones: Cones, positions: np.ndarray,
-                  frames: SceneFrames, candidates: Candidates) -> tuple[VertexImages, dict]:
+def vertex_images(candidates: Candidates) -> tuple[VertexImages, dict]:
     """Images of the vertices of the candidate triangles, each in the cameras that it is a candidate of.
 
     Returns
@@ -68,19 +67,21 @@ def vertex_images(view: View, mirror_map: ReflectionMap, cameras: Cameras, cones
     counts : dict
         Pairs solved, roots found, images kept.
     """
+    cameras, frames = candidates.cameras, candidates.frames
+    positions = frames.positions
     vertices = frames.vertices[:, candidates.column]
     key = np.unique((candidates.camera * len(positions) + vertices).ravel())
     camera, vertex = key // len(positions), key % len(positions)
     points = positions[vertex].T
-    touching = cones.touch(camera, points, np.zeros(len(camera)))
-    images, counts, _ = images_of_pairs(view, mirror_map, cameras, positions, camera[touching], vertex[touching])
+    touching = Cones.around(cameras).touch(camera, points, np.zeros(len(camera)))
+    images, counts, _ = images_of_pairs(cameras, positions, camera[touching], vertex[touching])
     images = images.select(np.lexsort((images.camera, images.vertex)))
     images = images.select(~repeated(images))
     counts["images"] = len(images.vertex)
     return images, counts
 
 
-def images_of_pairs(view: View, mirror_map: ReflectionMap, cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
+def images_of_pairs(cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
                     vertex: np.ndarray) -> tuple[VertexImages, dict, np.ndarray]:
     """Images in pairs of a camera and a vertex, not sorted; what lies on a shared edge comes from both its sides.
 
@@ -92,6 +93,7 @@ def images_of_pairs(view: View, mirror_map: ReflectionMap, cameras: Cameras, pos
     pair : (n,) int64
         The pair that each image was found in.
     """
+    view, mirror_map = cameras.view, cameras.mirror_map
     corners = cameras.corners[camera]
     found = project(np.moveaxis(cameras.origins[:, corners], 0, 2), np.moveaxis(cameras.rays[:, corners], 0, 2),
                     positions[vertex])

@@ -1,10 +1,12 @@
 """What every room needs: arguments checked, errors, settings, long work in steps that tell how far it is."""
 from .checks import LARGEST, number, numbers, whole_number, whole_numbers
 from .crowding import crowded
+from .error_budget import FACE_SHARE, MIRROR_SHARE, OUTLINE_SHARE
 from .errors import ReflectionError
 from .progress import Progress
 from .settings import METHODS, PLACEMENTS, Settings
 from .stepping import breathe, in_steps
 
-__all__ = ["LARGEST", "METHODS", "PLACEMENTS", "Progress", "ReflectionError", "Settings", "breathe", "crowded",
-           "in_steps", "number", "numbers", "whole_number", "whole_numbers"]
+__all__ = ["FACE_SHARE", "LARGEST", "METHODS", "MIRROR_SHARE", "OUTLINE_SHARE", "PLACEMENTS", "Progress",
+           "ReflectionError", "Settings", "breathe", "crowded", "in_steps", "number", "numbers", "whole_number",
+           "whole_numbers"]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, MirrorMap, with_pieces
+from ..cameras import Cameras, with_pieces
 from ..geometry import TriangleMesh, View, cross, dot, norm, rows
 from ..polygons import ConvexParts
 
@@ -17,10 +17,11 @@ ON_PLANE = 1e-12  # of the distance from an orthographic eye: nearer to its plan
 LEAST = 0.5  # of what a perspective eye can see: as near to its plane are triangles cut
 
 
-def cut_before_eye(view: View, mirror_map: MirrorMap, cameras: Cameras) -> Cameras:
+def cut_before_eye(cameras: Cameras) -> Cameras:
     """The cameras, those across the eye's plane without what lies behind it."""
+    view = cameras.view
     whole, parent, weights = _before(view, cameras.places[:, cameras.corners.T])
-    return cameras if whole.all() else with_pieces(mirror_map, cameras, whole, parent, weights)[0]
+    return cameras if whole.all() else with_pieces(cameras, whole, parent, weights)[0]
 
 
 def triangles_before_eye(view: View, mesh: TriangleMesh, chosen: np.ndarray) -> tuple[TriangleMesh, np.ndarray]:

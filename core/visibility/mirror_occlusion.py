@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, dot, groups, ranges, shares
+from ..geometry import dot, groups, ranges, shares
 from ..polygons import CONTACT, HIDDEN, SCENE_EDGE, Polygons, clip
 from ..support import breathe
 
@@ -22,34 +21,32 @@ PAIRS_AT_ONCE = 1 << 19
 INWARD = 0.05  # how far from its corners towards its middle a polygon is asked
 
 
-def cut_behind_mirrors(cameras: Cameras, frames: SceneFrames, met: SceneAndMirrors, candidates: Candidates,
-                       polygons: Polygons) -> tuple[Polygons, int]:
+def cut_behind_mirrors(met: SceneAndMirrors, polygons: Polygons) -> tuple[Polygons, int]:
     """The polygons without what mirrors hide from the cameras, and how many were hidden or cut."""
-    mirror = np.flatnonzero(met.shows_mirror(frames)[candidates.column])
+    candidates = polygons.candidates
+    mirror = np.flatnonzero(met.are_mirrors(candidates))
     if not len(mirror):
         return polygons, 0
-    touched = np.zeros(len(cameras), dtype=bool)
+    touched = np.zeros(len(candidates.cameras), dtype=bool)
     touched[candidates.camera[mirror]] = True
-    asked = touched[candidates.camera[polygons.pair]]
+    asked = touched[polygons.camera]
     if not asked.any():
         return polygons, 0
-    pieces = _along_outlines(cameras, frames, met, candidates, mirror, polygons.select(asked))
-    pieces, hidden = _before_mirrors(candidates, mirror, pieces)
+    pieces = _along_outlines(_outlines(met, candidates.select(mirror)), polygons.select(asked))
+    pieces, hidden = _before_mirrors(mirror, pieces)
     if not hidden:
         return polygons, 0
     return Polygons.joined((polygons.select(~asked), pieces)), hidden
 
 
-def _along_outlines(cameras: Cameras, frames: SceneFrames, met: SceneAndMirrors, candidates: Candidates,
-                    mirror: np.ndarray, polygons: Polygons) -> Polygons:
+def _along_outlines(lines: tuple[np.ndarray, np.ndarray, np.ndarray], polygons: Polygons) -> Polygons:
     """The polygons in pieces, cut along the outlines of the mirrors in their cameras."""
-    lines = _outlines(cameras, frames, met, candidates, mirror)
-    first = np.searchsorted(lines[0], np.arange(len(cameras) + 1))
-    count = np.diff(first)[candidates.camera[polygons.pair]]
+    first = np.searchsorted(lines[0], np.arange(len(polygons.candidates.cameras) + 1))
+    count = np.diff(first)[polygons.camera]
     for number in range(min(LINES, int(count.max(initial=0)))):
         breathe()
         crossed = np.flatnonzero(count > number)
-        line = first[candidates.camera[polygons.pair[crossed]]] + number
+        line = first[polygons.camera[crossed]] + number
         low, high = (bound.reduceat(polygons.weights, polygons.start[:-1], axis=1)[:, crossed]
                      for bound in (np.minimum, np.maximum))
         near = ((low <= lines[2][1][:, line]) & (high >= lines[2][0][:, line])).all(axis=0)
@@ -57,23 +54,21 @@ def _along_outlines(cameras: Cameras, frames: SceneFrames, met: SceneAndMirrors,
         crossed = np.isin(np.arange(len(count)), crossed[near])
         sides = [polygons.select(crossed).cut(sign * values, HIDDEN) for sign in (1.0, -1.0)]
         polygons = Polygons.joined((polygons.select(~crossed), *sides))
-        count = np.diff(first)[candidates.camera[polygons.pair]]
+        count = np.diff(first)[polygons.camera]
     return polygons
 
 
-def _outlines(cameras: Cameras, frames: SceneFrames, met: SceneAndMirrors, candidates: Candidates,
-              mirror: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Outlines of the mirrors, sorted by camera: the camera (k,), the values (3, k) at its corners of a function that
-    is zero on the line, and the least and the largest weights (2, 3, k) on it."""
-    seen = candidates.select(mirror)
+def _outlines(met: SceneAndMirrors, seen: Candidates) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Outlines of the mirrors `seen`, sorted by camera: the camera (k,), the values (3, k) at its corners of a function
+    that is zero on the line, and the least and the largest weights (2, 3, k) on it."""
     polygons = clip(seen)
     corner = np.flatnonzero((polygons.after >= SCENE_EDGE) & (polygons.after < CONTACT))
     side = polygons.after[corner].astype(np.int64) - SCENE_EDGE
     polygon = np.repeat(np.arange(len(polygons.pair)), np.diff(polygons.start))[corner]
     pair = polygons.pair[polygon]
-    outer = ~met.inner_sides(cameras, frames, seen)[side, pair]
+    outer = ~met.inner_sides(seen)[side, pair]
     corner, side, polygon, pair = corner[outer], side[outer], polygon[outer], pair[outer]
-    vertices, row = frames.vertices[:, seen.column[pair]], np.arange(len(pair))
+    vertices, row = seen.frames.vertices[:, seen.column[pair]], np.arange(len(pair))
     ends = np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row])), axis=0)
     once, _ = groups(seen.camera[pair], *ends)
     corner, side, polygon, pair = corner[once], side[once], polygon[once], pair[once]
@@ -82,19 +77,21 @@ def _outlines(cameras: Cameras, frames: SceneFrames, met: SceneAndMirrors, candi
     return seen.camera[pair], seen.sides[side, :, pair].T, np.stack((along.min(axis=0), along.max(axis=0)))
 
 
-def _before_mirrors(candidates: Candidates, mirror: np.ndarray, polygons: Polygons) -> tuple[Polygons, int]:
-    """The polygons that no mirror hides; those that pass through one are cut in the line of contact."""
+def _before_mirrors(mirror: np.ndarray, polygons: Polygons) -> tuple[Polygons, int]:
+    """The polygons that no mirror hides, of the candidates `mirror`; those that pass through one are cut in the line of
+    contact."""
+    candidates = polygons.candidates
     order = mirror[np.argsort(candidates.camera[mirror], kind="stable")]
     seen, hidden = [], 0
     for _ in range(CONTACTS):
-        asked, polygons = polygons, []
-        camera = candidates.camera[asked.pair]
+        asked, parts = polygons, []
+        camera = asked.camera
         start, stop = (np.searchsorted(candidates.camera[order], camera, side=side) for side in ("left", "right"))
         for part in shares(stop - start, PAIRS_AT_ONCE):
             breathe()
             entry, polygon = ranges(start[part], (stop - start)[part])
             some = asked.select(np.arange(part.start, part.stop))
-            covered, middle = _behind(candidates, order[entry], polygon, some)
+            covered, middle = _behind(order[entry], polygon, some)
             other, polygon = order[entry][covered], polygon[covered]
             crossing = _changes_sign(some.select(polygon), _depth_order(candidates, other, some.pair[polygon]))
             passing, first = np.unique(polygon[crossing], return_index=True)
@@ -102,15 +99,16 @@ def _before_mirrors(candidates: Candidates, mirror: np.ndarray, polygons: Polygo
             resting[passing] = False
             seen.append(some.select(resting & ~middle))
             hidden += int((middle | ~resting).sum())
-            polygons += _not_behind(candidates, other[crossing][first], some.select(passing))
-        polygons = Polygons.joined(polygons)
+            parts += _not_behind(other[crossing][first], some.select(passing))
+        polygons = Polygons.joined(parts) if parts else asked.select(slice(0, 0))
         if not len(polygons.pair):
             break
     return Polygons.joined((*seen, polygons)), hidden
 
 
-def _not_behind(candidates: Candidates, other: np.ndarray, polygons: Polygons) -> list[Polygons]:
+def _not_behind(other: np.ndarray, polygons: Polygons) -> list[Polygons]:
     """The parts of polygons beside the mirror triangles `other` and before them; others may hide them still."""
+    candidates = polygons.candidates
     parts, rest, own = [], polygons, np.arange(len(other))
     for side in range(3):
         values = candidates.sides[side][:, other]
@@ -122,12 +120,11 @@ def _not_behind(candidates: Candidates, other: np.ndarray, polygons: Polygons) -
     return parts
 
 
-def _behind(candidates: Candidates, other: np.ndarray, polygon: np.ndarray,
-            polygons: Polygons) -> tuple[np.ndarray, np.ndarray]:
+def _behind(other: np.ndarray, polygon: np.ndarray, polygons: Polygons) -> tuple[np.ndarray, np.ndarray]:
     """Which pairs of a polygon and a mirror's candidate `other` that may cross have a place where the mirror hides it,
     of the corners, a little inward; and which polygons (q,) are hidden in their middles."""
-    size = np.diff(polygons.start)
-    near = _near(candidates, other, polygon, polygons)
+    candidates, size = polygons.candidates, np.diff(polygons.start)
+    near = _near(other, polygon, polygons)
     other, polygon = other[near], polygon[near]
     middle = np.add.reduceat(polygons.weights, polygons.start[:-1], axis=1) / size if len(size) else polygons.weights
     own, middle_hidden = polygons.pair[polygon], np.zeros(len(size), dtype=bool)
@@ -145,14 +142,14 @@ def _behind(candidates: Candidates, other: np.ndarray, polygon: np.ndarray,
     return covered, middle_hidden
 
 
-def _near(candidates: Candidates, other: np.ndarray, polygon: np.ndarray, polygons: Polygons) -> np.ndarray:
+def _near(other: np.ndarray, polygon: np.ndarray, polygons: Polygons) -> np.ndarray:
     """Which mirror triangles have no side that keeps the box of the polygon's weights outside."""
     if not len(other):
         return np.zeros(0, dtype=bool)
     low, high = (bound.reduceat(polygons.weights, polygons.start[:-1], axis=1)[:, polygon]
                  for bound in (np.minimum, np.maximum))
     near = np.ones(len(other), dtype=bool)
-    for side in candidates.sides:
+    for side in polygons.candidates.sides:
         values = side[:, other]
         near &= np.maximum(values * low, values * high).sum(axis=0) >= 0.0
     return near

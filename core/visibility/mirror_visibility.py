@@ -40,8 +40,9 @@ class DepthGrid:
     room: float
 
     @classmethod
-    def of(cls, view: View, cameras: Cameras) -> tuple[DepthGrid, np.ndarray]:
+    def of(cls, cameras: Cameras) -> tuple[DepthGrid, np.ndarray]:
         """The grid of cameras (n,), and which of them the eye may see."""
+        view = cameras.view
         depth = view.depths(cameras.places.T)
         depths, pixels = depth[cameras.corners], view.pixels(cameras.places.T)[cameras.corners]
         scale = SAMPLES / max(view.resolution)
@@ -136,7 +137,7 @@ def _runs(corners: np.ndarray, before: np.ndarray, size: tuple[int, int]) -> tup
     return camera, y, extent[camera, 0]
 
 
-def without_hidden(view: View, cameras: Cameras) -> tuple[Cameras, DepthGrid]:
+def without_hidden(cameras: Cameras) -> tuple[Cameras, DepthGrid]:
     """The cameras that the eye may see, and the grid."""
-    grid, kept = DepthGrid.of(view, cameras)
+    grid, kept = DepthGrid.of(cameras)
     return cameras.select(kept), grid

@@ -14,7 +14,7 @@ COARSER = 9  # times that the cells may be doubled
 MOST_PAIRS = 1 << 26  # more are not looked at, and the mirror is left as it is
 
 
-def pairs_in_picture(view: View, cameras: Cameras, mirror: TriangleMesh, owner: np.ndarray, grid: DepthGrid,
+def pairs_in_picture(cameras: Cameras, mirror: TriangleMesh, owner: np.ndarray, grid: DepthGrid,
                      at_once: int) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
     """Pairs of cameras and triangles of the mirror, parts of those that `owner` (m,) names and no camera's own, whose
     boxes in the picture overlap where the mirror lies several times over, by the cells of the grid; each once, in
@@ -22,6 +22,7 @@ def pairs_in_picture(view: View, cameras: Cameras, mirror: TriangleMesh, owner: 
 
     Cells are made as coarse as gives the least work: large triangles share many small cells.
     """
+    view = cameras.view
     several = np.pad(grid.layers > 1, 1)
     height, width = grid.layers.shape
     several = np.logical_or.reduce([several[y:y + height, x:x + width] for y in range(3) for x in range(3)])

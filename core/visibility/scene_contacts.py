@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, MirrorMap, picture_areas, with_pieces
+from ..cameras import Cameras, picture_areas, with_pieces
 from ..culling import Candidates, overlapping
-from ..geometry import SceneFrames, View, cross, dot, ranges, rows
-from ..polygons import cut
+from ..geometry import SceneFrames, cross, dot, ranges, rows
+from ..polygons import ConvexParts
 from ..support import breathe, crowded
 
 PASSES = 64  # triangles that cut one camera
@@ -21,18 +21,17 @@ SHORTEST_CONTACT = 1e-6  # of the line across the camera
 SMALLEST = 1e-12  # of a camera: smaller pieces are nothing
 
 
-def drop_behind_contacts(view: View, mirror_map: MirrorMap, cameras: Cameras, frames: SceneFrames,
-                         positions: np.ndarray, candidates: Candidates,
-                         maximum: int) -> tuple[Cameras, Candidates, np.ndarray, int]:
-    """Cameras without the parts right behind triangles that cut through them, or at least those that `maximum` cameras
-    allow; their candidates; which of them are too crowded for these to be looked at again; how many were cut."""
+def drop_behind_contacts(candidates: Candidates, maximum: int) -> tuple[Candidates, np.ndarray, int]:
+    """Candidates of cameras without the parts right behind triangles that cut through them, or at least those that
+    `maximum` cameras allow; which cameras are too crowded for these to be looked at again; how many were cut."""
+    cameras, frames = candidates.cameras, candidates.frames
     across = (candidates.ahead < 0.0).any(axis=0) & (candidates.ahead > 0.0).any(axis=0)
     pairs = np.unique(candidates.camera[across] * len(frames.triangle) + candidates.column[across])
     camera, column = pairs // len(frames.triangle), pairs % len(frames.triangle)
     origin, count = np.arange(len(cameras)), 0
     for _ in range(PASSES):
         breathe()
-        sides = hidden_sides(view, cameras, frames, positions, camera, column)
+        sides = hidden_sides(cameras, frames, camera, column)
         meeting = _meets(cameras, frames, camera, column) & sides[1]
         camera, column, sides = camera[meeting], column[meeting], sides[0][:, :, meeting]
         if not len(camera) or len(cameras) > maximum:
@@ -46,28 +45,30 @@ def drop_behind_contacts(view: View, mirror_map: MirrorMap, cameras: Cameras, fr
         rest = np.ones(len(camera), dtype=bool)
         rest[first] = False
         before = whole.sum()
-        cameras, origin_of_piece = with_pieces(mirror_map, cameras, whole, chosen[parent], weights)
+        cameras, origin_of_piece = with_pieces(cameras, whole, chosen[parent], weights)
         origin = np.concatenate((origin[whole], origin[origin_of_piece]))
         start = np.searchsorted(camera[rest], chosen[parent])
         stop = np.searchsorted(camera[rest], chosen[parent], side="right")
         entry, piece = ranges(start, stop - start)
         camera, column = before + piece, column[rest][entry]
     if not count:
-        return cameras, candidates, np.zeros(len(cameras), dtype=bool), 0
+        return candidates, np.zeros(len(cameras), dtype=bool), 0
     order = np.argsort(candidates.camera, kind="stable")
     start, stop = (np.searchsorted(candidates.camera[order], origin, side=side) for side in ("left", "right"))
-    crowd = crowded(stop - start, picture_areas(view, cameras), AGAIN * maximum)
+    crowd = crowded(stop - start, picture_areas(cameras), AGAIN * maximum)
     entry, camera = ranges(start, np.where(crowd, 0, stop - start))
     pairs = np.unique(camera * len(frames.triangle) + candidates.column[order][entry])
     again = overlapping(cameras, frames, pairs // len(frames.triangle), pairs % len(frames.triangle))
-    return cameras, again, crowd, count
+    return again, crowd, count
 
 
-def hidden_sides(view, cameras, frames, positions, camera, column) -> tuple[np.ndarray, np.ndarray]:
+def hidden_sides(cameras: Cameras, frames: SceneFrames, camera: np.ndarray,
+                 column: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(4, 3, p): four functions at the cameras' corners that are positive together on the hidden part; and which
     triangles are not seen edge on, when they hide nothing."""
+    view = cameras.view
     places = np.take(cameras.places, cameras.corners[camera].T, axis=1)
-    vertices = rows(positions[frames.vertices[:, column]])
+    vertices = rows(frames.positions[frames.vertices[:, column]])
     if view.orthographic:
         ahead = np.broadcast_to(view.forward[:, None], vertices[:, 0].shape)
         _, _, eye_side = frames.directions(column, -ahead)
@@ -117,16 +118,9 @@ def _pieces(sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Cameras without their hidden parts, as triangles: which of the m cameras each lies in, and its corners' weights
     (3, 3, n), entry [i, k]: weight i of corner k."""
     count = sides.shape[2]
-    rest = np.tile(np.eye(3), (1, count)), np.zeros(3 * count, dtype=np.int8), np.repeat(np.arange(count), 3)
-    parents, triangles = [], []
+    rest, beside = ConvexParts.whole(count), []
     for values in sides:
-        weights, _, polygon = cut(*rest, -values, 0)
-        rest = cut(*rest, values, 0)
-        size = np.bincount(polygon, minlength=count)
-        start = np.cumsum(size) - size
-        step, fan = ranges(np.ones(count, dtype=np.int64), np.maximum(size - 2, 0))
-        fans = np.stack([weights[:, start[fan] + k] for k in (np.zeros_like(step), step, step + 1)], axis=1)
-        solid = np.abs(np.linalg.det(np.moveaxis(fans, 2, 0))) > SMALLEST
-        parents.append(fan[solid])
-        triangles.append(fans[:, :, solid])
+        beside.append(rest.cut(-values, 0).triangles(count, SMALLEST))
+        rest = rest.cut(values, 0)
+    parents, triangles = zip(*beside)
     return np.concatenate(parents), np.concatenate(triangles, axis=2)

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, MirrorMap, with_pieces
-from ..geometry import SceneFrames, TriangleMesh, View, cross, dot, groups, norm, ranges, rows, shares
+from ..cameras import Cameras, with_pieces
+from ..geometry import SceneFrames, TriangleMesh, cross, dot, groups, norm, ranges, rows, shares
 from ..polygons import CONTACT, SCENE_EDGE, SMALLEST, ConvexParts, Lines, divide
 from ..support import breathe
 from .eye_plane import triangles_before_eye
@@ -24,17 +24,17 @@ MOST_HIDING = 64  # triangles that each hide a part of one camera; with more it 
 DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden places lie; doubled faces hide nothing
 
 
-def without_occluded(view: View, mirror_map: MirrorMap, mirror: TriangleMesh, cameras: Cameras,
-                     grid: DepthGrid) -> tuple[Cameras, int, int]:
+def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) -> tuple[Cameras, int, int]:
     """Cameras without the parts that other triangles of the mirror hide; how many were cut, and how many are left
     whole, hidden parts and all, for too much of the mirror lies over them."""
+    view = cameras.view
     mirror, owner = triangles_before_eye(view, mirror, np.unique(cameras.face))
     frames = SceneFrames.of(mirror, np.arange(len(owner)))
     shown = np.ones(len(cameras), dtype=bool)
     parts = []
-    for pairs in pairs_in_picture(view, cameras, mirror, owner, grid, PAIRS_AT_ONCE):
+    for pairs in pairs_in_picture(cameras, mirror, owner, grid, PAIRS_AT_ONCE):
         breathe()
-        parts.append(_hidden_parts(*_hiding(view, cameras, frames, mirror.positions, *pairs), shown))
+        parts.append(_hidden_parts(*_hiding(cameras, frames, *pairs), shown))
     if not parts:
         return cameras, 0, 0
     count = sum(np.bincount(part[2], minlength=len(cameras)) for part in parts)
@@ -42,12 +42,12 @@ def without_occluded(view: View, mirror_map: MirrorMap, mirror: TriangleMesh, ca
     hidden, sides, camera, column = _joined(parts, shown & ~crowded)
     whole = shown.copy()
     if len(camera):
-        lines = _outlines(view, frames, mirror.positions, hidden, sides, camera, column)
+        lines = _outlines(view, frames, hidden, sides, camera, column)
         cut_cameras = np.unique(camera)
         owner, pieces = divide(cut_cameras, lines, MOST_PIECES)
         parent, triangles = _seen_pieces(cut_cameras, owner, pieces, camera, sides)
         whole[cut_cameras] = False
-        cut = with_pieces(mirror_map, cameras, whole, parent, triangles)[0]
+        cut = with_pieces(cameras, whole, parent, triangles)[0]
     else:
         cut = cameras.select(whole)
     return cut, int((count > 0).sum() - crowded.sum()), int(crowded.sum())
@@ -67,9 +67,9 @@ def _joined(parts: list, kept: np.ndarray):
     return ConvexParts(weights, after, polygon), sides, camera, column
 
 
-def _hiding(view, cameras, frames, positions, camera, column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _hiding(cameras, frames, camera, column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The pairs in which the triangle may hide a part of the camera, behind its four functions; see `hidden_sides`."""
-    sides, solid = hidden_sides(view, cameras, frames, positions, camera, column)
+    sides, solid = hidden_sides(cameras, frames, camera, column)
     size = np.ptp(cameras.places, axis=1).max()
     sides[3] -= DEEPER * size * norm(frames.normal)[column]
     chosen = np.flatnonzero(solid & (sides.max(axis=1) > 0.0).all(axis=0))
@@ -90,17 +90,17 @@ def _hidden_parts(sides, camera, column, shown):
     return hidden.select(real), sides[:, :, real], camera[real], column[real]
 
 
-def _outlines(view, frames, positions, hidden: ConvexParts, sides, camera, column) -> Lines:
+def _outlines(view, frames, hidden: ConvexParts, sides, camera, column) -> Lines:
     """The borders of the hidden parts that no two triangles side by side share."""
     corner = np.flatnonzero(hidden.after >= SCENE_EDGE)
     pair, label = hidden.polygon[corner], hidden.after[corner].astype(np.int64) - SCENE_EDGE
     on_side = label < 3
-    _, vertex = np.unique(positions, axis=0, return_inverse=True)
+    _, vertex = np.unique(frames.positions, axis=0, return_inverse=True)
     vertices, own = frames.vertices[:, column[pair]], np.arange(len(pair))
     a, b, third = (vertices[(label + step) % 3, own] for step in (1, 2, 0))
     turned = vertex[a] > vertex[b]
     a, b = np.where(turned, b, a), np.where(turned, a, b)
-    pa, pb, pc = (rows(positions[v]) for v in (a, b, third))
+    pa, pb, pc = (rows(frames.positions[v]) for v in (a, b, third))
     if view.orthographic:
         across = dot(cross(pb - pa, view.forward[:, None]), pc - pa) > 0.0
     else:

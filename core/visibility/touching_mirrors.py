@@ -3,9 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, ReflectionMap
 from ..culling import ABOVE, Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, norm
+from ..geometry import norm
 from ..polygons import clip
 from ..support import breathe
 
@@ -15,48 +14,46 @@ PROBED_AT_ONCE = 16384  # pairs of a camera and a triangle of a mirror
 _PROBES = np.array([(i, j, 4 - i - j) for i in range(5) for j in range(5 - i)]).T / 4.0
 
 
-def without_touching(met: SceneAndMirrors, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames,
-                     candidates: Candidates) -> Candidates:
+def without_touching(met: SceneAndMirrors, candidates: Candidates) -> Candidates:
     """Candidates without the mirrors' triangles that only touch the camera's own triangle in a corner or a side;
     those neighbours stay, as across a groove, that one of the camera's `_PROBES` sees, or the ray in the middle of
     what the neighbour covers."""
-    pair = np.flatnonzero(met.shows_mirror(frames)[candidates.column])
+    pair = np.flatnonzero(met.are_mirrors(candidates))
     kept = np.ones(len(candidates), dtype=bool)
     for start in range(0, len(pair), PROBED_AT_ONCE):
         breathe()
         part = pair[start:start + PROBED_AT_ONCE]
-        part = part[_touching(met, mirror_map, cameras, frames, candidates.select(part))]
+        part = part[_touching(met, candidates.select(part))]
         asked = candidates.select(part)
-        kept[part] = _probed(met, cameras, frames, asked, np.repeat(_PROBES[:, :, None], len(part), axis=2))
+        kept[part] = _probed(met, asked, np.repeat(_PROBES[:, :, None], len(part), axis=2))
         doubtful = np.flatnonzero(~kept[part])
         asked = asked.select(doubtful)
         covered = clip(asked)
-        kept[part[doubtful[covered.pair]]] = _probed(met, cameras, frames, asked.select(covered.pair),
-                                                     covered.middles()[:, None])
+        kept[part[doubtful[covered.pair]]] = _probed(met, asked.select(covered.pair), covered.middles()[:, None])
     return candidates.select(kept) if len(pair) else candidates
 
 
-def _touching(met: SceneAndMirrors, mirror_map: ReflectionMap, cameras: Cameras, frames: SceneFrames,
-              candidates: Candidates) -> np.ndarray:
+def _touching(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
     """Which candidates, all triangles of mirrors, share a corner or a side with the camera's own triangle."""
-    surface, face = mirror_map.last(cameras.face[candidates.camera])
+    cameras, frames = candidates.cameras, candidates.frames
+    surface, face = cameras.mirror_map.last(cameras.face[candidates.camera])
     own = surface.corners(face)
     other = np.take(met.mirror_corners, frames.triangle[candidates.column] - met.diffuse, axis=1)
     apart = np.abs(own[:, :, None] - np.swapaxes(other, 1, 2)[:, None]).max(axis=0)
     return np.flatnonzero((apart <= ABOVE * met.size).any(axis=(0, 1)))
 
 
-def _probed(met: SceneAndMirrors, cameras: Cameras, frames: SceneFrames, candidates: Candidates,
-            probes: np.ndarray) -> np.ndarray:
+def _probed(met: SceneAndMirrors, candidates: Candidates, probes: np.ndarray) -> np.ndarray:
     """Which candidates (p,), all of them triangles of mirrors, one of the rays with weights `probes` (3, k, p) in
     their cameras meets."""
+    cameras, frames = candidates.cameras, candidates.frames
     corners, count = cameras.corners[candidates.camera].T, probes.shape[1]
     origins, rays = (np.einsum("xkn,kpn->xpn", np.take(values, corners, axis=1), probes).reshape(3, -1)
                      for values in (cameras.origins, cameras.rays))
     probed = np.tile(candidates.column, count)
     s = frames.distance(probed, origins, rays)
     near = np.full(len(candidates), ABOVE * met.size)
-    if cameras.origins is not cameras.places:
+    if cameras.mirror_map.bounce > 1:
         # later cameras follow the sides of their triangles only nearly, and may begin a little behind the next
         corners = np.take(met.mirror_corners, frames.triangle[candidates.column] - met.diffuse, axis=1)
         near = BEHIND * np.ptp(corners, axis=2).max(axis=0)

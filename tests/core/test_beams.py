@@ -1,4 +1,7 @@
 """Bounds that cull without a solve: beams that hold points, and how large a camera can show a small thing."""
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -53,8 +56,9 @@ def test_no_image_of_a_small_thing_is_larger_than_the_bound(spread):
     centre = np.einsum("nk,nkx->nx", rng.dirichlet((2.0, 2.0, 2.0), count),
                        places + rng.uniform(0.2, 2.0, (count, 1, 1)) * rays)
     radius = rng.uniform(1e-4, 3e-3, count)
-    bound = Magnification.of(view, cameras).pixels(Cones.around(cameras), np.arange(count),
-                                                   np.concatenate((centre.T, radius[None])))
+    seen = replace(cameras, mirror_map=SimpleNamespace(view=view))
+    bound = Magnification.of(seen).pixels(Cones.around(cameras), np.arange(count),
+                                          np.concatenate((centre.T, radius[None])))
     ways = rng.normal(size=(count, samples, 3))
     point = centre[:, None] + radius[:, None, None] * ways / np.linalg.norm(ways, axis=2, keepdims=True)
     found = project(np.repeat(places, samples, axis=0), np.repeat(rays, samples, axis=0), point.reshape(-1, 3))

@@ -101,7 +101,7 @@ def test_cameras_are_cut_where_their_rays_would_begin_to_enter_the_mirror(name):
     case = case_of(name)
     mirror_map = MirrorMap(case.view, case.mirror)
     whole = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
-    parts = cut_at_horizon(case.view, mirror_map, whole)
+    parts = cut_at_horizon(whole)
     sizes = []
     for cameras in (whole, parts):
         a, b, c = (cameras.places.T[cameras.corners[:, k]] for k in range(3))
@@ -130,7 +130,7 @@ def test_cameras_in_the_picture_are_those_that_pixels_show(name):
     case = case_of(name)
     mirror_map = MirrorMap(case.view, case.mirror)
     cameras = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
-    chosen = in_picture(case.view, cameras)
+    chosen = in_picture(cameras)
     shown = np.unique(truth_of(name).mirror_triangle)
     assert chosen[np.isin(cameras.face, shown)].all()
 
@@ -141,4 +141,4 @@ def test_cameras_beyond_a_side_of_the_picture_or_behind_the_eye_are_left_out():
              ((0.0, 0.0, 0.0), (9.0, 0.0, 0.0), (-9.0, 0.0, 0.0), (0.0, 0.0, 9.0), (0.0, 0.0, -9.0), (0.0, -10.0, 0.0))]
     mirror = shapes.combine(*quads)
     cameras = three_ray_cameras(MirrorMap(view, mirror), mirror, visible_triangles(view, mirror))
-    np.testing.assert_array_equal(in_picture(view, cameras), [True, True] + [False] * 10)
+    np.testing.assert_array_equal(in_picture(cameras), [True, True] + [False] * 10)

@@ -63,8 +63,8 @@ def test_a_cell_shows_the_triangle_that_its_middle_ray_meets_first():
     case = case_of("sphere_ico")
     mirror_map, tree = MirrorMap(case.view, case.mirror), SceneTree.build(case.scene)
     cameras = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
-    cameras = cameras.select(in_picture(case.view, cameras))
-    shown = SceneAndMirrors(tree, case.mirror).shown_in_middles(mirror_map, cameras)
+    cameras = cameras.select(in_picture(cameras))
+    shown = SceneAndMirrors(tree, case.mirror).shown_in_middles(cameras)
     middle = cameras.places[:, cameras.corners].mean(axis=2)
     ray = mirror_map.rays(cameras.face, mirror_map.coordinates(cameras.face, middle))
     expected = [first_triangle(tree.mesh, middle[:, number], ray[:, number]) for number in range(len(cameras))]
@@ -135,9 +135,8 @@ def test_what_rays_filled_is_no_more_than_the_mirror_however_much_lies_over_one_
 def test_a_sliver_across_a_picture_becomes_no_more_cells_than_squares_it_passes():
     # far longer than the picture, and far thinner than a pixel: what splits edges in halves would take millions
     sliver = TriangleMesh([[-4000.0, 0.0, -3000.0], [4000.0, 0.0, 3000.0], [4000.0, 0.0, 3000.01]], [[0, 1, 2]])
-    mirror_map = MirrorMap(VIEW, sliver)
-    cameras = cut_before_eye(VIEW, mirror_map, three_ray_cameras(mirror_map, sliver, np.array([0])))
-    parts, camera = in_squares(VIEW, cameras, 0.5)
+    cameras = cut_before_eye(three_ray_cameras(MirrorMap(VIEW, sliver), sliver, np.array([0])))
+    parts, camera = in_squares(cameras, 0.5)
     assert len(np.unique(parts.polygon)) <= len(camera) <= 3 * (96 + 72 + 1)
     place = np.einsum("xkc,kc->xc", cameras.places[:, cameras.corners[camera[parts.polygon]].T], parts.weights)
     pixels = VIEW.pixels(place.T)

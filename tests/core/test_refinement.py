@@ -21,7 +21,7 @@ FAR = 10.0
 def cameras_of(case):
     mirror_map = MirrorMap(case.view, case.mirror)
     cameras = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
-    return mirror_map, cameras.select(in_picture(case.view, cameras))
+    return cameras.select(in_picture(cameras))
 
 
 def picture_size(case, cameras):
@@ -50,8 +50,8 @@ def straying(case, cameras, samples=12):
 @pytest.mark.parametrize("name", ["sphere", "sphere_ortho", "cylinder", "torus", "bowl"])
 def test_refined_cameras_stray_by_less_than_the_tolerance(name, tolerance):
     case = case_of(name)
-    mirror_map, cameras = cameras_of(case)
-    refined, _ = refine_mirror(case.view, mirror_map, cameras, tolerance, FAR, 1_000_000)
+    cameras = cameras_of(case)
+    refined, _ = refine_mirror(cameras, tolerance, FAR, 1_000_000)
     before, after = straying(case, cameras), straying(case, refined)
     assert np.percentile(after, 99) < tolerance
     if name != "bowl":
@@ -63,25 +63,25 @@ def test_refined_cameras_stray_by_less_than_the_tolerance(name, tolerance):
 @pytest.mark.parametrize("name", ["flat", "flat_ortho"])
 def test_a_flat_mirror_stays_whole_at_any_tolerance(name):
     case = case_of(name)
-    mirror_map, cameras = cameras_of(case)
-    refined, limited = refine_mirror(case.view, mirror_map, cameras, 1e-6, FAR, 1_000_000)
+    cameras = cameras_of(case)
+    refined, limited = refine_mirror(cameras, 1e-6, FAR, 1_000_000)
     assert len(refined) == len(cameras) == 2
     assert not limited
 
 
 def test_the_count_of_cameras_is_bounded_and_told():
     case = case_of("sphere")
-    mirror_map, cameras = cameras_of(case)
-    refined, limited = refine_mirror(case.view, mirror_map, cameras, 1e-4, FAR, 3000)
+    cameras = cameras_of(case)
+    refined, limited = refine_mirror(cameras, 1e-4, FAR, 3000)
     assert limited
     assert len(refined) < 4 * 3000
 
 
 def test_split_cameras_lie_in_their_parents_with_true_rays_at_the_middles():
     case = case_of("sphere_ico")
-    mirror_map, cameras = cameras_of(case)
+    cameras = cameras_of(case)
     marked = np.random.default_rng(107).random((len(cameras), 3)) < 0.3
-    parts, parent, *_ = split_cameras(case.view, mirror_map, cameras, marked)
+    parts, parent, *_ = split_cameras(cameras, marked)
     np.testing.assert_array_equal(parts.face, cameras.face[parent])
     covered = np.bincount(parent, weights=picture_size(case, parts), minlength=len(cameras))
     np.testing.assert_allclose(covered, picture_size(case, cameras), rtol=1e-9, atol=1e-9)
@@ -139,14 +139,14 @@ def test_no_edge_is_split_for_nothing(name):
 
 def test_the_bound_on_candidates_is_kept_and_told():
     case = case_of("sphere")
-    mirror_map, cameras = cameras_of(case)
+    cameras = cameras_of(case)
     tree = SceneTree.build(case.scene)
     camera, triangle, _ = tree.trace(Cones.around(cameras))
     seen, column = np.unique(triangle, return_inverse=True)
     frames, met = SceneFrames.of(tree.mesh, seen), SceneAndMirrors(tree, case.mirror)
     candidates = overlapping(cameras, frames, camera, column)
-    *_, free = refine_for_outlines(case.view, mirror_map, cameras, frames, candidates, 0.25, 1_000_000, met)
-    _, bounded, _, limited = refine_for_outlines(case.view, mirror_map, cameras, frames, candidates, 0.25, 1000, met)
+    *_, free = refine_for_outlines(candidates, 0.25, 1_000_000, met)
+    bounded, _, limited = refine_for_outlines(candidates, 0.25, 1000, met)
     assert free < limited
     assert limited > 20
     assert len(bounded) < len(candidates)

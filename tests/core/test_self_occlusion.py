@@ -44,8 +44,8 @@ VIEWS = {"perspective": View.looking_at((1, -6, 2.2), (0, 0, 1), (256, 256), fie
 def cameras_before_and_after(view, mirror):
     mirror_map = MirrorMap(view, mirror)
     cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
-    after, grid = without_hidden(view, cameras)
-    after, count, crowded = without_occluded(view, mirror_map, mirror, after, grid)
+    after, grid = without_hidden(cameras)
+    after, count, crowded = without_occluded(mirror, after, grid)
     return cameras, after, count
 
 

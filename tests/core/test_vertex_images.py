@@ -35,9 +35,9 @@ def brute_force(case):
     """Images of all vertices in all cameras that the picture shows: vertex, pixel, and the weights in the camera."""
     mirror_map = MirrorMap(case.view, case.mirror)
     cameras = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
-    cameras = cameras.select(in_picture(case.view, cameras))
+    cameras = cameras.select(in_picture(cameras))
     # Cameras this small interpolate what a Newton step makes of larger ones.
-    cameras, _ = refine_mirror(case.view, mirror_map, cameras, 0.06, 8.0, 20_000)
+    cameras, _ = refine_mirror(cameras, 0.06, 8.0, 20_000)
     camera, vertex = (index.ravel() for index in
                       np.meshgrid(np.arange(len(cameras)), np.arange(len(case.scene.positions)), indexing="ij"))
     corners = cameras.corners[camera]
