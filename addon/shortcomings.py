@@ -17,6 +17,15 @@ def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
         told.append(f"In {counts['crowded']} parts of the mirror more lies over one another than the picture or the "
                     "memory allows to be cut exactly, and rays show it to a pixel: simplify the meshes or raise the "
                     "memory.")
+    if counts.get("overlaid"):
+        told.append(f"In {counts['overlaid']} parts of the mirror too much of it lies over itself to be cut exactly, "
+                    "and something hidden may show: simplify the mirror.")
+    if counts.get("pierced"):
+        told.append(f"Through {counts['pierced']} parts of the mirror pass more faces than can be followed, and "
+                    "something behind them may show: simplify the objects that pass through the mirror.")
+    if counts.get("many_outlines"):
+        told.append(f"In {counts['many_outlines']} parts of the mirror more outlines of mirrors cross than can be cut "
+                    "along, and their edges are rough: simplify the mirrors.")
     if counts.get("unfollowed"):
         told.append(f"{counts['unfollowed']} small parts of mirrors in mirrors are not followed further, since the "
                     "picture is too small for them: lower the depth or enlarge the picture.")

@@ -114,17 +114,18 @@ def _culled(cameras: Cameras, task: Task, showing: np.ndarray, crowds: Crowds) -
     candidates = without_touching(met, overlapping(cameras, SceneFrames.of(met, seen), camera, column))
     if task.last:
         candidates = met.hiding_something(candidates)
-    candidates, contacts = crowds.thinned(candidates, crowd), 0
+    candidates, contacts, pierced = crowds.thinned(candidates, crowd), 0, 0
     if cameras.mirror_map.bounce == 1:
-        candidates, crowd, contacts = drop_behind_contacts(candidates, limits.candidates)
+        candidates, crowd, contacts, pierced = drop_behind_contacts(candidates, limits.candidates)
         candidates = crowds.thinned(candidates, crowd)
     candidates, still_bent, limited = refine_for_outlines(candidates, OUTLINE_SHARE * task.settings.tolerance,
                                                           limits.candidates, met)
     # cameras of a pixel in which outlines are bent still, as where rays cross: there is nothing left to cut
     candidates = crowds.thinned(candidates, still_bent)
-    task.progress.done("cones", nodes_visited=visited, pairs=len(camera), contacts=contacts, limited=limited,
-                       cameras=len(candidates.cameras), candidates=len(candidates), open=still_bent.sum(),
-                       crowded=len(crowds) - still_bent.sum(), bounded=len(candidates) > limits.candidates)
+    still_open, count = int(still_bent.sum()), len(candidates)
+    task.progress.done("cones", nodes_visited=visited, pairs=len(camera), contacts=contacts, pierced=pierced,
+                       limited=limited, cameras=len(candidates.cameras), candidates=count, open=still_open,
+                       crowded=len(crowds) - still_open, bounded=count > limits.candidates)
     return candidates
 
 
@@ -159,8 +160,8 @@ def _hidden(polygons: Polygons, task: Task, by_rays: np.ndarray) -> Polygons:
     """The polygons without what mirrors hide; rays have told what cells show, and nothing hides that."""
     task.progress.next(0.7, "mirrors in the mirror")
     cell = by_rays[polygons.camera]
-    seen, occluded = cut_behind_mirrors(task.met, polygons.select(~cell))
-    task.progress.done("occlusion", occluded=occluded)
+    seen, occluded, undecided = cut_behind_mirrors(task.met, polygons.select(~cell))
+    task.progress.done("occlusion", occluded=occluded, many_outlines=undecided)
     return Polygons.joined((seen, polygons.select(cell)))
 
 

@@ -104,10 +104,10 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
     cameras = cut_before_eye(cameras)
     cameras, grid = without_hidden(cameras)
-    cameras, occluded, crowded = without_occluded(mirror, cameras, grid)
+    cameras, occluded, overlaid = without_occluded(mirror, cameras, grid)
     cameras = cut_at_horizon(cameras)
     progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
-                  limited=crowded)
+                  overlaid=overlaid)
 
     limits = Limits.of(settings, grid.mirror_pixels, len(met.triangles))
     if settings.method == "POINTS":

@@ -97,17 +97,17 @@ class Lines:
         return Lines(self.camera[chosen], self.values[:, chosen], self.start[:, chosen], self.stop[:, chosen])
 
 
-def divide(cameras: np.ndarray, lines: Lines, most: int) -> tuple[np.ndarray, ConvexParts]:
-    """The pieces into which the lines cut the cameras, not many more than `most`, and for each its camera's place
-    among them."""
+def divide(cameras: np.ndarray, lines: Lines, most: int) -> tuple[np.ndarray, ConvexParts, int]:
+    """The pieces into which the lines cut the cameras, not many more than `most`; for each its camera's place among
+    them; and how many cameras are not cut along all of their lines."""
     of_line = np.searchsorted(cameras, lines.camera)
     pieces, owner = ConvexParts.whole(len(cameras)), np.arange(len(cameras))
     line, piece = np.arange(len(of_line)), of_line
-    for _ in range(PASSES):
+    for number in range(PASSES + 1):
         breathe()
         crossing = _crosses(pieces, lines, line, piece)
         line, piece = line[crossing], piece[crossing]
-        if not len(line) or len(owner) > most:
+        if not len(line) or len(owner) > most or number == PASSES:
             break
         order = np.argsort(piece, kind="stable")
         line, piece = line[order], piece[order]
@@ -119,7 +119,7 @@ def divide(cameras: np.ndarray, lines: Lines, most: int) -> tuple[np.ndarray, Co
         rest = np.ones(len(line), dtype=bool)
         rest[first] = False
         line, piece = np.tile(line[rest], 2), np.concatenate((piece[rest], other[piece[rest]]))
-    return owner, pieces
+    return owner, pieces, len(np.unique(owner[piece]))
 
 
 def _crosses(pieces: ConvexParts, lines: Lines, line: np.ndarray, piece: np.ndarray) -> np.ndarray:

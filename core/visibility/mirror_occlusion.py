@@ -13,7 +13,7 @@ from ..geometry import dot, groups, ranges, shares
 from ..polygons import CONTACT, HIDDEN, SCENE_EDGE, Polygons, clip
 from ..support import breathe
 
-LINES = 16  # outlines that cut one camera; with more, what is left of a polygon is hidden or not by its middle
+LINES = 32  # outlines that cut one camera; with more, what is left of a polygon is hidden or not by its middle
 NEARER = 1e-9  # of the distance: what is nearer by less is the same surface
 CONTACTS = 8  # triangles of mirrors that one polygon passes through
 CROSSING = 1e-6  # of the largest depth in a camera: a smaller one is none
@@ -21,22 +21,26 @@ PAIRS_AT_ONCE = 1 << 19
 INWARD = 0.05  # how far from its corners towards its middle a polygon is asked
 
 
-def cut_behind_mirrors(met: SceneAndMirrors, polygons: Polygons) -> tuple[Polygons, int]:
-    """The polygons without what mirrors hide from the cameras, and how many were hidden or cut."""
+def cut_behind_mirrors(met: SceneAndMirrors, polygons: Polygons) -> tuple[Polygons, int, int]:
+    """The polygons without what mirrors hide from the cameras; how many were hidden or cut; and how many cameras hold
+    more outlines or contacts of mirrors than are cut along."""
     candidates = polygons.candidates
     mirror = np.flatnonzero(met.are_mirrors(candidates))
     if not len(mirror):
-        return polygons, 0
+        return polygons, 0, 0
     touched = np.zeros(len(candidates.cameras), dtype=bool)
     touched[candidates.camera[mirror]] = True
     asked = touched[polygons.camera]
     if not asked.any():
-        return polygons, 0
-    pieces = _along_outlines(_outlines(met, candidates.select(mirror)), polygons.select(asked))
-    pieces, hidden = _before_mirrors(mirror, pieces)
+        return polygons, 0, 0
+    lines = _outlines(met, candidates.select(mirror))
+    many = np.unique(polygons.camera[asked])
+    many = many[np.bincount(lines[0], minlength=len(candidates.cameras))[many] > LINES]
+    pieces, hidden, left = _before_mirrors(mirror, _along_outlines(lines, polygons.select(asked)))
+    undecided = len(np.union1d(many, left))
     if not hidden:
-        return polygons, 0
-    return Polygons.joined((polygons.select(~asked), pieces)), hidden
+        return polygons, 0, undecided
+    return Polygons.joined((polygons.select(~asked), pieces)), hidden, undecided
 
 
 def _along_outlines(lines: tuple[np.ndarray, np.ndarray, np.ndarray], polygons: Polygons) -> Polygons:
@@ -77,9 +81,9 @@ def _outlines(met: SceneAndMirrors, seen: Candidates) -> tuple[np.ndarray, np.nd
     return seen.camera[pair], seen.sides[side, :, pair].T, np.stack((along.min(axis=0), along.max(axis=0)))
 
 
-def _before_mirrors(mirror: np.ndarray, polygons: Polygons) -> tuple[Polygons, int]:
+def _before_mirrors(mirror: np.ndarray, polygons: Polygons) -> tuple[Polygons, int, np.ndarray]:
     """The polygons that no mirror hides, of the candidates `mirror`; those that pass through one are cut in the line of
-    contact."""
+    contact. How many were hidden or cut, and the cameras of those that pass through too many."""
     candidates = polygons.candidates
     order = mirror[np.argsort(candidates.camera[mirror], kind="stable")]
     seen, hidden = [], 0
@@ -103,7 +107,7 @@ def _before_mirrors(mirror: np.ndarray, polygons: Polygons) -> tuple[Polygons, i
         polygons = Polygons.joined(parts) if parts else asked.select(slice(0, 0))
         if not len(polygons.pair):
             break
-    return Polygons.joined((*seen, polygons)), hidden
+    return Polygons.joined((*seen, polygons)), hidden, np.unique(polygons.camera)
 
 
 def _not_behind(other: np.ndarray, polygons: Polygons) -> list[Polygons]:

@@ -1,7 +1,7 @@
 """Pairs of cameras and triangles of the mirror that may lie over one another in the picture, by boxes on a grid."""
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Iterable
 
 import numpy as np
 
@@ -11,23 +11,24 @@ from ..support import breathe
 from .mirror_visibility import DepthGrid
 
 COARSER = 9  # times that the cells may be doubled
-MOST_PAIRS = 1 << 26  # more are not looked at, and the mirror is left as it is
+MOST_PAIRS = 1 << 26
 
 
 def pairs_in_picture(cameras: Cameras, mirror: TriangleMesh, owner: np.ndarray, grid: DepthGrid,
-                     at_once: int) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
+                     at_once: int) -> Iterable[tuple[np.ndarray, np.ndarray]] | None:
     """Pairs of cameras and triangles of the mirror, parts of those that `owner` (m,) names and no camera's own, whose
     boxes in the picture overlap where the mirror lies several times over, by the cells of the grid; each once, in
     shares of about `at_once`.
 
-    Cells are made as coarse as gives the least work: large triangles share many small cells.
+    Cells are made as coarse as gives the least work: large triangles share many small cells. None where
+    there would be more than `MOST_PAIRS`.
     """
     view = cameras.view
     several = np.pad(grid.layers > 1, 1)
     height, width = grid.layers.shape
     several = np.logical_or.reduce([several[y:y + height, x:x + width] for y in range(3) for x in range(3)])
     if not several.any():
-        return
+        return ()
     boxes, others = (_boxes(view, corners, grid.scale) for corners in
                      (cameras.places[:, cameras.corners], rows(mirror.positions[mirror.triangles])))
     levels = [several]
@@ -39,8 +40,16 @@ def pairs_in_picture(cameras: Cameras, mirror: TriangleMesh, owner: np.ndarray, 
         work.append((_counts(boxes, level, taken) * _counts(others, level, taken) * taken).sum())
     level = int(np.argmin(work))
     if work[level] > MOST_PAIRS:
-        return
-    (cell, camera), (other_cell, column) = (_cells(part, level, levels[level]) for part in (boxes, others))
+        return None
+    cells = [_cells(part, level, levels[level]) for part in (boxes, others)]
+    return _meeting(cameras, owner, (boxes, others), cells, at_once)
+
+
+def _meeting(cameras: Cameras, owner: np.ndarray, boxes: tuple, cells: list,
+             at_once: int) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
+    """Pairs whose boxes, of cameras and of triangles, overlap, found by the cells that they share."""
+    (cell, camera), (other_cell, column) = cells
+    boxes, others = boxes
     breathe()
     order = np.argsort(camera, kind="stable")  # all that is said of one camera comes together
     cell, camera = cell[order], camera[order]

@@ -21,20 +21,21 @@ SHORTEST_CONTACT = 1e-6  # of the line across the camera
 SMALLEST = 1e-12  # of a camera: smaller pieces are nothing
 
 
-def drop_behind_contacts(candidates: Candidates, maximum: int) -> tuple[Candidates, np.ndarray, int]:
+def drop_behind_contacts(candidates: Candidates, maximum: int) -> tuple[Candidates, np.ndarray, int, int]:
     """Candidates of cameras without the parts right behind triangles that cut through them, or at least those that
-    `maximum` cameras allow; which cameras are too crowded for these to be looked at again; how many were cut."""
+    `maximum` cameras allow; which cameras are too crowded for these to be looked at again; how many were cut, and how
+    many were not cut by all that cut through them."""
     cameras, frames = candidates.cameras, candidates.frames
     across = (candidates.ahead < 0.0).any(axis=0) & (candidates.ahead > 0.0).any(axis=0)
     pairs = np.unique(candidates.camera[across] * len(frames.triangle) + candidates.column[across])
     camera, column = pairs // len(frames.triangle), pairs % len(frames.triangle)
     origin, count = np.arange(len(cameras)), 0
-    for _ in range(PASSES):
+    for number in range(PASSES + 1):
         breathe()
         sides = hidden_sides(cameras, frames, camera, column)
         meeting = _meets(cameras, frames, camera, column) & sides[1]
         camera, column, sides = camera[meeting], column[meeting], sides[0][:, :, meeting]
-        if not len(camera) or len(cameras) > maximum:
+        if not len(camera) or len(cameras) > maximum or number == PASSES:
             break
         chosen, first = np.unique(camera, return_index=True)
         parent, weights = _pieces(sides[:, :, first])
@@ -51,15 +52,16 @@ def drop_behind_contacts(candidates: Candidates, maximum: int) -> tuple[Candidat
         stop = np.searchsorted(camera[rest], chosen[parent], side="right")
         entry, piece = ranges(start, stop - start)
         camera, column = before + piece, column[rest][entry]
+    left = len(np.unique(camera))
     if not count:
-        return candidates, np.zeros(len(cameras), dtype=bool), 0
+        return candidates, np.zeros(len(cameras), dtype=bool), 0, left
     order = np.argsort(candidates.camera, kind="stable")
     start, stop = (np.searchsorted(candidates.camera[order], origin, side=side) for side in ("left", "right"))
     crowd = crowded(stop - start, picture_areas(cameras), AGAIN * maximum)
     entry, camera = ranges(start, np.where(crowd, 0, stop - start))
     pairs = np.unique(camera * len(frames.triangle) + candidates.column[order][entry])
     again = overlapping(cameras, frames, pairs // len(frames.triangle), pairs % len(frames.triangle))
-    return again, crowd, count
+    return again, crowd, count, left
 
 
 def hidden_sides(cameras: Cameras, frames: SceneFrames, camera: np.ndarray,

@@ -25,16 +25,19 @@ DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden 
 
 
 def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) -> tuple[Cameras, int, int]:
-    """Cameras without the parts that other triangles of the mirror hide; how many were cut, and how many are left
-    whole, hidden parts and all, for too much of the mirror lies over them."""
+    """Cameras without the parts that other triangles of the mirror hide; how many were cut, and how many were not, or
+    not along all outlines, since too much of the mirror lies over them."""
     view = cameras.view
     mirror, owner = triangles_before_eye(view, mirror, np.unique(cameras.face))
     frames = SceneFrames.of(mirror, np.arange(len(owner)))
     shown = np.ones(len(cameras), dtype=bool)
     parts = []
-    for pairs in pairs_in_picture(cameras, mirror, owner, grid, PAIRS_AT_ONCE):
+    pairs = pairs_in_picture(cameras, mirror, owner, grid, PAIRS_AT_ONCE)
+    if pairs is None:
+        return cameras, 0, len(cameras)
+    for camera, column in pairs:
         breathe()
-        parts.append(_hidden_parts(*_hiding(cameras, frames, *pairs), shown))
+        parts.append(_hidden_parts(*_hiding(cameras, frames, camera, column), shown))
     if not parts:
         return cameras, 0, 0
     count = sum(np.bincount(part[2], minlength=len(cameras)) for part in parts)
@@ -44,13 +47,13 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
     if len(camera):
         lines = _outlines(view, frames, hidden, sides, camera, column)
         cut_cameras = np.unique(camera)
-        owner, pieces = divide(cut_cameras, lines, MOST_PIECES)
+        owner, pieces, left = divide(cut_cameras, lines, MOST_PIECES)
         parent, triangles = _seen_pieces(cut_cameras, owner, pieces, camera, sides)
         whole[cut_cameras] = False
         cut = with_pieces(cameras, whole, parent, triangles)[0]
     else:
-        cut = cameras.select(whole)
-    return cut, int((count > 0).sum() - crowded.sum()), int(crowded.sum())
+        cut, left = cameras.select(whole), 0
+    return cut, int((count > 0).sum() - crowded.sum()), int(crowded.sum()) + left
 
 
 def _joined(parts: list, kept: np.ndarray):
