@@ -51,30 +51,30 @@ $(READY): $(REQUIREMENTS)
 	@touch $@
 
 demo: environment
-	$(RUN) benchmarks/demo.py --sample $(SAMPLE) --folder $(DEMO) $(if $(VERBOSE),--verbose)
+	$(RUN) tools/demo.py --sample $(SAMPLE) --folder $(DEMO) $(if $(VERBOSE),--verbose)
 
 measure: environment
-	$(RUN) benchmarks/measure.py $(SAMPLES)
+	$(RUN) tools/measure.py $(SAMPLES)
 
 report: environment
 	$(RUN) addon/run_with_bpy.py $(sort $(wildcard sample_blends/*.blend)) benchmark --output $(REPORT) \
 	  --budget $(BUDGET) --growth $(GROWTH)
 
 report-plots: environment
-	$(RUN) benchmarks/read_report.py $(REPORT)
+	$(RUN) tools/read_report.py $(REPORT)
 
 numerics: environment
-	$(RUN) -m benchmarks.numerics
+	$(RUN) -m tools.numerics
 
 rate: environment
-	$(RUN) -m benchmarks.solver_rate
+	$(RUN) -m tools.solver_rate
 
 work: environment
-	$(RUN) -m benchmarks.work
+	$(RUN) -m tools.work
 
 pictures: environment
-	$(RUN) benchmarks/pictures.py
-	$(RUN) benchmarks/parts.py
+	$(RUN) tools/pictures.py
+	$(RUN) tools/parts.py
 
 test: lint test-core test-addon
 
@@ -91,7 +91,7 @@ fuzz: environment
 	$(RUN) -m tests.fuzz --seconds $(SECONDS) $(if $(FIRST),--first $(FIRST))
 
 zip: environment
-	$(RUN) benchmarks/extension_zip.py dist
+	$(RUN) tools/extension_zip.py dist
 
 samples: environment
 	$(RUN) sample_blends/make_samples.py

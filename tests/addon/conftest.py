@@ -9,7 +9,7 @@ from types import ModuleType
 
 import pytest
 
-from benchmarks import extension_zip
+from tools import extension_zip
 
 USER_FOLDER = Path(tempfile.mkdtemp(prefix="reflection_mesh_tests_"))
 # before anything imports bpy: it reads the place of its preferences once

@@ -14,7 +14,7 @@ LIFE = r"""
 import json, os, sys
 sys.path.insert(0, os.environ["ROOT"])
 import bpy, addon_utils
-from benchmarks.extension_zip import PACKAGE, install
+from tools.extension_zip import PACKAGE, install
 from pathlib import Path
 
 def present():

@@ -50,7 +50,7 @@ def _core() -> Iterator[Callable[[int], dict]]:
 @contextmanager
 def _scenes() -> Iterator[Callable[[int], dict]]:
     """With the extension as users have it, in preferences of its own."""
-    from benchmarks import extension_zip
+    from tools import extension_zip
     folder = Path(tempfile.mkdtemp(prefix="reflection_mesh_fuzz_"))
     # before anything imports bpy
     extension_zip.use_throw_away_preferences(folder)

@@ -1,6 +1,6 @@
 """The table and the plot of docs/numerics.md: this solver, textbook Cardano and numpy.roots against exact arithmetic.
 
-    python -m benchmarks.numerics [--pairs 10000] [--page docs/numerics.md] [--plot docs/numerics.png]
+    python -m tools.numerics [--pairs 10000] [--page docs/numerics.md] [--plot docs/numerics.png]
 """
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.textbook_cubic import closed_form_roots, companion_roots, project_by
 from core import project
 from tests.core.exact_pairs import ExactPairs
 from tests.core.explained import DEGENERATE, UNIT, Looked, apart, at_an_end, candidates
 from tests.core.families import FAMILIES, pairs_of
+from tools.textbook_cubic import closed_form_roots, companion_roots, project_by
 
-START, END = "<!-- table by benchmarks/numerics.py -->\n", "<!-- end of the table -->\n"
+START, END = "<!-- table by tools/numerics.py -->\n", "<!-- end of the table -->\n"
 COLOURS = {"this solver": "#0072B2", "textbook Cardano": "#E69F00", "numpy.roots": "#CC79A7"}
 """Okabe and Ito's, which stay apart to the colour-blind."""
 

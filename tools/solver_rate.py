@@ -1,6 +1,6 @@
 """Rate of `core.project` on ordinary pairs beside that of the plain closed form, in one run.
 
-    python -m benchmarks.solver_rate [--pairs 1000000] [--rounds 7]
+    python -m tools.solver_rate [--pairs 1000000] [--rounds 7]
 
 All get the same pairs and return the same arrays. The plain ones take the textbook's closed form, sharpen its roots by
 one step of Newton's, and keep what lies in the triangle: no bounds, no guards. The first is written in NumPy's own
@@ -15,11 +15,11 @@ import time
 
 import numpy as np
 
-from benchmarks.textbook_cubic import closed_form_roots
 from core import project
 from core.geometry.vectors import columns, cross, dot
 from core.solver.cubic import coefficients, differences
 from core.solver.projection import CHUNK, Images
+from tools.textbook_cubic import closed_form_roots
 
 
 def main(arguments: list[str]) -> int:

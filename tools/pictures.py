@@ -1,6 +1,6 @@
 """Makes the README's pictures from the software's own output.
 
-    python benchmarks/pictures.py [folder]
+    python tools/pictures.py [folder]
 
 Leaves `sphere.jpg` (Cycles, the reflection mesh before a mirror that reflects the sky alone, the mesh's edges),
 `samples.jpg` (the reflection mesh in each sample) and `mirrors.jpg` (mirrors in mirrors, by Cycles and to a depth of

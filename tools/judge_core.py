@@ -1,6 +1,6 @@
 """Judge `core.reflect` on scenes made from formulas, without Blender: one line of numbers for each.
 
-    python -m benchmarks.judge_core sphere flat --resolution 1024 --tolerance 0.5 --images demo
+    python -m tools.judge_core sphere flat --resolution 1024 --tolerance 0.5 --images demo
 """
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The main job from end to end: build the zip, install it, reflect a sample, compare with Cycles.
 
-    python benchmarks/demo.py [--sample sphere] [--folder demo] [--verbose]
+    python tools/demo.py [--sample sphere] [--folder demo] [--verbose]
 """
 from __future__ import annotations
 

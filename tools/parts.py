@@ -1,6 +1,6 @@
 """Makes the pictures that show what each part of the method adds: connection, clipping, filling, beside Cycles.
 
-    python benchmarks/parts.py [folder]
+    python tools/parts.py [folder]
 
 Leaves `parts_bowl.jpg`, `parts_water.jpg` and `parts_suzanne.jpg` in the folder, docs/ by default: the whole picture
 above, parts of it enlarged below.

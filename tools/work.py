@@ -1,6 +1,6 @@
 """Work instead of seconds: what each method counts on the setting of the talk's cost model, beside its predictions.
 
-    python -m benchmarks.work [--resolution 1024] [method ...]
+    python -m tools.work [--resolution 1024] [method ...]
 
 The talk sets 1M pixels, all of which show the mirror, 1K diffuse vertices with 2K triangles and 1K mirror vertices with
 2K triangles, and predicts: ray tracing 2M Ti + 1M Tt, reflection morphing 1M Ti + 1K Tt, ray tracing with clustering

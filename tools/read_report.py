@@ -1,7 +1,7 @@
 """Brings docs/benchmark.md up to a report of `make report`: its tables and its plots. What the page says is written by
 hand: read it against the tables, and against the growth that this prints.
 
-    python benchmarks/read_report.py [report] [--page docs/benchmark.md]
+    python tools/read_report.py [report] [--page docs/benchmark.md]
 """
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pathlib import Path
 COMPARED = {"refined, 0.5 px": ("GENERAL", 0.5), "refined, 0.25 px": ("GENERAL", 0.25), "rays, 1 x 1": ("RAYS", 1),
             "rays, 2 x 2": ("RAYS", 2), "2 x 2 at edges": ("RAYS_ADAPTIVE", 2),
             "4 x 4 at edges": ("RAYS_ADAPTIVE", 4), "BVHTree, 1 x 1": ("BVHTREE", 1), "BVHTree, 2 x 2": ("BVHTREE", 2)}
-START, END = "<!-- {} by benchmarks/read_report.py -->\n", "<!-- end of the table -->\n"
+START, END = "<!-- {} by tools/read_report.py -->\n", "<!-- end of the table -->\n"
 PLOTS = ("*_area_mean_error_px.svg", "growth_*.svg", "sphere_mean_error_px.svg", "sphere_stages.svg",
          "suzanne_stages.svg")
 
