@@ -1,0 +1,41 @@
+"""How much work each scene takes, counted: a change that does more, or less, says so here.
+
+    python -m tests.core.test_counts
+
+writes counts.json anew. Counts that follow from what is seen are held exactly; how tight bounding cones are, and
+where refinement stops, depends on the last digits of sums, which NumPys and processors add in different orders.
+"""
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.core.true_map import mesh_of
+from tests.scenes import SCENES
+
+FILE = Path(__file__).with_name("counts.json")
+PIXELS = 512
+EXACT = ("mirror_triangles", "cameras", "candidates", "projections", "roots", "images", "polygons", "joined",
+         "caustic_edges")
+NEARLY, SHARE = ("pairs", "occluded", "faces"), 0.01
+
+
+def counted(name: str) -> dict[str, int]:
+    counts = mesh_of(name, PIXELS).counts
+    return {count: int(counts[count]) for count in EXACT + NEARLY}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_work_is_what_it_was(name):
+    held, found = json.loads(FILE.read_text(encoding="utf-8"))[name], counted(name)
+    assert {count: found[count] for count in EXACT} == {count: held[count] for count in EXACT}
+    for count in NEARLY:
+        assert found[count] == pytest.approx(held[count], rel=SHARE, abs=2)
+
+
+def test_no_scene_is_without_counts():
+    assert set(json.loads(FILE.read_text(encoding="utf-8"))) == set(SCENES)
+
+
+if __name__ == "__main__":
+    FILE.write_text(json.dumps({name: counted(name) for name in SCENES}, indent=1) + "\n", encoding="utf-8")
