@@ -9,18 +9,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, with_pieces
+from ..cameras import Cameras, picture_areas, with_pieces
 from ..geometry import SceneFrames, TriangleMesh, cross, dot, groups, norm, ranges, rows, shares
 from ..polygons import CONTACT, SCENE_EDGE, SMALLEST, ConvexParts, Lines, divide
-from ..support import breathe
+from ..support import breathe, crowded
 from .eye_plane import triangles_before_eye
 from .mirror_visibility import DepthGrid
 from .picture_pairs import pairs_in_picture
 from .scene_contacts import hidden_sides
 
 PAIRS_AT_ONCE = 1 << 17
-MOST_PIECES = 1 << 20  # as many as cameras are cut into altogether
-MOST_HIDING = 64  # triangles that each hide a part of one camera; with more it is left whole
+MOST_PIECES = 1 << 18  # as many as cameras are cut into altogether
+MOST_HIDING = 1 << 18  # pairs of a camera and a triangle that hides a part of it; cameras with the most stay whole
+MOST_WORK = 1 << 21  # lines of cameras, each once for every triangle that hides a part of its camera
 DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden places lie; doubled faces hide nothing
 
 
@@ -40,20 +41,29 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
         parts.append(_hidden_parts(*_hiding(cameras, frames, camera, column), shown))
     if not parts:
         return cameras, 0, 0
-    count = sum(np.bincount(part[2], minlength=len(cameras)) for part in parts)
-    crowded = shown & (count > MOST_HIDING)
-    hidden, sides, camera, column = _joined(parts, shown & ~crowded)
-    whole = shown.copy()
-    if len(camera):
-        lines = _outlines(view, frames, hidden, sides, camera, column)
-        cut_cameras = np.unique(camera)
-        owner, pieces, left = divide(cut_cameras, lines, MOST_PIECES)
-        parent, triangles = _seen_pieces(cut_cameras, owner, pieces, camera, sides)
-        whole[cut_cameras] = False
-        cut = with_pieces(cameras, whole, parent, triangles)[0]
-    else:
-        cut, left = cameras.select(whole), 0
-    return cut, int((count > 0).sum() - crowded.sum()), int(crowded.sum()) + left
+    count, worth = sum(np.bincount(part[2], minlength=len(cameras)) for part in parts), picture_areas(cameras)
+    uncut = crowded(np.where(shown, count, 0), worth, MOST_HIDING)
+    hidden, sides, camera, column = _joined(parts, shown & ~uncut)
+    lines = _outlines(view, frames, hidden, sides, camera, column)
+    # each piece that the lines leave is asked of each triangle that hides a part of its camera
+    load = np.bincount(lines.camera, minlength=len(cameras)) * count
+    uncut |= crowded(load, worth, MOST_WORK)
+    lines, kept = lines.select(~uncut[lines.camera]), ~uncut[camera]
+    cut, left = _cut(cameras, shown, lines, camera[kept], sides[:, :, kept])
+    return cut, int((count > 0).sum() - uncut.sum()), int(uncut.sum()) + left
+
+
+def _cut(cameras: Cameras, shown: np.ndarray, lines: Lines, camera: np.ndarray,
+         sides: np.ndarray) -> tuple[Cameras, int]:
+    """The cameras that are `shown` (n,), those of the pairs `camera` (p,), of which triangles hide what their `sides`
+    (4, 3, p) bound, without what is hidden; and how many are not cut along all lines."""
+    if not len(camera):
+        return cameras.select(shown), 0
+    cut_cameras, whole = np.unique(camera), shown.copy()
+    owner, pieces, left = divide(cut_cameras, lines, MOST_PIECES)
+    parent, triangles = _seen_pieces(cut_cameras, owner, pieces, camera, sides)
+    whole[cut_cameras] = False
+    return with_pieces(cameras, whole, parent, triangles)[0], left
 
 
 def _joined(parts: list, kept: np.ndarray):

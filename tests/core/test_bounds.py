@@ -18,7 +18,7 @@ CASES = {
     "pairs in the picture": (BALLS, ROOM, {}, (picture_pairs, "MOST_PAIRS", 0), "overlaid"),
     "lines across a camera": (BALLS, ROOM, {}, (convex_parts, "PASSES", 0), "overlaid"),
     "pieces of cameras": (BALLS, ROOM, {}, (self_occlusion, "MOST_PIECES", 0), "overlaid"),
-    "triangles over a camera": (BALLS, ROOM, {}, (self_occlusion, "MOST_HIDING", 0), "overlaid"),
+    "triangles over a camera": (BALLS, ROOM, {}, (self_occlusion, "MOST_HIDING", 1), "overlaid"),
     "what cuts through a camera": (FLOOR, POLES, {}, (scene_contacts, "PASSES", 1), "pierced"),
     "outlines in a camera": (FLOOR, ROOM, {"mirrors": BALLS}, (mirror_occlusion, "LINES", 1), "many_outlines"),
 }

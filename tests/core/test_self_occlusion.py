@@ -9,6 +9,8 @@ from core.visibility.mirror_visibility import without_hidden
 from core.visibility.self_occlusion import without_occluded
 from tests import shapes
 from tests.judge import judge
+from tests.raster import rasterise
+from tests.truth_bounces import trace_bounces
 
 SURE = 1e-6  # barycentric, and share of the way to the eye: nearer to a border than this, rounding decides
 
@@ -121,3 +123,15 @@ def test_an_eyeball_does_not_come_out_through_its_lid(gap, projection):
     assert numbers["compared"] > 3000
     assert numbers["p99"] < 0.5
     assert numbers["uncovered"] < 0.1
+
+
+def test_a_floor_behind_a_ball_of_many_faces_is_cut_along_its_outline():
+    # one face of the mirror, of which hundreds hide a part each
+    mirror = shapes.combine(shapes.quad((0, 0, 0), (30, 0, 0), (0, 30, 0)), shapes.icosphere((0, 3, 1), 1.0, 3))
+    view = View.looking_at((0, -2, 1.6), (0, 2, 0.4), (192, 192), field_of_view=0.9)
+    room = shapes.combine(shapes.box((0, 6, 2), (9, 1, 6)))
+    mesh = reflect(view, mirror, room)
+    truth, drawn = trace_bounces(view, mirror, room, mirror, 1), rasterise(view, mesh.positions, mesh.triangles)
+    wrong = truth.seen & ~truth.bent & (truth.source < 0) & (drawn.triangle >= 0)
+    assert mesh.counts["overlaid"] == 0 and mesh.counts["self_occluded"] > 0
+    assert wrong.sum() < 0.001 * truth.seen.sum()

@@ -1,0 +1,133 @@
+"""Every part of the method has a scene that gets worse without it: what no scene needs is not modelled.
+
+Each part is taken out alone, in place of what `bounce` or `reflection` call, and the same scene is
+judged again: by what a float64 ray tracer sees, or by the work that is counted.
+"""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+
+import core.bounce
+import core.reflection
+from core import PointTree, Settings, TriangleMesh, View, reflect
+from core.cameras import Cameras
+from core.culling import Magnification
+from core.filling import Crowds
+from core.points.beams import Beams
+from core.polygons import FaceRefinement
+from core.visibility.mirror_visibility import DepthGrid
+from tests import shapes
+from tests.core.true_map import case_of
+from tests.judge import judge
+from tests.raster import rasterise
+from tests.truth_bounces import trace_bounces
+
+BOUNCE, REFLECTION = core.bounce, core.reflection
+BALLS = shapes.combine(shapes.icosphere((0.0, 0.0, 1.0), 0.8, 3), shapes.icosphere((0.5, -1.5, 1.0), 0.3, 3))
+FLOOR = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (3.0, 0.0, 0.0), (0.0, 3.0, 0.0)))
+BOXES = shapes.combine(*(shapes.box((x, y, 0.3), (0.4, 0.4, 1.0), 0.3) for x in (-0.8, 0.0, 0.8) for y in (-0.8, 0.6)))
+ROOM = shapes.combine(shapes.box((0.0, 4.0, 2.0), (9.0, 1.0, 6.0)), shapes.box((0.0, -8.0, 2.0), (9.0, 1.0, 6.0)),
+                      shapes.box((-4.0, 0.0, 2.0), (1.0, 9.0, 6.0)), shapes.box((4.0, 0.0, 2.0), (1.0, 9.0, 6.0)))
+WIDE_FLOOR = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (30.0, 0.0, 0.0), (0.0, 30.0, 0.0)))
+VIEW = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (256, 256), field_of_view=0.5)
+LOW = View.looking_at((0.0, -2.0, 1.6), (0.0, 2.0, 0.4), (256, 256), field_of_view=0.9)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part, a scene that needs it, and what gets worse.
+
+    Attributes
+    ----------
+    owner, name : whose attribute is replaced
+    without : what stands in its place
+    scene : (view, mirror, scene), or the name of one of the scenes of the tests
+    worse : str
+        A number of the judgement, or a count of the mesh.
+    by : float
+        How many times as large, and more than `above`, it must be without the part.
+    """
+
+    owner: object
+    name: str
+    without: Callable
+    scene: tuple | str
+    worse: str
+    by: float = 2.0
+    above: float = 0.0
+    settings: dict = field(default_factory=dict)
+
+
+def nobody_hidden(cameras: Cameras) -> tuple[Cameras, DepthGrid]:
+    return cameras, DepthGrid.of(cameras)[0]
+
+
+PARTS = {
+    "refinement of the mirror": Part(BOUNCE, "refine_mirror", lambda cameras, *_: (cameras, 0), "coarse ball",
+                                     "uncovered"),
+    "straight outlines": Part(BOUNCE, "refine_for_outlines", lambda candidates, *_: (
+        candidates, np.zeros(len(candidates.cameras), dtype=bool), 0), "cylinder", "uncovered"),
+    "refinement of faces": Part(FaceRefinement, "refine", lambda self, nodes, faces, *_: (
+        nodes, faces, np.zeros((2, 1)), 0), "sphere", "p99"),
+    "caustics": Part(BOUNCE, "split_at_caustics", lambda cameras, frames, nodes, faces: (nodes, faces, 0), "bowl",
+                     "folded"),
+    "the horizon": Part(REFLECTION, "cut_at_horizon", lambda cameras: cameras, "sphere", "cameras", 1.3),
+    "the mirror's own body": Part(REFLECTION, "without_occluded", lambda mirror, cameras, grid: (cameras, 0, 0),
+                                  "torus", "spill", 10.0),
+    "hidden cameras": Part(REFLECTION, "without_hidden", nobody_hidden, "torus", "self_occluded", 1.5),
+    "contacts": Part(BOUNCE, "drop_behind_contacts", lambda candidates, _: (
+        candidates, np.zeros(len(candidates.cameras), dtype=bool), 0, 0), (VIEW, FLOOR, BOXES), "uncovered", above=0.1),
+    "mirrors before the scene": Part(BOUNCE, "cut_behind_mirrors", lambda met, polygons: (polygons, 0, 0),
+                                     (VIEW, BALLS, ROOM), "spill", 10.0),
+    "neighbours that only touch": Part(BOUNCE, "without_touching", lambda met, candidates: candidates, "torus",
+                                       "candidates", 1.05),
+    "the eye's plane": Part(REFLECTION, "cut_before_eye", lambda cameras: cameras, (LOW, WIDE_FLOOR, ROOM), "faces"),
+    "filling by rays": Part(Crowds, "filled", lambda self, candidates: (candidates, 0, 0), "sphere", "uncovered", 10.0,
+                            settings={"maximum_memory": 1e-4}),
+    "work beside the origin": Part(REFLECTION, "far_corner", lambda mirror: None, "far away", "maximum"),
+    "images smaller than a pixel": Part(Magnification, "pixels", lambda self, cones, camera, sphere: np.full(
+        len(camera), np.inf), "dust", "images", 10.0, settings={"method": "POINTS"}),
+    "beams": Part(Beams, "hold", lambda self, camera, points: np.ones(len(camera), dtype=bool), "sphere", "projections",
+                  1.3, settings={"method": "POINTS"}),
+}
+
+
+def scene_of(part: Part) -> tuple[View, TriangleMesh, TriangleMesh | PointTree]:
+    if isinstance(part.scene, tuple):
+        return part.scene
+    sphere = case_of("sphere")
+    if part.scene == "coarse ball":
+        return sphere.view, shapes.combine(shapes.icosphere((0.0, 0.0, 1.3), 1.0, 1)), sphere.scene
+    if part.scene == "dust":
+        points = np.random.default_rng(5).normal((0.0, -4.0, 1.0), 0.01, (20_000, 3))
+        return VIEW, BALLS, TriangleMesh(points, np.zeros((0, 3), dtype=np.int64))
+    case = sphere.moved("far", (1e12, -5e11, 3e11)) if part.scene == "far away" else case_of(part.scene)
+    return case.view, case.mirror, case.scene
+
+
+def number(part: Part) -> float:
+    view, mirror, scene = scene_of(part)
+    mesh = reflect(view, mirror, scene, Settings(**part.settings))
+    if part.worse in mesh.counts:
+        return float(mesh.counts[part.worse])
+    if part.worse == "folded":
+        parity = mesh.image_parity[mesh.triangles]
+        return float(((parity.min(axis=1) < 0) & (parity.max(axis=1) > 0)).sum())
+    if part.worse == "spill":
+        # pixels in which the mesh shows the scene where rays meet a mirror, or nothing
+        truth, drawn = trace_bounces(view, mirror, scene, mirror, 1), rasterise(view, mesh.positions, mesh.triangles)
+        return float((truth.seen & ~truth.bent & (truth.source < 0) & (drawn.triangle >= 0)).sum())
+    return float(judge(view, mirror, scene, mesh)[part.worse])
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_a_scene_gets_worse_without(name, monkeypatch):
+    part = PARTS[name]
+    with_it = number(part)
+    monkeypatch.setattr(part.owner, part.name, part.without)
+    without = number(part)
+    assert without > max(part.by * with_it, part.above)
