@@ -196,12 +196,12 @@ def _check_projection(matrix: np.ndarray) -> None:
 def _picture_size(resolution) -> tuple[int, int]:
     wrong = f"View.resolution must be a width and a height in whole pixels, each from 1 to {SIZE_LIMIT}."
     try:
-        size = tuple(whole_number(side) for side in resolution)
-    except TypeError as error:
+        width, height = (whole_number(side) for side in resolution)
+    except (TypeError, ValueError) as error:  # no sequence, or one of another length
         raise ValueError(wrong) from error
-    if len(size) != 2 or not all(side is not None and 1 <= side <= SIZE_LIMIT for side in size):
+    if width is None or height is None or not (1 <= width <= SIZE_LIMIT and 1 <= height <= SIZE_LIMIT):
         raise ValueError(wrong)
-    return size
+    return width, height
 
 
 def _place(given, name: str) -> np.ndarray:

@@ -84,20 +84,20 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     degenerate = np.zeros(count, dtype=bool)
     # The C library maps large arrays anew each time, and clears their pages, until it has freed a larger one once.
     np.empty(64 * CHUNK)
-    found, left = [], []
+    found, doubts = [], []
     for start in range(0, max(count, 1), CHUNK):
         breathe()
         part = slice(start, start + CHUNK)
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], common_lengths)
-        found.append(_turned(pair + start, *images, facing))
-        left.append(np.flatnonzero(doubtful) + start)
-    left, doubtful_left = np.concatenate(left), []
+        found.append(_turned(facing, pair + start, *images))
+        doubts.append(np.flatnonzero(doubtful) + start)
+    left, doubtful_left = np.concatenate(doubts), []
     # a number that is not finite leaves every doubt
     if not all(np.isfinite(given[left]).all() for given in (vertices, rays, points)):
         raise ValueError("Vertices, rays and points must be finite numbers; repair or leave out the others.")
     for part in _chunks(left):
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], own_lengths)
-        found.append(_turned(part[pair], *images, facing))
+        found.append(_turned(facing, part[pair], *images))
         doubtful_left.append(part[doubtful])
     left = np.concatenate(doubtful_left)
     strange = strange_sizes(vertices[left], rays[left], points[left])
@@ -108,7 +108,7 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
         found.append((some[images[0]], *images[1:]))
     for part in _chunks(left):
         (pair, *images), degenerate[part] = doubtful_images(vertices[part], rays[part], points[part])
-        found.append(_turned(part[pair], *images, facing))
+        found.append(_turned(facing, part[pair], *images))
     pair, distance, weights, parity = (np.concatenate(column) for column in zip(*found))
     # stable, since the images of one pair already come by rising distance
     order = np.argsort(pair, kind="stable")
@@ -144,7 +144,7 @@ def _chunks(pairs: np.ndarray):
     return (pairs[start:start + CHUNK] for start in range(0, max(len(pairs), 1), CHUNK))
 
 
-def _turned(pair, distance, weights, sign, side, facing):
+def _turned(facing, pair, distance, weights, sign, side):
     """Images with their parity, by the side of the triangle that `facing` tells, or else their rays."""
     side = side if facing is None else facing[pair]
     return pair, distance, weights, np.where(side < 0.0, -sign, sign)

@@ -40,7 +40,8 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
         parts.append(_hidden_parts(*_hiding(cameras, frames, camera, column), shown))
     if not parts:
         return cameras, 0, 0
-    count = sum(np.bincount(part[2], minlength=len(cameras)) for part in parts)
+    none = np.zeros(len(cameras), dtype=np.int64)
+    count = sum((np.bincount(part[2], minlength=len(cameras)) for part in parts), none)
     crowded = shown & (count > MOST_HIDING)
     hidden, sides, camera, column = _joined(parts, shown & ~crowded)
     whole = shown.copy()
@@ -122,8 +123,8 @@ def _outlines(view, frames, hidden: ConvexParts, sides, camera, column) -> Lines
 def _seen_pieces(cameras, owner, pieces: ConvexParts, camera, sides) -> tuple[np.ndarray, np.ndarray]:
     """The pieces that no triangle hides, as triangles: the camera each lies in and its corners' weights (3, 3, n)."""
     count = np.bincount(pieces.polygon, minlength=len(owner))
-    middle = np.stack([np.bincount(pieces.polygon, weight, minlength=len(owner)) for weight in pieces.weights])
-    middle /= np.maximum(count, 1)
+    total = np.stack([np.bincount(pieces.polygon, weight, minlength=len(owner)) for weight in pieces.weights])
+    middle = total / np.maximum(count, 1)
     order = np.argsort(camera, kind="stable")
     start, stop = (np.searchsorted(camera[order], cameras[owner], side=side) for side in ("left", "right"))
     seen = np.ones(len(owner), dtype=bool)
