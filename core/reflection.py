@@ -57,6 +57,17 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
     ReflectionError
         Where the mirror or the scene is empty, the mirror is not in the picture, or the eye lies on it; or where so
         much lies over one another that the settings' `maximum_faces` is exceeded many times over.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import TriangleMesh, View, reflect
+    >>> view = View.looking_at((0, -4, 3), (0, 0, 0), (320, 240))
+    >>> mirror = TriangleMesh(np.array([[-2, -2, 0], [2, -2, 0], [0, 2, 0]]), np.array([[0, 1, 2]]))
+    >>> scene = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
+    >>> mesh = reflect(view, mirror, scene)
+    >>> np.unique(mesh.source_face).tolist(), mesh.estimated_error < 0.5
+    ([0], True)
     """
     return _reflected(view, mirror, scene, settings, mirrors)
 
@@ -67,6 +78,16 @@ def reflection_steps(
     """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end.
 
     A stage that takes long yields several times. A generator that is closed before its end stops the work.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import TriangleMesh, View, reflection_steps
+    >>> view = View.looking_at((0, -4, 3), (0, 0, 0), (320, 240))
+    >>> mirror = TriangleMesh(np.array([[-2, -2, 0], [2, -2, 0], [0, 2, 0]]), np.array([[0, 1, 2]]))
+    >>> scene = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
+    >>> next(reflection_steps(view, mirror, scene))  # in a generator: mesh = yield from reflection_steps(...)
+    (0.0, 'k-d tree')
     """
     return (yield from in_steps(lambda: _reflected(view, mirror, scene, settings, mirrors)))
 

@@ -41,6 +41,15 @@ class SceneTree:
         Triangles of leaf i are leaf_triangles[leaf_start[i]:leaf_start[i + 1]]; those without an area are left out.
     triangle_spheres : (4, m) float64
         Centre and radius around each triangle of the mesh.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import SceneTree, TriangleMesh
+    >>> mesh = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
+    >>> tree = SceneTree.build(mesh)  # for `reflect` in place of the mesh
+    >>> len(tree)
+    1
     """
 
     mesh: TriangleMesh

@@ -37,6 +37,14 @@ class TriangleMesh:
     ValueError
         Where shapes or kinds of numbers do not fit, an index is out of range, or a coordinate of a used vertex or a
         normal is not finite or is too large.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import TriangleMesh
+    >>> mesh = TriangleMesh(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
+    >>> mesh.corner_normals.shape, mesh.corner_normals[0, :, 2].tolist()
+    ((1, 3, 3), [1.0, 1.0, 1.0])
     """
 
     positions: np.ndarray

@@ -42,6 +42,14 @@ class View:
     ------
     ValueError
         Where a matrix is none of these, or the resolution is no picture.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import View
+    >>> view = View.looking_at((0, -4, 3), (0, 0, 0), (320, 240))
+    >>> view.pixels(np.zeros((1, 3))).round(6).tolist()
+    [[160.0, 120.0]]
     """
 
     camera_to_world: np.ndarray

@@ -30,6 +30,16 @@ class Images:
         +1 as a flat mirror shows things, -1 turned over, 0 on a caustic.
     degenerate : (n,) bool
         For each pair, whether its cubic vanishes identically, so that nothing can be said of its images.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import project
+    >>> vertices, rays = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 0, 1]] * 3)
+    >>> points = np.array([[0.25, 0.25, 2.0], [9.0, 0.0, 2.0]])  # one is seen, one is not
+    >>> images = project(np.array([vertices] * 2), np.array([rays] * 2), points)
+    >>> images.pair.tolist(), images.parity.tolist()
+    ([0], [1])
     """
 
     pair: np.ndarray
@@ -78,6 +88,15 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     References
     ----------
     .. [1] C. Mei, V. Popescu, E. Sacks, "A Hybrid Backward-Forward Method for Interactive Reflections", GRAPP 2007.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import project
+    >>> vertices, rays = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]), np.array([[[0, 0, 1]] * 3])
+    >>> images = project(vertices, rays, np.array([[0.25, 0.25, 2.0]]))
+    >>> images.distance.round(9).tolist(), images.weights.round(9).tolist()
+    ([2.0], [[0.5, 0.25, 0.25]])
     """
     vertices, rays, points, facing = _checked(vertices, rays, points, facing)
     count = len(points)

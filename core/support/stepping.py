@@ -38,7 +38,18 @@ def tell(share: float, stage: str) -> None:
 
 def in_steps(work: Callable[[], Result]) -> Generator[tuple[float, str], None, Result]:
     """What `work` returns, in steps: yields what it told last, (share, stage), at every stage and several times a
-    second in long ones. Closing the generator, or an error in the caller, stops the work at its next breath."""
+    second in long ones. Closing the generator, or an error in the caller, stops the work at its next breath.
+
+    Examples
+    --------
+    >>> from core import in_steps
+    >>> def tell():
+    ...     found = yield from in_steps(lambda: 6 * 7)  # `reflect`, or a tree's `build`
+    ...     print(found)
+    >>> for share, stage in tell():
+    ...     pass  # draw, or break to stop the work
+    42
+    """
     running = _Work(work)
     try:
         while running.go_on():
