@@ -19,7 +19,7 @@ READY = $(VENV)/.ready
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
-	@echo "make test     style, the method's tests, the extension's tests"
+	@echo "make test     style and types, the method's tests, the extension's tests"
 	@echo "make fuzz     a search for failures at random, for SECONDS=$(SECONDS), from new seeds or from FIRST=..."
 	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
 	@echo "make report   every method's error and seconds on all samples, judged by Cycles: one report in $(REPORT)/"
@@ -80,6 +80,7 @@ test: lint test-core test-addon
 
 lint: environment
 	$(RUN) -m ruff check .
+	$(RUN) -m mypy
 
 test-core: environment
 	$(RUN) -m pytest -q tests/core tests/fuzz

@@ -6,7 +6,7 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import MirrorMap, brought_back, distance_from
 from .culling import SceneAndMirrors
-from .geometry import SceneFrames, View, groups, norm, rows
+from .geometry import SceneFrames, groups, norm, rows
 from .result import ReflectionMesh, place
 
 BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
@@ -14,21 +14,21 @@ OFF_MIRROR = 1e-6  # of the size of what is seen of it: how far from it a place 
 ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the caustic
 
 
-def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement: str) -> ReflectionMesh:
+def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors, placement: str) -> ReflectionMesh:
     """The faces as arrays, no two on the same nodes, without unused nodes, all turned to the eye."""
     parts, start = [], 0
     for number, bounce in enumerate(bounces, 1):
-        part = _arrays(view, bounces[0].cameras.mirror_map, bounce, met)
+        part = _arrays(mirror_map, bounce, met)
         part["bounces"] = np.full(len(part["triangles"]), number, dtype=np.int8)
         part["triangles"] = part["triangles"] + start
         start += len(part["path_length"])
         parts.append(part)
     whole = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    whole["positions"] = place(view, whole["mirror_position"].T, whole["path_length"], placement).T
+    whole["positions"] = place(mirror_map.view, whole["mirror_position"].T, whole["path_length"], placement).T
     return ReflectionMesh(**whole)
 
 
-def _arrays(view: View, first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> dict:
+def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> dict:
     frames, nodes, faces = bounce.frames, bounce.nodes, bounce.faces
     mirror_map = bounce.cameras.mirror_map
     # mirrors are seen by what they show
@@ -50,7 +50,7 @@ def _arrays(view: View, first_map: MirrorMap, bounce: Bounce, met: SceneAndMirro
     owner = np.zeros(len(used), dtype=np.int64)
     owner[triangles.ravel()] = np.repeat(face, 3)
     seen = _on_mirror(first_map, mirror_map.first(face), triangles, seen)
-    pixels = view.pixels(seen.T)[triangles]
+    pixels = first_map.view.pixels(seen.T)[triangles]
     u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
     order = np.where((u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0.0)[:, None], (0, 2, 1), (0, 1, 2))
     triangles = np.take_along_axis(triangles, order, axis=1)

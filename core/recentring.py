@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from .geometry import TriangleMesh, View
 from .result import ReflectionMesh
 
 FAR = 1024.0  # sizes of the mirror: nearer ones keep 43 of 53 bits
+Surface = TypeVar("Surface", bound=TriangleMesh | SceneTree | PointTree)
 
 
 def far_corner(mirror: TriangleMesh) -> np.ndarray | None:
@@ -35,15 +37,15 @@ def moved_view(view: View, offset: np.ndarray) -> View:
     return replace(view, camera_to_world=placement)
 
 
-def moved_surface(surface: TriangleMesh | SceneTree | PointTree,
-                  offset: np.ndarray) -> TriangleMesh | SceneTree | PointTree:
+def moved_surface(surface: Surface, offset: np.ndarray) -> Surface:
     """A copy moved by `offset` (3,); of a tree, with spheres that hold what the moving rounds."""
     if isinstance(surface, TriangleMesh):
         return _with(surface, positions=surface.positions + offset)
-    parts = {"mesh": moved_surface(surface.mesh, offset), "spheres": [_moved(part, offset) for part in surface.spheres]}
+    moved = _with(surface, mesh=moved_surface(surface.mesh, offset),
+                  spheres=[_moved(part, offset) for part in surface.spheres])
     if isinstance(surface, SceneTree):
-        parts["triangle_spheres"] = _moved(surface.triangle_spheres, offset)
-    return _with(surface, **parts)
+        return _with(moved, triangle_spheres=_moved(surface.triangle_spheres, offset))
+    return moved
 
 
 def moved_mesh(mesh: ReflectionMesh, offset: np.ndarray) -> ReflectionMesh:
@@ -56,7 +58,7 @@ def _moved(spheres: np.ndarray, offset: np.ndarray) -> np.ndarray:
     return np.concatenate((spheres[:3] + offset[:, None], (spheres[3] + 4.0 * room)[None]))
 
 
-def _with(surface, **values):
+def _with(surface: Surface, **values: object) -> Surface:
     """A copy with other values, which are known to be good."""
     copied = copy(surface)
     for name, value in values.items():

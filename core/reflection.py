@@ -57,6 +57,17 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
     ReflectionError
         Where the mirror or the scene is empty, the mirror is not in the picture, or the eye lies on it; or where so
         much lies over one another that the settings' `maximum_faces` is exceeded many times over.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import TriangleMesh, View, reflect
+    >>> view = View.looking_at((0, -4, 3), (0, 0, 0), (320, 240))
+    >>> mirror = TriangleMesh(np.array([[-2, -2, 0], [2, -2, 0], [0, 2, 0]]), np.array([[0, 1, 2]]))
+    >>> scene = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
+    >>> mesh = reflect(view, mirror, scene)
+    >>> np.unique(mesh.source_face).tolist(), mesh.estimated_error < 0.5
+    ([0], True)
     """
     return _reflected(view, mirror, scene, settings, mirrors)
 
@@ -67,6 +78,16 @@ def reflection_steps(
     """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end.
 
     A stage that takes long yields several times. A generator that is closed before its end stops the work.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import TriangleMesh, View, reflection_steps
+    >>> view = View.looking_at((0, -4, 3), (0, 0, 0), (320, 240))
+    >>> mirror = TriangleMesh(np.array([[-2, -2, 0], [2, -2, 0], [0, 2, 0]]), np.array([[0, 1, 2]]))
+    >>> scene = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
+    >>> next(reflection_steps(view, mirror, scene))  # in a generator: mesh = yield from reflection_steps(...)
+    (0.0, 'k-d tree')
     """
     return (yield from in_steps(lambda: _reflected(view, mirror, scene, settings, mirrors)))
 
@@ -78,9 +99,8 @@ def _reflected(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree
     corner = far_corner(mirror)
     if corner is None:
         return _near_origin(view, mirror, scene, settings, mirrors, progress)
-    mirror, scene, mirrors = (part if part is None else moved_surface(part, -corner)
-                              for part in (mirror, scene, mirrors))
-    mesh = _near_origin(moved_view(view, -corner), mirror, scene, settings, mirrors, progress)
+    mesh = _near_origin(moved_view(view, -corner), moved_surface(mirror, -corner), moved_surface(scene, -corner),
+                        settings, None if mirrors is None else moved_surface(mirrors, -corner), progress)
     return moved_mesh(mesh, corner)
 
 
@@ -88,8 +108,8 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
                  mirrors: TriangleMesh | None, progress: Progress) -> ReflectionMesh:
     """The reflection of a scene whose coordinates tell the mirror's shape well."""
     progress.next(0.0, "k-d tree")
-    kind = PointTree if settings.method == "POINTS" else SceneTree
-    tree = scene if isinstance(scene, kind) else kind.build(getattr(scene, "mesh", scene))
+    kind: type[SceneTree] | type[PointTree] = PointTree if settings.method == "POINTS" else SceneTree
+    tree = scene if isinstance(scene, kind) else kind.build(scene if isinstance(scene, TriangleMesh) else scene.mesh)
     if not len(tree):
         raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
     mirror, given = ordered(mirror, shading=True)
@@ -110,7 +130,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
                   overlaid=overlaid)
 
     limits = Limits.of(settings, grid.mirror_pixels, len(met.triangles))
-    if settings.method == "POINTS":
+    if isinstance(tree, PointTree):
         cameras = refined(cameras, Task(met, settings, limits, True, progress), None)
         mesh = reflected_points(cameras, tree, met, settings.placement, progress)
         progress.done("points", **mesh.counts)
@@ -119,7 +139,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
 
     progress.start, progress.share = 0.0, 1.0
     progress.next(0.95, "depth order")
-    mesh = in_given_order(assemble(view, bounces, met, settings.placement), tree.given, given)
+    mesh = in_given_order(assemble(mirror_map, bounces, met, settings.placement), tree.given, given)
     progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
     probes, missed = missed_probes(view, mirror, mirror_map, met, mesh.mirror_position, mesh.triangles)
     progress.done("probes", probes=probes, missed=missed)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry import dot, norm
-from .mirror_surface import MirrorSurface, drawn_in
+from .mirror_surface import MirrorSurface, Way, drawn_in
 from .reflection_map import ReflectionMap
 
 DIFFERENCE = 1e-5  # of a triangle's side: step of the difference quotients for bent rays
@@ -96,7 +96,7 @@ class BouncedMap(ReflectionMap):
         return (self.before.lifted(self.face_before[face], uv, slack)
                 | self.surface.enters(triangle, ray, direction, slack))
 
-    def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: np.ndarray) -> tuple:
+    def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: Way) -> tuple:
         triangle = self.triangle[face]
         origin, ray, moves = self.before.linearise(self.face_before[face], uv, *ways)
         s = self._distance(face, origin, ray)

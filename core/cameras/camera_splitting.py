@@ -84,4 +84,4 @@ def in_picture(cameras: Cameras) -> np.ndarray:
     x, y, w = clip[:, 0], clip[:, 1], clip[:, 3]
     depth = view.depths(cameras.places.T)
     outside = np.stack((x > w * margin[0], -x > w * margin[0], y > w * margin[1], -y > w * margin[1], depth <= 0.0))
-    return ~outside[:, cameras.corners].all(axis=2).any(axis=0)
+    return ~np.any(outside[:, cameras.corners].all(axis=2), axis=0)

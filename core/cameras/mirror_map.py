@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..geometry import TriangleMesh, View, neighbours, unit
-from .mirror_surface import MirrorSurface
+from .mirror_surface import MirrorSurface, Way
 from .reflection_map import ReflectionMap
 
 NEARLY_GRAZING = 0.03  # sine at a face's corners or middle below which some ray of the face may need to be bent
@@ -95,7 +95,7 @@ class MirrorMap(ReflectionMap):
             found[part] = self.surface.enters(face, self.surface.unbent(face, uv, direction), direction, slack)
         return found
 
-    def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: np.ndarray) -> tuple:
+    def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: Way) -> tuple:
         u, v = self.spans(face)
         place = self.places(face, uv)
         moves = [way[0] * u + way[1] * v for way in ways]

@@ -36,7 +36,8 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
     limited : bool
         Whether the bound on depth or count stopped the refinement.
     """
-    cameras, finished = cameras.select(in_picture(cameras)), []
+    cameras = cameras.select(in_picture(cameras))
+    finished: list[Cameras] = []
     limited = True
     for _ in range(LEVELS):
         breathe()

@@ -11,11 +11,15 @@ rises by t along g is therefore sqrt((i . x)^2 + (i . g)^2 - t^2) x + t g - (i -
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ..geometry import TriangleMesh, cross, dot, norm, rows, unit
 
 LEAST_RISE = 0.01  # sine of the angle at which Cycles lets a bent ray leave
+Way = np.ndarray | tuple[np.ndarray, np.ndarray]
+"""A change of (u, v): (2, n), or its two rows."""
 
 
 class MirrorSurface:
@@ -73,7 +77,7 @@ class MirrorSurface:
         return direction - 2.0 * dot(direction, normal) * normal
 
     def derivatives(self, face: np.ndarray, uv: np.ndarray, direction: np.ndarray,
-                    changes: list[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, list[np.ndarray]]:
+                    changes: Sequence[tuple[Way, np.ndarray]]) -> tuple[np.ndarray, list[np.ndarray]]:
         """The unbent rays, and what they change by for each of the `changes`: of (u, v), (2, n), and of the direction
         that arrives, (3, n)."""
         raw = self.raw_normals(face, uv)

@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 
 from ..geometry import View, cross, dot, norm, solve
-from .mirror_surface import MirrorSurface
+from .mirror_surface import MirrorSurface, Way
 
 ARRIVED = 1e-10  # of the path and the viewing distance: by how much a ray that Newton's method found may miss
 
@@ -82,7 +82,7 @@ class ReflectionMap(ABC):
         their rise, all but are."""
 
     @abstractmethod
-    def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: np.ndarray) -> tuple:
+    def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: Way) -> tuple:
         """O, R, and for each of the `ways` (2, n) in (u, v) the derivatives of both along it, all (3, n)."""
 
     @abstractmethod

@@ -22,7 +22,7 @@ _PROBES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5
 
 def beyond_horizon(cameras: Cameras) -> np.ndarray:
     """Which cameras (n,) lie beyond the horizon whole, made of lifted rays alone: nothing there is worth refining."""
-    return _lifted_probes(cameras, ON_LINE).all(axis=0)
+    return np.all(_lifted_probes(cameras, ON_LINE), axis=0)
 
 
 def _lifted_probes(cameras: Cameras, slack: float) -> np.ndarray:

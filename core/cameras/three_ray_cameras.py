@@ -30,9 +30,9 @@ class Cameras:
         Where the eye sees the corners on the mirror, in world space.
     rays : (3, c) float64
         R, reflected rays of the corners, as long as the whole way from the eye.
-    origins : (3, c) float64, optional
+    origins : (3, c) float64
         V, where the rays leave the last mirror: the places themselves where there is but one.
-    mirror_map : ReflectionMap, optional
+    mirror_map : ReflectionMap
         The true map that the rays were taken from.
     """
 
@@ -40,12 +40,8 @@ class Cameras:
     face: np.ndarray
     places: np.ndarray
     rays: np.ndarray
-    origins: np.ndarray | None = None
-    mirror_map: ReflectionMap | None = None
-
-    def __post_init__(self) -> None:
-        if self.origins is None:
-            object.__setattr__(self, "origins", self.places)
+    origins: np.ndarray
+    mirror_map: ReflectionMap
 
     def __len__(self) -> int:
         return len(self.face)
@@ -58,7 +54,7 @@ class Cameras:
         """Other cameras on these corners and on more of them: `places`, `origins` and `rays` (3, k) come behind."""
         places = np.concatenate((self.places, places), axis=1)
         return Cameras(corners, face, places, np.concatenate((self.rays, rays), axis=1),
-                       None if self.mirror_map.bounce == 1 else np.concatenate((self.origins, origins), axis=1),
+                       places if self.mirror_map.bounce == 1 else np.concatenate((self.origins, origins), axis=1),
                        self.mirror_map)
 
     @property
@@ -138,4 +134,4 @@ def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.nda
     corners = shared.reshape(-1, 3)
     turn = (np.argmin(rank[corners], axis=1)[:, None] + np.arange(3)) % 3
     return Cameras(np.take_along_axis(corners, turn, axis=1), faces, places, mirror_map.rays(face, uv),
-                   mirror_map=mirror_map)
+                   places, mirror_map)

@@ -49,7 +49,7 @@ class Candidates:
     def __len__(self) -> int:
         return len(self.camera)
 
-    def select(self, chosen: np.ndarray) -> Candidates:
+    def select(self, chosen: np.ndarray | slice) -> Candidates:
         return replace(self, **{name: getattr(self, name)[..., chosen] for name in PER_PAIR})
 
     @staticmethod

@@ -64,6 +64,15 @@ class PointTree:
         Unit normal of the surface at each vertex of the mesh, up to its sign; zero where it has none.
     reach : (v,) float64
         Radius of a disc in that surface; those of all vertices cover it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import PointTree, TriangleMesh
+    >>> mesh = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
+    >>> tree = PointTree.build(mesh)  # for `reflect` in place of the mesh, with the method POINTS
+    >>> len(tree)
+    3
     """
 
     mesh: TriangleMesh

@@ -77,6 +77,7 @@ class SceneAndMirrors:
         """Pairs of cameras and triangles that may be seen in them, how many tree nodes were visited for that, and which
         cameras (n,) were given up, by their `worth` (n,), since there would be more than `most` pairs; mirrors are
         looked for on the faces that `showing_mirrors` found."""
+        assert isinstance(self.tree, SceneTree)  # points have a trace of their own
         camera, triangle, visited, given_up = bounded_trace(self.tree, Cones.around(cameras), most, worth)
         chosen = np.flatnonzero(showing[cameras.face])
         mirror_camera, mirror_triangle, more, mirror_given_up = self.mirrors_in(cameras.select(chosen),

@@ -30,8 +30,8 @@ class SceneTree:
     ----------
     mesh : TriangleMesh
         The scene in its canonical order, which all that follows names.
-    given : Order or None
-        Where its parts are in the mesh that was given; None for one that came in order.
+    given : Order
+        Where its parts are in the mesh that was given.
     depth : int
         The leaves are the 2**depth nodes of the last level.
     spheres : list of (4, 2**level) float64
@@ -41,10 +41,19 @@ class SceneTree:
         Triangles of leaf i are leaf_triangles[leaf_start[i]:leaf_start[i + 1]]; those without an area are left out.
     triangle_spheres : (4, m) float64
         Centre and radius around each triangle of the mesh.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import SceneTree, TriangleMesh
+    >>> mesh = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
+    >>> tree = SceneTree.build(mesh)  # for `reflect` in place of the mesh
+    >>> len(tree)
+    1
     """
 
     mesh: TriangleMesh
-    given: Order | None
+    given: Order
     depth: int
     spheres: list
     leaf_start: np.ndarray
@@ -78,7 +87,8 @@ class SceneTree:
         leaf_start = np.searchsorted(leaf[order], np.arange(2**depth + 1))
         leaf_triangles = areal[order]
         spheres = node_spheres(low[:, leaf_triangles], high[:, leaf_triangles], leaf_start, depth)
-        return cls(mesh, given, depth, spheres, leaf_start, leaf_triangles, np.concatenate((centre, radius[None])))
+        return cls(mesh, Order.unchanged(mesh) if given is None else given, depth, spheres, leaf_start, leaf_triangles,
+                   np.concatenate((centre, radius[None])))
 
     def __len__(self) -> int:
         return len(self.leaf_triangles)

@@ -34,6 +34,12 @@ class Order:
     triangle: np.ndarray
     first: np.ndarray
 
+    @classmethod
+    def unchanged(cls, mesh: TriangleMesh) -> Order:
+        """That of a mesh which is taken as it is."""
+        count = len(mesh.triangles)
+        return cls(np.arange(len(mesh.positions)), np.arange(count), np.zeros(count, dtype=np.int64))
+
 
 def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
     """The mesh with its vertices sorted by x, y, z, each triangle begun at its lowest corner, and the triangles sorted
@@ -53,7 +59,7 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
     """
     positions = mesh.positions + 0.0  # there is but one zero
     count = len(positions)
-    by_place, new = _sorted_rows(positions.T)
+    by_place, new = _sorted_rows(list(positions.T))
     rank = np.empty(count, dtype=np.int64)
     rank[by_place] = np.cumsum(new)
 
@@ -79,11 +85,11 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
         np.minimum.at(number, named.ravel(), np.arange(named.size))
         vertex = np.lexsort((number, rank))
     number[vertex] = np.arange(count)
-    mesh = mesh.like(positions[vertex], number[named], normals[triangle] if shading else None)
+    mesh = mesh.like(positions[vertex], number[named], None if normals is None else normals[triangle])
     return mesh, Order(vertex, triangle, first)
 
 
-def _sorted_rows(keys: list) -> tuple[np.ndarray, np.ndarray]:
+def _sorted_rows(keys: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Order by the first key, of equals by the second and so on, and which rows in that order differ from the one
     before; a later key is looked at only where all before are equal."""
     order = np.argsort(keys[0], kind="stable")

@@ -2,10 +2,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
-from .triangle_mesh import TriangleMesh
 from .vectors import cross, dot, norm, rows
 
 PARALLEL = 2.0 ** -53  # sine: rays that fall less steeply fall by rounding alone
@@ -15,6 +15,16 @@ def falling(normal: np.ndarray, rays: np.ndarray) -> np.ndarray:
     """How fast rays (3, n) move along normals, never so slowly that it is rounding alone."""
     speed, least = dot(normal, rays), np.maximum(PARALLEL * norm(normal) * norm(rays), 1e-150)
     return np.where(np.abs(speed) > least, speed, least)
+
+
+class Triangles(Protocol):
+    """A mesh, or whatever else has triangles (m, 3) over positions (n, 3)."""
+
+    @property
+    def positions(self) -> np.ndarray: ...
+
+    @property
+    def triangles(self) -> np.ndarray: ...
 
 
 @dataclass(frozen=True)
@@ -40,7 +50,7 @@ class SceneFrames:
     normal: np.ndarray
 
     @classmethod
-    def of(cls, mesh: TriangleMesh, triangle: np.ndarray) -> SceneFrames:
+    def of(cls, mesh: Triangles, triangle: np.ndarray) -> SceneFrames:
         """Frames of the triangles of a mesh, or of whatever has `positions` and `triangles`."""
         vertices = np.ascontiguousarray(mesh.triangles[triangle].T)
         a, b, c = (rows(mesh.positions[vertices[k]]) for k in range(3))
@@ -63,7 +73,9 @@ class SceneFrames:
 
     def directions(self, column: np.ndarray, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The same of vectors, which have no origin."""
-        return tuple(dot(self._take(row, column, vectors), vectors) for row in (self.first, self.second, self.normal))
+        first, second, height = (dot(self._take(row, column, vectors), vectors)
+                                 for row in (self.first, self.second, self.normal))
+        return first, second, height
 
     def weights(self, column: np.ndarray, points: np.ndarray) -> np.ndarray:
         """Barycentric coordinates (3, ...) of points (3, ...)."""

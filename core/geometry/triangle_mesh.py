@@ -37,28 +37,36 @@ class TriangleMesh:
     ValueError
         Where shapes or kinds of numbers do not fit, an index is out of range, or a coordinate of a used vertex or a
         normal is not finite or is too large.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import TriangleMesh
+    >>> mesh = TriangleMesh(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
+    >>> mesh.corner_normals.shape, mesh.corner_normals[0, :, 2].tolist()
+    ((1, 3, 3), [1.0, 1.0, 1.0])
     """
 
     positions: np.ndarray
     triangles: np.ndarray
-    corner_normals: np.ndarray | None = None
+    corner_normals: np.ndarray
 
-    def __post_init__(self) -> None:
+    def __init__(self, positions: np.ndarray, triangles: np.ndarray, corner_normals: np.ndarray | None = None) -> None:
         positions = np.ascontiguousarray(numbers(
-            self.positions, (None, 3), "The positions must be an (n, 3) array of numbers; give each vertex its x, y "
+            positions, (None, 3), "The positions must be an (n, 3) array of numbers; give each vertex its x, y "
             "and z."))
         triangles = np.ascontiguousarray(whole_numbers(
-            self.triangles, (None, 3), "The triangles must be an (m, 3) array of whole numbers; give each triangle "
+            triangles, (None, 3), "The triangles must be an (m, 3) array of whole numbers; give each triangle "
             "three indices into the positions and cut larger faces into triangles."))
         if len(triangles) and (triangles.min() < 0 or triangles.max() >= len(positions)):
             raise ValueError("A triangle names a vertex that the mesh does not have; rebuild the mesh.")
         _check_places(positions, triangles)
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "triangles", triangles)
-        if self.corner_normals is None:
+        if corner_normals is None:
             normals = np.repeat(self.face_normals()[:, None, :], 3, axis=1)
         else:
-            normals = numbers(self.corner_normals, (len(triangles), 3, 3), "The corner_normals must be an (m, 3, 3) "
+            normals = numbers(corner_normals, (len(triangles), 3, 3), "The corner_normals must be an (m, 3, 3) "
                               "array of numbers; give three normals for each triangle, or none at all.")
             normals = _unit_normals(normals, positions, triangles)
         object.__setattr__(self, "corner_normals", normals)
@@ -77,10 +85,12 @@ class TriangleMesh:
                                             *(mesh.triangles + start for mesh, start in zip(meshes, starts))]),
                             np.concatenate([np.zeros((0, 3, 3)), *(mesh.corner_normals for mesh in meshes)]))
 
-    def like(self, positions: np.ndarray, triangles: np.ndarray, corner_normals: np.ndarray) -> TriangleMesh:
-        """A mesh of this one's parts in another order, which need not be checked again."""
+    def like(self, positions: np.ndarray, triangles: np.ndarray, corner_normals: np.ndarray | None) -> TriangleMesh:
+        """A mesh of this one's parts in another order, which need not be checked again; without normals, (0, 3, 3),
+        where None are given: nobody asks for them then."""
         mesh = object.__new__(TriangleMesh)
-        for name, value in (("positions", positions), ("triangles", triangles), ("corner_normals", corner_normals)):
+        normals = np.zeros((0, 3, 3)) if corner_normals is None else corner_normals
+        for name, value in (("positions", positions), ("triangles", triangles), ("corner_normals", normals)):
             object.__setattr__(mesh, name, value)
         return mesh
 

@@ -42,6 +42,14 @@ class View:
     ------
     ValueError
         Where a matrix is none of these, or the resolution is no picture.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import View
+    >>> view = View.looking_at((0, -4, 3), (0, 0, 0), (320, 240))
+    >>> view.pixels(np.zeros((1, 3))).round(6).tolist()
+    [[160.0, 120.0]]
     """
 
     camera_to_world: np.ndarray
@@ -196,12 +204,12 @@ def _check_projection(matrix: np.ndarray) -> None:
 def _picture_size(resolution) -> tuple[int, int]:
     wrong = f"View.resolution must be a width and a height in whole pixels, each from 1 to {SIZE_LIMIT}."
     try:
-        size = tuple(whole_number(side) for side in resolution)
-    except TypeError as error:
+        width, height = (whole_number(side) for side in resolution)
+    except (TypeError, ValueError) as error:  # no sequence, or one of another length
         raise ValueError(wrong) from error
-    if len(size) != 2 or not all(side is not None and 1 <= side <= SIZE_LIMIT for side in size):
+    if width is None or height is None or not (1 <= width <= SIZE_LIMIT and 1 <= height <= SIZE_LIMIT):
         raise ValueError(wrong)
-    return size
+    return width, height
 
 
 def _place(given, name: str) -> np.ndarray:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, drawn_in, settle
+from ..cameras import Cameras, MirrorMap, drawn_in, settle
 from ..culling import Cones, Magnification, PointTree, SceneAndMirrors
 from ..geometry import norm, rows
 from ..polygons import VertexImages, images_of_pairs, repeated
@@ -25,6 +25,7 @@ def reflected_points(cameras: Cameras, tree: PointTree,
                      met: SceneAndMirrors, placement: str, progress: Progress) -> ReflectionMesh:
     """Every image of the tree's vertices in the cameras, once, as a point with its disc."""
     view, mirror_map = cameras.view, cameras.mirror_map
+    assert isinstance(mirror_map, MirrorMap)  # points follow one bounce only
     progress.next(0.2, "cones through the tree")
     cones = Cones.around(cameras)
     pairs = tree.trace(cones, Magnification.of(cameras))

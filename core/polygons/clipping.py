@@ -57,8 +57,8 @@ class Polygons:
         last[start[:-1]] = start[1:] - 1
         return Polygons(candidates, pairs[found], start, weights, after[last], after)
 
-    def select(self, chosen: np.ndarray) -> Polygons:
-        """The polygons `chosen`, as indices or as a mask."""
+    def select(self, chosen: np.ndarray | slice) -> Polygons:
+        """The polygons `chosen`, as indices, as a mask or as a slice."""
         size = np.diff(self.start)
         corner, _ = ranges(self.start[:-1][chosen], size[chosen])
         return Polygons(self.candidates, self.pair[chosen], np.append(0, np.cumsum(size[chosen])),

@@ -55,7 +55,9 @@ class FaceRefinement:
         limited : int
             Edges that the bound on depth or count left unsplit.
         """
-        finished, done, left = [], np.zeros((len(faces), 3), dtype=bool), []
+        finished: list[Faces] = []
+        left: list[np.ndarray] = []
+        done = np.zeros((len(faces), 3), dtype=bool)
         for level in range(LEVELS + 1):
             if not len(faces):
                 break
@@ -71,11 +73,11 @@ class FaceRefinement:
             new[choice] = np.arange(marked.sum()) + len(nodes.distance)
             nodes = nodes.joined(*middle_nodes)
             faces, done = faces.split(new[edge])
-            resting = done.all(axis=1)
+            resting = np.all(done, axis=1)
             finished.append(faces.select(resting))
             faces, done = faces.select(~resting), done[~resting]
-        left = np.concatenate((*left, np.zeros((2, 1))), axis=1)
-        return nodes, Faces.joined(finished) if finished else faces, left, 0
+        resting_left = np.concatenate((*left, np.zeros((2, 1))), axis=1)
+        return nodes, Faces.joined(finished) if finished else faces, resting_left, 0
 
     def _marked(self, nodes: Nodes, faces: Faces, done: np.ndarray, tolerance: float):
         """Edges to split; of those that no neighbour has settled yet, what they stray by, their lengths, and whether

@@ -49,6 +49,17 @@ class ReflectionMesh:
         For the method POINTS, where there are no faces: radius, source vertex and more of each point.
     bounces : (m,) int8
         How many mirrors the light of each face met: 1 for what is seen in the mirror itself, the default.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import Settings, TriangleMesh, View, reflect
+    >>> view = View.looking_at((0, -4, 3), (0, 0, 0), (320, 240))
+    >>> mirror = TriangleMesh(np.array([[-2, -2, 0], [2, -2, 0], [0, 2, 0]]), np.array([[0, 1, 2]]))
+    >>> scene = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
+    >>> mesh = reflect(view, mirror, scene, Settings(placement="VIRTUAL"))
+    >>> mesh.positions[:, 2].round(6).min().item()  # as deep behind the mirror as the scene is high
+    -1.4
     """
 
     positions: np.ndarray

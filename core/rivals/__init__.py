@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 from ..geometry import TriangleMesh, View
 from .billboards import billboarded
@@ -17,9 +18,11 @@ from .primary_hits import PrimaryHits, eye_depths, primary_hits
 from .ray_tracing import traced
 from .rival_picture import ITSELF, NOTHING, RivalPicture
 
+Knob = TypeVar("Knob", int, float)
+
 
 @dataclass(frozen=True)
-class Rival:
+class Rival(Generic[Knob]):
     """One method of the comparison.
 
     Attributes
@@ -35,11 +38,11 @@ class Rival:
 
     title: str
     knob: str
-    values: tuple
-    run: Callable[[View, TriangleMesh, TriangleMesh, float, PrimaryHits], RivalPicture]
+    values: tuple[Knob, ...]
+    run: Callable[[View, TriangleMesh, TriangleMesh, Knob, PrimaryHits], RivalPicture]
 
 
-METHODS: dict[str, Rival] = {
+METHODS: dict[str, Rival[int] | Rival[float]] = {
     "RAYS": Rival("Ray tracing", "pixels across a ray's block", (8, 4, 2, 1), traced),
     "CLUSTERS": Rival("Ray tracing with clustering", "pixels across a tile, 0: none", (0, 64, 32, 16), clustered),
     "ENVIRONMENT": Rival("Environment map", "texels across a side", (64, 128, 256, 512), mapped),

@@ -61,10 +61,10 @@ def _drawn(view: View, mesh: ReflectionMesh, triangle_of: np.ndarray | None, hit
     cameras = mesh.counts.get("cameras", mesh.counts["mirror_triangles"])
     work.count(projections=mesh.counts["projections"], traversals=cameras, nodes=mesh.counts["nodes_visited"],
                rays=mesh.counts.get("rays", 0))
-    if triangle_of is None:
+    if triangle_of is None or mesh.discs is None:
         positions, triangles, source, point = mesh.positions, mesh.triangles, mesh.source_face, mesh.reflected_position
     else:
-        positions, triangles = _polygons(mesh)
+        positions, triangles = _polygons(mesh.positions, mesh.discs.axes)
         source = np.repeat(triangle_of[mesh.discs.source_vertex], SIDES - 2)
         point = np.repeat(mesh.reflected_position, SIDES, axis=0)
     shown = DrawnMesh(positions, triangles, source, point)
@@ -74,10 +74,10 @@ def _drawn(view: View, mesh: ReflectionMesh, triangle_of: np.ndarray | None, hit
     return work.picture(view.resolution, *seen, shown)
 
 
-def _polygons(mesh: ReflectionMesh) -> tuple[np.ndarray, np.ndarray]:
+def _polygons(middles: np.ndarray, axes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Every disc as a fan of the regular polygon around it."""
     angle = 2.0 * np.pi * np.arange(SIDES) / SIDES
     ring = np.stack((np.cos(angle), np.sin(angle)), axis=1) / np.cos(np.pi / SIDES)
-    corners = mesh.positions[:, None] + np.einsum("ck,nkx->ncx", ring, mesh.discs.axes)
+    corners = middles[:, None] + np.einsum("ck,nkx->ncx", ring, axes)
     fan = np.array([[0, k, k + 1] for k in range(1, SIDES - 1)])
     return corners.reshape(-1, 3), (SIDES * np.arange(len(corners))[:, None, None] + fan).reshape(-1, 3)

@@ -61,10 +61,10 @@ def morphed(view: View, mirror: TriangleMesh, scene: TriangleMesh, wanted: int, 
         kept &= seen[triangles].all(axis=1) | (_spread(pixels, triangles) <= UNSEEN * longest)
     triangles, source = triangles[kept], source[kept]
     shown = DrawnMesh(virtual, triangles, source, positions, stencilled=True)
-    seen = shown.seen(view, hits.mirror_depth, hits.scene_depth)
+    found = shown.seen(view, hits.mirror_depth, hits.scene_depth)
     work.count(triangles=len(triangles))
     work.done("drawing")
-    return work.picture(view.resolution, *seen, shown)
+    return work.picture(view.resolution, *found, shown)
 
 
 def _spread(pixels: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -86,7 +86,8 @@ class _Rays:
         self.places, self.rays = hits.place[:, taken], hits.ray[:, taken]
         index = np.full(self.grid.size, -1)
         index[cell] = np.arange(len(cell))
-        self.index, self.cell = index.reshape(self.grid.shape), cell
+        self.index: np.ndarray = index.reshape(self.grid.shape)
+        self.cell = cell
         self.pyramid = RayPyramid.build(self.index, self.places, self.rays)
 
     def search(self, points: np.ndarray, work: Work) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -81,14 +81,16 @@ def primary_hits(view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Prima
     work.done("reflection")
     meets = _may_meet_mirror(mirror, face, place, ray)
     work.done("mirror in mirror")
-    depths = [drawn.depth.reshape(height, width) for drawn in (on_mirror, on_scene)]
-    return PrimaryHits(pixel, face, place, ray, meets, *depths, work.seconds, work.counts)
+    return PrimaryHits(pixel, face, place, ray, meets, on_mirror.depth.reshape(height, width),
+                       on_scene.depth.reshape(height, width), work.seconds, work.counts)
 
 
 def eye_depths(view: View, mirror: TriangleMesh, scene: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
     """`mirror_depth` and `scene_depth` of the primary hits alone."""
     width, height = view.resolution
-    return tuple(draw(view, mesh.positions, mesh.triangles).depth.reshape(height, width) for mesh in (mirror, scene))
+    mirror_depth, scene_depth = (draw(view, mesh.positions, mesh.triangles).depth.reshape(height, width)
+                                 for mesh in (mirror, scene))
+    return mirror_depth, scene_depth
 
 
 def by_face(face: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -95,7 +95,7 @@ def _cones(blocks: np.ndarray, places: np.ndarray, rays: np.ndarray) -> np.ndarr
     # the ray in the middle of the block, or the next one that there is
     middle = np.argmax(np.where(filled, 1.0 - np.abs(np.linspace(-0.5, 0.5, filled.shape[1])), 0.0), axis=1)
     stands = blocks[np.arange(len(blocks)), middle]
-    return np.concatenate((centre, radius[None], axis, half[None], filled.any(axis=1)[None], stands[None]))
+    return np.concatenate((centre, radius[None], axis, half[None], np.any(filled, axis=1)[None], stands[None]))
 
 
 def _angle(a: np.ndarray, unit_b: np.ndarray) -> np.ndarray:

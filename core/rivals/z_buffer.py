@@ -110,8 +110,8 @@ def _draw(drawn: Drawn, part, edges, depth, low, rightmost, lines, width) -> Non
         x, line = ranges(column[chosen], length[chosen])
         line = chosen[line]
         triangle, pixel = owner[line], row[line] * width + x
-        shares = [one[0, triangle] * (x + 0.5) + one[1, triangle] * y[line] + one[2, triangle] for one in edges]
-        shares = np.maximum(shares, 0.0)
+        values = [one[0, triangle] * (x + 0.5) + one[1, triangle] * y[line] + one[2, triangle] for one in edges]
+        shares = np.maximum(values, 0.0)
         with np.errstate(divide="ignore", invalid="ignore"):
             shares /= shares.sum(axis=0)
             z = sum(share * corner[triangle] for share, corner in zip(shares, depth))

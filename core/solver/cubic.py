@@ -89,16 +89,16 @@ def long_coefficients(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray
     """
     vertices, rays, points = (np.moveaxis(given, 0, -1) for given in (vertices, rays, points))
     zero = np.zeros_like(points)
-    still = [long.difference(vertices[0], points)] + [long.difference(vertices[k], vertices[0]) for k in (1, 2)]
-    moving = [(rays[0], zero)] + [long.difference(rays[k], rays[0]) for k in (1, 2)]
-    still, moving = ([[(high[k] * unit, low[k] * unit) for k in range(3)] for high, low in part]
-                     for part, unit in ((still, length), (moving, speed)))
-    (p, a, b), (r, u, v) = still, moving
+    places = [long.difference(vertices[0], points)] + [long.difference(vertices[k], vertices[0]) for k in (1, 2)]
+    velocities = [(rays[0], zero)] + [long.difference(rays[k], rays[0]) for k in (1, 2)]
+    scaled = [[[(high[k] * unit, low[k] * unit) for k in range(3)] for high, low in part]
+              for part, unit in ((places, length), (velocities, speed))]
+    (p, a, b), (r, u, v) = scaled
     n0, n2 = long.cross(a, b), long.cross(u, v)
     n1 = [long.add(one, other) for one, other in zip(long.cross(a, v), long.cross(u, b))]
     found = (long.dot(p, n0), long.add(long.dot(p, n1), long.dot(r, n0)),
              long.add(long.dot(p, n2), long.dot(r, n1)), long.dot(r, n2))
-    still, moving = (np.array([[high for high, _ in vector] for vector in part]) for part in (still, moving))
+    still, moving = (np.array([[high for high, _ in vector] for vector in part]) for part in scaled)
     terms = term_bounds(still, moving) / (12.0 * UNIT)
     result = np.stack([high for high, _ in found])
     return result, 2.0 * UNIT * np.abs(result) + 10.0 * long.PRECISION * terms

@@ -30,6 +30,16 @@ class Images:
         +1 as a flat mirror shows things, -1 turned over, 0 on a caustic.
     degenerate : (n,) bool
         For each pair, whether its cubic vanishes identically, so that nothing can be said of its images.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import project
+    >>> vertices, rays = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 0, 1]] * 3)
+    >>> points = np.array([[0.25, 0.25, 2.0], [9.0, 0.0, 2.0]])  # one is seen, one is not
+    >>> images = project(np.array([vertices] * 2), np.array([rays] * 2), points)
+    >>> images.pair.tolist(), images.parity.tolist()
+    ([0], [1])
     """
 
     pair: np.ndarray
@@ -78,26 +88,35 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     References
     ----------
     .. [1] C. Mei, V. Popescu, E. Sacks, "A Hybrid Backward-Forward Method for Interactive Reflections", GRAPP 2007.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import project
+    >>> vertices, rays = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]), np.array([[[0, 0, 1]] * 3])
+    >>> images = project(vertices, rays, np.array([[0.25, 0.25, 2.0]]))
+    >>> images.distance.round(9).tolist(), images.weights.round(9).tolist()
+    ([2.0], [[0.5, 0.25, 0.25]])
     """
     vertices, rays, points, facing = _checked(vertices, rays, points, facing)
     count = len(points)
     degenerate = np.zeros(count, dtype=bool)
     # The C library maps large arrays anew each time, and clears their pages, until it has freed a larger one once.
     np.empty(64 * CHUNK)
-    found, left = [], []
+    found, doubts = [], []
     for start in range(0, max(count, 1), CHUNK):
         breathe()
         part = slice(start, start + CHUNK)
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], common_lengths)
-        found.append(_turned(pair + start, *images, facing))
-        left.append(np.flatnonzero(doubtful) + start)
-    left, doubtful_left = np.concatenate(left), []
+        found.append(_turned(facing, pair + start, *images))
+        doubts.append(np.flatnonzero(doubtful) + start)
+    left, doubtful_left = np.concatenate(doubts), []
     # a number that is not finite leaves every doubt
     if not all(np.isfinite(given[left]).all() for given in (vertices, rays, points)):
         raise ValueError("Vertices, rays and points must be finite numbers; repair or leave out the others.")
     for part in _chunks(left):
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], own_lengths)
-        found.append(_turned(part[pair], *images, facing))
+        found.append(_turned(facing, part[pair], *images))
         doubtful_left.append(part[doubtful])
     left = np.concatenate(doubtful_left)
     strange = strange_sizes(vertices[left], rays[left], points[left])
@@ -108,7 +127,7 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
         found.append((some[images[0]], *images[1:]))
     for part in _chunks(left):
         (pair, *images), degenerate[part] = doubtful_images(vertices[part], rays[part], points[part])
-        found.append(_turned(part[pair], *images, facing))
+        found.append(_turned(facing, part[pair], *images))
     pair, distance, weights, parity = (np.concatenate(column) for column in zip(*found))
     # stable, since the images of one pair already come by rising distance
     order = np.argsort(pair, kind="stable")
@@ -144,7 +163,7 @@ def _chunks(pairs: np.ndarray):
     return (pairs[start:start + CHUNK] for start in range(0, max(len(pairs), 1), CHUNK))
 
 
-def _turned(pair, distance, weights, sign, side, facing):
+def _turned(facing, pair, distance, weights, sign, side):
     """Images with their parity, by the side of the triangle that `facing` tells, or else their rays."""
     side = side if facing is None else facing[pair]
     return pair, distance, weights, np.where(side < 0.0, -sign, sign)

@@ -39,6 +39,16 @@ class Settings:
     ValueError
         Where one of these is out of range or of another kind: numbers may be NumPy's, but no truth values or text, and
         whole ones no floats, not even 2.0.
+
+    Examples
+    --------
+    >>> from core import Settings
+    >>> Settings(tolerance=0.25, depth=2).placement
+    'LAYERED'
+    >>> Settings(depth=0)
+    Traceback (most recent call last):
+        ...
+    ValueError: The depth must be a whole number of bounces, at least 1.
     """
 
     tolerance: float = 0.5

@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Generator
 from time import perf_counter
-from typing import TypeVar
+from typing import Generic, TypeVar
 
 INTERVAL = 0.1  # seconds of work after which the next breath hands over
 PATIENCE = 2.0  # seconds that an interrupted caller waits for the work to notice
@@ -38,7 +38,18 @@ def tell(share: float, stage: str) -> None:
 
 def in_steps(work: Callable[[], Result]) -> Generator[tuple[float, str], None, Result]:
     """What `work` returns, in steps: yields what it told last, (share, stage), at every stage and several times a
-    second in long ones. Closing the generator, or an error in the caller, stops the work at its next breath."""
+    second in long ones. Closing the generator, or an error in the caller, stops the work at its next breath.
+
+    Examples
+    --------
+    >>> from core import in_steps
+    >>> def tell():
+    ...     found = yield from in_steps(lambda: 6 * 7)  # `reflect`, or a tree's `build`
+    ...     print(found)
+    >>> for share, stage in tell():
+    ...     pass  # draw, or break to stop the work
+    42
+    """
     running = _Work(work)
     try:
         while running.go_on():
@@ -50,12 +61,14 @@ def in_steps(work: Callable[[], Result]) -> Generator[tuple[float, str], None, R
     return running.result
 
 
-class _Work:
+class _Work(Generic[Result]):
     """Work on its own stack, and whose turn it is."""
+
+    result: Result  # of work that has ended without an error
 
     def __init__(self, work: Callable[[], Result]) -> None:
         self.told, self.resumed, self.stopped, self.ended = (0.0, ""), 0.0, False, False
-        self.result, self.error = None, None
+        self.error: BaseException | None = None
         self._work = work
         self._mine, self._callers = threading.Semaphore(0), threading.Semaphore(0)
         self._thread = threading.Thread(target=self._run, name="reflection", daemon=True)

@@ -43,7 +43,7 @@ def _before(view: View, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np
     which triangle each is of, and its corners' weights (3, 3, m), entry [i, k]: weight i of corner k."""
     count = corners.shape[2]
     depth = view.depths(corners.reshape(3, -1).T).reshape(3, count)
-    whole = (depth > 0.0).all(axis=0)
+    whole = np.all(depth > 0.0, axis=0)
     across = np.flatnonzero(~whole & (depth > 0.0).any(axis=0))
     parts = ConvexParts.whole(len(across)).cut(depth[:, across] - _least_depth(view, corners[:, :, across]), 0)
     piece, weights = parts.triangles(len(across))

@@ -55,9 +55,9 @@ def _along_outlines(lines: tuple[np.ndarray, np.ndarray, np.ndarray], polygons: 
                      for bound in (np.minimum, np.maximum))
         near = ((low <= lines[2][1][:, line]) & (high >= lines[2][0][:, line])).all(axis=0)
         values = lines[1][:, line[near]]
-        crossed = np.isin(np.arange(len(count)), crossed[near])
-        sides = [polygons.select(crossed).cut(sign * values, HIDDEN) for sign in (1.0, -1.0)]
-        polygons = Polygons.joined((polygons.select(~crossed), *sides))
+        divided = np.isin(np.arange(len(count)), crossed[near])
+        sides = [polygons.select(divided).cut(sign * values, HIDDEN) for sign in (1.0, -1.0)]
+        polygons = Polygons.joined((polygons.select(~divided), *sides))
         count = np.diff(first)[polygons.camera]
     return polygons
 

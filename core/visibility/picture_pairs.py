@@ -73,7 +73,7 @@ def _boxes(view: View, corners: np.ndarray, scale: float) -> tuple[np.ndarray, n
     """Boxes `low` and `high` (n, 2) of triangles (3, n, 3) in cells of the grid; those that are not before the eye
     have none: theirs end before they begin."""
     flat = corners.reshape(3, -1).T
-    before = (view.depths(flat) > 0.0).reshape(-1, 3).all(axis=1)
+    before = np.all((view.depths(flat) > 0.0).reshape(-1, 3), axis=1)
     pixels = np.nan_to_num(view.pixels(flat)).reshape(-1, 3, 2) * scale
     return (np.where(before[:, None], pixels.min(axis=1), 0.0),
             np.where(before[:, None], pixels.max(axis=1), -1.0))

@@ -32,9 +32,9 @@ def drop_behind_contacts(candidates: Candidates, maximum: int) -> tuple[Candidat
     origin, count = np.arange(len(cameras)), 0
     for number in range(PASSES + 1):
         breathe()
-        sides = hidden_sides(cameras, frames, camera, column)
-        meeting = _meets(cameras, frames, camera, column) & sides[1]
-        camera, column, sides = camera[meeting], column[meeting], sides[0][:, :, meeting]
+        sides, solid = hidden_sides(cameras, frames, camera, column)
+        meeting = _meets(cameras, frames, camera, column) & solid
+        camera, column, sides = camera[meeting], column[meeting], sides[:, :, meeting]
         if not len(camera) or len(cameras) > maximum or number == PASSES:
             break
         chosen, first = np.unique(camera, return_index=True)

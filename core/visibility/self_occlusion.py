@@ -41,7 +41,9 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
         parts.append(_hidden_parts(*_hiding(cameras, frames, camera, column), shown))
     if not parts:
         return cameras, 0, 0
-    count, worth = sum(np.bincount(part[2], minlength=len(cameras)) for part in parts), picture_areas(cameras)
+    count, worth = np.zeros(len(cameras), dtype=np.int64), picture_areas(cameras)
+    for part in parts:
+        count += np.bincount(part[2], minlength=len(cameras))
     uncut = crowded(np.where(shown, count, 0), worth, MOST_HIDING)
     hidden, sides, camera, column = _joined(parts, shown & ~uncut)
     lines = _outlines(view, frames, hidden, sides, camera, column)
@@ -132,8 +134,8 @@ def _outlines(view, frames, hidden: ConvexParts, sides, camera, column) -> Lines
 def _seen_pieces(cameras, owner, pieces: ConvexParts, camera, sides) -> tuple[np.ndarray, np.ndarray]:
     """The pieces that no triangle hides, as triangles: the camera each lies in and its corners' weights (3, 3, n)."""
     count = np.bincount(pieces.polygon, minlength=len(owner))
-    middle = np.stack([np.bincount(pieces.polygon, weight, minlength=len(owner)) for weight in pieces.weights])
-    middle /= np.maximum(count, 1)
+    total = np.stack([np.bincount(pieces.polygon, weight, minlength=len(owner)) for weight in pieces.weights])
+    middle = total / np.maximum(count, 1)
     order = np.argsort(camera, kind="stable")
     start, stop = (np.searchsorted(camera[order], cameras[owner], side=side) for side in ("left", "right"))
     seen = np.ones(len(owner), dtype=bool)

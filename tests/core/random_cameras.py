@@ -1,7 +1,28 @@
 """Three-ray cameras without a mirror: triangles at random places with rays that lean away from a common direction."""
+from dataclasses import replace
+
 import numpy as np
 
+from core import TriangleMesh, View
+from core.cameras.mirror_map import MirrorMap
 from core.cameras.three_ray_cameras import Cameras
+
+VIEW = View.looking_at((0.0, 0.0, 9.0), (0.0, 0.0, 0.0), (64, 64))
+
+
+def cameras_of(places, rays, view=VIEW):
+    """A camera on each triangle of `places` (n, 3, 3) with any `rays` (n, 3, 3): the map is that of these triangles as
+    a mirror, and knows nothing of the rays."""
+    count = len(places)
+    corners, places = np.arange(3 * count).reshape(-1, 3), places.reshape(-1, 3)
+    mirror_map = MirrorMap(view, TriangleMesh(places, corners))
+    return Cameras(corners, np.arange(count), places.T, rays.reshape(-1, 3).T, places.T, mirror_map)
+
+
+def moved(cameras, scale, offset):
+    """The same cameras larger and elsewhere."""
+    places = cameras.places * scale + offset
+    return replace(cameras, places=places, rays=cameras.rays * scale, origins=places)
 
 
 def random_cameras(rng, count, size=0.3, turn=0.3):
@@ -10,5 +31,4 @@ def random_cameras(rng, count, size=0.3, turn=0.3):
     rays = rng.normal(size=(count, 1, 3))
     rays = rays / np.linalg.norm(rays, axis=2, keepdims=True) + rng.normal(scale=turn, size=(count, 3, 3))
     rays *= rng.uniform(0.5, 2.0, (count, 3, 1))
-    places, rays = places.reshape(-1, 3).T, rays.reshape(-1, 3).T
-    return Cameras(np.arange(3 * count).reshape(-1, 3), np.arange(count), places, rays)
+    return cameras_of(places, rays)

@@ -1,15 +1,14 @@
 """Bounds that cull without a solve: beams that hold points, and how large a camera can show a small thing."""
-from dataclasses import replace
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
 from core import View, project
-from core.cameras.three_ray_cameras import Cameras
 from core.culling.cones import Cones
 from core.culling.magnification import Magnification
 from core.points.beams import Beams
+from tests.core.random_cameras import cameras_of
+
+VIEW = View.looking_at((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1000, 1000))
 
 
 def random_cameras(count, spread, seed=3):
@@ -19,8 +18,7 @@ def random_cameras(count, spread, seed=3):
     places = middle + rng.normal(scale=0.03, size=(count, 3, 3))
     back = rng.normal(scale=0.4, size=(count, 1, 3)) + (0.0, -1.0, 0.0)
     rays = (back + rng.normal(scale=spread, size=(count, 3, 3))) * np.linalg.norm(places, axis=2, keepdims=True)
-    return Cameras(np.arange(3 * count).reshape(-1, 3), np.arange(count), places.reshape(-1, 3).T,
-                   rays.reshape(-1, 3).T), places, rays
+    return cameras_of(places, rays, VIEW), places, rays
 
 
 @pytest.mark.parametrize("spread", [0.0, 0.01, 0.1, 1.0])
@@ -50,20 +48,18 @@ def test_beams_hold_little_else():
 @pytest.mark.parametrize("spread", [0.005, 0.05])
 def test_no_image_of_a_small_thing_is_larger_than_the_bound(spread):
     count, samples = 300, 40
-    view = View.looking_at((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1000, 1000))
     cameras, places, rays = random_cameras(count, spread)
     rng = np.random.default_rng(6)
     centre = np.einsum("nk,nkx->nx", rng.dirichlet((2.0, 2.0, 2.0), count),
                        places + rng.uniform(0.2, 2.0, (count, 1, 1)) * rays)
     radius = rng.uniform(1e-4, 3e-3, count)
-    seen = replace(cameras, mirror_map=SimpleNamespace(view=view))
-    bound = Magnification.of(seen).pixels(Cones.around(cameras), np.arange(count),
-                                          np.concatenate((centre.T, radius[None])))
+    bound = Magnification.of(cameras).pixels(Cones.around(cameras), np.arange(count),
+                                             np.concatenate((centre.T, radius[None])))
     ways = rng.normal(size=(count, samples, 3))
     point = centre[:, None] + radius[:, None, None] * ways / np.linalg.norm(ways, axis=2, keepdims=True)
     found = project(np.repeat(places, samples, axis=0), np.repeat(rays, samples, axis=0), point.reshape(-1, 3))
     camera = found.pair // samples
-    pixel = view.pixels(np.einsum("nk,nkx->nx", found.weights, places[camera]))
+    pixel = VIEW.pixels(np.einsum("nk,nkx->nx", found.weights, places[camera]))
     sure = 0
     for index in np.flatnonzero(np.isfinite(bound)):
         images = pixel[camera == index]

@@ -63,7 +63,8 @@ def clipped(spread):
     places, rays = (np.einsum("wk,xnk->xnw", weights, given[:, cameras.corners]).reshape(3, -1)
                     for given in (cameras.places, cameras.rays))
     whole = np.repeat(np.arange(COUNT), len(parts))
-    small = Cameras((np.arange(COUNT)[:, None, None] * len(weights) + parts).reshape(-1, 3), whole, places, rays)
+    small = Cameras((np.arange(COUNT)[:, None, None] * len(weights) + parts).reshape(-1, 3), whole, places, rays,
+                    places, cameras.mirror_map)
     candidates = overlapping(small, frames, np.arange(len(small)), whole)
     polygons = clip(candidates)
     part = candidates.camera[polygons.pair] % len(parts)

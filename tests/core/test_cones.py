@@ -3,9 +3,9 @@ import numpy as np
 import pytest
 
 from core.cameras.mirror_map import MirrorMap
-from core.cameras.three_ray_cameras import Cameras, three_ray_cameras, visible_triangles
+from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from core.culling.cones import Cones
-from tests.core.random_cameras import random_cameras
+from tests.core.random_cameras import cameras_of, moved, random_cameras
 from tests.core.true_map import case_of
 
 
@@ -28,8 +28,7 @@ def samples(cameras, rng, count):
 @pytest.mark.parametrize("turn", [0.0, 1e-9, 0.05, 0.4, 2.0])
 def test_cones_hold_all_rays_of_their_cameras(turn, scale, offset):
     rng = np.random.default_rng(41)
-    base = random_cameras(rng, 200, turn=turn)
-    cameras = Cameras(base.corners, base.face, base.places * scale + offset, base.rays * scale)
+    cameras = moved(random_cameras(rng, 200, turn=turn), scale, offset)
     cone, points = samples(cameras, rng, 40)
     # A point far from the origin is itself rounded, by as much as the sphere round it.
     rounding = 1e-15 * np.linalg.norm(points, axis=0) + 1e-14 * offset
@@ -79,6 +78,6 @@ def test_a_cone_is_tight_round_equal_rays():
 def test_a_camera_whose_rays_go_all_ways_holds_everything():
     places = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]])
     spread = np.array([[1.0, -0.5, -0.5], [0.0, 0.8, -0.8], [0.0, 0.0, 0.0]])
-    cones = Cones.around(Cameras(np.array([[0, 1, 2]]), np.array([0]), places, spread))
+    cones = Cones.around(cameras_of(places.T[None], spread.T[None]))
     points = np.random.default_rng(59).normal(size=(3, 500)) * 10.0
     assert cones.touch(np.zeros(500, dtype=np.int64), points, np.zeros(500)).all()

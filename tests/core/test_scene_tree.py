@@ -3,9 +3,8 @@ import numpy as np
 import pytest
 
 from core import SceneTree, TriangleMesh, project
-from core.cameras.three_ray_cameras import Cameras
 from core.culling.cones import Cones
-from tests.core.random_cameras import random_cameras
+from tests.core.random_cameras import moved, random_cameras
 from tests.every_pair import every_pair
 
 RNG = np.random.default_rng(17)
@@ -43,8 +42,7 @@ def case(data, place):
     positions, triangles = DATA[data]
     scale, offset = PLACES[place]
     cameras = random_cameras(np.random.default_rng(23), 60)
-    moved = Cameras(cameras.corners, cameras.face, cameras.places * scale + offset, cameras.rays * scale)
-    return TriangleMesh(positions * scale + offset, triangles), moved
+    return TriangleMesh(positions * scale + offset, triangles), moved(cameras, scale, offset)
 
 
 @pytest.mark.parametrize("place", PLACES)
