@@ -107,9 +107,8 @@ def _lengths(cameras: Cameras) -> np.ndarray:
 def _cells(cameras: Cameras, size: float) -> tuple[Cameras, np.ndarray]:
     """The parts of the cameras in squares of `size` pixels of the picture, and which square (2, n) each lies in."""
     view = cameras.view
-    parts, camera = in_squares(cameras, size)
-    polygon, weights = parts.triangles(len(camera), 0.0)
-    cells, _ = with_pieces(cameras, np.zeros(len(cameras), dtype=bool), camera[polygon], weights)
+    parent, weights = in_squares(cameras, size).triangles(0.0)
+    cells, _ = with_pieces(cameras, np.zeros(len(cameras), dtype=bool), parent, weights)
     cells = cells.select(pixels_of(cells) > SMALLEST)
     middle = view.pixels(cells.places[:, cells.corners].mean(axis=2).T)
     return cells, np.floor(middle.T / size).astype(np.int64)

@@ -14,7 +14,8 @@ from ..cameras import beyond_horizon, split_cameras
 from ..culling import Candidates, SceneAndMirrors, overlapping
 from ..geometry import edge_lengths, ranges
 from ..support import breathe
-from .clipping import CONTACT, SCENE_EDGE, clip
+from .clipping import clip
+from .convex_polygons import Line, scene_edges
 
 LEVELS = 10
 SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
@@ -76,10 +77,9 @@ def _really_overlapping(candidates: Candidates) -> tuple[Candidates, np.ndarray]
     triangle's sides then still bound the overlap."""
     wide = replace(candidates, sides=candidates.sides + candidates.room[:, None])
     polygons = clip(wide)
-    row = np.repeat(np.arange(len(polygons.pair)), np.diff(polygons.start))
-    scene = (polygons.after >= SCENE_EDGE) & (polygons.after < CONTACT)
-    lines = np.zeros((3, len(polygons.pair)), dtype=bool)
-    lines[polygons.after[scene] - SCENE_EDGE, row[scene]] = True
+    scene = scene_edges(polygons.after)
+    lines = np.zeros((3, len(polygons)), dtype=bool)
+    lines[polygons.after[scene] - Line.SCENE_EDGE, polygons.polygon[scene]] = True
     return candidates.select(polygons.pair), lines
 
 

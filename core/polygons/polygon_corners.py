@@ -13,7 +13,8 @@ import numpy as np
 from ..cameras import Cameras, ReflectionMap
 from ..geometry import SceneFrames, dot, groups
 from ..support import breathe
-from .clipping import CONTACT, HIDDEN, SCENE_EDGE, Polygons
+from .clipping import Polygons
+from .convex_polygons import Line
 from .vertex_images import NEAR_IMAGE, VertexImages
 
 WELD = 1e-9  # of the size of what is seen: nodes closer than this are one
@@ -81,27 +82,27 @@ class _Corners:
 
     def scene_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
         """(n, 2) sorted scene vertices of the triangle's edge `label`."""
-        vertices, side = self.frames.vertices[:, self.column[chosen]], label - SCENE_EDGE
+        vertices, side = self.frames.vertices[:, self.column[chosen]], label - Line.SCENE_EDGE
         row = np.arange(len(chosen))
         return np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row]), axis=1), axis=1)
 
 
 def polygon_nodes(polygons: Polygons, images: VertexImages) -> tuple[Nodes, np.ndarray]:
     """Nodes of the polygons, and for each corner of a polygon its node."""
-    size = np.diff(polygons.start)
-    low = np.minimum(polygons.before, polygons.after).astype(np.int64)
-    high = np.maximum(polygons.before, polygons.after).astype(np.int64)
+    size, before = polygons.size, polygons.before
+    low = np.minimum(before, polygons.after).astype(np.int64)
+    high = np.maximum(before, polygons.after).astype(np.int64)
     corners = _Corners(polygons.candidates.cameras, polygons.candidates.frames, np.repeat(polygons.camera, size),
                        np.repeat(polygons.column, size), polygons.weights, low, high)
     node_of = np.empty(len(low), dtype=np.int64)
     made, count = [], 0
-    on_mirror_edge = low < SCENE_EDGE
-    kinds = ((_mirror_corners, on_mirror_edge & (high < SCENE_EDGE)),
-             (_crossings, on_mirror_edge & (high >= SCENE_EDGE) & (high < CONTACT)),
-             (_vertices, ~on_mirror_edge & (high < CONTACT)),
-             (_contacts_of_mirror_edges, on_mirror_edge & (high == CONTACT)),
-             (_contacts_of_scene_edges, ~on_mirror_edge & (high == CONTACT)),
-             (_on_lines_of_hiding, high == HIDDEN))
+    on_mirror_edge = low < Line.SCENE_EDGE
+    kinds = ((_mirror_corners, on_mirror_edge & (high < Line.SCENE_EDGE)),
+             (_crossings, on_mirror_edge & (high >= Line.SCENE_EDGE) & (high < Line.CONTACT)),
+             (_vertices, ~on_mirror_edge & (high < Line.CONTACT)),
+             (_contacts_of_mirror_edges, on_mirror_edge & (high == Line.CONTACT)),
+             (_contacts_of_scene_edges, ~on_mirror_edge & (high == Line.CONTACT)),
+             (_on_lines_of_hiding, high == Line.HIDDEN))
     for kind, chosen in kinds:
         chosen = np.flatnonzero(chosen)
         if len(chosen):
@@ -156,7 +157,7 @@ def _share(offset: np.ndarray, way: np.ndarray) -> np.ndarray:
 
 def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     camera, column = corners.camera[chosen], corners.column[chosen]
-    side = 3 - (corners.low[chosen] - SCENE_EDGE) - (corners.high[chosen] - SCENE_EDGE)
+    side = 3 - (corners.low[chosen] - Line.SCENE_EDGE) - (corners.high[chosen] - Line.SCENE_EDGE)
     vertex = corners.frames.vertices[side, column]
     guess = corners.guess(chosen)
     image = images.nearest(vertex, camera, corners.cameras.view.pixels(guess.T))

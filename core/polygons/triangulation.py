@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import parent_side, ranges, split
-from .clipping import CONTACT, SCENE_EDGE, Polygons
+from .clipping import Polygons
+from .convex_polygons import scene_edges
 
 
 @dataclass(frozen=True)
@@ -66,8 +67,7 @@ def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Face
     pixels : (n, 2) float64
         Picture positions of the nodes.
     """
-    size = np.diff(polygons.start)
-    polygon = np.repeat(np.arange(len(size)), size)
+    size, polygon = polygons.size, polygons.polygon
     start, length = polygons.start[:-1][polygon], size[polygon]
     local = np.arange(len(polygon)) - start
     # the corner with the shortest diagonals: sum of squared distances to the corners that are not its neighbours
@@ -84,7 +84,7 @@ def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Face
     step, fan = ranges(np.ones(len(size), dtype=np.int64), size - 2)
     base, length = polygons.start[:-1][fan], size[fan]
     corner = [base + (apex[fan] + k) % length for k in (np.zeros_like(step), step, step + 1)]
-    scene = (polygons.after >= SCENE_EDGE) & (polygons.after < CONTACT)
+    scene = scene_edges(polygons.after)
     first, last = step == 1, step + 2 == length
     edges = np.stack((scene[corner[0]] & first, scene[corner[1]], scene[corner[2]] & last), axis=1)
     nodes = np.stack([node_of[c] for c in corner], axis=1)

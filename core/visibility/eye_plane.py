@@ -11,7 +11,7 @@ import numpy as np
 
 from ..cameras import Cameras, with_pieces
 from ..geometry import TriangleMesh, View, cross, dot, norm, rows
-from ..polygons import ConvexParts
+from ..polygons import ConvexPolygons, Line
 
 ON_PLANE = 1e-12  # of the distance from an orthographic eye: nearer to its plane is on it by rounding
 LEAST = 0.5  # of what a perspective eye can see: as near to its plane are triangles cut
@@ -45,9 +45,9 @@ def _before(view: View, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np
     depth = view.depths(corners.reshape(3, -1).T).reshape(3, count)
     whole = np.all(depth > 0.0, axis=0)
     across = np.flatnonzero(~whole & (depth > 0.0).any(axis=0))
-    parts = ConvexParts.whole(len(across)).cut(depth[:, across] - _least_depth(view, corners[:, :, across]), 0)
-    piece, weights = parts.triangles(len(across))
-    return whole, across[piece], weights
+    ahead = depth[:, across] - _least_depth(view, corners[:, :, across])
+    parent, weights = ConvexPolygons.whole(len(across)).cut(ahead, Line.HIDDEN).triangles()
+    return whole, across[parent], weights
 
 
 def _least_depth(view: View, corners: np.ndarray) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..culling import Candidates, SceneAndMirrors
 from ..geometry import dot, groups, ranges, shares
-from ..polygons import CONTACT, HIDDEN, SCENE_EDGE, Polygons, clip
+from ..polygons import Line, Polygons, clip, scene_edges
 from ..support import breathe
 
 LINES = 32  # outlines that cut one camera; with more, what is left of a polygon is hidden or not by its middle
@@ -56,7 +56,7 @@ def _along_outlines(lines: tuple[np.ndarray, np.ndarray, np.ndarray], polygons: 
         near = ((low <= lines[2][1][:, line]) & (high >= lines[2][0][:, line])).all(axis=0)
         values = lines[1][:, line[near]]
         divided = np.isin(np.arange(len(count)), crossed[near])
-        sides = [polygons.select(divided).cut(sign * values, HIDDEN) for sign in (1.0, -1.0)]
+        sides = [polygons.select(divided).left(sign * values)[0] for sign in (1.0, -1.0)]
         polygons = Polygons.joined((polygons.select(~divided), *sides))
         count = np.diff(first)[polygons.camera]
     return polygons
@@ -66,9 +66,9 @@ def _outlines(met: SceneAndMirrors, seen: Candidates) -> tuple[np.ndarray, np.nd
     """Outlines of the mirrors `seen`, sorted by camera: the camera (k,), the values (3, k) at its corners of a function
     that is zero on the line, and the least and the largest weights (2, 3, k) on it."""
     polygons = clip(seen)
-    corner = np.flatnonzero((polygons.after >= SCENE_EDGE) & (polygons.after < CONTACT))
-    side = polygons.after[corner].astype(np.int64) - SCENE_EDGE
-    polygon = np.repeat(np.arange(len(polygons.pair)), np.diff(polygons.start))[corner]
+    corner = np.flatnonzero(scene_edges(polygons.after))
+    side = polygons.after[corner].astype(np.int64) - Line.SCENE_EDGE
+    polygon = polygons.polygon[corner]
     pair = polygons.pair[polygon]
     outer = ~met.inner_sides(seen)[side, pair]
     corner, side, polygon, pair = corner[outer], side[outer], polygon[outer], pair[outer]
@@ -76,8 +76,7 @@ def _outlines(met: SceneAndMirrors, seen: Candidates) -> tuple[np.ndarray, np.nd
     ends = np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row])), axis=0)
     once, _ = groups(seen.camera[pair], *ends)
     corner, side, polygon, pair = corner[once], side[once], polygon[once], pair[once]
-    following = np.where(corner + 1 == polygons.start[polygon + 1], polygons.start[polygon], corner + 1)
-    along = np.stack((polygons.weights[:, corner], polygons.weights[:, following]))
+    along = np.stack((polygons.weights[:, corner], polygons.weights[:, polygons.following[corner]]))
     return seen.camera[pair], seen.sides[side, :, pair].T, np.stack((along.min(axis=0), along.max(axis=0)))
 
 
@@ -116,21 +115,21 @@ def _not_behind(other: np.ndarray, polygons: Polygons) -> list[Polygons]:
     parts, rest, own = [], polygons, np.arange(len(other))
     for side in range(3):
         values = candidates.sides[side][:, other]
-        outside, _ = rest.cut_with(-values[:, own], HIDDEN)
+        outside, _ = rest.left(-values[:, own])
         parts.append(outside)
-        rest, kept = rest.cut_with(values[:, own], HIDDEN)
+        rest, kept = rest.left(values[:, own])
         own = own[kept]
-    parts.append(rest.cut(_depth_order(candidates, other[own], rest.pair), HIDDEN))
+    parts.append(rest.left(_depth_order(candidates, other[own], rest.pair))[0])
     return parts
 
 
 def _behind(other: np.ndarray, polygon: np.ndarray, polygons: Polygons) -> tuple[np.ndarray, np.ndarray]:
     """Which pairs of a polygon and a mirror's candidate `other` that may cross have a place where the mirror hides it,
     of the corners, a little inward; and which polygons (q,) are hidden in their middles."""
-    candidates, size = polygons.candidates, np.diff(polygons.start)
+    candidates, size = polygons.candidates, polygons.size
     near = _near(other, polygon, polygons)
     other, polygon = other[near], polygon[near]
-    middle = np.add.reduceat(polygons.weights, polygons.start[:-1], axis=1) / size if len(size) else polygons.weights
+    middle = polygons.middles
     own, middle_hidden = polygons.pair[polygon], np.zeros(len(size), dtype=bool)
     middle_hidden[polygon[_hides(candidates, other, own, middle[:, polygon])]] = True
     # only where the planes meet in the camera may one side of a polygon lie before the mirror, and one behind
@@ -163,7 +162,7 @@ def _changes_sign(polygons: Polygons, corner_values: np.ndarray) -> np.ndarray:
     """Whether a function, given at the corners of the cameras (3, q), is positive and negative on each polygon."""
     if not len(polygons.pair):
         return np.zeros(0, dtype=bool)
-    value = (polygons.weights * np.repeat(corner_values, np.diff(polygons.start), axis=1)).sum(axis=0)
+    value = (polygons.weights * np.repeat(corner_values, polygons.size, axis=1)).sum(axis=0)
     low, high = (bound.reduceat(value, polygons.start[:-1]) for bound in (np.minimum, np.maximum))
     least = CROSSING * np.abs(corner_values).max(axis=0)
     return (low < -least) & (high > least)

@@ -12,7 +12,7 @@ import numpy as np
 from ..cameras import Cameras, picture_areas, with_pieces
 from ..culling import Candidates, overlapping
 from ..geometry import SceneFrames, cross, dot, ranges, rows
-from ..polygons import ConvexParts
+from ..polygons import ConvexPolygons, Line
 from ..support import breathe, crowded
 
 PASSES = 64  # triangles that cut one camera
@@ -119,10 +119,9 @@ def _meets(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np
 def _pieces(sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Cameras without their hidden parts, as triangles: which of the m cameras each lies in, and its corners' weights
     (3, 3, n), entry [i, k]: weight i of corner k."""
-    count = sides.shape[2]
-    rest, beside = ConvexParts.whole(count), []
+    rest, beside = ConvexPolygons.whole(sides.shape[2]), []
     for values in sides:
-        beside.append(rest.cut(-values, 0).triangles(count, SMALLEST))
-        rest = rest.cut(values, 0)
+        beside.append(rest.cut(-values, Line.HIDDEN).triangles(SMALLEST))
+        rest = rest.cut(values, Line.HIDDEN)
     parents, triangles = zip(*beside)
     return np.concatenate(parents), np.concatenate(triangles, axis=2)

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..cameras import Cameras, picture_areas, with_pieces
 from ..geometry import SceneFrames, TriangleMesh, cross, dot, groups, norm, ranges, rows, shares
-from ..polygons import CONTACT, SCENE_EDGE, SMALLEST, ConvexParts, Lines, divide
+from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
 from ..support import breathe, crowded
 from .eye_plane import triangles_before_eye
 from .mirror_visibility import DepthGrid
@@ -62,24 +62,19 @@ def _cut(cameras: Cameras, shown: np.ndarray, lines: Lines, camera: np.ndarray,
     if not len(camera):
         return cameras.select(shown), 0
     cut_cameras, whole = np.unique(camera), shown.copy()
-    owner, pieces, left = divide(cut_cameras, lines, MOST_PIECES)
-    parent, triangles = _seen_pieces(cut_cameras, owner, pieces, camera, sides)
+    pieces, left = divide(cut_cameras, lines, MOST_PIECES)
+    parent, triangles = _seen_pieces(cut_cameras, pieces, camera, sides)
     whole[cut_cameras] = False
     return with_pieces(cameras, whole, parent, triangles)[0], left
 
 
 def _joined(parts: list, kept: np.ndarray):
     """The hidden parts of the cameras `kept` (n,), joined."""
-    hidden, start = [], 0
-    for part, _, camera, _ in parts:
-        part = part.select(kept[camera])
-        hidden.append((part.weights, part.after, part.polygon + start))
-        start += int(kept[camera].sum())
-    weights, after, polygon = (np.concatenate(side, axis=-1) for side in zip(*hidden))
     chosen = [kept[part[2]] for part in parts]
+    hidden = ConvexPolygons.joined([part[0].select(own) for part, own in zip(parts, chosen)])
     sides, camera, column = (np.concatenate([part[k][..., own] for part, own in zip(parts, chosen)], axis=-1)
                              for k in (1, 2, 3))
-    return ConvexParts(weights, after, polygon), sides, camera, column
+    return hidden, sides, camera, column
 
 
 def _hiding(cameras, frames, camera, column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -95,20 +90,20 @@ def _hiding(cameras, frames, camera, column) -> tuple[np.ndarray, np.ndarray, np
 def _hidden_parts(sides, camera, column, shown):
     """What each pair's triangle hides of its camera, without the pairs in which that is nothing; takes the cameras of
     which one triangle hides all from those `shown` (n,)."""
-    hidden = ConvexParts.whole(len(camera))
-    for label, values in zip((SCENE_EDGE, SCENE_EDGE + 1, SCENE_EDGE + 2, CONTACT), sides):
+    hidden = ConvexPolygons.whole(len(camera))
+    for label, values in zip(range(Line.SCENE_EDGE, Line.CONTACT + 1), sides):
         hidden = hidden.cut(values, label)
-    area = hidden.areas(len(camera))
+    area = hidden.areas
     real = area > SMALLEST
     shown[camera[area > 1.0 - SMALLEST]] = False
     real &= shown[camera]
     return hidden.select(real), sides[:, :, real], camera[real], column[real]
 
 
-def _outlines(view, frames, hidden: ConvexParts, sides, camera, column) -> Lines:
+def _outlines(view, frames, hidden: ConvexPolygons, sides, camera, column) -> Lines:
     """The borders of the hidden parts that no two triangles side by side share."""
-    corner = np.flatnonzero(hidden.after >= SCENE_EDGE)
-    pair, label = hidden.polygon[corner], hidden.after[corner].astype(np.int64) - SCENE_EDGE
+    corner = np.flatnonzero(hidden.after >= Line.SCENE_EDGE)
+    pair, label = hidden.polygon[corner], hidden.after[corner].astype(np.int64) - Line.SCENE_EDGE
     on_side = label < 3
     _, vertex = np.unique(frames.positions, axis=0, return_inverse=True)
     vertices, own = frames.vertices[:, column[pair]], np.arange(len(pair))
@@ -128,23 +123,21 @@ def _outlines(view, frames, hidden: ConvexParts, sides, camera, column) -> Lines
     outline = ~(on_side & both[edge])
     corner, pair, label = corner[outline], pair[outline], label[outline]
     return Lines(camera[pair], sides[label, :, pair].T, hidden.weights[:, corner],
-                  hidden.weights[:, hidden.following()[corner]])
+                  hidden.weights[:, hidden.following[corner]])
 
 
-def _seen_pieces(cameras, owner, pieces: ConvexParts, camera, sides) -> tuple[np.ndarray, np.ndarray]:
+def _seen_pieces(cameras, pieces: ConvexPolygons, camera, sides) -> tuple[np.ndarray, np.ndarray]:
     """The pieces that no triangle hides, as triangles: the camera each lies in and its corners' weights (3, 3, n)."""
-    count = np.bincount(pieces.polygon, minlength=len(owner))
-    total = np.stack([np.bincount(pieces.polygon, weight, minlength=len(owner)) for weight in pieces.weights])
-    middle = total / np.maximum(count, 1)
+    middle = pieces.middles
     order = np.argsort(camera, kind="stable")
-    start, stop = (np.searchsorted(camera[order], cameras[owner], side=side) for side in ("left", "right"))
-    seen = np.ones(len(owner), dtype=bool)
+    start, stop = (np.searchsorted(camera[order], cameras[pieces.owner], side=side) for side in ("left", "right"))
+    seen = np.ones(len(pieces), dtype=bool)
     for part in shares(stop - start, PAIRS_AT_ONCE):
         breathe()
         entry, piece = ranges(start[part], (stop - start)[part])
         piece += part.start
         behind = ((sides[:, :, order[entry]] * middle[:, piece]).sum(axis=1) > 0.0).all(axis=0)
         seen[piece[behind]] = False
-    seen &= pieces.areas(len(owner)) > SMALLEST
-    piece, weights = pieces.select(seen).triangles(int(seen.sum()))
-    return cameras[owner[seen][piece]], weights
+    seen &= pieces.areas > SMALLEST
+    parent, weights = pieces.select(seen).triangles()
+    return cameras[parent], weights

@@ -29,7 +29,7 @@ def without_touching(met: SceneAndMirrors, candidates: Candidates) -> Candidates
         doubtful = np.flatnonzero(~kept[part])
         asked = asked.select(doubtful)
         covered = clip(asked)
-        kept[part[doubtful[covered.pair]]] = _probed(met, asked.select(covered.pair), covered.middles()[:, None])
+        kept[part[doubtful[covered.pair]]] = _probed(met, asked.select(covered.pair), covered.middles[:, None])
     return candidates.select(kept) if len(pair) else candidates
 
 

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from core import Settings, TriangleMesh, View, reflect
-from core.polygons import convex_parts
+from core.polygons import division
 from core.visibility import mirror_occlusion, picture_pairs, scene_contacts, self_occlusion
 from tests import shapes
 
@@ -16,7 +16,7 @@ POLES = shapes.combine(*(shapes.box((x, y, 0.3), (0.12, 0.12, 1.0))
 
 CASES = {
     "pairs in the picture": (BALLS, ROOM, {}, (picture_pairs, "MOST_PAIRS", 0), "overlaid"),
-    "lines across a camera": (BALLS, ROOM, {}, (convex_parts, "PASSES", 0), "overlaid"),
+    "lines across a camera": (BALLS, ROOM, {}, (division, "PASSES", 0), "overlaid"),
     "pieces of cameras": (BALLS, ROOM, {}, (self_occlusion, "MOST_PIECES", 0), "overlaid"),
     "triangles over a camera": (BALLS, ROOM, {}, (self_occlusion, "MOST_HIDING", 1), "overlaid"),
     "what cuts through a camera": (FLOOR, POLES, {}, (scene_contacts, "PASSES", 1), "pierced"),

@@ -10,7 +10,8 @@ from core import TriangleMesh, project
 from core.cameras.three_ray_cameras import Cameras
 from core.culling.candidates import Candidates, overlapping
 from core.geometry.scene_frames import SceneFrames
-from core.polygons.clipping import CONTACT, SCENE_EDGE, Polygons, clip
+from core.polygons.clipping import Polygons, clip
+from core.polygons.convex_polygons import Line
 from tests.core.random_cameras import random_cameras
 
 COUNT = 200
@@ -71,7 +72,7 @@ def clipped(spread):
     corner_part = np.repeat(part, np.diff(polygons.start))
     corners = np.einsum("kp,pkw->pw", polygons.weights, weights[parts[corner_part]])
     crossed = np.zeros(COUNT, dtype=bool)
-    touching = np.repeat(polygons.pair, np.diff(polygons.start))[polygons.after == CONTACT]
+    touching = np.repeat(polygons.pair, np.diff(polygons.start))[polygons.after == Line.CONTACT]
     crossed[whole[candidates.camera[touching]]] = True
     return Case(cameras, frames, vertices, candidates, polygons, whole, corners, crossed)
 
@@ -117,7 +118,7 @@ def shapes_of(case):
     after[case.polygons.start[1:] - 1] = case.polygons.start[:-1]
     polygon = np.repeat(np.arange(len(case.polygons.pair)), np.diff(case.polygons.start))
     long = np.abs(case.corners - case.corners[after]).max(axis=1) > 1e-9
-    edge = np.flatnonzero((case.polygons.after < SCENE_EDGE) & long)
+    edge = np.flatnonzero((case.polygons.after < Line.SCENE_EDGE) & long)
     middle = 0.5 * (case.corners[edge] + case.corners[after[edge]])
     camera = case.whole[case.candidates.camera[case.polygons.pair]][polygon[edge]]
     key = np.concatenate((camera[:, None], np.rint(middle * 1e7).astype(np.int64)), axis=1)

@@ -7,7 +7,8 @@ from core.cameras.mirror_map import MirrorMap
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from core.culling.candidates import Candidates, overlapping
 from core.geometry.scene_frames import SceneFrames
-from core.polygons.clipping import CONTACT, SCENE_EDGE, clip
+from core.polygons.clipping import clip
+from core.polygons.convex_polygons import Line
 from tests import shapes
 from tests.core.true_map import case_of
 
@@ -62,7 +63,7 @@ def test_each_corner_lies_on_the_two_lines_that_it_names(contact):
     for label in (polygons.before, polygons.after):
         value = (lines[label, :, pair] * polygons.weights.T).sum(axis=1)
         assert np.abs(value).max() < 1e-12 * np.abs(lines).max() * 100.0
-        assert set(np.unique(label)) == set(range(CONTACT + 1 if contact else CONTACT))
+        assert set(np.unique(label)) == set(range(Line.CONTACT + 1 if contact else Line.CONTACT))
     # The line that starts at a corner ends at the next.
     following = np.arange(1, len(pair) + 1)
     following[polygons.start[1:] - 1] = polygons.start[:-1]
@@ -76,7 +77,7 @@ def test_a_camera_that_sees_only_the_inside_of_a_triangle_stays_whole():
                             np.zeros((3, 3, 1)))
     polygons = clip(candidates)
     np.testing.assert_array_equal(polygons.weights.T, np.eye(3))
-    assert (polygons.before < SCENE_EDGE).all() and (polygons.after < SCENE_EDGE).all()
+    assert (polygons.before < Line.SCENE_EDGE).all() and (polygons.after < Line.SCENE_EDGE).all()
 
 
 def test_nothing_is_left_where_a_side_is_negative_everywhere():
@@ -128,10 +129,10 @@ def test_a_mirror_through_a_triangles_plane_is_cut_where_they_touch():
     frames = SceneFrames.of(wall, np.array([0]))
     candidates = overlapping(cameras, frames, np.arange(2), np.zeros(2, dtype=np.int64))
     polygons = clip(candidates)
-    assert (polygons.after == CONTACT).any()
+    assert (polygons.after == Line.CONTACT).any()
     corners = cameras.corners[np.repeat(candidates.camera[polygons.pair], np.diff(polygons.start))]
     places = np.einsum("kn,xnk->nx", polygons.weights, cameras.places[:, corners])
-    touching = (polygons.after == CONTACT) | (polygons.before == CONTACT)
+    touching = (polygons.after == Line.CONTACT) | (polygons.before == Line.CONTACT)
     np.testing.assert_allclose(places[touching, 1], 0.2, rtol=0, atol=1e-12)
     # The rays lean away from the eye: the wall is seen before it, not behind.
     assert places[:, 1].max() < 0.2 + 1e-12

@@ -1,0 +1,178 @@
+"""Convex polygons in the weights of cameras: cut, halved, measured, and taken apart into triangles.
+
+Cutting is I. E. Sutherland, G. W. Hodgman, "Reentrant polygon clipping", CACM 1974, on all polygons at once.
+"""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from typing import TypeVar
+
+import numpy as np
+
+from ..geometry import cross, dot, ranges
+
+Kind = TypeVar("Kind", bound="ConvexPolygons")
+SMALLEST = 1e-9  # of a camera: smaller parts are nothing
+
+
+class Line(IntEnum):
+    """What bounds a polygon: which of the three edges is meant is added to the first two."""
+
+    CAMERA_EDGE = 0  # opposite to one of the camera's corners
+    SCENE_EDGE = 3  # opposite to one of the triangle's vertices
+    CONTACT = 6  # the triangle's plane, where the mirror crosses it
+    HIDDEN = 7  # a line along which a nearer mirror begins
+
+
+def scene_edges(lines: np.ndarray) -> np.ndarray:
+    """Which lines are edges of the triangle."""
+    return (lines >= Line.SCENE_EDGE) & (lines < Line.CONTACT)
+
+
+@dataclass(frozen=True)
+class ConvexPolygons:
+    """Convex polygons (q), corner after corner; some may have lost all their corners.
+
+    Attributes
+    ----------
+    owner : (q,) int64, what each is a part of: a camera, or a pair of candidates
+    start : (q + 1,) int64, the corners of polygon i are the columns start[i]:start[i + 1] below
+    weights : (3, k) float64, of the corners in their cameras
+    after : (k,) int8, the label of the line that starts at each corner, as in `cut`
+    """
+
+    owner: np.ndarray
+    start: np.ndarray
+    weights: np.ndarray
+    after: np.ndarray
+
+    @staticmethod
+    def whole(count: int) -> ConvexPolygons:
+        """Whole cameras, each its own owner."""
+        return ConvexPolygons(np.arange(count), np.arange(0, 3 * count + 1, 3), np.tile(np.eye(3), (1, count)),
+                              np.tile(np.array([2, 0, 1], dtype=np.int8), count))
+
+    def __len__(self) -> int:
+        return len(self.owner)
+
+    @property
+    def size(self) -> np.ndarray:
+        """(q,): how many corners each has."""
+        return np.diff(self.start)
+
+    @property
+    def polygon(self) -> np.ndarray:
+        """(k,): the polygon of each corner."""
+        return np.repeat(np.arange(len(self)), self.size)
+
+    @property
+    def following(self) -> np.ndarray:
+        """(k,): the corner after each corner."""
+        following, some = np.arange(1, self.start[-1] + 1), np.flatnonzero(self.size)
+        following[self.start[1:][some] - 1] = self.start[:-1][some]
+        return following
+
+    @property
+    def before(self) -> np.ndarray:
+        """(k,): the label of the line that ends at each corner."""
+        before = np.empty_like(self.after)
+        before[self.following] = self.after
+        return before
+
+    @property
+    def areas(self) -> np.ndarray:
+        """(q,): the part of its camera that each covers."""
+        (x, y), after = self.weights[:2], self.following
+        return np.abs(np.bincount(self.polygon, x * y[after] - x[after] * y, minlength=len(self)))
+
+    @property
+    def middles(self) -> np.ndarray:
+        """(3, q): the mean of each polygon's corners."""
+        polygon = self.polygon
+        total = np.stack([np.bincount(polygon, weight, minlength=len(self)) for weight in self.weights])
+        return total / np.maximum(self.size, 1)
+
+    def select(self: Kind, chosen: np.ndarray | slice) -> Kind:
+        """The polygons `chosen`, as indices, as a mask or as a slice."""
+        size = self.size[chosen]
+        corner, _ = ranges(self.start[:-1][chosen], size)
+        return replace(self, owner=self.owner[chosen], start=np.append(0, np.cumsum(size)),
+                       weights=self.weights[:, corner], after=self.after[corner])
+
+    @staticmethod
+    def joined(parts: Sequence[Kind]) -> Kind:
+        """All polygons of the parts, at least one, one part behind another."""
+        size = np.concatenate([part.size for part in parts])
+        return replace(parts[0], owner=np.concatenate([part.owner for part in parts]),
+                       start=np.append(0, np.cumsum(size)),
+                       weights=np.concatenate([part.weights for part in parts], axis=1),
+                       after=np.concatenate([part.after for part in parts]))
+
+    def cut(self: Kind, values: np.ndarray, label: int) -> Kind:
+        """What is left of each polygon, if only nothing, where a function is not negative that is linear in the weights
+        and has the `values` (3, q) at the corners of its camera."""
+        weights, after, polygon = cut(self.weights, self.after, self.polygon, values, label)
+        size = np.bincount(polygon, minlength=len(self))
+        return replace(self, start=np.append(0, np.cumsum(size)), weights=weights, after=after)
+
+    def halved(self: Kind, chosen: np.ndarray, values: np.ndarray) -> Kind:
+        """The polygons, of those `chosen` (m,), rising, only where a function is not negative that is linear in the
+        weights and has the `values` (3, m) at the corners of their cameras; and behind all the rest of these m."""
+        all_values = np.ones((3, len(self)))
+        all_values[:, chosen] = values
+        return self.joined((self.cut(all_values, Line.HIDDEN), self.select(chosen).cut(-values, Line.HIDDEN)))
+
+    def triangles(self, smallest: float = SMALLEST) -> tuple[np.ndarray, np.ndarray]:
+        """Fans over the polygons: the owner of each triangle, and the weights (3, 3, n) of its corners, entry [i, k]:
+        weight i of corner k. Triangles up to the `smallest` part of a camera are left out."""
+        step, fan = ranges(np.ones(len(self), dtype=np.int64), np.maximum(self.size - 2, 0))
+        first = self.start[:-1][fan]
+        weights = self.weights[:, np.stack((first, first + step, first + step + 1))]
+        areal = np.abs(dot(weights[:, 0], cross(weights[:, 1], weights[:, 2]))) > smallest
+        return self.owner[fan[areal]], weights[:, :, areal]
+
+
+def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_values: np.ndarray,
+        label: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What is left of convex polygons where a function, linear in the weights, is not negative.
+
+    Parameters
+    ----------
+    weights : (3, k) float64, of the polygons' corners, polygon after polygon
+    after : (k,) int8, the line that starts at each corner
+    polygon : (k,) int64, rising
+    corner_values : (3, p) float64, the function at the corners of each polygon's camera
+    label : the name of the new line
+
+    Returns
+    -------
+    weights, after, polygon : of the corners that are left; polygons may be left with fewer than three
+    """
+    if not len(polygon):
+        return weights, after, polygon
+    values = np.take(corner_values, polygon, axis=1)
+    values *= weights
+    value = values.sum(axis=0)
+    inside = value >= 0.0
+    if inside.all():
+        return weights, after, polygon
+    following = np.arange(1, len(polygon) + 1)
+    ends = np.flatnonzero(np.append(polygon[1:] != polygon[:-1], True))
+    following[ends] = np.append(0, ends[:-1] + 1)
+    crossing = inside != inside[following]
+    stay, part = np.flatnonzero(inside), np.flatnonzero(crossing)
+    share = value[part] / (value[part] - value[following[part]])
+    start = np.take(weights, part, axis=1)
+    # each corner that stays is followed by the crossing on the way to the next
+    place = np.cumsum(inside.view(np.int8) + crossing, dtype=np.int64)
+    new_weights, new_after = np.empty((3, place[-1])), np.empty(place[-1], dtype=np.int8)
+    new_polygon = np.empty(place[-1], dtype=np.int64)
+    old, new = place[stay] - 1 - crossing[stay], place[part] - 1
+    new_weights[:, old], new_after[old], new_polygon[old] = np.take(weights, stay, axis=1), after[stay], polygon[stay]
+    new_weights[:, new] = start + share * (np.take(weights, following[part], axis=1) - start)
+    # a leaving polygon goes on along the cut, an entering one along the edge that it was on
+    new_after[new] = np.where(inside[part], np.int8(label), after[part])
+    new_polygon[new] = polygon[part]
+    return new_weights, new_after, new_polygon
