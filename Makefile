@@ -15,11 +15,12 @@ READY = $(VENV)/.ready
 
 .DEFAULT_GOAL := help
 .PHONY: help environment demo measure report report-plots numerics rate work pictures \
-        test lint test-core test-addon fuzz zip samples clean
+        test test-fast lint test-core test-addon fuzz zip samples clean
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
 	@echo "make test     style and types, the method's tests, the extension's tests"
+	@echo "make test-fast  the quick half of the method's tests, under a minute"
 	@echo "make fuzz     a search for failures at random, for SECONDS=$(SECONDS), from new seeds or from FIRST=..."
 	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
 	@echo "make report   every method's error and seconds on all samples, judged by Cycles: one report in $(REPORT)/"
@@ -81,6 +82,9 @@ test: lint test-core test-addon
 lint: environment
 	$(RUN) -m ruff check .
 	$(RUN) -m mypy
+
+test-fast: environment
+	$(RUN) -m pytest -q -m "not slow" tests/core tests/fuzz/test_checks.py
 
 test-core: environment
 	$(RUN) -m pytest -q tests/core tests/fuzz

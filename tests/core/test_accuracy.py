@@ -6,6 +6,8 @@ from tests.core.true_map import case_of, mesh_of, truth_of
 from tests.judge import compare
 from tests.scenes import SCENES
 
+pytestmark = pytest.mark.slow
+
 
 def numbers_of(name, single_precision=False, placement="LAYERED", **settings):
     case, mesh = case_of(name), mesh_of(name, placement=placement, **settings)

@@ -11,6 +11,8 @@ from core import METHODS, PLACEMENTS, ReflectionError, SceneTree, Settings, Tria
 from tests import shapes
 from tests.core.true_map import case_of
 
+pytestmark = pytest.mark.slow
+
 SENTENCE = r"^[A-Z][^.!?]*\.$"
 VIEW = View.looking_at((0.3, -5.0, 1.5), (0.0, 0.0, 0.5), (160, 120))
 PLATE = shapes.combine(shapes.quad((0.0, 1.0, 0.5), (1.5, 0.2, 0.0), (0.0, 0.0, 1.2)))

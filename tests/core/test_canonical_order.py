@@ -9,6 +9,8 @@ from core.geometry.canonical_order import ordered
 from tests import shapes
 from tests.scenes import SCENES
 
+pytestmark = pytest.mark.slow
+
 
 def shuffled(rng, mesh):
     """The mesh listed in another order, each triangle begun at any corner, and where its parts come from."""

@@ -14,6 +14,8 @@ from core.polygons.clipping import Polygons, clip
 from core.polygons.convex_polygons import Line
 from tests.core.random_cameras import random_cameras
 
+pytestmark = pytest.mark.slow
+
 COUNT = 200
 PARTS = 48  # along each side of a camera
 SAMPLES = 128

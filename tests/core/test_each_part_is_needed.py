@@ -26,6 +26,8 @@ from tests.judge import judge
 from tests.raster import rasterise
 from tests.truth_bounces import trace_bounces
 
+pytestmark = pytest.mark.slow
+
 BOUNCE, REFLECTION = core.bounce, core.reflection
 BALLS = shapes.combine(shapes.icosphere((0.0, 0.0, 1.0), 0.8, 3), shapes.icosphere((0.5, -1.5, 1.0), 0.3, 3))
 FLOOR = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (3.0, 0.0, 0.0), (0.0, 3.0, 0.0)))

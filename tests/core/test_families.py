@@ -12,6 +12,8 @@ from tests.core.exact_pairs import ExactPairs
 from tests.core.explained import judge
 from tests.core.families import FAMILIES, pairs_of
 
+pytestmark = pytest.mark.slow
+
 # The most that rounding may have to explain, in parts of the images; in others, and of vanishing cubics, nothing.
 EXPLAINED = {
     "small integers": {"edge": 0.02},

@@ -19,6 +19,8 @@ from tests.core.true_map import case_of, mesh_of, truth_of
 from tests.judge import compare
 from tests.scenes import SCENES
 
+pytestmark = pytest.mark.slow
+
 VIEW = View.looking_at((0.3, -5.0, 1.5), (0.0, 0.0, 0.5), (96, 72))
 
 

@@ -21,6 +21,8 @@ from tests.judge import judge
 from tests.scenes import SCENES
 from tests.truth import trace
 
+pytestmark = pytest.mark.slow
+
 SECONDS = 20.0  # for one example, a hundred times what the slowest takes
 LENGTHS = {"positions", "reflected_position", "mirror_position", "path_length"}
 

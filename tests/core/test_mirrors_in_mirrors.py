@@ -10,6 +10,8 @@ from tests.raster import rasterise
 from tests.ray_hits import first_hits
 from tests.truth_bounces import trace_bounces
 
+pytestmark = pytest.mark.slow
+
 PIXELS = 256
 OTHER_SURFACE = 2.0  # pixels
 

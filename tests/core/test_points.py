@@ -16,6 +16,8 @@ from tests.judge import compare
 from tests.scenes import SCENES
 from tests.truth import trace
 
+pytestmark = pytest.mark.slow
+
 POINTS = Settings(method="POINTS")
 
 

@@ -15,6 +15,8 @@ from core.polygons.outline_refinement import refine_for_outlines
 from tests.core.true_map import case_of, mesh_of, true_rays, truth_of, view_rays
 from tests.judge import compare
 
+pytestmark = pytest.mark.slow
+
 FAR = 10.0
 
 

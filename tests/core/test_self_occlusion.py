@@ -12,6 +12,8 @@ from tests.judge import judge
 from tests.raster import rasterise
 from tests.truth_bounces import trace_bounces
 
+pytestmark = pytest.mark.slow
+
 SURE = 1e-6  # barycentric, and share of the way to the eye: nearer to a border than this, rounding decides
 
 

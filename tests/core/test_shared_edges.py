@@ -8,6 +8,8 @@ from tests.core.exact_pairs import ExactPairs
 from tests.core.explained import Looked, judge
 from tests.core.family_tools import mirrored, seen, turned, turns, unit
 
+pytestmark = pytest.mark.slow
+
 COUNT = 1000
 """Points of each test, 24,000 in all."""
 

@@ -5,6 +5,8 @@ import pytest
 from core import Settings, TriangleMesh, View, reflect
 from tests import shapes
 
+pytestmark = pytest.mark.slow
+
 CENTRE, RADIUS = np.array([0.3, -0.2, 1.1]), 0.9
 
 

@@ -10,6 +10,8 @@ from core.support.stepping import INTERVAL, breathe, in_steps, tell
 from tests.core.test_filling import VIEW, soup
 from tests.core.true_map import case_of
 
+pytestmark = pytest.mark.slow
+
 
 def told_and_result(steps):
     told = []

@@ -11,6 +11,8 @@ from tests import shapes
 from tests.core.true_map import size_of
 from tests.scenes import Scene
 
+pytestmark = pytest.mark.slow
+
 
 def floating(kind, orthographic=False):
     """Small triangles all round a mirror, none of which hides another in it."""

@@ -9,6 +9,8 @@ from tests.fuzz.reflecting import reflected
 from tests.fuzz.trying import problems_of
 from tests.fuzz.twins import TWINS
 
+pytestmark = pytest.mark.slow
+
 SEEDS = range(90)  # `make fuzz` tries others
 WHOLE = 0.01  # of the mirror's pixels may be open where a result is to be whole
 

@@ -13,6 +13,8 @@ from tests.fuzz.kept import OF_A_KIND, keep, kept_seeds
 from tests.fuzz.limits import at_most
 from tests.fuzz.reflecting import reflected
 
+pytestmark = pytest.mark.slow
+
 SEEN = 11  # a configuration of which nothing is wrong
 
 
