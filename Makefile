@@ -84,7 +84,7 @@ lint: environment
 	$(RUN) -m mypy
 
 test-fast: environment
-	$(RUN) -m pytest -q -m "not slow" tests/core tests/fuzz/test_checks.py
+	$(RUN) -m pytest -q -m "not slow" tests/core
 
 test-core: environment
 	$(RUN) -m pytest -q tests/core tests/fuzz

@@ -9,6 +9,8 @@ from tests.core.explained import judge
 from tests.core.families import pairs_of
 from tests.core.family_tools import random_pairs, seen
 
+pytestmark = pytest.mark.slow
+
 
 def _strictly(*pairs):
     """What `project` finds, which takes all numbers without a word and gives finite ones."""

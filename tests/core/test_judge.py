@@ -11,6 +11,8 @@ from tests.judge import HOLE, LEFT_OUT, SAME, SPILL, WRONG_LAYER, compare, judge
 from tests.scenes import SCENES
 from tests.truth import trace
 
+pytestmark = pytest.mark.slow
+
 PIXEL = 2.6 / 120
 
 

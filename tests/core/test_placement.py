@@ -9,6 +9,8 @@ from tests.raster import rasterise
 from tests.ray_hits import plane_hits
 from tests.scenes import SCENES
 
+pytestmark = pytest.mark.slow
+
 
 def rounded(mesh, case):
     middle = case.mirror.positions.mean(axis=0)

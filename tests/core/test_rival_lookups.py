@@ -2,6 +2,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
@@ -15,6 +16,8 @@ from tests.core.true_map import case_of
 from tests.judge import compare_picture
 from tests.scenes import Scene
 from tests.truth import trace
+
+pytestmark = pytest.mark.slow
 
 PIXELS = 96
 NAMES = ("median", "p99", "maximum", "uncovered", "compared")

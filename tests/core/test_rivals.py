@@ -13,6 +13,8 @@ from core.rivals import ITSELF, METHODS, NOTHING, primary_hits
 from tests.core.true_map import case_of, mesh_of, truth_of
 from tests.judge import compare, compare_picture
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[2]
 PIXELS = 256
 

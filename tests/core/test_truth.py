@@ -9,6 +9,8 @@ from tests.ray_hits import EMBREE, first_hits, plane_hits
 from tests.scenes import SCENES, flat, sphere
 from tests.truth import trace
 
+pytestmark = pytest.mark.slow
+
 ENGINES = [False, True] if EMBREE else [False]
 
 
