@@ -14,6 +14,7 @@ from ...core.rivals import PrimaryHits, primary_hits
 from ...core.rivals.forward import drawn_mesh
 from ..blender_data import RAYS, mesh_arrays, origin_of, write_mesh
 from ..comparison import comparison_pictures, pictures
+from ..faults import finished
 from ..judge import CodedMaterials, CopiedScene, copied_scene, dress, reflecting
 from ..metrics import NOTHING, CodedPicture, measure
 from ..report import Scene
@@ -105,14 +106,14 @@ def _shown(context: bpy.types.Context, copied: CopiedScene, case: Case, hits: Pr
     _add(copied, case, result)
     dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)],
           CodedMaterials(copied, (0.0, 0.0, 0.0)).plain_mirror())
-    reference, drawn, seconds = pictures(copied, context.scene, options.samples)
+    reference, drawn, seconds = finished(pictures(copied, context.scene, options.samples))
     picture = drawn_mesh(case.view, result, hits)
     shown = picture.triangle >= 0
     triangle = np.maximum(picture.triangle, 0)
     found = CodedPicture(np.where(shown, case.scene.source_object[triangle], NOTHING), case.polygon[triangle],
                          picture.position)
-    return comparison_pictures(folder, copied.scene, reference, drawn, mirror,
-                               measure(mirror, bent, truth, found)), seconds
+    return finished(comparison_pictures(folder, copied.scene, reference, drawn, mirror,
+                                        measure(mirror, bent, truth, found))), seconds
 
 
 def _add(copied: CopiedScene, case: Case, result) -> None:

@@ -15,6 +15,7 @@ import numpy as np
 from ...core import View
 from ...core.rivals import eye_depths
 from ..blender_data import compat
+from ..faults import finished
 from ..judge import CodedMaterials, CodedTruth, CopiedScene, cycles_render, lowest_corner
 from ..metrics import ITSELF, NOTHING, CodedPicture, motion_per_pixel
 from .case import Case
@@ -82,7 +83,7 @@ def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -
         camera.shift_x, camera.shift_y = start + shift / max(lattice)
         view = case.view if not truths else _view(context, scene, case, lattice)
         seen, bent = coded.mirror()
-        truth = coded.reflected(seen, unrounded=bool(compat.packs_normals()))
+        truth = finished(coded.reflected(seen, unrounded=bool(compat.packs_normals())))
         pictures = pictures or (seen, bent, truth)
         truths.append(_truth(case, view, seen, bent, truth))
     camera.shift_x, camera.shift_y = start

@@ -8,6 +8,7 @@ from contextlib import suppress
 import bpy
 import numpy as np
 
+from ..faults import Steps
 from ..files import is_whole
 from ..metrics import Measurement
 from ..report import Picture, heat_map, png_bytes
@@ -19,8 +20,8 @@ DIFFERENCE, DISPLACEMENT = (0.001, 1.0), (0.01, 10.0)       # ends of the scales
 
 
 def comparison_pictures(folder: str, scene: bpy.types.Scene, reference: np.ndarray, result: np.ndarray,
-                        mirror: np.ndarray, measurement: Measurement) -> tuple[Picture, ...]:
-    """Write five PNG files into the folder; returns them as they are shown in a page.
+                        mirror: np.ndarray, measurement: Measurement) -> Steps[tuple[Picture, ...]]:
+    """Write five PNG files into the folder, in steps; returns them as they are shown in a page.
 
     Parameters
     ----------
@@ -31,16 +32,19 @@ def comparison_pictures(folder: str, scene: bpy.types.Scene, reference: np.ndarr
     reference, result : (height, width, 3) float32
         Linear pictures, from the lowest row up.
     """
+    yield 0.0, "Drawing the maps"
     difference = np.abs(reference.astype(np.float64) - result).mean(axis=2)
     coverage = coverage_picture(mirror, measurement)
     for name, data in _maps(difference, measurement.displacement, coverage).items():
         with open(os.path.join(folder, f"{name}.png"), "wb") as file:
             file.write(data)
+    yield 0.3, "Drawing what is round the mirror"
     # the page shows of the maps what is round the mirrors alone, and so larger
     box = surroundings(mirror)
     maps = _maps(difference[box], measurement.displacement[box], coverage[box])
     small = {}
     for name, linear in (("reference", reference), ("result", result)):
+        yield 0.6 if name == "reference" else 0.8, f"Writing {name}.png"
         _save(os.path.join(folder, f"{name}.png"), scene, linear, "PNG")
         path = os.path.join(folder, f"{name}.jpg")
         _save(path, scene, linear, "JPEG")

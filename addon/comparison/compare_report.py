@@ -7,6 +7,7 @@ import os
 import bpy
 import numpy as np
 
+from ..faults import Steps, part
 from ..metrics import Measurement
 from ..report import Report, csv_text, flat, page
 from .compare_images import comparison_pictures
@@ -14,8 +15,10 @@ from .compare_page import NOTES, environment, scene_of
 
 
 def write_report(folder: str, scene: bpy.types.Scene, reference: np.ndarray, result: np.ndarray, mirror: np.ndarray,
-                 measurement: Measurement, report: dict) -> None:
+                 measurement: Measurement, report: dict) -> Steps[None]:
     """Write reference.png, result.png, difference.png, displacement.png, holes.png, report.json, .csv and .html.
+
+    In steps, as pictures may be large.
 
     Parameters
     ----------
@@ -29,7 +32,8 @@ def write_report(folder: str, scene: bpy.types.Scene, reference: np.ndarray, res
     report : dict
         What report.json holds.
     """
-    pictures = comparison_pictures(folder, scene, reference, result, mirror, measurement)
+    pictures = yield from part(comparison_pictures(folder, scene, reference, result, mirror, measurement), 0.0, 0.9)
+    yield 0.9, "Writing the report"
     shown = Report("Is the reflection mesh worth it on this scene?",
                    (scene_of(", ".join(report["mirrors"]), report, pictures),), environment=environment(report),
                    notes=NOTES)
