@@ -145,12 +145,12 @@ def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:
     if not (options.output or bpy.data.filepath):
         raise core.ReflectionError("The benchmark has no folder: open a .blend file or name one with --output.")
     folder = os.path.abspath(options.output or bpy.path.abspath("//reflection benchmark"))
-    chosen = benchmark.Options(tuple(options.methods), options.budget, options.resolution, options.samples, _tell)
+    chosen = benchmark.Options(tuple(options.methods), options.budget, options.resolution, options.samples,
+                               growth=options.growth, work=not options.no_work, tell=_tell)
     with staged(folder) as scratch:
         scenes = [benchmark.scene_report(bpy.context, name, os.path.join(scratch, inner), chosen)
                   for name, inner in _opened(options.scenes)]
-        benchmark.write_benchmark(scratch, scenes, chosen, growth=options.growth, work=not options.no_work,
-                                  since=started, tell=_tell)
+        benchmark.write_benchmark(scratch, scenes, chosen, started)
     for scene in scenes:
         print(f"{scene.name}: {scene.summary[0]}")
     print(os.path.join(folder, "report.html"))

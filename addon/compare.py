@@ -88,14 +88,14 @@ def _judged(context: bpy.types.Context, chosen: Participants, results: list, fol
     with copied_scene(context, chosen.mirrors, chosen.diffuse, results) as copied:
         renders = yield from part(render_comparison(context, copied, chosen.diffuse, results, samples), COPYING,
                                   RENDERING)
-        mirror, reference, result = renders.mirror, renders.reference, renders.result
+        mirror, pictures = renders.mirror, renders.pictures
         done = COPYING + RENDERING
         yield done, "Measuring displacements"
         measurement = measure(mirror, renders.bent, renders.truth, renders.shown)
         exact = renders.exact and without_packing(mirror, renders.bent, renders.truth, renders.exact, renders.shown)
-        picture = yield from part(in_steps(lambda: picture_errors(
-            reference, result, {"mirror": measurement.judged, "all": np.ones_like(mirror)})), done, JUDGING,
-            "Comparing the pictures")
+        masks = {"mirror": measurement.judged, "all": np.ones_like(mirror)}
+        picture = yield from part(in_steps(lambda: picture_errors(pictures.reference, pictures.result, masks)), done,
+                                  JUDGING, "Comparing the pictures")
         done += JUDGING
         report = {
             "blender": bpy.app.version_string,
@@ -106,11 +106,10 @@ def _judged(context: bpy.types.Context, chosen: Participants, results: list, fol
             "without_packed_normals": exact,
             "picture": {**picture, "samples": samples},
             "generate_seconds": sum(obj.reflection_mesh.seconds for obj in results),
-            "render_seconds": renders.seconds,
+            "render_seconds": pictures.seconds,
             "seconds": time.perf_counter() - started,
         }
-        yield from part(write_report(folder, copied.scene, reference, result, mirror, measurement, report), done,
-                        1.0 - done)
+        yield from part(write_report(folder, copied.scene, pictures, measurement, report), done, 1.0 - done)
     return report
 
 

@@ -64,8 +64,27 @@ class Truth:
     scene_depth: np.ndarray
 
 
-def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -> tuple[Truth, list[Truth], tuple]:
-    """The truth at the centres, within the pixels, and (mirror, bent, CodedPicture) of the first as pictures.
+@dataclass(frozen=True)
+class Truths:
+    """All that judges the methods on one scene.
+
+    Attributes
+    ----------
+    centres : Truth
+        At the pixels' centres.
+    area : list of Truth
+        At places anywhere in the pixels.
+    pictures : (mirror, bent, CodedPicture)
+        The first as pictures, as `measure` takes them.
+    """
+
+    centres: Truth
+    area: list
+    pictures: tuple
+
+
+def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -> Truths:
+    """Render the truth of a case in a copy of its scene.
 
     From Blender 5.0 on Cycles rounds normals; it is handed unrounded ones here.
     """
@@ -91,7 +110,7 @@ def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -
     coded.end()
     for slot, material in own:
         slot.material = material
-    return truths[0], truths[1:], pictures
+    return Truths(truths[0], truths[1:], pictures)
 
 
 def coarser(size: tuple[int, int]) -> tuple[int, int]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Generator
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import bpy
@@ -30,6 +31,24 @@ DEEPEST = 1000  # bounces that are followed; Cycles knows 1024, four of them for
 RENDERS = 7  # of a comparison; where Cycles rounds normals it takes two more
 
 
+@dataclass(frozen=True)
+class Pictures:
+    """What Cycles shows of a scene.
+
+    Attributes
+    ----------
+    reference, result : (height, width, 3) float32
+        With the mirror, and with the mesh before a mirror that reflects the world alone; in linear light, from the
+        lowest row up.
+    seconds : dict
+        Time that Cycles took for the two, by their names.
+    """
+
+    reference: np.ndarray
+    result: np.ndarray
+    seconds: dict
+
+
 class Renders(NamedTuple):
     """All renders of a comparison.
 
@@ -41,10 +60,7 @@ class Renders(NamedTuple):
         What the mirror shows, and what the reflection mesh shows.
     exact : CodedPicture or None
         What the mirror would show if Cycles did not round its normals; None where Cycles does not.
-    reference, result : (height, width, 3) float32
-        The pictures in linear light.
-    seconds : dict
-        Time that Cycles took for the two pictures, by their names.
+    pictures : Pictures
     """
 
     mirror: np.ndarray
@@ -52,9 +68,7 @@ class Renders(NamedTuple):
     truth: CodedPicture
     shown: CodedPicture
     exact: CodedPicture | None
-    reference: np.ndarray
-    result: np.ndarray
-    seconds: dict
+    pictures: Pictures
 
 
 def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: list, results: list,
@@ -83,7 +97,7 @@ def _renders(context: bpy.types.Context, copied: CopiedScene, diffuse: list, res
     for slot, material in own:
         slot.material = material
     dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)], codes.plain_mirror())
-    return Renders(*coded, *(yield from pictures(copied, context.scene, samples)))
+    return Renders(*coded, (yield from render_pictures(copied, context.scene, samples)))
 
 
 def _code_results(copied: CopiedScene, results: list, diffuse: list, polygons: list) -> None:
@@ -134,12 +148,8 @@ def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> G
     return seen, bent, reflected, shown, exact
 
 
-def pictures(copied: CopiedScene, user: bpy.types.Scene,
-             samples: int) -> Generator[str, None, tuple[np.ndarray, np.ndarray, dict]]:
-    """What Cycles shows, what it shows with the mesh before a mirror that reflects the world alone, and its times.
-
-    Yields the name of each of the two before it.
-    """
+def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) -> Generator[str, None, Pictures]:
+    """Render both pictures; yields the name of each before it."""
     scene = copied.scene
     scene.world = user.world
     visible = [(copy, copy.visible_camera, copy.visible_glossy) for copy in copied.everything]
@@ -155,7 +165,7 @@ def pictures(copied: CopiedScene, user: bpy.types.Scene,
     show(copied.results, True)
     yield "the picture with the mesh"
     result, second = _timed(scene, samples, user)
-    return reference, result, {"reference": first, "result": second}
+    return Pictures(reference, result, {"reference": first, "result": second})
 
 
 def _timed(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> tuple[np.ndarray, float]:
