@@ -9,9 +9,9 @@ import bpy
 from .. import core
 from .blender_data import (
     Participants,
+    Reflection,
     choose,
     mesh_arrays,
-    origin_of,
     point_arrays,
     read_mirror,
     read_scene,
@@ -85,16 +85,14 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
                            "camera, the mirror or the objects.")
             continue
         remarks += shortcomings(mirror.name, result)
-        origin = origin_of(surface.mesh)
-        arrays = (mesh_arrays(result, scene, surface.triangle, origin) if result.discs is None else
-                  point_arrays(result, scene, surface.triangle, origin, view))
-        prepared.append((mirror, origin, arrays, result))
+        arrays = (mesh_arrays(result, scene, surface) if result.discs is None else
+                  point_arrays(result, scene, surface, view))
+        prepared.append(Reflection(mirror, chosen.diffuse, result, arrays, view.resolution))
     if not prepared:
         raise core.ReflectionError(refused[0])
     yield 1.0, "Writing"
     with AllOrNothing() as whole:
-        results = [(write_object(context, mirror, chosen.diffuse, origin, arrays, result, view, settings.placement,
-                                 whole), result) for mirror, origin, arrays, result in prepared]
+        results = [(write_object(context, made, settings.placement, whole), made.result) for made in prepared]
         for obj, _ in results:
             obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
     return Outcome(results, remarks + refused)

@@ -10,7 +10,7 @@ import numpy as np
 from ...core import Settings, reflect
 from ...core.rivals import PrimaryHits, primary_hits
 from ...core.rivals.forward import drawn_mesh
-from ..blender_data import RAYS, mesh_arrays, origin_of, write_mesh
+from ..blender_data import RAYS, MirrorSurface, mesh_arrays, write_mesh
 from ..comparison import comparison_pictures, render_pictures
 from ..faults import finished
 from ..judge import CodedMaterials, CopiedScene, copied_scene, dress, reflecting
@@ -84,13 +84,13 @@ def _shown(context: bpy.types.Context, copied: CopiedScene, contest: Contest, fo
 
 def _add(copied: CopiedScene, case: Case, result) -> None:
     """The reflection mesh as an object of the copied scene, seen by the camera only, as `generate` makes it."""
-    origin = origin_of(case.mirror)
+    arrays = mesh_arrays(result, case.scene, MirrorSurface(case.mirror, case.triangle))
     mesh = bpy.data.meshes.new("Benchmark")
     copied.owned.append(mesh)
-    write_mesh(mesh, mesh_arrays(result, case.scene, case.triangle, origin))
+    write_mesh(mesh, arrays)
     obj = bpy.data.objects.new("Benchmark", mesh)
     copied.owned.append(obj)
-    obj.location = origin
+    obj.location = arrays.origin
     for rays in RAYS:
         setattr(obj, rays, False)
     copied.scene.collection.objects.link(obj)
