@@ -32,8 +32,7 @@ def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
     rendered in a temporary scene of copies: once in materials that emit positions and identities, which gives the truth
     and what is shown at each pixel's centre, and once in the scene's own materials and lights.
 
-    Yields (fraction, stage), and (fraction, Undivided) before each render. Closed at any step it leaves the file and
-    the folder as they were.
+    Yields (fraction, stage), before each render an `Undivided` one; closed at any step it leaves no trace.
 
     Parameters
     ----------
@@ -58,7 +57,7 @@ def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
         raise ReflectionError("Reflections are compared in Object Mode: leave the present mode first.")
     mirrors, diffuse = participants(context)
     read_view(context)
-    earlier = [result for mirror in mirrors for result in results_of(context, mirror)]
+    earlier = _results(context, mirrors)
     hidden = [result for result in earlier if result.hide_render or not result.visible_get()]
     if hidden:
         raise ReflectionError(f"The reflection '{hidden[0].name}' is hidden: show it in the viewport and in renders.")
@@ -68,13 +67,17 @@ def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
         missing = [mirror for mirror in mirrors if not results_of(context, mirror)]
         if missing:
             yield from part(generation(context, Participants(missing, diffuse, []), settings), 0.0, GENERATING)
-        results = [result for mirror in mirrors for result in results_of(context, mirror)]
+        results = _results(context, mirrors)
         if missing:
             # an error or ESC leaves no reflection behind that was made for this comparison alone
             whole.undo(_clear, context, [result for result in results if result not in earlier])
         done = GENERATING if missing else 0.0
-        return (yield from part(_judged(context, Participants(mirrors, diffuse, []), results, scratch, samples,
-                                        started), done, 1.0 - done))
+        judged = _judged(context, Participants(mirrors, diffuse, []), results, scratch, samples, started)
+        return (yield from part(judged, done, 1.0 - done))
+
+
+def _results(context: bpy.types.Context, mirrors: list) -> list:
+    return [result for mirror in mirrors for result in results_of(context, mirror)]
 
 
 def _clear(context: bpy.types.Context, results: list) -> None:

@@ -71,11 +71,10 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     tree = yield from part(core.in_steps(lambda: kind.build(scene.mesh)), 0.5 * READING, 0.5 * READING,
                            "Building the tree")
     mirrors = core.TriangleMesh.joined([surface.mesh for surface in surfaces])
-    prepared, refused = [], []
+    prepared, refused, share = [], [], (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
         steps = core.reflection_steps(view, surface.mesh, tree, settings, mirrors)
         try:
-            share = (1.0 - READING) / len(surfaces)
             result = yield from part(steps, READING + index * share, share, mirror.name)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
@@ -85,8 +84,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
                            "camera, the mirror or the objects.")
             continue
         remarks += shortcomings(mirror.name, result)
-        arrays = (mesh_arrays(result, scene, surface) if result.discs is None else
-                  point_arrays(result, scene, surface, view))
+        faces = result.discs is None
+        arrays = mesh_arrays(result, scene, surface) if faces else point_arrays(result, scene, surface, view)
         prepared.append(Reflection(mirror, chosen.diffuse, result, arrays, view.resolution))
     if not prepared:
         raise core.ReflectionError(refused[0])
