@@ -12,11 +12,10 @@ import bpy
 from .. import core
 from . import benchmark
 from .blender_data import Participants, choose
-from .compare import compare
-from .compare import summary as comparison
-from .faults import STATUS, sentence
+from .compare import comparison, summary
+from .faults import STATUS, Steps, finished, sentence
 from .files import check_place, save_blend, staged
-from .generate import Outcome, generation
+from .generate import generation
 from .properties import METHODS, PLACEMENTS, settings_of
 
 COMMAND = "reflection_mesh"
@@ -101,17 +100,17 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     print(outcome.summary(time.perf_counter() - started))
 
 
-def _announced(steps) -> Outcome:
-    """Run a generator of progress to its end, printing each stage once; returns what it returns."""
-    told = None
-    while True:
-        try:
-            fraction, stage = next(steps)
-        except StopIteration as stop:
-            return stop.value
+def _announced(steps: Steps) -> object:
+    """Run steps to their end, printing each stage once; returns what they return."""
+    told = ""
+
+    def tell(progress: tuple[float, str]) -> None:
+        nonlocal told
+        fraction, stage = progress
         if stage != told:
             print(f"{100.0 * fraction:3.0f} %  {stage}", flush=True)
             told = stage
+    return finished(steps, tell)
 
 
 def _chosen(context: bpy.types.Context, options: argparse.Namespace) -> Participants:
@@ -138,7 +137,7 @@ def _compare(context: bpy.types.Context, options: argparse.Namespace) -> None:
         raise core.ReflectionError("A comparison takes at least one sample: raise --samples.")
     folder = os.path.abspath(folder)
     samples = 0 if options.scene_samples else options.samples
-    print(comparison(compare(context, folder, samples, settings_of(options)), folder))
+    print(summary(_announced(comparison(context, folder, samples, settings_of(options))), folder))
 
 
 def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:
@@ -146,12 +145,12 @@ def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:
     if not (options.output or bpy.data.filepath):
         raise core.ReflectionError("The benchmark has no folder: open a .blend file or name one with --output.")
     folder = os.path.abspath(options.output or bpy.path.abspath("//reflection benchmark"))
-    chosen = benchmark.Options(tuple(options.methods), options.budget, options.resolution, options.samples, _tell)
+    chosen = benchmark.Options(tuple(options.methods), options.budget, options.resolution, options.samples,
+                               growth=options.growth, work=not options.no_work, tell=_tell)
     with staged(folder) as scratch:
         scenes = [benchmark.scene_report(bpy.context, name, os.path.join(scratch, inner), chosen)
                   for name, inner in _opened(options.scenes)]
-        benchmark.write_benchmark(scratch, scenes, chosen, growth=options.growth, work=not options.no_work,
-                                  since=started, tell=_tell)
+        benchmark.write_benchmark(scratch, scenes, chosen, started)
     for scene in scenes:
         print(f"{scene.name}: {scene.summary[0]}")
     print(os.path.join(folder, "report.html"))

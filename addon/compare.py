@@ -7,27 +7,32 @@ import time
 import bpy
 import numpy as np
 
-from ..core import ReflectionError, Settings
+from ..core import ReflectionError, Settings, in_steps
 from .blender_data import Participants, participants, read_view, results_of
 from .clear import clear
 from .comparison import load_pictures, remember, render_comparison, show_picture, write_report
-from .faults import AllOrNothing, in_one_sentence
+from .faults import AllOrNothing, BrowsingOperator, Steps, part, still_there
 from .files import staged
 from .generate import generation
 from .judge import copied_scene
 from .metrics import measure, picture_errors, without_packing
 from .properties import SettingsProperties, settings_of
 
+# shares of the work: of all of it what generating takes, where something is missing, and of the rest what follows
+GENERATING, COPYING, RENDERING, JUDGING = 0.3, 0.02, 0.88, 0.05
 # Blender 4.5 and newer want to be told that a path may start with "//"; older ones do not know the word
 RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
 
 
-def compare(context: bpy.types.Context, folder: str, samples: int = 16, settings: Settings = Settings()) -> dict:
+def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
+               settings: Settings = Settings()) -> Steps[dict]:
     """Judge the reflection meshes of the mirrors that take part against Cycles, and write pictures and numbers.
 
     What stands in the file is judged; a mirror that has no reflection yet gets one first, by `settings`. Everything is
     rendered in a temporary scene of copies: once in materials that emit positions and identities, which gives the truth
     and what is shown at each pixel's centre, and once in the scene's own materials and lights.
+
+    Yields (fraction, stage), before each render an `Undivided` one; closed at any step it leaves no trace.
 
     Parameters
     ----------
@@ -52,49 +57,66 @@ def compare(context: bpy.types.Context, folder: str, samples: int = 16, settings
         raise ReflectionError("Reflections are compared in Object Mode: leave the present mode first.")
     mirrors, diffuse = participants(context)
     read_view(context)
-    earlier = [result for mirror in mirrors for result in results_of(context, mirror)]
+    earlier = _results(context, mirrors)
     hidden = [result for result in earlier if result.hide_render or not result.visible_get()]
     if hidden:
         raise ReflectionError(f"The reflection '{hidden[0].name}' is hidden: show it in the viewport and in renders.")
     with AllOrNothing() as whole, staged(folder) as scratch:
         started = time.perf_counter()
+        yield 0.0, "Reading the scene"
         missing = [mirror for mirror in mirrors if not results_of(context, mirror)]
         if missing:
-            for _ in generation(context, Participants(missing, diffuse, []), settings):
-                pass
-        results = [result for mirror in mirrors for result in results_of(context, mirror)]
+            yield from part(generation(context, Participants(missing, diffuse, []), settings), 0.0, GENERATING)
+        results = _results(context, mirrors)
         if missing:
             # an error or ESC leaves no reflection behind that was made for this comparison alone
-            whole.undo(clear, context, [result for result in results if result not in earlier])
-        return _judged(context, Participants(mirrors, diffuse, []), results, scratch, samples, started)
+            whole.undo(_clear, context, [result for result in results if result not in earlier])
+        done = GENERATING if missing else 0.0
+        judged = _judged(context, Participants(mirrors, diffuse, []), results, scratch, samples, started)
+        return (yield from part(judged, done, 1.0 - done))
+
+
+def _results(context: bpy.types.Context, mirrors: list) -> list:
+    return [result for mirror in mirrors for result in results_of(context, mirror)]
+
+
+def _clear(context: bpy.types.Context, results: list) -> None:
+    clear(context, still_there(results))
 
 
 def _judged(context: bpy.types.Context, chosen: Participants, results: list, folder: str, samples: int,
-            started: float) -> dict:
+            started: float) -> Steps[dict]:
     """Render, measure and write the report of what stands in the file."""
+    yield 0.0, "Copying the scene"
     with copied_scene(context, chosen.mirrors, chosen.diffuse, results) as copied:
-        renders = render_comparison(context, copied, chosen.diffuse, results, samples)
-        mirror, reference, result = renders.mirror, renders.reference, renders.result
+        renders = yield from part(render_comparison(context, copied, chosen.diffuse, results, samples), COPYING,
+                                  RENDERING)
+        mirror, pictures = renders.mirror, renders.pictures
+        done = COPYING + RENDERING
+        yield done, "Measuring displacements"
         measurement = measure(mirror, renders.bent, renders.truth, renders.shown)
+        exact = renders.exact and without_packing(mirror, renders.bent, renders.truth, renders.exact, renders.shown)
+        masks = {"mirror": measurement.judged, "all": np.ones_like(mirror)}
+        picture = yield from part(in_steps(lambda: picture_errors(pictures.reference, pictures.result, masks)), done,
+                                  JUDGING, "Comparing the pictures")
+        done += JUDGING
         report = {
             "blender": bpy.app.version_string,
             "resolution": [mirror.shape[1], mirror.shape[0]],
             "mirrors": [obj.name for obj in chosen.mirrors], "diffuse": [obj.name for obj in chosen.diffuse],
             "results": [obj.name for obj in results],
             **measurement.numbers,
-            "without_packed_normals": renders.exact and without_packing(
-                mirror, renders.bent, renders.truth, renders.exact, renders.shown),
-            "picture": {**picture_errors(reference, result, {"mirror": measurement.judged,
-                                                             "all": np.ones_like(mirror)}), "samples": samples},
+            "without_packed_normals": exact,
+            "picture": {**picture, "samples": samples},
             "generate_seconds": sum(obj.reflection_mesh.seconds for obj in results),
-            "render_seconds": renders.seconds,
+            "render_seconds": pictures.seconds,
             "seconds": time.perf_counter() - started,
         }
-        write_report(folder, copied.scene, reference, result, mirror, measurement, report)
+        yield from part(write_report(folder, copied.scene, pictures, measurement, report), done, 1.0 - done)
     return report
 
 
-class REFLECTIONMESH_OT_compare(SettingsProperties, bpy.types.Operator):
+class REFLECTIONMESH_OT_compare(BrowsingOperator, SettingsProperties, bpy.types.Operator):
     """Compare the reflections with Cycles; leaves pictures and errors in pixels in a folder"""
 
     bl_idname = "reflection_mesh.compare"
@@ -107,25 +129,21 @@ class REFLECTIONMESH_OT_compare(SettingsProperties, bpy.types.Operator):
     samples: bpy.props.IntProperty(name="Samples", default=16, min=0, soft_max=1024,
                                    description="Samples per pixel of the two pictures; 0: as the scene is set")
 
-    def invoke(self, context, event):
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
-    @in_one_sentence
-    def execute(self, context):
-        if self.filepath.startswith("//") and not bpy.data.filepath:
-            self.report({"ERROR"}, "The file has not been saved: save it, or choose an absolute folder.")
-            return {"CANCELLED"}
-        if not self.filepath:
-            self.report({"ERROR"}, "No folder is named: choose one for the pictures and the report.")
-            return {"CANCELLED"}
-        folder = os.path.abspath(bpy.path.abspath(self.filepath))
-        report = compare(context, folder, self.samples, settings_of(self))
+    def steps(self, context: bpy.types.Context) -> Steps[None]:
+        folder = self._folder()
+        report = yield from comparison(context, folder, self.samples, settings_of(self))
         remember(context.scene, report, folder)
         if not bpy.app.background:
             show_picture(context.window_manager, load_pictures(folder)[-1])
         self.report({"INFO"}, summary(report, folder))
-        return {"FINISHED"}
+
+    def _folder(self) -> str:
+        """The absolute path of the folder that is named."""
+        if self.filepath.startswith("//") and not bpy.data.filepath:
+            raise ReflectionError("The file has not been saved: save it, or choose an absolute folder.")
+        if not self.filepath:
+            raise ReflectionError("No folder is named: choose one for the pictures and the report.")
+        return os.path.abspath(bpy.path.abspath(self.filepath))
 
 
 def summary(report: dict, folder: str) -> str:

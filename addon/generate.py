@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator
 from dataclasses import dataclass
 
 import bpy
@@ -10,16 +9,16 @@ import bpy
 from .. import core
 from .blender_data import (
     Participants,
+    Reflection,
     choose,
     mesh_arrays,
-    origin_of,
     point_arrays,
     read_mirror,
     read_scene,
     read_view,
     write_object,
 )
-from .faults import AllOrNothing, SteppedOperator
+from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .properties import SettingsProperties, settings_of
 from .shortcomings import shortcomings
 
@@ -46,8 +45,7 @@ class Outcome:
                 f"{seconds:.2f} s")
 
 
-def generation(context: bpy.types.Context, chosen: Participants,
-               settings: core.Settings) -> Generator[tuple[float, str], None, Outcome]:
+def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings) -> Steps[Outcome]:
     """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
 
     Nothing in the file changes before the last step, which writes all results, or none where one of them fails; a
@@ -70,14 +68,14 @@ def generation(context: bpy.types.Context, chosen: Participants,
     scene = read_scene(depsgraph, chosen.diffuse)
     yield 0.5 * READING, "Building the tree"
     kind = core.PointTree if settings.method == "POINTS" else core.SceneTree
-    tree = yield from _part(core.in_steps(lambda: kind.build(scene.mesh)), 0.5 * READING, 0.5 * READING)
+    tree = yield from part(core.in_steps(lambda: kind.build(scene.mesh)), 0.5 * READING, 0.5 * READING,
+                           "Building the tree")
     mirrors = core.TriangleMesh.joined([surface.mesh for surface in surfaces])
-    prepared, refused = [], []
+    prepared, refused, share = [], [], (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
         steps = core.reflection_steps(view, surface.mesh, tree, settings, mirrors)
         try:
-            share = (1.0 - READING) / len(surfaces)
-            result = yield from _part(steps, READING + index * share, share, f"{mirror.name}: ")
+            result = yield from part(steps, READING + index * share, share, mirror.name)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             continue
@@ -86,29 +84,17 @@ def generation(context: bpy.types.Context, chosen: Participants,
                            "camera, the mirror or the objects.")
             continue
         remarks += shortcomings(mirror.name, result)
-        origin = origin_of(surface.mesh)
-        arrays = (mesh_arrays(result, scene, surface.triangle, origin) if result.discs is None else
-                  point_arrays(result, scene, surface.triangle, origin, view))
-        prepared.append((mirror, origin, arrays, result))
+        faces = result.discs is None
+        arrays = mesh_arrays(result, scene, surface) if faces else point_arrays(result, scene, surface, view)
+        prepared.append(Reflection(mirror, chosen.diffuse, result, arrays, view.resolution))
     if not prepared:
         raise core.ReflectionError(refused[0])
     yield 1.0, "Writing"
     with AllOrNothing() as whole:
-        results = [(write_object(context, mirror, chosen.diffuse, origin, arrays, result, view, settings.placement,
-                                 whole), result) for mirror, origin, arrays, result in prepared]
+        results = [(write_object(context, made, settings.placement, whole), made.result) for made in prepared]
         for obj, _ in results:
             obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
     return Outcome(results, remarks + refused)
-
-
-def _part(steps: Generator, start: float, share: float, name: str = "") -> Generator[tuple[float, str], None, object]:
-    """The progress of a part of the work as progress of the whole; returns what `steps` returns."""
-    while True:
-        try:
-            fraction, stage = next(steps)
-        except StopIteration as stop:
-            return stop.value
-        yield start + share * min(max(fraction, 0.0), 1.0), f"{name}{stage}" if stage else "Building the tree"
 
 
 class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types.Operator):
@@ -118,7 +104,7 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
     bl_label = "Generate Reflection"
     bl_options = {"REGISTER", "UNDO"}
 
-    def steps(self, context: bpy.types.Context) -> Generator[tuple[float, str], None, None]:
+    def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
         outcome = yield from generation(context, choose(context), settings_of(self))
         # the view layer knows new objects only from its next update on

@@ -1,10 +1,9 @@
 """The words of a benchmark: what a scene's runs say, its facts, and how all of it was measured."""
 from __future__ import annotations
 
-from ...core.rivals import PrimaryHits
 from ..report import Run
-from .case import Case
-from .truth import Truth
+from .options import Options
+from .running import Contest
 
 NOTES = (
     "Truth: Cycles renders the scene in materials that emit the object, the face and the position that a mirror shows. "
@@ -51,8 +50,9 @@ def _rays(runs: tuple[Run, ...]) -> str:
     return f"Ray tracing takes {'; '.join(told)}. " if told else ""
 
 
-def facts(case: Case, hits: PrimaryHits, centres: Truth, seconds: dict, options) -> dict:
-    """Numbers by label."""
+def facts(contest: Contest, seconds: dict, options: Options) -> dict:
+    """Numbers by label; `seconds` are those of Cycles' pictures."""
+    case, hits, centres = contest.case, contest.hits, contest.truths.centres
     width, height = case.view.resolution
     names = [", ".join(obj.name for obj in objects) for objects in (case.mirrors, case.diffuse)]
     return {"objects": f"{names[0]} reflect {names[1]}" + (

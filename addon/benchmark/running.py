@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,13 +12,22 @@ from ..report import LEAST, Run, pareto
 from .case import Case
 from .judging import Sampled, errors
 from .methods import Method
-from .truth import Truth
+from .truth import Truths
 
 SHORT, REPEATS = 0.5, 2     # what takes less seconds is run so often, and the quickest run counts
 
 
-def run_method(case: Case, key: str, method: Method, hits: PrimaryHits, centres: Truth, area: list[Truth],
-               budget: float) -> tuple[list[Run], list[str]]:
+@dataclass(frozen=True)
+class Contest:
+    """What every method is run on and judged by: a case, what the eye sees of its mirror, which is given to all, and
+    the truth."""
+
+    case: Case
+    hits: PrimaryHits
+    truths: Truths
+
+
+def run_method(contest: Contest, key: str, method: Method, budget: float) -> tuple[list[Run], list[str]]:
     """Runs of one method, and sentences on the values that were left out.
 
     Parameters
@@ -32,14 +42,14 @@ def run_method(case: Case, key: str, method: Method, hits: PrimaryHits, centres:
             return runs, [f"{method.title}: {method.knob} {left} left out: about {expected:.1f} s were expected, and "
                           f"{budget:g} s are allowed."]
         try:
-            made, seconds, cpu, took = _quickest(case, method, value, hits)
+            made, seconds, cpu, took = _quickest(contest, method, value)
         except (ReflectionError, MemoryError) as error:
             reason = str(error).rstrip(".") or "the memory does not suffice"
             return runs, [f"{method.title}: {method.knob} {left} left out: {reason}."]
         # of processor time, which others who work on the machine do not lengthen
         expected = method.growth * min(took, cpu)
-        numbers = errors(case, [centres], made)
-        numbers["area"] = errors(case, area, made)
+        numbers = errors(contest.case, [contest.truths.centres], made)
+        numbers["area"] = errors(contest.case, contest.truths.area, made)
         numbers["cpu_seconds"] = cpu
         if made.picture.mesh is not None:
             numbers["seconds_without_drawing"] = sum(
@@ -60,13 +70,13 @@ def with_fronts(runs: list[Run]) -> tuple[Run, ...]:
     return tuple(runs)
 
 
-def _quickest(case: Case, method: Method, value: float, hits: PrimaryHits) -> tuple[Sampled, dict, float, float]:
+def _quickest(contest: Contest, method: Method, value: float) -> tuple[Sampled, dict, float, float]:
     """What a value makes, its seconds by stage and processor seconds in the quickest run, and how long the first took.
     """
     best, first = None, 0.0
     for _ in range(REPEATS):
         started, processor = time.perf_counter(), time.process_time()
-        made = method.run(case, value, hits)
+        made = method.run(contest.case, value, contest.hits)
         took, processor = time.perf_counter() - started, time.process_time() - processor
         first = first or took
         seconds = made.picture.seconds

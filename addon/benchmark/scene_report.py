@@ -3,61 +3,27 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
-from ...core import ReflectionError, Settings, reflect
+from ...core import Settings, reflect
 from ...core.rivals import PrimaryHits, primary_hits
 from ...core.rivals.forward import drawn_mesh
-from ..blender_data import RAYS, mesh_arrays, origin_of, write_mesh
-from ..comparison import comparison_pictures, pictures
+from ..blender_data import RAYS, MirrorSurface, mesh_arrays, write_mesh
+from ..comparison import comparison_pictures, render_pictures
+from ..faults import finished
 from ..judge import CodedMaterials, CopiedScene, copied_scene, dress, reflecting
 from ..metrics import NOTHING, CodedPicture, measure
 from ..report import Scene
 from .answer import facts, summary
 from .case import Case, read_case
 from .methods import METHODS
-from .running import run_method, with_fronts
+from .options import Options
+from .running import Contest, run_method, with_fronts
 from .truth import render_truths
 
 SHOWN = 0.5     # tolerance of the reflection mesh in the pictures, in pixels
-
-
-@dataclass(frozen=True)
-class Options:
-    """What a benchmark runs.
-
-    Attributes
-    ----------
-    methods : tuple of str
-        Keys of `METHODS`; all where empty.
-    budget : float
-        Seconds for each value of a method's knob, on each scene.
-    pixels : int or None
-        The picture's longer side; the render's own where None.
-    samples : int
-        Per pixel of the two pictures.
-    tell : callable
-        Is told what is done, a line at a time.
-    """
-
-    methods: tuple = ()
-    budget: float = 10.0
-    pixels: int | None = None
-    samples: int = 4
-    tell: Callable[[str], None] = print
-
-    def __post_init__(self) -> None:
-        unknown = [name for name in self.methods if name not in METHODS]
-        if unknown:
-            raise ReflectionError(f"There is no method '{unknown[0]}': choose from {', '.join(METHODS)}.")
-        if not self.budget >= 0.0:
-            raise ReflectionError("The budget must be a number of seconds, zero or more.")
-        if self.samples < 1:
-            raise ReflectionError("A picture takes at least one sample: raise --samples.")
 
 
 def scene_report(context: bpy.types.Context, name: str, folder: str, options: Options) -> Scene:
@@ -73,21 +39,22 @@ def scene_report(context: bpy.types.Context, name: str, folder: str, options: Op
     hits = _least(case)
     os.makedirs(folder, exist_ok=True)
     with copied_scene(context, case.mirrors, case.diffuse, []) as copied:
-        centres, area, coded = render_truths(context, copied, case)
-        options.tell(f"{name}: truth at {sum(len(truth.mirror) for truth in (centres, *area)):,} places by Cycles, "
+        contest = Contest(case, hits, render_truths(context, copied, case))
+        judged = (contest.truths.centres, *contest.truths.area)
+        options.tell(f"{name}: truth at {sum(len(truth.mirror) for truth in judged):,} places by Cycles, "
                      f"{time.perf_counter() - started:.1f} s")
         runs, skipped = [], []
         for key in options.methods or METHODS:
             since = time.perf_counter()
-            found, left_out = run_method(case, key, METHODS[key], hits, centres, area, options.budget)
+            found, left_out = run_method(contest, key, METHODS[key], options.budget)
             runs += found
             skipped += left_out
             options.tell(f"{name}: {METHODS[key].title}, {time.perf_counter() - since:.1f} s"
                          + "".join(f"\n    {sentence}" for sentence in left_out))
-        shown, seconds = _shown(context, copied, case, hits, coded, folder, options)
+        shown, seconds = _shown(context, copied, contest, folder, options.samples)
     runs = with_fronts(runs)
     return Scene(name, summary(runs, seconds["reference"], options.samples),
-                 facts(case, hits, centres, seconds, options), shown, runs, tuple(skipped),
+                 facts(contest, seconds, options), shown, runs, tuple(skipped),
                  ((f"Cycles, {options.samples} samples", seconds["reference"]),))
 
 
@@ -97,33 +64,33 @@ def _least(case: Case) -> PrimaryHits:
                key=lambda hits: sum(hits.seconds.values()))
 
 
-def _shown(context: bpy.types.Context, copied: CopiedScene, case: Case, hits: PrimaryHits, coded: tuple, folder: str,
-           options: Options) -> tuple[tuple, dict]:
+def _shown(context: bpy.types.Context, copied: CopiedScene, contest: Contest, folder: str,
+           samples: int) -> tuple[tuple, dict]:
     """The pictures of the general camera's mesh beside Cycles', and Cycles' seconds for them."""
-    mirror, bent, truth = coded
+    case = contest.case
     result = reflect(case.view, case.mirror, case.scene.mesh, Settings(SHOWN))
     _add(copied, case, result)
     dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)],
           CodedMaterials(copied, (0.0, 0.0, 0.0)).plain_mirror())
-    reference, drawn, seconds = pictures(copied, context.scene, options.samples)
-    picture = drawn_mesh(case.view, result, hits)
+    rendered = finished(render_pictures(copied, context.scene, samples))
+    picture = drawn_mesh(case.view, result, contest.hits)
     shown = picture.triangle >= 0
     triangle = np.maximum(picture.triangle, 0)
     found = CodedPicture(np.where(shown, case.scene.source_object[triangle], NOTHING), case.polygon[triangle],
                          picture.position)
-    return comparison_pictures(folder, copied.scene, reference, drawn, mirror,
-                               measure(mirror, bent, truth, found)), seconds
+    measurement = measure(*contest.truths.pictures, found)
+    return finished(comparison_pictures(folder, copied.scene, rendered, measurement)), rendered.seconds
 
 
 def _add(copied: CopiedScene, case: Case, result) -> None:
     """The reflection mesh as an object of the copied scene, seen by the camera only, as `generate` makes it."""
-    origin = origin_of(case.mirror)
+    arrays = mesh_arrays(result, case.scene, MirrorSurface(case.mirror, case.triangle))
     mesh = bpy.data.meshes.new("Benchmark")
     copied.owned.append(mesh)
-    write_mesh(mesh, mesh_arrays(result, case.scene, case.triangle, origin))
+    write_mesh(mesh, arrays)
     obj = bpy.data.objects.new("Benchmark", mesh)
     copied.owned.append(obj)
-    obj.location = origin
+    obj.location = arrays.origin
     for rays in RAYS:
         setattr(obj, rays, False)
     copied.scene.collection.objects.link(obj)

@@ -15,6 +15,7 @@ import numpy as np
 from ...core import View
 from ...core.rivals import eye_depths
 from ..blender_data import compat
+from ..faults import finished
 from ..judge import CodedMaterials, CodedTruth, CopiedScene, cycles_render, lowest_corner
 from ..metrics import ITSELF, NOTHING, CodedPicture, motion_per_pixel
 from .case import Case
@@ -63,8 +64,27 @@ class Truth:
     scene_depth: np.ndarray
 
 
-def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -> tuple[Truth, list[Truth], tuple]:
-    """The truth at the centres, within the pixels, and (mirror, bent, CodedPicture) of the first as pictures.
+@dataclass(frozen=True)
+class Truths:
+    """All that judges the methods on one scene.
+
+    Attributes
+    ----------
+    centres : Truth
+        At the pixels' centres.
+    area : list of Truth
+        At places anywhere in the pixels.
+    pictures : (mirror, bent, CodedPicture)
+        The first as pictures, as `measure` takes them.
+    """
+
+    centres: Truth
+    area: list
+    pictures: tuple
+
+
+def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -> Truths:
+    """Render the truth of a case in a copy of its scene.
 
     From Blender 5.0 on Cycles rounds normals; it is handed unrounded ones here.
     """
@@ -82,7 +102,7 @@ def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -
         camera.shift_x, camera.shift_y = start + shift / max(lattice)
         view = case.view if not truths else _view(context, scene, case, lattice)
         seen, bent = coded.mirror()
-        truth = coded.reflected(seen, unrounded=bool(compat.packs_normals()))
+        truth = finished(coded.reflected(seen, unrounded=bool(compat.packs_normals())))
         pictures = pictures or (seen, bent, truth)
         truths.append(_truth(case, view, seen, bent, truth))
     camera.shift_x, camera.shift_y = start
@@ -90,7 +110,7 @@ def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -
     coded.end()
     for slot, material in own:
         slot.material = material
-    return truths[0], truths[1:], pictures
+    return Truths(truths[0], truths[1:], pictures)
 
 
 def coarser(size: tuple[int, int]) -> tuple[int, int]:

@@ -5,7 +5,6 @@ import json
 import os
 import platform
 import time
-from collections.abc import Callable
 
 import bpy
 import numpy as np
@@ -13,27 +12,23 @@ import numpy as np
 from ..report import Report, Scene, csv_text, document, page, plot_files, run_rows
 from .answer import NOTES
 from .growth import growths
-from .scene_report import Options
+from .options import Options
 from .talk import costs
 
 
-def write_benchmark(folder: str, scenes: list[Scene], options: Options, *, growth: float = 0.0, work: bool = True,
-                    since: tuple[float, float] | None = None, tell: Callable[[str], None] = print) -> Report:
+def write_benchmark(folder: str, scenes: list[Scene], options: Options,
+                    since: tuple[float, float] | None = None) -> Report:
     """Write report.html, report.json, report.csv and plots/*.svg.
 
     Parameters
     ----------
     folder : str
         An existing folder.
-    growth : float
-        Seconds for each point of the growth of methods, which is left out where 0.
-    work : bool
-        Whether the talk's setting is counted.
     since : (float, float), optional
         `time.perf_counter()` and `time.process_time()` when the benchmark began.
     """
-    lines, left_out = growths(growth, tell) if growth else ([], [])
-    counted, setting = costs() if work else ([], "")
+    lines, left_out = growths(options.growth, options.tell) if options.growth else ([], [])
+    counted, setting = costs() if options.work else ([], "")
     environment = {"Blender": bpy.app.version_string, "NumPy": np.__version__, "Python": platform.python_version(),
                    "processors": os.cpu_count()}
     if since is not None:

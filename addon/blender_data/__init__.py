@@ -1,14 +1,15 @@
 """Blender's data as arrays, and arrays as Blender's data: roles, meshes, view, results, records."""
 from .disc_nodes import disc_nodes, forget_nodes
-from .join_meshes import DiffuseScene, read_mirror, read_scene
+from .join_meshes import DiffuseScene, MirrorSurface, read_mirror, read_scene
+from .mesh_arrays import mesh_arrays
 from .mirror_materials import is_mirror
+from .point_arrays import point_arrays
 from .read_meshes import SURFACES
 from .read_view import read_view, render_size
 from .roles import Participants, choose, participants, results_of
-from .write_mesh import mesh_arrays, write_mesh
-from .write_object import RAYS, origin_of, show_to_camera, write_object
-from .write_points import point_arrays
+from .write_mesh import write_mesh
+from .write_object import RAYS, Reflection, show_to_camera, write_object
 
-__all__ = ["DiffuseScene", "Participants", "RAYS", "SURFACES", "choose", "disc_nodes", "forget_nodes", "is_mirror",
-           "mesh_arrays", "origin_of", "participants", "point_arrays", "read_mirror", "read_scene", "read_view",
-           "render_size", "results_of", "show_to_camera", "write_mesh", "write_object"]
+__all__ = ["DiffuseScene", "MirrorSurface", "Participants", "RAYS", "Reflection", "SURFACES", "choose", "disc_nodes",
+           "forget_nodes", "is_mirror", "mesh_arrays", "participants", "point_arrays", "read_mirror", "read_scene",
+           "read_view", "render_size", "results_of", "show_to_camera", "write_mesh", "write_object"]

@@ -2,33 +2,51 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 
 import bpy
-import numpy as np
 from mathutils import Matrix
 
-from ...core import ReflectionMesh, TriangleMesh, View
+from ...core import ReflectionMesh
 from ..faults import AllOrNothing, keep_mesh, keep_mirror, keep_object, keep_others_mesh
 from .disc_nodes import hide_discs, show_discs
+from .mesh_arrays import MeshArrays
 from .roles import results_of
 from .write_mesh import write_mesh
-from .write_points import write_points
 
 RAYS = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter", "visible_shadow")
 
 
-def origin_of(mirror: TriangleMesh) -> np.ndarray:
-    """The middle of the mirror's box, rounded as Blender stores an object's location."""
-    corners = mirror.positions[mirror.triangles].reshape(-1, 3)
-    return (0.5 * (corners.min(axis=0) + corners.max(axis=0))).astype(np.float32).astype(np.float64)
+@dataclass(frozen=True)
+class Reflection:
+    """What is to be written for one mirror.
+
+    Attributes
+    ----------
+    mirror : bpy.types.Object
+    sources : list of bpy.types.Object
+        What is reflected in it.
+    result : core.ReflectionMesh
+    arrays : MeshArrays
+        The same, to be written.
+    resolution : (int, int)
+        Of the picture that it was made for.
+    """
+
+    mirror: bpy.types.Object
+    sources: list
+    result: ReflectionMesh
+    arrays: MeshArrays
+    resolution: tuple[int, int]
 
 
-def write_object(context: bpy.types.Context, mirror: bpy.types.Object, sources: list, origin: np.ndarray, arrays: dict,
-                 result: ReflectionMesh, view: View, placement: str, whole: AllOrNothing) -> bpy.types.Object:
-    """The result of `mirror` as an object: a new one, or the one it already has, updated in place.
+def write_object(context: bpy.types.Context, made: Reflection, placement: str,
+                 whole: AllOrNothing) -> bpy.types.Object:
+    """The reflection in a mirror as an object: a new one, or the one that the mirror already has, updated in place.
 
     Where something fails, be it at a later object, `whole` takes back all that is changed here.
     """
+    mirror = made.mirror
     earlier = results_of(context, mirror)
     if earlier:
         active = context.view_layer.objects.active
@@ -39,13 +57,13 @@ def write_object(context: bpy.types.Context, mirror: bpy.types.Object, sources: 
     else:
         obj = _new_object(context, mirror, whole)
     keep_mirror(mirror, whole)
-    if result.discs is None:
-        write_mesh(obj.data, arrays)
+    write_mesh(obj.data, made.arrays)
+    if made.result.discs is None:
         whole.after(hide_discs, obj)
     else:
-        show_discs(obj, write_points(obj.data, arrays), whole)
-    obj.matrix_world = Matrix.Translation(origin)
-    _remember(obj, mirror, sources, result, view)
+        show_discs(obj, made.arrays.uv_maps, whole)
+    obj.matrix_world = Matrix.Translation(made.arrays.origin)
+    _remember(obj, made)
     if placement == "VIRTUAL":
         _hide_from_camera(mirror)
     else:
@@ -75,17 +93,16 @@ def _link_beside(context: bpy.types.Context, obj: bpy.types.Object, mirror: bpy.
         collection.objects.link(obj)
 
 
-def _remember(obj: bpy.types.Object, mirror: bpy.types.Object, sources: list, result: ReflectionMesh,
-              view: View) -> None:
-    record = obj.reflection_mesh
+def _remember(obj: bpy.types.Object, made: Reflection) -> None:
+    record, result = obj.reflection_mesh, made.result
     record.role = "REFLECTION"
-    record.mirror = mirror
+    record.mirror = made.mirror
     record.sources.clear()
-    for source in sources:
+    for source in made.sources:
         record.sources.add().object = source
     record.estimated_error = result.estimated_error
     record.counts = json.dumps({name: int(count) for name, count in result.counts.items()})
-    record.resolution = view.resolution
+    record.resolution = made.resolution
     record.faces = len(obj.data.polygons)
     record.points = 0 if result.discs is None else len(result.positions)
 

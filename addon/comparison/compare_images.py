@@ -8,9 +8,11 @@ from contextlib import suppress
 import bpy
 import numpy as np
 
+from ..faults import Steps
 from ..files import is_whole
 from ..metrics import Measurement
 from ..report import Picture, heat_map, png_bytes
+from .compare_pictures import Pictures
 
 # what a pixel of holes.png is, and its colour: of M. Okabe and K. Ito's set, safe for all kinds of colour vision
 KINDS = {"no mirror": (20, 20, 20), "left out": (62, 62, 68), "right": (130, 130, 130), "hole": (213, 94, 0),
@@ -18,9 +20,9 @@ KINDS = {"no mirror": (20, 20, 20), "left out": (62, 62, 68), "right": (130, 130
 DIFFERENCE, DISPLACEMENT = (0.001, 1.0), (0.01, 10.0)       # ends of the scales: linear light, pixels
 
 
-def comparison_pictures(folder: str, scene: bpy.types.Scene, reference: np.ndarray, result: np.ndarray,
-                        mirror: np.ndarray, measurement: Measurement) -> tuple[Picture, ...]:
-    """Write five PNG files into the folder; returns them as they are shown in a page.
+def comparison_pictures(folder: str, scene: bpy.types.Scene, pictures: Pictures,
+                        measurement: Measurement) -> Steps[tuple[Picture, ...]]:
+    """Write five PNG files into the folder, in steps; returns them as they are shown in a page.
 
     Parameters
     ----------
@@ -28,19 +30,20 @@ def comparison_pictures(folder: str, scene: bpy.types.Scene, reference: np.ndarr
         A folder for results that are not whole yet, as `files.staged` gives it.
     scene : bpy.types.Scene
         A temporary scene whose view settings are those of the user; its image settings are changed.
-    reference, result : (height, width, 3) float32
-        Linear pictures, from the lowest row up.
     """
-    difference = np.abs(reference.astype(np.float64) - result).mean(axis=2)
-    coverage = coverage_picture(mirror, measurement)
+    yield 0.0, "Drawing the maps"
+    difference = np.abs(pictures.reference.astype(np.float64) - pictures.result).mean(axis=2)
+    coverage = coverage_picture(measurement)
     for name, data in _maps(difference, measurement.displacement, coverage).items():
         with open(os.path.join(folder, f"{name}.png"), "wb") as file:
             file.write(data)
+    yield 0.3, "Drawing what is round the mirror"
     # the page shows of the maps what is round the mirrors alone, and so larger
-    box = surroundings(mirror)
+    box = surroundings(measurement.mirror)
     maps = _maps(difference[box], measurement.displacement[box], coverage[box])
     small = {}
-    for name, linear in (("reference", reference), ("result", result)):
+    for name, linear in (("reference", pictures.reference), ("result", pictures.result)):
+        yield 0.6 if name == "reference" else 0.8, f"Writing {name}.png"
         _save(os.path.join(folder, f"{name}.png"), scene, linear, "PNG")
         path = os.path.join(folder, f"{name}.jpg")
         _save(path, scene, linear, "JPEG")
@@ -78,9 +81,9 @@ def surroundings(mirror: np.ndarray) -> tuple[slice, slice]:
     return box[0], box[1]
 
 
-def coverage_picture(mirror: np.ndarray, measurement: Measurement) -> np.ndarray:
+def coverage_picture(measurement: Measurement) -> np.ndarray:
     """(height, width) uint8 entries of `KINDS`; wrong pixels are drawn larger where the picture is large."""
-    names = list(KINDS)
+    names, mirror = list(KINDS), measurement.mirror
     picture = np.full(mirror.shape, names.index("no mirror"), dtype=np.uint8)
     picture[mirror] = names.index("left out")
     picture[measurement.judged] = names.index("right")

@@ -1,7 +1,10 @@
 """Dresses a copied scene for its renders: in codes that say what each pixel shows, and in its own materials."""
 from __future__ import annotations
 
+import itertools
 import time
+from collections.abc import Generator
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import bpy
@@ -9,6 +12,7 @@ import numpy as np
 
 from ...core import ReflectionError
 from ..blender_data import compat, records
+from ..faults import Steps, Undivided
 from ..judge import (
     CodedMaterials,
     CodedTruth,
@@ -24,6 +28,25 @@ from ..judge import (
 from ..metrics import CodedPicture
 
 DEEPEST = 1000  # bounces that are followed; Cycles knows 1024, four of them for other rays
+RENDERS = 7  # of a comparison; where Cycles rounds normals it takes two more
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """What Cycles shows of a scene.
+
+    Attributes
+    ----------
+    reference, result : (height, width, 3) float32
+        With the mirror, and with the mesh before a mirror that reflects the world alone; in linear light, from the
+        lowest row up.
+    seconds : dict
+        Time that Cycles took for the two, by their names.
+    """
+
+    reference: np.ndarray
+    result: np.ndarray
+    seconds: dict
 
 
 class Renders(NamedTuple):
@@ -37,10 +60,7 @@ class Renders(NamedTuple):
         What the mirror shows, and what the reflection mesh shows.
     exact : CodedPicture or None
         What the mirror would show if Cycles did not round its normals; None where Cycles does not.
-    reference, result : (height, width, 3) float32
-        The pictures in linear light.
-    seconds : dict
-        Time that Cycles took for the two pictures, by their names.
+    pictures : Pictures
     """
 
     mirror: np.ndarray
@@ -48,24 +68,36 @@ class Renders(NamedTuple):
     truth: CodedPicture
     shown: CodedPicture
     exact: CodedPicture | None
-    reference: np.ndarray
-    result: np.ndarray
-    seconds: dict
+    pictures: Pictures
 
 
 def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: list, results: list,
-                      samples: int) -> Renders:
-    """Render the copied scene in codes and in its own materials; `samples` as in `compare`."""
+                      samples: int) -> Steps[Renders]:
+    """Render the copied scene in codes and in its own materials, a step for each render; `samples` as in `comparison`.
+    """
+    count = RENDERS + 2 * compat.packs_normals()
+    renders = _renders(context, copied, diffuse, results, samples)
+    try:
+        for number in itertools.count():
+            what = next(renders)
+            yield number / count, Undivided(f"Cycles renders {what}, {number + 1} of {count}")
+    except StopIteration as stop:
+        return stop.value
+
+
+def _renders(context: bpy.types.Context, copied: CopiedScene, diffuse: list, results: list,
+             samples: int) -> Generator[str, None, Renders]:
+    """As `render_comparison`; yields the name of each render before it."""
     depth = min(max((records.counts(result).get("depth", 1) for result in results), default=1) or 1, DEEPEST)
     cycles_render.prepare(copied.scene, depth)
     _code_results(copied, results, diffuse, polygons(context, diffuse))
     own = [(slot, slot.material) for copy in copied.everything for slot in copy.material_slots]
     codes = CodedMaterials(copied, lowest_corner(copied))
-    coded = _coded_pictures(copied, codes, depth)
+    coded = yield from _coded_pictures(copied, codes, depth)
     for slot, material in own:
         slot.material = material
     dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)], codes.plain_mirror())
-    return Renders(*coded, *pictures(copied, context.scene, samples))
+    return Renders(*coded, (yield from render_pictures(copied, context.scene, samples)))
 
 
 def _code_results(copied: CopiedScene, results: list, diffuse: list, polygons: list) -> None:
@@ -98,35 +130,46 @@ def _face_numbers(mesh: bpy.types.Mesh, name: str, result: bpy.types.Object) -> 
     return values
 
 
-def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> tuple:
+def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> Generator[str, None, tuple]:
     """The first five of `Renders`."""
     truth = CodedTruth(copied, codes, depth)
+    yield "the outline of the mirror"
     seen, bent = truth.mirror()
-    reflected = [truth.reflected(seen, unrounded) for unrounded in (False, True)[:1 + compat.packs_normals()]]
+    reflected = yield from truth.reflected(seen)
+    exact = (yield from truth.reflected(seen, unrounded=True)) if compat.packs_normals() else None
     truth.end()
     show(copied.results, True)
     dress(copied.results, codes.attribute("reflection_code"))
+    yield "the faces of the mesh"
     identity = cycles_render.render_codes(copied.scene)
     dress(copied.results, codes.attribute_position("reflected_position"))
+    yield "the positions on the mesh"
     shown = decode(identity, cycles_render.render_codes(copied.scene), codes.origin, True, face_start=1)
-    return seen, bent, reflected[0], shown, reflected[1] if len(reflected) > 1 else None
+    return seen, bent, reflected, shown, exact
 
 
-def pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) -> tuple[np.ndarray, np.ndarray, dict]:
-    """What Cycles shows, what it shows with the mesh before a mirror that reflects the world alone, and its times."""
+def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) -> Generator[str, None, Pictures]:
+    """Render both pictures; yields the name of each before it."""
     scene = copied.scene
     scene.world = user.world
     visible = [(copy, copy.visible_camera, copy.visible_glossy) for copy in copied.everything]
     for copy, _ in copied.mirrors:
         copy.visible_camera = True
     show(copied.results, False)
-    started = time.perf_counter()
-    reference = cycles_render.render_picture(scene, samples, user)
-    between = time.perf_counter()
+    yield "the picture with the mirror"
+    reference, first = _timed(scene, samples, user)
     for copy, camera, glossy in visible:
         copy.visible_camera, copy.visible_glossy = camera, glossy
     for copy, _ in copied.diffuse:
         copy.visible_glossy = False
     show(copied.results, True)
-    result, ended = cycles_render.render_picture(scene, samples, user), time.perf_counter()
-    return reference, result, {"reference": between - started, "result": ended - between}
+    yield "the picture with the mesh"
+    result, second = _timed(scene, samples, user)
+    return Pictures(reference, result, {"reference": first, "result": second})
+
+
+def _timed(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> tuple[np.ndarray, float]:
+    """A picture, and the seconds that it took."""
+    started = time.perf_counter()
+    picture = cycles_render.render_picture(scene, samples, user)
+    return picture, time.perf_counter() - started

@@ -5,17 +5,20 @@ import json
 import os
 
 import bpy
-import numpy as np
 
+from ..faults import Steps, part
 from ..metrics import Measurement
 from ..report import Report, csv_text, flat, page
 from .compare_images import comparison_pictures
 from .compare_page import NOTES, environment, scene_of
+from .compare_pictures import Pictures
 
 
-def write_report(folder: str, scene: bpy.types.Scene, reference: np.ndarray, result: np.ndarray, mirror: np.ndarray,
-                 measurement: Measurement, report: dict) -> None:
+def write_report(folder: str, scene: bpy.types.Scene, pictures: Pictures, measurement: Measurement,
+                 report: dict) -> Steps[None]:
     """Write reference.png, result.png, difference.png, displacement.png, holes.png, report.json, .csv and .html.
+
+    In steps, as pictures may be large.
 
     Parameters
     ----------
@@ -23,15 +26,13 @@ def write_report(folder: str, scene: bpy.types.Scene, reference: np.ndarray, res
         A folder for results that are not whole yet, as `files.staged` gives it.
     scene : bpy.types.Scene
         A temporary scene whose view settings are those of the user; its image settings are changed.
-    reference, result : (height, width, 3) float32
-        Linear pictures.
-    mirror : (height, width) bool
     report : dict
         What report.json holds.
     """
-    pictures = comparison_pictures(folder, scene, reference, result, mirror, measurement)
+    files = yield from part(comparison_pictures(folder, scene, pictures, measurement), 0.0, 0.9)
+    yield 0.9, "Writing the report"
     shown = Report("Is the reflection mesh worth it on this scene?",
-                   (scene_of(", ".join(report["mirrors"]), report, pictures),), environment=environment(report),
+                   (scene_of(", ".join(report["mirrors"]), report, files),), environment=environment(report),
                    notes=NOTES)
     for name, text in (("report.json", json.dumps(report, indent=2) + "\n"), ("report.csv", csv_text([flat(report)])),
                        ("report.html", page(shown))):

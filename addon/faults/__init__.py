@@ -1,9 +1,11 @@
-"""Nothing the user had is lost: all or nothing, taken back, interrupted, and one sentence for what nobody foresaw."""
+"""Nothing the user had is lost: all or nothing, in steps, interrupted, taken back; and one sentence for errors."""
 from .all_or_nothing import AllOrNothing
 from .interrupts import STATUS, interrupt_held
-from .stepped_operator import SteppedOperator
-from .take_back import keep_mesh, keep_mirror, keep_object, keep_others_mesh
+from .stepped_operator import BrowsingOperator, SteppedOperator
+from .steps import Steps, Undivided, finished, part
+from .take_back import keep_mesh, keep_mirror, keep_object, keep_others_mesh, still_there
 from .unforeseen import in_one_sentence, sentence
 
-__all__ = ["AllOrNothing", "STATUS", "SteppedOperator", "in_one_sentence", "interrupt_held", "keep_mesh",
-           "keep_mirror", "keep_object", "keep_others_mesh", "sentence"]
+__all__ = ["AllOrNothing", "BrowsingOperator", "STATUS", "SteppedOperator", "Steps", "Undivided", "finished",
+           "in_one_sentence", "interrupt_held", "keep_mesh", "keep_mirror", "keep_object", "keep_others_mesh", "part",
+           "sentence", "still_there"]

@@ -2,10 +2,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator
 
 import bpy
 
+from .steps import Steps, Undivided
 from .unforeseen import sentence
 
 INTERVAL = 0.02
@@ -14,9 +14,12 @@ BUDGET = 0.1
 
 
 class SteppedOperator:
-    """Mix-in of operators whose `steps(context)` yields (fraction, stage) and changes nothing before its last step."""
+    """Mix-in of operators whose `steps(context)` yields (fraction, stage), and leaves no trace where it is closed."""
 
-    def steps(self, context: bpy.types.Context) -> Generator[tuple[float, str], None, None]:
+    # no annotation: Blender takes those of an operator for its properties
+    _running = None
+
+    def steps(self, context: bpy.types.Context) -> Steps[None]:
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set:
@@ -28,6 +31,10 @@ class SteppedOperator:
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
         if bpy.app.background or context.window is None:
             return self.execute(context)
+        return self.begin(context)
+
+    def begin(self, context: bpy.types.Context) -> set:
+        """Take the first step; the others follow in the window of the context."""
         self._running = self.steps(context)
         # wrong input is told at once, before anything of the window changes
         outcome = self._step()
@@ -37,6 +44,7 @@ class SteppedOperator:
         self._timer = manager.event_timer_add(INTERVAL, window=context.window)
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
+        self._show(context)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
@@ -49,20 +57,27 @@ class SteppedOperator:
             return {"RUNNING_MODAL"}
         enough = time.perf_counter() + BUDGET
         outcome = self._step()
-        while outcome is None and time.perf_counter() < enough:
+        while outcome is None and time.perf_counter() < enough and not self._undivided:
             outcome = self._step()
         if outcome is not None:
             self._tidy(context)
             return outcome
-        fraction, stage = self._progress
-        context.window_manager.progress_update(100.0 * fraction)
-        context.workspace.status_text_set(f"{stage}: {100.0 * fraction:.0f} %, ESC cancels")
+        self._show(context)
         return {"RUNNING_MODAL"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Stop without a trace; Blender calls it too, when it ends the operator itself."""
-        self._running.close()
-        self._tidy(context)
+        """Stop without a trace; Blender calls it too, when it ends the operator itself, be it before the work began."""
+        if self._running is None:
+            return
+        try:
+            self._running.close()
+        finally:
+            self._tidy(context)
+
+    @property
+    def _undivided(self) -> bool:
+        """Whether the step that comes next cannot be divided, so that it has to be shown before."""
+        return isinstance(self._progress[1], Undivided)
 
     def _step(self) -> set | None:
         """One step: what the operator returns where that was the last, or None."""
@@ -75,8 +90,32 @@ class SteppedOperator:
             return {"CANCELLED"}
         return None
 
+    def _show(self, context: bpy.types.Context) -> None:
+        """Show how far the work is and what comes next."""
+        fraction, stage = self._progress
+        stopping = "this cannot be divided, ESC cancels after it" if self._undivided else "ESC cancels"
+        context.window_manager.progress_update(100.0 * fraction)
+        context.workspace.status_text_set(f"{stage}: {100.0 * fraction:.0f} %, {stopping}")
+
     def _tidy(self, context: bpy.types.Context) -> None:
         manager = context.window_manager
         manager.event_timer_remove(self._timer)
         manager.progress_end()
         context.workspace.status_text_set(None)
+
+
+class BrowsingOperator(SteppedOperator):
+    """A stepped operator that in a window lets the user choose its `filepath` first."""
+
+    # whether the file browser is open, which calls `execute` with the answer
+    _browsing = False
+
+    def begin(self, context: bpy.types.Context) -> set:
+        self._browsing = not self._browsing
+        if not self._browsing:
+            return super().begin(context)
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: bpy.types.Context) -> set:
+        return self.begin(context) if self._browsing else super().execute(context)

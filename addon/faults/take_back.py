@@ -9,6 +9,18 @@ PLACE = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_ang
 RECORD = ("role", "mirror", "estimated_error", "seconds", "counts", "resolution", "faces", "points")
 
 
+def still_there(items: list) -> list:
+    """Those of Blender's data that nobody has removed."""
+    return [item for item in items if _is_there(item)]
+
+
+def _is_there(item: bpy.types.ID) -> bool:
+    try:
+        return bool(item.name)
+    except ReferenceError:
+        return False
+
+
 def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
     """Let `whole` bring back where a result stands and what it knows."""
     matrix, place = obj.matrix_world.copy(), {name: tuple(getattr(obj, name)) for name in PLACE}

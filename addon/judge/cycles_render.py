@@ -106,7 +106,7 @@ def _largest(scene: bpy.types.Scene) -> int:
 
 
 def _write_still(scene: bpy.types.Scene) -> None:
-    """Render to the scene's path; ESC ends it without a file."""
+    """Render to the scene's path; where that is cancelled there is no file."""
     bpy.ops.render.render(write_still=True, scene=scene.name)
 
 

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..blender_data import SURFACES
+from ..faults import still_there
 
 RAYS = ("camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow")
 
@@ -48,8 +49,10 @@ def copied_scene(context: bpy.types.Context, mirrors: list, diffuse: list, resul
         _copy_objects(context, copied, mirrors, diffuse, results)
         yield copied
     finally:
-        bpy.data.scenes.remove(copied.scene)
-        bpy.data.batch_remove(copied.owned)
+        # between two steps others may have deleted some of it
+        for scene in still_there([copied.scene]):
+            bpy.data.scenes.remove(scene)
+        bpy.data.batch_remove(still_there(copied.owned))
 
 
 def _copy_settings(user: bpy.types.Scene, scene: bpy.types.Scene) -> None:

@@ -1,6 +1,8 @@
 """Cycles as the judge: what a copied scene's mirrors show at the pixels' centres, rendered in codes."""
 from __future__ import annotations
 
+from collections.abc import Generator
+
 import bpy
 import numpy as np
 
@@ -41,15 +43,21 @@ class CodedTruth:
         seen = facing[..., 2] > 0.5
         return seen, seen & (facing[..., 0] - 2.0 < np.minimum(0.9 * (facing[..., 1] - 2.0), 0.01))
 
-    def reflected(self, seen: np.ndarray, unrounded: bool = False) -> CodedPicture:
-        """What the mirror shows in the pixels `seen`; `unrounded` hands Cycles normals that it does not round."""
+    def reflected(self, seen: np.ndarray, unrounded: bool = False) -> Generator[str, None, CodedPicture]:
+        """What the mirror shows in the pixels `seen`; `unrounded` hands Cycles normals that it does not round.
+
+        Yields the name of each of its two renders before it.
+        """
         if unrounded and self._unrounded is None:
             cycles_codes.carry_normals(self._copied)
             self._unrounded = self._codes.mirror(self._depth, cycles_codes.MIRROR_NORMAL)
         self._dress_mirrors(self._unrounded if unrounded else self._mirror)
         dress(self._copied.diffuse, self._identity)
+        normals = " with exact normals" if unrounded else ""
+        yield f"the faces in the mirror{normals}"
         identity = cycles_render.render_codes(self._copied.scene)
         dress(self._copied.diffuse, self._position)
+        yield f"the positions in the mirror{normals}"
         return decode(identity, cycles_render.render_codes(self._copied.scene), self._codes.origin, seen, face_start=0)
 
     def end(self) -> None:

@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...core.support import breathe
+
 
 def gaussian(sigma: float, radius: int) -> np.ndarray:
     """Samples of exp(-x^2 / (2 sigma^2)) at -radius .. radius, not normalised."""
@@ -28,6 +30,7 @@ def filtered(picture: np.ndarray, down: np.ndarray, across: np.ndarray, border: 
         length = picture.shape[axis]
         total = kernel[0] * padded[:length]
         for index in range(1, len(kernel)):
+            breathe()
             total += kernel[index] * padded[index:index + length]
         picture = np.moveaxis(total, 0, axis)
     return picture

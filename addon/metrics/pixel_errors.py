@@ -37,12 +37,13 @@ class Measurement:
     ----------
     displacement : (height, width) float64
         |point shown - true point| in units of that point's motion per pixel; NaN where it is not measured.
-    judged, hole, spill, wrong_layer : (height, width) bool
+    mirror, judged, hole, spill, wrong_layer : (height, width) bool
     numbers : dict
         Counts of pixels, displacement in pixels, coverage in per cent of the judged pixels.
     """
 
     displacement: np.ndarray
+    mirror: np.ndarray
     judged: np.ndarray
     hole: np.ndarray
     spill: np.ndarray
@@ -113,7 +114,7 @@ def measure(mirror: np.ndarray, bent: np.ndarray, truth: CodedPicture, shown: Co
         "displacement_px": _distribution(measured),
         "coverage_percent": {**share, "all": sum(share.values())},
     }
-    return Measurement(displacement, judged, hole, spill, wrong, numbers)
+    return Measurement(displacement, mirror, judged, hole, spill, wrong, numbers)
 
 
 def without_packing(mirror: np.ndarray, bent: np.ndarray, packed: CodedPicture, exact: CodedPicture,

@@ -10,6 +10,7 @@ from html import escape
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 MARKERS = ("circle", "square", "triangle", "diamond", "down", "pentagon", "plus", "cross", "star")
 INK, FAINT, GRID = "#333333", "#767676", "#e4e4e4"
+SIZE = 5.0  # of a mark, in the picture's units
 
 
 @dataclass(frozen=True)
@@ -107,23 +108,22 @@ def draw_axes(across: Axis, up: Axis) -> str:
     return "".join(parts)
 
 
-def marker(kind: str, x: float, y: float, colour: str, filled: bool, title: str = "", size: float = 5.0) -> str:
+def marker(kind: str, x: float, y: float, colour: str, filled: bool, title: str = "") -> str:
     """A mark at a place; hollow where not `filled`; `title` is shown where the pointer rests."""
     fill = colour if filled else "#ffffff"
     style = f'fill="{fill}" stroke="{colour}" stroke-width="1.6"'
     inner = f"<title>{escape(title)}</title>" if title else ""
     if kind == "circle":
-        return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{size}" {style}>{inner}</circle>'
+        return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{SIZE}" {style}>{inner}</circle>'
     if kind in ("plus", "cross"):
-        arm, turn = 0.45 * size, 45 if kind == "cross" else 0
-        corners = [(-arm, -size * 1.25), (arm, -size * 1.25), (arm, -arm), (size * 1.25, -arm), (size * 1.25, arm),
-                   (arm, arm), (arm, size * 1.25), (-arm, size * 1.25), (-arm, arm), (-size * 1.25, arm),
-                   (-size * 1.25, -arm), (-arm, -arm)]
+        arm, end, turn = 0.45 * SIZE, 1.25 * SIZE, 45 if kind == "cross" else 0
+        corners = [(-arm, -end), (arm, -end), (arm, -arm), (end, -arm), (end, arm), (arm, arm), (arm, end), (-arm, end),
+                   (-arm, arm), (-end, arm), (-end, -arm), (-arm, -arm)]
     else:
         count, turn = {"square": (4, 45), "diamond": (4, 0), "triangle": (3, 0), "down": (3, 180), "pentagon": (5, 0),
                        "star": (10, 0)}[kind]
-        corners = [(1.25 * size * (0.5 if kind == "star" and k % 2 else 1.0) * math.sin(2 * math.pi * k / count),
-                    -1.25 * size * (0.5 if kind == "star" and k % 2 else 1.0) * math.cos(2 * math.pi * k / count))
+        corners = [(1.25 * SIZE * (0.5 if kind == "star" and k % 2 else 1.0) * math.sin(2 * math.pi * k / count),
+                    -1.25 * SIZE * (0.5 if kind == "star" and k % 2 else 1.0) * math.cos(2 * math.pi * k / count))
                    for k in range(count)]
     points = " ".join(f"{px:.1f},{py:.1f}" for px, py in corners)
     return f'<polygon points="{points}" transform="translate({x:.1f} {y:.1f}) rotate({turn})" {style}>{inner}</polygon>'

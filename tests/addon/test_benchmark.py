@@ -49,13 +49,12 @@ def ball(blank):
     return blank
 
 
-def judged(rooms, context, pixels=None) -> SimpleNamespace:
-    """The case, what the eye sees, and the truths."""
+def judged(rooms, context, pixels=None):
+    """The case, what the eye sees, and the truths: a `Contest`."""
     case = rooms.case.read_case(context, pixels)
     with rooms.cycles_scene.copied_scene(context, case.mirrors, case.diffuse, []) as copied:
-        centres, area, pictures = rooms.truth.render_truths(context, copied, case)
-    return SimpleNamespace(case=case, hits=rooms.rivals.primary_hits(case.view, case.mirror, case.scene.mesh),
-                           centres=centres, area=area, pictures=pictures)
+        truths = rooms.truth.render_truths(context, copied, case)
+    return rooms.running.Contest(case, rooms.rivals.primary_hits(case.view, case.mirror, case.scene.mesh), truths)
 
 
 def state() -> dict:
@@ -73,11 +72,11 @@ def made(rooms, scene, key: str, value: float):
 
 def test_rays_are_exact_at_the_centres_and_a_broken_mesh_is_not(rooms, ball):
     scene = judged(rooms, ball, 128)
-    rays = rooms.judging.errors(scene.case, [scene.centres], made(rooms, scene, "RAYS", 1))
+    rays = rooms.judging.errors(scene.case, [scene.truths.centres], made(rooms, scene, "RAYS", 1))
     assert rays["mean_error_px"] < 0.01 and rays["coverage_percent"]["all"] < 0.2
-    assert len(scene.centres.pixel) > 2000
+    assert len(scene.truths.centres.pixel) > 2000
     mesh = made(rooms, scene, "GENERAL", 0.5)
-    for truths in ([scene.centres], scene.area):
+    for truths in ([scene.truths.centres], scene.truths.area):
         good = rooms.judging.errors(scene.case, truths, mesh)
         assert good["displacement_px"]["p99"] < 0.5 and good["mean_error_px"] < 0.15
         # a pixel to the right, which is less where the camera is nearer than the mirror's middle
@@ -100,11 +99,11 @@ def test_errors_at_the_centres_are_those_of_a_comparison(rooms, ball):
     """`measure` is the judge of the operator `compare`, tested by itself."""
     scene = judged(rooms, ball)
     picture = made(rooms, scene, "ENVIRONMENT", 64).picture
-    found = rooms.judging.errors(scene.case, [scene.centres], rooms.judging.Sampled(picture))
+    found = rooms.judging.errors(scene.case, [scene.truths.centres], rooms.judging.Sampled(picture))
     shown, triangle = picture.triangle >= 0, np.maximum(picture.triangle, 0)
     coded = rooms.pixel_errors.CodedPicture(np.where(shown, scene.case.scene.source_object[triangle], -1),
                                                scene.case.polygon[triangle], picture.position)
-    mirror, bent, truth = scene.pictures
+    mirror, bent, truth = scene.truths.pictures
     expected = rooms.pixel_errors.measure(mirror, bent, truth, coded)
     for name in ("hole", "spill", "wrong_layer", "all"):
         assert found["coverage_percent"][name] == pytest.approx(expected.numbers["coverage_percent"][name], abs=1e-9)
@@ -122,7 +121,7 @@ def test_a_picture_is_as_far_off_as_its_nearest_sample(rooms, wall, across):
     """The mean distance from a square's middle is (sqrt 2 + ln(1 + sqrt 2)) / 6 of its side."""
     scene = judged(rooms, wall)
     expected = (np.sqrt(2.0) + np.log(1.0 + np.sqrt(2.0))) / 6.0 / across
-    found = rooms.judging.errors(scene.case, scene.area, made(rooms, scene, "RAYS", across))
+    found = rooms.judging.errors(scene.case, scene.truths.area, made(rooms, scene, "RAYS", across))
     assert found["displacement_px"]["median"] == pytest.approx(np.sqrt(0.5 / np.pi) / across, rel=0.02)
     assert found["displacement_px"]["max"] == pytest.approx(np.sqrt(0.5) / across, rel=0.05)
     # on the mirror's border the nearest sample may show no mirror, or show it where there is none
@@ -130,7 +129,8 @@ def test_a_picture_is_as_far_off_as_its_nearest_sample(rooms, wall, across):
     assert 0.0 < coverage["all"] < 0.012 and coverage["wrong_layer"] == 0.0
     assert found["mean_error_px"] == pytest.approx((1.0 - coverage["hole"]) * expected + coverage["all"], rel=0.02)
     # a flat mirror's mesh is exact everywhere
-    assert rooms.judging.errors(scene.case, scene.area, made(rooms, scene, "GENERAL", 2.0))["mean_error_px"] < 0.002
+    exact = rooms.judging.errors(scene.case, scene.truths.area, made(rooms, scene, "GENERAL", 2.0))
+    assert exact["mean_error_px"] < 0.002
 
 
 @pytest.mark.parametrize("orthographic", [0.0, 3.0])
@@ -149,7 +149,8 @@ def test_lattices_lie_where_their_rays_go(rooms, orthographic):
 
 def test_places_lie_everywhere_in_the_pixels(rooms, ball):
     scene = judged(rooms, ball)
-    for places in (np.concatenate([getattr(truth, axis) for truth in scene.area]) for axis in ("columns", "rows")):
+    area = scene.truths.area
+    for places in (np.concatenate([getattr(truth, axis) for truth in area]) for axis in ("columns", "rows")):
         tenths = np.bincount((places % 1.0 * 10.0).astype(int), minlength=10) / len(places)
         assert tenths.min() > 0.05 and tenths.max() < 0.15
     for size in ((1024, 1024), (1920, 1080), (64, 47), (3, 2)):
@@ -162,11 +163,10 @@ def test_places_lie_everywhere_in_the_pixels(rooms, ball):
 def test_what_is_expected_to_take_too_long_is_left_out_and_said(rooms, wall):
     scene = judged(rooms, wall)
     method = rooms.methods.METHODS["GENERAL"]
-    arguments = scene.case, "GENERAL", method, scene.hits, scene.centres, scene.area
-    runs, said = rooms.running.run_method(*arguments, 0.0)
+    runs, said = rooms.running.run_method(scene, "GENERAL", method, 0.0)
     assert [run.value for run in runs] == [method.values[0]]
     assert len(said) == 1 and "1, 0.5, 0.25 left out" in said[0] and method.title in said[0]
-    runs, said = rooms.running.run_method(*arguments, 600.0)
+    runs, said = rooms.running.run_method(scene, "GENERAL", method, 600.0)
     assert [run.value for run in runs] == list(method.values) and not said
 
 
@@ -176,7 +176,7 @@ def test_a_method_that_refuses_is_left_out_and_said(rooms, wall):
     def refuse(case, value, hits):
         raise rooms.core.ReflectionError("It cannot do this.")
     method = replace(rooms.methods.METHODS["RAYS"], run=refuse)
-    runs, said = rooms.running.run_method(scene.case, "RAYS", method, scene.hits, scene.centres, scene.area, 9.0)
+    runs, said = rooms.running.run_method(scene, "RAYS", method, 9.0)
     assert not runs and len(said) == 1 and "It cannot do this." in said[0]
 
 
@@ -188,7 +188,7 @@ def test_finer_places_seen_by_the_eye_are_paid_for(rooms, ball):
         assert rooms.methods.EYE not in method.run(scene.case, 1, free).picture.seconds
         finer = method.run(scene.case, 2, free)
         assert finer.picture.seconds[rooms.methods.EYE] > 0.0
-        assert finer.picture.triangle.shape == tuple(2 * side for side in scene.centres.view.resolution[::-1])
+        assert finer.picture.triangle.shape == tuple(2 * side for side in scene.truths.centres.view.resolution[::-1])
         assert finer.picture.counts["rays"] > 3.5 * len(scene.hits.pixel)
 
 
@@ -261,7 +261,7 @@ def test_several_mirrors_are_one(rooms, ball, tmp_path):
     wall.location = (0.0, 3.0, 2.0)
     wall.reflection_mesh.role = "MIRROR"
     bpy.context.view_layer.update()
-    options = rooms.benchmark.Options(("GENERAL", "RAYS"), 60.0, 64, 1, lambda line: None)
+    options = rooms.benchmark.Options(("GENERAL", "RAYS"), 60.0, 64, 1, tell=lambda line: None)
     scene = rooms.benchmark.scene_report(bpy.context, "two", str(tmp_path), options)
     assert "taken as one mesh" in scene.facts["objects"] and "Wall" in scene.facts["objects"]
     found = {(run.method, run.value): run.numbers for run in scene.runs}

@@ -16,7 +16,7 @@ COUNTED = ("objects", "meshes", "materials", "scenes", "cameras", "lights", "wor
 def rooms(room) -> SimpleNamespace:
     """The extension's rooms for comparing."""
     names = ("blender_data.compat", "compare", "metrics.pixel_errors", "comparison.compare_pictures",
-             "judge.cycles_codes", "judge.cycles_render", "judge.cycles_scene", "blender_data.read_view")
+             "judge.cycles_codes", "judge.cycles_render", "judge.cycles_scene", "blender_data.read_view", "faults")
     return SimpleNamespace(**{name.rpartition(".")[2]: room(f"addon.{name}") for name in names})
 
 
@@ -133,8 +133,8 @@ def state() -> dict:
 def test_the_truth_agrees_with_mirrored_rays(rooms, flat_scene):
     """Each ray, mirrored at z = 0 and met with the plate's plane y + z = 6 by hand, against what Cycles shows."""
     with rooms.cycles_scene.copied_scene(bpy.context, [flat_scene.mirror], [flat_scene.plate], []) as copied:
-        mirror, bent, truth, *_ = rooms.compare_pictures.render_comparison(bpy.context, copied, [flat_scene.plate],
-                                                                           [], 1)
+        mirror, bent, truth, *_ = rooms.faults.finished(
+            rooms.compare_pictures.render_comparison(bpy.context, copied, [flat_scene.plate], [], 1))
     view = rooms.read_view.read_view(bpy.context)
     rows, columns = np.mgrid[0:SIZE, 0:SIZE]
     origins, directions = view.rays(np.column_stack([columns.ravel(), rows.ravel()]) + 0.5)
@@ -218,7 +218,7 @@ def test_nothing_changes_when_a_render_fails(rooms, flat_scene, tmp_path, monkey
 
 
 def test_nothing_is_left_when_a_render_is_cancelled(rooms, flat_scene, tmp_path, monkeypatch):
-    """ESC ends a render without a file; the reflection that was made for the comparison goes too."""
+    """A render that is cancelled leaves no file; the reflection that was made for the comparison goes too."""
     before, render, count = state(), rooms.cycles_render._write_still, []
 
     def cancelled_at_the_last(scene):
@@ -384,7 +384,8 @@ def test_rounding_explains_all_that_cycles_does_to_normals(rooms, curved_scene, 
                 bpy.context, [curved_scene.mirror], [curved_scene.plate], []) as copied:
             patch.setattr(rooms.compat, "packs_normals", lambda: True)
             patch.setattr(rooms.cycles_codes, "carry_normals", carry)
-            renders = rooms.compare_pictures.render_comparison(bpy.context, copied, [curved_scene.plate], [], 1)
+            renders = rooms.faults.finished(
+                rooms.compare_pictures.render_comparison(bpy.context, copied, [curved_scene.plate], [], 1))
         same = renders.mirror & (renders.truth.source == 0) & (renders.exact.source == 0)
         assert same.sum() > 250
         assert (renders.truth.source == renders.exact.source)[renders.mirror & ~renders.bent].mean() > 0.99

@@ -62,7 +62,7 @@ def test_what_a_killed_comparison_left_goes_at_the_next(scratch, saved_scene, ro
     left = [path.name for folder in (out, place) for path in folder.iterdir() if not path.name.startswith("blender_")]
     assert len(left) == 2 and all(scratch.NAME.fullmatch(name) for name in left)
     monkeypatch.setattr(scratch.tempfile, "tempdir", str(place))
-    room("addon.compare").compare(bpy.context, str(out), 1)
+    room("addon.faults").finished(room("addon.compare").comparison(bpy.context, str(out), 1))
     assert set(faults.contents(out)) == faults.RESULTS == {path.name for path in out.iterdir()}
     assert not [path for path in place.iterdir() if path.name in left]
 

@@ -155,9 +155,9 @@ def test_wrong_pixels_show_in_a_large_picture(rooms):
     empty = np.zeros(shape, dtype=bool)
     hole, mirror = empty.copy(), ~empty
     hole[450, 300] = True
-    measurement = rooms.pixel_errors.Measurement(np.zeros(shape), mirror, hole, empty, empty, {})
+    measurement = rooms.pixel_errors.Measurement(np.zeros(shape), mirror, mirror, hole, empty, empty, {})
     names = list(rooms.compare_images.KINDS)
-    picture = rooms.compare_images.coverage_picture(mirror, measurement)
+    picture = rooms.compare_images.coverage_picture(measurement)
     where = np.argwhere(picture == names.index("hole"))
     assert where.min(axis=0).tolist() == [448, 298] and where.max(axis=0).tolist() == [452, 302] and len(where) == 25
     assert (picture == names.index("right")).sum() == 900 * 900 - 25

@@ -32,7 +32,7 @@ def test_a_cut_picture_is_found_wherever_it_is_cut(room, blank, tmp_path, kind, 
 
 
 def compared(folder: Path, room, samples: int = 1) -> dict:
-    return room("addon.compare").compare(bpy.context, str(folder), samples)
+    return room("addon.faults").finished(room("addon.compare").comparison(bpy.context, str(folder), samples))
 
 
 def refused(folder: Path) -> str:

@@ -155,7 +155,7 @@ def break_second(room, monkeypatch, name: str, error, late: bool = False) -> Non
     monkeypatch.setattr(place, name, broken)
 
 
-STEPS = [("write_mesh", "GENERAL"), ("_remember", "GENERAL"), ("_remember", "POINTS"), ("write_points", "POINTS"),
+STEPS = [("write_mesh", "GENERAL"), ("_remember", "GENERAL"), ("_remember", "POINTS"), ("write_mesh", "POINTS"),
          ("show_discs", "POINTS")]
 
 

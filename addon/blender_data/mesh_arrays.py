@@ -1,0 +1,118 @@
+"""What is to be written into a mesh, as arrays in Blender's own types, and that of a reflection with faces."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core import ReflectionMesh, TriangleMesh
+from .join_meshes import DiffuseScene, MirrorSurface
+
+# a Blender mesh holds no more
+MOST_UV_MAPS = 8
+
+
+@dataclass(frozen=True)
+class Attribute:
+    """The values of one attribute; `kind` and `domain` in Blender's words."""
+
+    name: str
+    kind: str
+    domain: str
+    values: np.ndarray
+
+
+@dataclass(frozen=True)
+class MeshArrays:
+    """Everything that `write_mesh` writes, so that writing cannot fail half way.
+
+    Attributes
+    ----------
+    origin : (3,) float64
+        World position of the object's origin.
+    positions : (n, 3) float32
+        Relative to the origin: float32 is precise only near it.
+    triangles : (m, 3) int32
+        No rows where the points are loose.
+    attributes : tuple of Attribute
+        UV maps and colours among them, the active ones first.
+    materials : list of bpy.types.Material or None
+    """
+
+    origin: np.ndarray
+    positions: np.ndarray
+    triangles: np.ndarray
+    attributes: tuple[Attribute, ...]
+    materials: list
+
+    @property
+    def uv_maps(self) -> list[str]:
+        """Names of the UV maps, which loose points have as well."""
+        return [attribute.name for attribute in self.attributes if attribute.kind == "FLOAT2"]
+
+
+def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface) -> MeshArrays:
+    """The arrays of a result with faces.
+
+    Parameters
+    ----------
+    scene : DiffuseScene
+        What was reflected.
+    surface : MirrorSurface
+        What it was reflected in.
+    """
+    source, mirror_face = result.source_face, result.mirror_face
+    spans = mirror_face < 0
+    weights = result.source_weights.astype(np.float32)
+    origin = origin_of(surface.mesh)
+    own = (
+        Attribute("material_index", "INT", "FACE", scene.material[source].astype(np.int32)),
+        *point_attributes(result),
+        Attribute("source_object", "INT", "FACE", scene.source_object[source].astype(np.int32)),
+        Attribute("source_face", "INT", "FACE", scene.source_face[source].astype(np.int32)),
+        Attribute("bounces", "INT", "FACE", result.bounces.astype(np.int32)),
+        Attribute("mirror_face", "INT", "FACE",
+                  np.where(spans, -1, surface.triangle[np.where(spans, 0, mirror_face)]).astype(np.int32)),
+    )
+    # corners of the result's faces are interpolated in their source triangles
+    shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
+    return MeshArrays(origin, (result.positions - origin).astype(np.float32), result.triangles.astype(np.int32),
+                      own + shown, scene.materials)
+
+
+def origin_of(mirror: TriangleMesh) -> np.ndarray:
+    """The middle of the mirror's box, rounded as Blender stores an object's location."""
+    corners = mirror.positions[mirror.triangles].reshape(-1, 3)
+    return (0.5 * (corners.min(axis=0) + corners.max(axis=0))).astype(np.float32).astype(np.float64)
+
+
+def point_attributes(result: ReflectionMesh) -> tuple[Attribute, ...]:
+    """What the points of any result know."""
+    return (Attribute("reflected_position", "FLOAT_VECTOR", "POINT", result.reflected_position.astype(np.float32)),
+            Attribute("mirror_position", "FLOAT_VECTOR", "POINT", result.mirror_position.astype(np.float32)),
+            Attribute("path_length", "FLOAT", "POINT", result.path_length.astype(np.float32)),
+            Attribute("image_parity", "INT", "POINT", result.image_parity.astype(np.int32)))
+
+
+def shown_layers(scene: DiffuseScene, own: tuple[Attribute, ...], domain: str,
+                 at: Callable[[np.ndarray], np.ndarray]) -> tuple[Attribute, ...]:
+    """UV maps and colours of what is shown, but for those with the name of an attribute of the result's own.
+
+    Parameters
+    ----------
+    at : callable
+        From values (m, 3, c) at the corners of the scene's triangles to those of the result.
+    """
+    taken = {attribute.name for attribute in own}
+    # the active ones must not fall to Blender's limit
+    uv_maps = [entry for entry in _first(scene.uv_maps, scene.active_uv) if entry[0] not in taken][:MOST_UV_MAPS]
+    taken.update(name for name, _ in uv_maps)
+    return (*(Attribute(name, "FLOAT2", domain, at(values)) for name, values in uv_maps),
+            *(Attribute(name, kind, domain, at(values))
+              for name, (kind, values) in _first(scene.colours, scene.active_colour) if name not in taken))
+
+
+def _first(entries: dict, name: str) -> list:
+    """The entries as pairs, the one of that name first."""
+    return sorted(entries.items(), key=lambda entry: entry[0] != name)

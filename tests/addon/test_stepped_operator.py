@@ -1,0 +1,133 @@
+"""Operators in a window, with stand-ins for it: what is shown before which step, ESC, errors, and the file browser."""
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+
+TIMER, ESC, MOVED = (SimpleNamespace(type=kind, value="PRESS") for kind in ("TIMER", "ESC", "MOUSEMOVE"))
+
+
+class Window:
+    """A context, its window manager and its workspace in one: notes what an operator does to them, in order."""
+
+    def __init__(self, notes: list) -> None:
+        self.notes, self.window = notes, object()
+        self.window_manager = self.workspace = self
+
+    def event_timer_add(self, interval, window):
+        self.notes.append("timer")
+        return "the timer"
+
+    def event_timer_remove(self, timer):
+        assert timer == "the timer"
+        self.notes.append("no timer")
+
+    def progress_begin(self, low, high):
+        assert (low, high) == (0, 100)
+
+    def progress_update(self, value):
+        assert 0.0 <= value <= 100.0
+
+    def progress_end(self):
+        pass
+
+    def modal_handler_add(self, operator):
+        self.notes.append("modal")
+
+    def fileselect_add(self, operator):
+        self.notes.append("browser")
+
+    def status_text_set(self, text):
+        self.notes.append(f"shown {text}" if text else "nothing shown")
+
+
+@pytest.fixture
+def place(room, monkeypatch):
+    """The module of stepped operators, as if there were a window."""
+    module = room("addon.faults.stepped_operator")
+    monkeypatch.setattr(module, "bpy", SimpleNamespace(app=SimpleNamespace(background=False)))
+    return module
+
+
+def started(place, told: list, kind: str = "SteppedOperator", error: Exception | None = None):
+    """An operator of three quick steps and one that cannot be divided, its window, and all that happens."""
+    notes: list = []
+
+    class Job(getattr(place, kind)):
+        bl_label = "Job"
+
+        def steps(self, context):
+            try:
+                for number, stage in enumerate(told):
+                    notes.append(f"before {stage}")
+                    yield number / len(told), stage
+                    notes.append(f"after {stage}")
+                if error is not None:
+                    raise error
+            finally:
+                notes.append("cleaned up")
+
+        def report(self, kinds, text):
+            notes.append(f"{min(kinds)}: {text}")
+    return Job(), Window(notes), notes
+
+
+def test_what_cannot_be_divided_is_shown_before_it_begins(place):
+    job, window, notes = started(place, ["one", "two", place.Undivided("whole"), "three"])
+    assert job.invoke(window, None) == {"RUNNING_MODAL"}
+    assert notes[-1] == "shown one: 0 %, ESC cancels" and {"timer", "modal"} <= set(notes)
+    assert job.modal(window, TIMER) == {"RUNNING_MODAL"}
+    # the quick ones in one go, and not the one that takes long
+    assert notes[-1] == "shown whole: 50 %, this cannot be divided, ESC cancels after it"
+    assert "after two" in notes and "after whole" not in notes
+    assert job.modal(window, MOVED) == {"RUNNING_MODAL"} and notes[-1].startswith("shown whole")
+    assert job.modal(window, TIMER) == {"FINISHED"}
+    assert notes[-3:] == ["cleaned up", "no timer", "nothing shown"]
+
+
+def test_esc_stops_before_what_was_shown(place):
+    job, window, notes = started(place, ["one", place.Undivided("whole"), "two"])
+    job.invoke(window, None)
+    job.modal(window, TIMER)
+    assert job.modal(window, SimpleNamespace(type="ESC", value="RELEASE")) == {"RUNNING_MODAL"}
+    assert job.modal(window, ESC) == {"CANCELLED"}
+    assert notes[-4:] == ["cleaned up", "no timer", "nothing shown", "INFO: Job: cancelled, nothing has changed."]
+    assert "after whole" not in notes
+
+
+def test_an_error_in_a_step_is_told_and_the_window_tidied(place):
+    job, window, notes = started(place, [place.Undivided("whole")], error=ReferenceError("gone"))
+    job.invoke(window, None)
+    assert job.modal(window, TIMER) == {"CANCELLED"}
+    assert notes[-4:] == ["cleaned up", "ERROR: An object was removed while the work went on: start it again.",
+                          "no timer", "nothing shown"]
+
+
+def test_what_is_wrong_at_once_changes_nothing_in_the_window(place):
+    job, window, notes = started(place, [], error=ReferenceError("gone"))
+    assert job.invoke(window, None) == {"CANCELLED"}
+    assert "timer" not in notes and "modal" not in notes
+
+
+def test_the_file_browser_comes_first_and_calls_execute(place):
+    job, window, notes = started(place, ["one", "two"], "BrowsingOperator")
+    assert job.invoke(window, None) == {"RUNNING_MODAL"} and notes == ["browser"]
+    # the browser was closed
+    job.cancel(window)
+    assert notes == ["browser"]
+    assert job.execute(window) == {"RUNNING_MODAL"}
+    assert "after one" not in notes and "modal" in notes
+    assert job.modal(window, TIMER) == {"FINISHED"} and notes[-1] == "nothing shown"
+    # done again with other settings, without a browser: in one go
+    notes.clear()
+    assert job.execute(window) == {"FINISHED"} and "timer" not in notes and "browser" not in notes
+
+
+def test_executed_or_without_a_window_it_runs_to_its_end(place):
+    for kind in ("SteppedOperator", "BrowsingOperator"):
+        job, window, notes = started(place, ["one", place.Undivided("whole")], kind)
+        assert job.execute(window) == {"FINISHED"}
+        window.window = None
+        assert job.invoke(window, None) == {"FINISHED"}
+        assert notes.count("after whole") == 2 and "timer" not in notes and "browser" not in notes
