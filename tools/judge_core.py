@@ -11,9 +11,9 @@ import traceback
 from pathlib import Path
 
 import core
-from tests.judge import compare, write_images
-from tests.scenes import SCENES
-from tests.truth import trace
+from tests.inputs.scenes import SCENES
+from tests.oracles.judge import compare, write_images
+from tests.oracles.truth import trace
 
 COLUMNS = ("scene", "median", "p95", "p99", "max", "hole%", "spill%", "wrong%", "sum%", "sunk%", "self%", "bent%",
            "faces", "seconds", "truth s")

@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from core import project
-from tests.core.exact_pairs import ExactPairs
-from tests.core.explained import DEGENERATE, UNIT, Looked, apart, at_an_end, candidates
-from tests.core.families import FAMILIES, pairs_of
+from tests.inputs.families import FAMILIES, pairs_of
+from tests.oracles.exact_pairs import ExactPairs
+from tests.oracles.explained import DEGENERATE, UNIT, Looked, apart, at_an_end, candidates
 from tools.textbook_cubic import closed_form_roots, companion_roots, project_by
 
 START, END = "<!-- table by tools/numerics.py -->\n", "<!-- end of the table -->\n"

@@ -16,8 +16,8 @@ from functools import partial
 from core.rivals import METHODS, primary_hits
 from core.rivals.made_scenes import talk_setting
 from core.rivals.morphing import morphed
-from tests.judge import compare_picture
-from tests.truth import trace
+from tests.oracles.judge import compare_picture
+from tests.oracles.truth import trace
 
 COLUMNS = ("method", "knob", "Ti", "Tt", "Tp", "rays", "nodes", "predicted", "median px", "p99 px", "uncovered %",
            "seconds")

@@ -4,7 +4,7 @@ import numpy as np
 import parts
 import pytest
 
-from tests import hard_meshes
+from tests.inputs import hard_meshes
 
 FAMILIES = 3  # seeds for each defect
 

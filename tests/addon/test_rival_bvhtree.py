@@ -2,9 +2,9 @@
 import numpy as np
 import pytest
 
-from tests.judge import compare_picture
-from tests.scenes import SCENES
-from tests.truth import trace
+from tests.inputs.scenes import SCENES
+from tests.oracles.judge import compare_picture
+from tests.oracles.truth import trace
 
 PIXELS = 48
 

@@ -2,9 +2,9 @@
 import numpy as np
 import pytest
 
-from tests.core.true_map import case_of, mesh_of, truth_of
-from tests.judge import compare
-from tests.scenes import SCENES
+from tests.inputs.scenes import SCENES
+from tests.oracles.judge import compare
+from tests.oracles.true_map import case_of, mesh_of, truth_of
 
 pytestmark = pytest.mark.slow
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from core import PointTree, ReflectionError, SceneTree, Settings, TriangleMesh, View, project, reflect
-from tests.judge import judge
-from tests.scenes import SCENES
-from tests.truth import trace
+from tests.inputs.scenes import SCENES
+from tests.oracles.judge import judge
+from tests.oracles.truth import trace
 
 NAN, INF = float("nan"), float("inf")
 POSITIONS = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.25], [-1.0, 1.0, 0.0]])

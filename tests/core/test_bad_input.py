@@ -8,8 +8,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from core import METHODS, PLACEMENTS, ReflectionError, SceneTree, Settings, TriangleMesh, View, reflect
-from tests import shapes
-from tests.core.true_map import case_of
+from tests.inputs import shapes
+from tests.oracles.true_map import case_of
 
 pytestmark = pytest.mark.slow
 

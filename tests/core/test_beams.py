@@ -6,7 +6,7 @@ from core import View, project
 from core.culling.cones import Cones
 from core.culling.magnification import Magnification
 from core.points.beams import Beams
-from tests.core.random_cameras import cameras_of
+from tests.inputs.random_cameras import cameras_of
 
 VIEW = View.looking_at((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1000, 1000))
 

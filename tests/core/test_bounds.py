@@ -5,7 +5,7 @@ import pytest
 from core import Settings, TriangleMesh, View, reflect
 from core.polygons import division
 from core.visibility import mirror_occlusion, picture_pairs, scene_contacts, self_occlusion
-from tests import shapes
+from tests.inputs import shapes
 
 VIEW = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (128, 96), field_of_view=0.5)
 BALLS = shapes.combine(shapes.icosphere((0.0, 0.0, 1.0), 0.8, 2), shapes.icosphere((0.5, -1.5, 1.0), 0.3, 2))

@@ -7,9 +7,9 @@ from core.cameras.camera_splitting import in_picture
 from core.cameras.mirror_map import MirrorMap
 from core.cameras.shading_horizon import cut_at_horizon
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
-from tests import shapes
-from tests.core.true_map import case_of, true_rays, truth_of, view_rays
-from tests.scenes import SCENES
+from tests.inputs import shapes
+from tests.inputs.scenes import SCENES
+from tests.oracles.true_map import case_of, true_rays, truth_of, view_rays
 
 
 def facing(view, mirror):

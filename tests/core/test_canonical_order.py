@@ -6,8 +6,8 @@ import pytest
 
 from core import Settings, TriangleMesh, reflect
 from core.geometry.canonical_order import ordered
-from tests import shapes
-from tests.scenes import SCENES
+from tests.inputs import shapes
+from tests.inputs.scenes import SCENES
 
 pytestmark = pytest.mark.slow
 

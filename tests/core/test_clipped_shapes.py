@@ -12,7 +12,7 @@ from core.culling.candidates import Candidates, overlapping
 from core.geometry.scene_frames import SceneFrames
 from core.polygons.clipping import Polygons, clip
 from core.polygons.convex_polygons import Line
-from tests.core.random_cameras import random_cameras
+from tests.inputs.random_cameras import random_cameras
 
 pytestmark = pytest.mark.slow
 

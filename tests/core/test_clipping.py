@@ -9,8 +9,8 @@ from core.culling.candidates import Candidates, overlapping
 from core.geometry.scene_frames import SceneFrames
 from core.polygons.clipping import clip
 from core.polygons.convex_polygons import Line
-from tests import shapes
-from tests.core.true_map import case_of
+from tests.inputs import shapes
+from tests.oracles.true_map import case_of
 
 
 def random_candidates(rng, count, contact):

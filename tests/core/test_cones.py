@@ -5,8 +5,8 @@ import pytest
 from core.cameras.mirror_map import MirrorMap
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from core.culling.cones import Cones
-from tests.core.random_cameras import cameras_of, moved, random_cameras
-from tests.core.true_map import case_of
+from tests.inputs.random_cameras import cameras_of, moved, random_cameras
+from tests.oracles.true_map import case_of
 
 
 def samples(cameras, rng, count):

@@ -9,8 +9,8 @@ from core.culling.candidates import overlapping
 from core.culling.cones import Cones
 from core.geometry.scene_frames import SceneFrames
 from core.visibility.scene_contacts import drop_behind_contacts
-from tests import shapes
-from tests.judge import judge
+from tests.inputs import shapes
+from tests.oracles.judge import judge
 
 FLOOR = shapes.quad((0, 0, 0), (6, 0, 0), (0, 6, 0))
 BOXES = (shapes.box((-1.5, 1, 0.5), (1, 1, 1), 0.3), shapes.box((0.4, 2.5, 0.6), (0.5, 0.5, 2), 0.7))

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.core.true_map import mesh_of
-from tests.scenes import SCENES
+from tests.inputs.scenes import SCENES
+from tests.oracles.true_map import mesh_of
 
 FILE = Path(__file__).with_name("counts.json")
 PIXELS = 512

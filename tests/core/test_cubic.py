@@ -7,7 +7,7 @@ import pytest
 from core.solver.monotone_roots import monotone_roots
 from core.solver.rounding import UNIT, horner, value_bound
 from core.solver.simple_roots import simple_roots
-from tests.core import exact
+from tests.oracles import exact
 
 
 def _solve(coefficients, low=0.0, high=np.inf):

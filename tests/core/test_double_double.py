@@ -6,8 +6,8 @@ import pytest
 
 from core.solver import cubic
 from core.solver import double_double as long
-from tests.core.exact_pairs import ExactPairs
-from tests.core.families import pairs_of
+from tests.inputs.families import pairs_of
+from tests.oracles.exact_pairs import ExactPairs
 
 
 def _numbers(rng, n):

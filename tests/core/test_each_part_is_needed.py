@@ -20,11 +20,11 @@ from core.filling import Crowds
 from core.points.beams import Beams
 from core.polygons import FaceRefinement
 from core.visibility.mirror_visibility import DepthGrid
-from tests import shapes
-from tests.core.true_map import case_of
-from tests.judge import judge
-from tests.raster import rasterise
-from tests.truth_bounces import trace_bounces
+from tests.inputs import shapes
+from tests.oracles.judge import judge
+from tests.oracles.raster import rasterise
+from tests.oracles.true_map import case_of
+from tests.oracles.truth_bounces import trace_bounces
 
 pytestmark = pytest.mark.slow
 

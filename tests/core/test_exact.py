@@ -4,9 +4,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from tests.core.exact import BITS, integers, positive_roots, to_float
-from tests.core.exact_pairs import ExactPairs
-from tests.core.families import pairs_of
+from tests.inputs.families import pairs_of
+from tests.oracles.exact import BITS, integers, positive_roots, to_float
+from tests.oracles.exact_pairs import ExactPairs
 
 
 def product(f, g):

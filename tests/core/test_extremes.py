@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from core import project
-from tests.core.explained import judge
-from tests.core.families import pairs_of
-from tests.core.family_tools import random_pairs, seen
+from tests.inputs.families import pairs_of
+from tests.inputs.family_tools import random_pairs, seen
+from tests.oracles.explained import judge
 
 pytestmark = pytest.mark.slow
 

@@ -4,8 +4,8 @@ import pytest
 
 from core import Settings, TriangleMesh, View, reflect
 from core.visibility.eye_plane import triangles_before_eye
-from tests import shapes
-from tests.judge import judge
+from tests.inputs import shapes
+from tests.oracles.judge import judge
 
 PANES = [shapes.quad(np.random.default_rng(seed).uniform(-1.2, 1.2, 3),
                      *np.random.default_rng(seed).normal(0.0, 0.25, (2, 3))) for seed in range(60)]

@@ -8,9 +8,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import Images, project
-from tests.core.exact_pairs import ExactPairs
-from tests.core.explained import judge
-from tests.core.families import FAMILIES, pairs_of
+from tests.inputs.families import FAMILIES, pairs_of
+from tests.oracles.exact_pairs import ExactPairs
+from tests.oracles.explained import judge
 
 pytestmark = pytest.mark.slow
 

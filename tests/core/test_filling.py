@@ -14,10 +14,10 @@ from core.filling.limits import Limits
 from core.filling.picture_squares import in_squares
 from core.support.crowding import crowded
 from core.visibility.eye_plane import cut_before_eye
-from tests import shapes
-from tests.core.true_map import case_of, mesh_of, truth_of
-from tests.judge import compare
-from tests.scenes import SCENES
+from tests.inputs import shapes
+from tests.inputs.scenes import SCENES
+from tests.oracles.judge import compare
+from tests.oracles.true_map import case_of, mesh_of, truth_of
 
 pytestmark = pytest.mark.slow
 

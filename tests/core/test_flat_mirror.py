@@ -3,9 +3,9 @@ import numpy as np
 import pytest
 
 from core import PLACEMENTS, Settings, TriangleMesh, View, reflect
-from tests import shapes
-from tests.core.true_map import case_of, mesh_of, view_rays
-from tests.scenes import Scene
+from tests.inputs import shapes
+from tests.inputs.scenes import Scene
+from tests.oracles.true_map import case_of, mesh_of, view_rays
 
 
 def tilted(orthographic, seed, offset=0.0, scale=1.0):

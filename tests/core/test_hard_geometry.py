@@ -14,12 +14,12 @@ from hypothesis import strategies as st
 
 from core import METHODS, PLACEMENTS, ReflectionError, SceneTree, Settings, TriangleMesh, View, reflect
 from core.culling.point_tree import PointTree
-from tests import hard_meshes, shapes
 from tests.core.test_bad_input import SENTENCE, assert_sane
-from tests.hard_meshes import Case
-from tests.judge import judge
-from tests.scenes import SCENES
-from tests.truth import trace
+from tests.inputs import hard_meshes, shapes
+from tests.inputs.hard_meshes import Case
+from tests.inputs.scenes import SCENES
+from tests.oracles.judge import judge
+from tests.oracles.truth import trace
 
 pytestmark = pytest.mark.slow
 
@@ -235,7 +235,7 @@ CROWDS = """\
 import resource, sys
 import numpy as np
 from core import Settings, TriangleMesh, View, reflect
-from tests import shapes
+from tests.inputs import shapes
 def heap(count, middle, spread, seed):
     corners = np.array(middle) + np.array(spread) * np.random.default_rng(seed).uniform(-1.0, 1.0, (count, 3, 3))
     return TriangleMesh(corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))

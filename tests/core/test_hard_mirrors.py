@@ -3,9 +3,9 @@ import numpy as np
 import pytest
 
 from core import TriangleMesh, View, reflect
-from tests import shapes
-from tests.judge import HOLE, compare, judge
-from tests.truth import trace
+from tests.inputs import shapes
+from tests.oracles.judge import HOLE, compare, judge
+from tests.oracles.truth import trace
 
 ROOM = (shapes.quad((0, 6, 3), (8, 0, 0), (0, 0, 4)), shapes.quad((-6, 0, 3), (0, 8, 0), (0, 0, 4)),
         shapes.quad((6, 0, 3), (0, 8, 0), (0, 0, 4)))

@@ -6,10 +6,10 @@ import pytest
 from matplotlib.image import imread
 
 from core import ReflectionMesh, View
-from tests import shapes
-from tests.judge import HOLE, LEFT_OUT, SAME, SPILL, WRONG_LAYER, compare, judge, write_images
-from tests.scenes import SCENES
-from tests.truth import trace
+from tests.inputs import shapes
+from tests.inputs.scenes import SCENES
+from tests.oracles.judge import HOLE, LEFT_OUT, SAME, SPILL, WRONG_LAYER, compare, judge, write_images
+from tests.oracles.truth import trace
 
 pytestmark = pytest.mark.slow
 

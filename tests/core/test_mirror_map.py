@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 
 from core.cameras.mirror_map import MirrorMap
-from tests.core.true_map import case_of, size_of, true_rays, view_rays
-from tests.truth import reflected_rays
+from tests.oracles.true_map import case_of, size_of, true_rays, view_rays
+from tests.oracles.truth import reflected_rays
 
 NAMES = ("sphere", "sphere_ortho", "sphere_far", "sphere_small", "flat", "water", "bowl", "torus")
 

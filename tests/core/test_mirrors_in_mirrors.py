@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 
 from core import Settings, TriangleMesh, View, reflect
-from tests import shapes
-from tests.raster import rasterise
-from tests.ray_hits import first_hits
-from tests.truth_bounces import trace_bounces
+from tests.inputs import shapes
+from tests.oracles.raster import rasterise
+from tests.oracles.ray_hits import first_hits
+from tests.oracles.truth_bounces import trace_bounces
 
 pytestmark = pytest.mark.slow
 

@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 
 from core import Settings, reflect
-from tests.core.true_map import case_of, mesh_of, size_of, true_rays, truth_of, view_rays
-from tests.judge import compare
+from tests.oracles.judge import compare
+from tests.oracles.true_map import case_of, mesh_of, size_of, true_rays, truth_of, view_rays
 
 NAMES = ["sphere", "sphere_ortho", "flat", "flat_ortho", "water", "bowl", "sphere_small"]
 

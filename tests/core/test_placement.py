@@ -3,11 +3,11 @@ import numpy as np
 import pytest
 
 from core import Settings, TriangleMesh, View, reflect
-from tests import shapes
-from tests.core.true_map import case_of, mesh_of
-from tests.raster import rasterise
-from tests.ray_hits import plane_hits
-from tests.scenes import SCENES
+from tests.inputs import shapes
+from tests.inputs.scenes import SCENES
+from tests.oracles.raster import rasterise
+from tests.oracles.ray_hits import plane_hits
+from tests.oracles.true_map import case_of, mesh_of
 
 pytestmark = pytest.mark.slow
 

@@ -8,13 +8,13 @@ from scipy.spatial import cKDTree
 
 import core.culling.point_tree
 from core import PointTree, Settings, TriangleMesh, View, reflect
-from tests import shapes
 from tests.core.test_vertex_images import brute_force, floating
-from tests.core.true_map import true_rays, view_rays
-from tests.disc_mesh import polygons_of
-from tests.judge import compare
-from tests.scenes import SCENES
-from tests.truth import trace
+from tests.inputs import shapes
+from tests.inputs.disc_mesh import polygons_of
+from tests.inputs.scenes import SCENES
+from tests.oracles.judge import compare
+from tests.oracles.true_map import true_rays, view_rays
+from tests.oracles.truth import trace
 
 pytestmark = pytest.mark.slow
 

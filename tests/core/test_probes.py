@@ -9,9 +9,9 @@ from core.culling.scene_and_mirrors import SceneAndMirrors
 from core.culling.scene_tree import SceneTree
 from core.filling.probes import missed_probes
 from core.geometry.canonical_order import ordered
-from tests import shapes
-from tests.core.true_map import case_of
-from tests.scenes import SCENES
+from tests.inputs import shapes
+from tests.inputs.scenes import SCENES
+from tests.oracles.true_map import case_of
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -4,9 +4,9 @@ import pytest
 from scipy.optimize import brentq
 
 from core import project
-from tests.core.exact_pairs import ExactPairs
-from tests.core.family_tools import mirrored, random_pairs, seen
-from tests.core.integer_families import cusps, folds
+from tests.inputs.family_tools import mirrored, random_pairs, seen
+from tests.inputs.integer_families import cusps, folds
+from tests.oracles.exact_pairs import ExactPairs
 
 
 @pytest.mark.parametrize("scale", [1.0, 2.0 ** -30, 2.0 ** 20])

@@ -3,9 +3,9 @@ import numpy as np
 import pytest
 
 from core import TriangleMesh, View
-from tests import shapes
-from tests.every_pair import every_pair, pixel_centres
-from tests.raster import rasterise
+from tests.inputs import shapes
+from tests.oracles.every_pair import every_pair, pixel_centres
+from tests.oracles.raster import rasterise
 
 
 @pytest.mark.parametrize("orthographic", [False, True])

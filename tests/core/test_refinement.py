@@ -12,8 +12,8 @@ from core.culling.cones import Cones
 from core.culling.scene_and_mirrors import SceneAndMirrors
 from core.geometry.scene_frames import SceneFrames
 from core.polygons.outline_refinement import refine_for_outlines
-from tests.core.true_map import case_of, mesh_of, true_rays, truth_of, view_rays
-from tests.judge import compare
+from tests.oracles.judge import compare
+from tests.oracles.true_map import case_of, mesh_of, true_rays, truth_of, view_rays
 
 pytestmark = pytest.mark.slow
 

@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 
 from core import Settings
-from tests.core.true_map import case_of, corners_of, mesh_of, picture_areas, size_of
-from tests.scenes import SCENES
+from tests.inputs.scenes import SCENES
+from tests.oracles.true_map import case_of, corners_of, mesh_of, picture_areas, size_of
 
 FLAT = ("flat", "flat_ortho")
 

@@ -16,8 +16,8 @@ from core import (
     reflect,
     reflection_steps,
 )
-from tests.core.true_map import case_of, mesh_of, truth_of
-from tests.judge import judge
+from tests.oracles.judge import judge
+from tests.oracles.true_map import case_of, mesh_of, truth_of
 
 OTHERS = ("counts", "seconds", "estimated_error", "discs")
 ARRAYS = [field.name for field in fields(ReflectionMesh) if field.name not in OTHERS]

@@ -11,11 +11,11 @@ from core.rivals import primary_hits
 from core.rivals.billboards import billboarded, connected_parts
 from core.rivals.environment import boxed, centre_of, mapped, panorama
 from core.rivals.textures import looked_up
-from tests import shapes
-from tests.core.true_map import case_of
-from tests.judge import compare_picture
-from tests.scenes import Scene
-from tests.truth import trace
+from tests.inputs import shapes
+from tests.inputs.scenes import Scene
+from tests.oracles.judge import compare_picture
+from tests.oracles.true_map import case_of
+from tests.oracles.truth import trace
 
 pytestmark = pytest.mark.slow
 

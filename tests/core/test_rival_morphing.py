@@ -5,8 +5,8 @@ import pytest
 from core.rivals import primary_hits
 from core.rivals.morphing import morphed
 from core.rivals.ray_pyramid import RayPyramid
-from tests.core.true_map import case_of, truth_of
-from tests.judge import compare_picture
+from tests.oracles.judge import compare_picture
+from tests.oracles.true_map import case_of, truth_of
 
 PIXELS = 128
 

@@ -13,10 +13,10 @@ from core.rivals.clustering import clustered
 from core.rivals.primary_hits import by_face
 from core.rivals.ray_tracing import traced
 from core.rivals.tree_rays import first_hits
-from tests import shapes
-from tests.core.true_map import case_of, truth_of
-from tests.judge import compare_picture
-from tests.ray_hits import first_hits as brute_first_hits
+from tests.inputs import shapes
+from tests.oracles.judge import compare_picture
+from tests.oracles.ray_hits import first_hits as brute_first_hits
+from tests.oracles.true_map import case_of, truth_of
 
 PIXELS = 80
 NAMES = ["sphere", "flat_ortho", "water", "bowl", "torus", "sphere_far", "sphere_small"]

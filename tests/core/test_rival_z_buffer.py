@@ -5,9 +5,9 @@ import pytest
 from core import TriangleMesh, View
 from core.rivals.tessellation import quartered, tessellated
 from core.rivals.z_buffer import draw
-from tests import shapes
-from tests.core.true_map import case_of, mesh_of
-from tests.raster import rasterise
+from tests.inputs import shapes
+from tests.oracles.raster import rasterise
+from tests.oracles.true_map import case_of, mesh_of
 
 
 def same_picture(view, positions, triangles):

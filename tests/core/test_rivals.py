@@ -10,8 +10,8 @@ import pytest
 
 from core import ReflectionError, Settings, TriangleMesh, View
 from core.rivals import ITSELF, METHODS, NOTHING, primary_hits
-from tests.core.true_map import case_of, mesh_of, truth_of
-from tests.judge import compare, compare_picture
+from tests.oracles.judge import compare, compare_picture
+from tests.oracles.true_map import case_of, mesh_of, truth_of
 
 pytestmark = pytest.mark.slow
 

@@ -4,8 +4,8 @@ import pytest
 
 from core import SceneTree, TriangleMesh, project
 from core.culling.cones import Cones
-from tests.core.random_cameras import moved, random_cameras
-from tests.every_pair import every_pair
+from tests.inputs.random_cameras import moved, random_cameras
+from tests.oracles.every_pair import every_pair
 
 RNG = np.random.default_rng(17)
 

@@ -7,10 +7,10 @@ from core.cameras.mirror_map import MirrorMap
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from core.visibility.mirror_visibility import without_hidden
 from core.visibility.self_occlusion import without_occluded
-from tests import shapes
-from tests.judge import judge
-from tests.raster import rasterise
-from tests.truth_bounces import trace_bounces
+from tests.inputs import shapes
+from tests.oracles.judge import judge
+from tests.oracles.raster import rasterise
+from tests.oracles.truth_bounces import trace_bounces
 
 pytestmark = pytest.mark.slow
 

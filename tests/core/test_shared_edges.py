@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from core import project
-from tests.core.exact_pairs import ExactPairs
-from tests.core.explained import Looked, judge
-from tests.core.family_tools import mirrored, seen, turned, turns, unit
+from tests.inputs.family_tools import mirrored, seen, turned, turns, unit
+from tests.oracles.exact_pairs import ExactPairs
+from tests.oracles.explained import Looked, judge
 
 pytestmark = pytest.mark.slow
 

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from core import Settings, TriangleMesh, View, reflect
-from tests import shapes
+from tests.inputs import shapes
 
 pytestmark = pytest.mark.slow
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from core.geometry.subdivision import parent_side, shared_edges, split
-from tests import shapes
+from tests.inputs import shapes
 
 MARKS = np.array(list(itertools.product((False, True), repeat=3)))
 

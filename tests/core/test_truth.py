@@ -3,11 +3,11 @@ import numpy as np
 import pytest
 
 from core import TriangleMesh, View
-from tests import shapes
-from tests.every_pair import every_pair, pixel_centres
-from tests.ray_hits import EMBREE, first_hits, plane_hits
-from tests.scenes import SCENES, flat, sphere
-from tests.truth import trace
+from tests.inputs import shapes
+from tests.inputs.scenes import SCENES, flat, sphere
+from tests.oracles.every_pair import every_pair, pixel_centres
+from tests.oracles.ray_hits import EMBREE, first_hits, plane_hits
+from tests.oracles.truth import trace
 
 pytestmark = pytest.mark.slow
 

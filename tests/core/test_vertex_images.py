@@ -7,9 +7,9 @@ from core.cameras.camera_splitting import in_picture
 from core.cameras.mirror_map import MirrorMap
 from core.cameras.mirror_refinement import refine_mirror
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
-from tests import shapes
-from tests.core.true_map import size_of
-from tests.scenes import Scene
+from tests.inputs import shapes
+from tests.inputs.scenes import Scene
+from tests.oracles.true_map import size_of
 
 pytestmark = pytest.mark.slow
 

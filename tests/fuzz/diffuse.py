@@ -4,8 +4,8 @@ from __future__ import annotations
 import numpy as np
 
 from core import TriangleMesh, View
-from tests import shapes
 from tests.fuzz.placing import random_rotation
+from tests.inputs import shapes
 
 
 def _triangle(rng: np.random.Generator) -> tuple:

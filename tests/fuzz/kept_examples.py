@@ -4,9 +4,9 @@ from __future__ import annotations
 import numpy as np
 
 from core import Settings, TriangleMesh, View
-from tests import shapes
 from tests.fuzz.configurations import Configuration
 from tests.fuzz.mirrors import vertex_normals
+from tests.inputs import shapes
 
 
 def _touched_strip() -> Configuration:

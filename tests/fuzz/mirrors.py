@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from core import TriangleMesh
-from tests import shapes
+from tests.inputs import shapes
 
 LENGTH_OF_A_SIDE = 2.0
 

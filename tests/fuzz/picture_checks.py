@@ -8,8 +8,8 @@ import numpy as np
 
 from core import ReflectionMesh, View
 from tests.fuzz.configurations import Configuration
-from tests.raster import rasterise
-from tests.truth_bounces import trace_bounces
+from tests.oracles.raster import rasterise
+from tests.oracles.truth_bounces import trace_bounces
 
 PIXELS = 24  # of the longer side of the coarse picture
 SHARE, FEWEST = 0.04, 5  # of the mirror's pixels, and pixels: more must not be wrong

@@ -7,7 +7,7 @@ import numpy as np
 
 from core import ReflectionMesh, TriangleMesh, View
 from tests.fuzz.configurations import Configuration
-from tests.truth import reflected_rays
+from tests.oracles.truth import reflected_rays
 
 ON_SOURCE = 1e-6  # of the scene's size
 ON_MIRROR = 1e-5  # of the scene's size

@@ -7,7 +7,7 @@ import bpy
 import bmesh
 import numpy as np
 
-from tests import hard_meshes, shapes
+from tests.inputs import hard_meshes, shapes
 
 ORIGIN = (0.0, 0.0, 0.0)
 
@@ -27,7 +27,7 @@ def from_arrays(name: str, positions, faces, edges=()) -> bpy.types.Mesh:
 
 
 def _surface(maker: Callable) -> Callable:
-    """One of the surfaces of `tests.shapes`."""
+    """One of the surfaces of `tests.inputs.shapes`."""
     def made(rng: np.random.Generator, name: str) -> bpy.types.Mesh:
         positions, triangles = maker(rng)[:2]
         return from_arrays(name, positions, triangles)
@@ -35,7 +35,7 @@ def _surface(maker: Callable) -> Callable:
 
 
 def _hard(rng: np.random.Generator, name: str) -> bpy.types.Mesh:
-    """A shape with one of the defects of `tests.hard_meshes`."""
+    """A shape with one of the defects of `tests.inputs.hard_meshes`."""
     mesh = hard_meshes.mesh(chosen(rng, list(hard_meshes.SHAPES)), (chosen(rng, list(hard_meshes.DEFECTS)),),
                             seed=int(rng.integers(1000)))
     return from_arrays(name, np.nan_to_num(mesh.positions, nan=9.0, posinf=9.0), mesh.triangles)

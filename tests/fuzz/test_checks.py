@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 
 from core import Settings, TriangleMesh, View
-from tests import shapes
 from tests.fuzz import picture_checks, twins
 from tests.fuzz.configurations import Configuration
 from tests.fuzz.reflecting import Reflected, reflected
 from tests.fuzz.trying import checked, twin_problems
+from tests.inputs import shapes
 
 GENERAL, POINTS, TWICE = "GENERAL", "POINTS", "TWICE"
 

@@ -9,8 +9,8 @@ import numpy as np
 from core import ReflectionMesh, TriangleMesh
 from tests.fuzz.configurations import Configuration
 from tests.fuzz.placing import random_rotation
-from tests.raster import rasterise
-from tests.ray_hits import first_hits
+from tests.oracles.raster import rasterise
+from tests.oracles.ray_hits import first_hits
 
 SAME_AREA, PIXELS = 0.01, 4  # by which the pixels that are covered may differ: of the larger number, and pixels
 COUNT = 100  # faces or points by which their numbers may differ, beside a share

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import TriangleMesh, View
-from tests.ray_hits import plane_hits
+from tests.oracles.ray_hits import plane_hits
 
 FRAGMENTS_AT_ONCE = 4_000_000
 

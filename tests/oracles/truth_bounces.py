@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import TriangleMesh, View
-from tests.ray_hits import first_hits
-from tests.truth import reflected_rays
+from tests.oracles.ray_hits import first_hits
+from tests.oracles.truth import reflected_rays
 
 OFF = 0.02  # pixels between the rays whose difference tells the motion per pixel
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tests.core.family_tools import FAMILIES, family, random_pairs, seen, small
+from tests.inputs.family_tools import FAMILIES, family, random_pairs, seen, small
 
 
 def sheared(rng, vertices, rays, points):

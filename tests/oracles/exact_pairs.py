@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.core.exact import bit_length, positive_roots, square_root, to_float
+from tests.oracles.exact import bit_length, positive_roots, square_root, to_float
 
 
 @dataclass(frozen=True)

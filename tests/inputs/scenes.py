@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core import TriangleMesh, View
-from tests import shapes
+from tests.inputs import shapes
 
 
 @dataclass(frozen=True)

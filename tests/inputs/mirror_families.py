@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tests.core.family_tools import family, flat_triangles, mirrored, seen, small, some_seen, turned, turns, unit
+from tests.inputs.family_tools import family, flat_triangles, mirrored, seen, small, some_seen, turned, turns, unit
 
 
 @family("nearly flat mirror")

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from core import ReflectionMesh, TriangleMesh, View
-from tests.raster import rasterise
-from tests.truth import Truth, trace
+from tests.oracles.raster import rasterise
+from tests.oracles.truth import Truth, trace
 
 # Another source triangle further away than this is another surface.
 NEIGHBOUR = 2.0

@@ -5,8 +5,8 @@ import zlib
 
 import numpy as np
 
-from tests.core import integer_families, mirror_families
-from tests.core.family_tools import FAMILIES, family, random_pairs, seen, small, some_seen, turned, turns, unit
+from tests.inputs import integer_families, mirror_families
+from tests.inputs.family_tools import FAMILIES, family, random_pairs, seen, small, some_seen, turned, turns, unit
 
 __all__ = ["FAMILIES", "integer_families", "mirror_families", "pairs_of"]
 

@@ -23,8 +23,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from core import project
-from tests.core.exact import to_float
-from tests.core.exact_pairs import ExactPairs
+from tests.oracles.exact import to_float
+from tests.oracles.exact_pairs import ExactPairs
 
 UNIT = 2.0 ** -53
 VALUE, DOUBLE, SLOPE, DEGENERATE = 30.0, 138.0, 48.0, 24.0

@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 
 from core import ReflectionMesh, Settings, reflect
-from tests.scenes import SCENES, Scene
-from tests.truth import Truth, reflected_rays, trace
+from tests.inputs.scenes import SCENES, Scene
+from tests.oracles.truth import Truth, reflected_rays, trace
 
 PIXELS = 256
 
@@ -45,7 +45,7 @@ def view_rays(view, places):
 
 
 def true_rays(mirror, face, origins, directions):
-    """`tests.truth.reflected_rays`, but for rays that would enter the flat triangle: there, as in Cycles, the normal is
+    """`truth.reflected_rays`, but for rays that would enter the flat triangle: there, as in Cycles, the normal is
     turned towards the flat one until the ray rises by 0.01, or by 0.9 of what the view ray falls by: by bisection;
     and whether the normal was turned."""
     place, ray, weights = reflected_rays(mirror, face, origins, directions)

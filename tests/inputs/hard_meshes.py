@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import TriangleMesh, View
-from tests import shapes
+from tests.inputs import shapes
 
 
 def _fan(rng):
