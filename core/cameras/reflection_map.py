@@ -101,10 +101,12 @@ class ReflectionMap(ABC):
             uv, s = uv + step[:2], s + step[2]
         return uv, s
 
-    def meet(self, face: np.ndarray, start: np.ndarray, end: np.ndarray, t: np.ndarray, s: np.ndarray,
-             point: np.ndarray, edge: np.ndarray, steps: int = 5) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Newton's method for the ray from the mirror's line `start` to `end`, (2, n) in (u, v), that meets the line
-        P + r E, `point` P and `edge` E as (3, n); returns t along the mirror's line, r along the other, and s."""
+    def meet(self, face: np.ndarray, line: tuple[np.ndarray, np.ndarray], other: tuple[np.ndarray, np.ndarray],
+             guess: tuple[np.ndarray, np.ndarray], steps: int = 5) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Newton's method for the ray from the mirror's `line`, its start and end (2, n) in (u, v), that meets the
+        `other` line P + r E, P and E (3, n), from a near guess of t and s; returns t along the mirror's line, r along
+        the other, and s."""
+        (start, end), (point, edge), (t, s) = line, other, guess
         way = end - start
         r = np.zeros_like(t)
         for _ in range(steps):

@@ -18,7 +18,7 @@ LEAST_FALL = 0.25  # sine at which a ray meets a surface at least: at an edge of
 STEEPEST = 8.0  # depth over breadth of a disc, as the eye sees it
 
 
-def picture_ellipses(view: View, mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarray,
+def picture_ellipses(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarray,
                      normal: np.ndarray, reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Images of circles round diffuse points, as half axes in pixels.
 
@@ -38,7 +38,7 @@ def picture_ellipses(view: View, mirror_map: MirrorMap, face: np.ndarray, uv: np
     wanted : (n,) float64
         Length of the longer one without the bound above.
     """
-    one, zero = np.ones_like(s), np.zeros_like(s)
+    one, zero, view = np.ones_like(s), np.zeros_like(s), mirror_map.view
     place, ray, moves = mirror_map.linearise(face, uv, (one, zero), (zero, one))
     (a, c), (b, d) = (view.pixel_derivatives(place.T, move.T).T for move, _ in moves)
     area = a * d - b * c

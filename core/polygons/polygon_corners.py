@@ -141,7 +141,7 @@ def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     seen, seen_s = corners.seen(chosen, place)
     point = corners.frames.positions[scene_edge[:, 0]].T
     edge = corners.frames.positions[scene_edge[:, 1]].T - point
-    t, along, s = mirror_map.meet(face, uv_start, uv_end, t, seen_s, point, edge)
+    t, along, s = mirror_map.meet(face, (uv_start, uv_end), (point, edge), (t, seen_s))
     met = start + np.clip(t, 0.0, 1.0) * way
     near = corners.near(met, place) & (s >= 0.0)
     # just beyond an end of the edge, by no more than straight outlines miss, the end stands in

@@ -83,16 +83,7 @@ def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray,
     square = dot(normal, normal)
     second, third = dot(cross(b, p), normal), dot(cross(p, a), normal)
     # All three weights are off by less than this, times the square: see `doubtful_pairs`.
-    x, e, r, d = own(pair)
-    both = t * d
-    both += e
-    both *= 2.0
-    margin = t * r
-    margin += x
-    margin += both
-    margin *= 8.0 * UNIT
-    margin += roots.error * (r + 2.0 * d)
-    margin *= both
+    margin = _margin(own(pair), t, roots.error)
     margin *= np.sqrt(square)
     least = np.minimum(second, third)
     np.minimum(least, square - second - third, out=least)
@@ -102,15 +93,31 @@ def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray,
     if open_.any():
         doubtful[pair[open_]] = True
         inside &= ~doubtful[pair]
-    inside = np.flatnonzero(inside)
-    pair = pair.take(inside)
-    weights = np.empty((len(inside), 3))
-    square = square.take(inside)
-    np.divide(second.take(inside), square, out=weights[:, 1])
-    np.divide(third.take(inside), square, out=weights[:, 2])
+    kept = np.flatnonzero(inside)
+    pair = pair.take(kept)
+    weights = np.empty((len(kept), 3))
+    square = square.take(kept)
+    np.divide(second.take(kept), square, out=weights[:, 1])
+    np.divide(third.take(kept), square, out=weights[:, 2])
     weights[:, 0] = 1.0 - weights[:, 1] - weights[:, 2]
     side = dot(3.0 * moving[0] + moving[1] + moving[2], cross(still[1], still[2])).take(pair)
-    return pair, t.take(inside), weights, roots.sign.take(inside), side, doubtful
+    return pair, t.take(kept), weights, roots.sign.take(kept), side, doubtful
+
+
+def _margin(lengths: np.ndarray, t: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """By how much all three weights may be off at the root t, which is known to its `error`, times the square root of
+    the square of the normal; of `lengths` as from `own_lengths`."""
+    x, e, r, d = lengths
+    both = t * d
+    both += e
+    both *= 2.0
+    margin = t * r
+    margin += x
+    margin += both
+    margin *= 8.0 * UNIT
+    margin += error * (r + 2.0 * d)
+    margin *= both
+    return margin
 
 
 def own_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:

@@ -119,10 +119,16 @@ def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     apart = np.abs(discriminant) > np.maximum(least, _TINY)
     many = discriminant > 0.0
 
+    return _of_depressed(third, q, r, many), many, apart
+
+
+def _of_depressed(third: np.ndarray, q: np.ndarray, r: np.ndarray, many: np.ndarray) -> np.ndarray:
+    """Roots (3, n) of y^3 - 3 q y + 2 r, less a `third` of the squares' coefficient; three where there are `many`, else
+    only the first counts. `r` is used up."""
     # Functions are taken of ratios alone, so that a change of scale by a power of two changes no bit.
     # Three: with 3 phi the arc cosine of r / q^1.5, -2 sqrt(q) cos(phi) and those a third of a turn to either side;
     # tan(phi / 2) gives cosine and sine at once.
-    roots = np.empty((3, c.shape[1]))
+    roots = np.empty((3, len(q)))
     size = np.abs(q)
     scale = np.sqrt(size)
     size *= scale
@@ -149,4 +155,4 @@ def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     y += one / y
     y *= scale
     roots[0] = np.where(many, roots[0], -np.copysign(y, ratio) - third)
-    return roots, many, apart
+    return roots

@@ -107,7 +107,7 @@ def test_newton_finds_the_crossing_of_a_scene_edge_and_a_mirror_line(name):
     edge = rng.normal(size=met.shape) * 0.3 * size_of(case)
     along = rng.uniform(0.0, 1.0, len(face))
     guess = np.full(len(face), 0.4)
-    t, found_along, found_s = mirror_map.meet(face, start, end, guess, 1.02 * s, met - along * edge, edge, steps=12)
+    t, found_along, found_s = mirror_map.meet(face, (start, end), (met - along * edge, edge), (guess, 1.02 * s), 12)
     q = start + t * (end - start)
     reached = mirror_map.places(face, q) + found_s * mirror_map.rays(face, q)
     given = met - along * edge + found_along * edge
