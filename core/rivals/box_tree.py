@@ -109,8 +109,9 @@ def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
         many = np.flatnonzero(count > FEW)
         if len(many) and depth + 1 < DEEPEST:
             part, node = ranges(first[many], count[many])
-            left[many], order[entry[part]] = _cut(np.take(item_low, part, axis=1), np.take(item_high, part, axis=1),
-                                                  item[part], node, count[many], node_low[:, many], node_high[:, many])
+            boxes = np.take(item_low, part, axis=1), np.take(item_high, part, axis=1)
+            left[many], order[entry[part]] = _cut(boxes, item[part], node, count[many],
+                                                  (node_low[:, many], node_high[:, many]))
         inner = left > 0
         child = np.full(len(start), -1)
         child[inner] = nodes + 2 * np.arange(int(inner.sum()))
@@ -124,8 +125,10 @@ def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
     return levels, order
 
 
-def _cut(low, high, item, node, count, node_low, node_high) -> tuple[np.ndarray, np.ndarray]:
+def _cut(boxes: tuple[np.ndarray, np.ndarray], item: np.ndarray, node: np.ndarray, count: np.ndarray,
+         node_boxes: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """How many triangles of each node go to the left, 0 for a leaf; and the triangles, those of a node sorted."""
+    (low, high), (node_low, node_high) = boxes, node_boxes
     centre, first = low + high, np.cumsum(count) - count
     least, most = np.minimum.reduceat(centre, first, axis=1), np.maximum.reduceat(centre, first, axis=1)
     axis = np.argmax(most - least, axis=0)

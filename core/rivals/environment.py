@@ -20,7 +20,7 @@ BORDER = 1  # texels of each picture beyond its side of the cube, so that no sea
 def mapped(view: View, mirror: TriangleMesh, scene: TriangleMesh, side: int, hits: PrimaryHits) -> RivalPicture:
     """Look up the reflected directions in a panorama of six pictures of `side` x `side` texels."""
     work = Work()
-    return _lookup(view, mirror, scene, side, hits, hits.ray, work)
+    return _lookup(view, (mirror, scene), side, hits, hits.ray, work)
 
 
 def boxed(view: View, mirror: TriangleMesh, scene: TriangleMesh, side: int, hits: PrimaryHits) -> RivalPicture:
@@ -34,7 +34,7 @@ def boxed(view: View, mirror: TriangleMesh, scene: TriangleMesh, side: int, hits
     target = hits.place + np.maximum(leave, 0.0) * hits.ray
     # a ray that starts outside the box and looks away from it sees nothing of the scene whatever its parallax
     directions = np.where(leave > 0.0, target - centre_of(mirror)[:, None], hits.ray)
-    return _lookup(view, mirror, scene, side, hits, directions, work)
+    return _lookup(view, (mirror, scene), side, hits, directions, work)
 
 
 def centre_of(mirror: TriangleMesh) -> np.ndarray:
@@ -55,7 +55,8 @@ def panorama(centre: np.ndarray, scene: TriangleMesh, side: int) -> list[tuple[V
     return [(sight, texture_of(sight, scene)) for sight in views]
 
 
-def _lookup(view, mirror, scene, side, hits, directions, work) -> RivalPicture:
+def _lookup(view, meshes, side, hits, directions, work) -> RivalPicture:
+    mirror, scene = meshes
     centre = centre_of(mirror)
     pictures = panorama(centre, scene, side)
     work.count(projections=6 * len(np.unique(scene.triangles)))

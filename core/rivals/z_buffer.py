@@ -59,7 +59,7 @@ def draw(view: View, positions: np.ndarray, triangles: np.ndarray) -> Drawn:
     # a part has about so many lines, and each line at most `width` fragments
     part_of = np.cumsum(lines[kept]) * 64 // FRAGMENTS_AT_ONCE
     for part in np.split(kept, np.flatnonzero(np.diff(part_of)) + 1):
-        _draw(drawn, part, edges, depth[triangles].T, low, high[0], lines, width)
+        _draw(drawn, part, edges, depth[triangles].T, (low, high[0], lines), width)
     return drawn
 
 
@@ -88,7 +88,8 @@ def _bounds(pixel: np.ndarray, triangles: np.ndarray, resolution: tuple[int, int
     return low.astype(np.int64), np.where(gone, -1, np.minimum(high, size - 1)).astype(np.int64)
 
 
-def _draw(drawn: Drawn, part, edges, depth, low, rightmost, lines, width) -> None:
+def _draw(drawn: Drawn, part, edges, depth, extent, width) -> None:
+    low, rightmost, lines = extent
     row, owner = ranges(low[1, part], lines[part])
     owner = part[owner]
     y = row + 0.5
