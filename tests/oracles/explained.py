@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from core import project
+from core import Images, project
 from tests.oracles.exact import to_float
 from tests.oracles.exact_pairs import ExactPairs
 
@@ -99,7 +99,7 @@ def judge(vertices, rays, points, images=None, unit=UNIT) -> Verdict:
     exact.unit[:] = unit
     if images is None:
         images = project(vertices, rays, points)
-    verdict, count = Verdict(), len(points)
+    verdict = Verdict()
     _judge_degenerate(exact, images, verdict)
     roots = exact.roots()
     root = Looked(exact, roots.cubic, roots.numerator, roots.shift)
@@ -107,10 +107,15 @@ def judge(vertices, rays, points, images=None, unit=UNIT) -> Verdict:
     report = Looked(exact, images.pair, *exact.times(images.pair, images.distance))
     _judge_reports(report, images, verdict)
     verdict.images, verdict.found = int((root.weights >= 0.0).sum()), len(report.pair)
-    image = (root.weights >= 0.0) & ~images.degenerate[root.pair]
+    taken = _judge_clear(exact, roots, root, report, images, verdict)
+    _judge_clusters(exact, roots, root, report, images, taken, verdict)
+    return verdict
 
-    # Clear roots and reports, one to one.
-    r, f = candidates(root.pair, report.pair, count)
+
+def _judge_clear(exact, roots, root: Looked, report: Looked, images: Images, verdict: Verdict) -> np.ndarray:
+    """Clear roots and reports, one to one; which reports are taken by that."""
+    image = (root.weights >= 0.0) & ~images.degenerate[root.pair]
+    r, f = candidates(root.pair, report.pair, len(exact.facing))
     off = apart(root, r, report, f)
     near = root.clear[r] & (off * root.at.moved[r] <= root.error[r])
     r, f, off = r[near], f[near], off[near]
@@ -130,10 +135,15 @@ def judge(vertices, rays, points, images=None, unit=UNIT) -> Verdict:
     verdict.clear = int((sure & image).sum())
     verdict.conditions = np.maximum(root.condition[r], 1.0)[good]
     verdict.errors = off[good] / verdict.conditions / UNIT
-
-    # What is left lies in clusters.
     taken = np.zeros(len(report.pair), dtype=bool)
     taken[f] = True
+    return taken
+
+
+def _judge_clusters(exact, roots, root: Looked, report: Looked, images: Images, taken: np.ndarray,
+                    verdict: Verdict) -> None:
+    """What is left lies in clusters."""
+    image, count = (root.weights >= 0.0) & ~images.degenerate[root.pair], len(exact.facing)
     single = images.parity != 0
     cloudy, loose = np.flatnonzero(~root.clear), np.flatnonzero(~taken)
     r, f = candidates(root.pair[cloudy], report.pair[loose], count)
@@ -152,7 +162,6 @@ def judge(vertices, rays, points, images=None, unit=UNIT) -> Verdict:
     there = np.bincount(root.pair[cloudy], weights=roots.multiplicity[cloudy], minlength=count)
     _note(verdict.unexplained, "too many",
           np.flatnonzero(np.bincount(report.pair[loose[single[loose]]], minlength=count) > there))
-    return verdict
 
 
 def _note(where, what, pairs):
