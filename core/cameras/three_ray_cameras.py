@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View
+from ..geometry import TriangleMesh, View, has_area
 from .mirror_map import MirrorMap
 from .reflection_map import ReflectionMap
 
@@ -70,7 +70,7 @@ def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
     corners = mirror.positions[mirror.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     size = np.abs(corners - corners[:, :1]).max(axis=(1, 2))
-    areal = np.linalg.norm(normals, axis=1) > 1e-14 * size**2
+    areal = has_area(np.linalg.norm(normals, axis=1), size)
     towards = -np.einsum("ij,ij->i", view.directions(corners[:, 0]), normals)
     visible = areal & (towards != 0.0)
     if _closed(mirror.triangles[areal]):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Order, TriangleMesh, ordered, ranges, rows, shares
+from ..geometry import Order, TriangleMesh, has_area, ordered, ranges, rows, shares
 from ..support import breathe
 from .cones import Cones
 
@@ -77,7 +77,7 @@ class SceneTree:
         radius = np.sqrt(((corners - centre[:, :, None]) ** 2).sum(axis=0).max(axis=1))
         u, v = corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]
         area = np.linalg.norm(np.cross(u, v, axis=0), axis=0)
-        areal = np.flatnonzero(area > 1e-14 * radius**2)
+        areal = np.flatnonzero(has_area(area, radius))
         used = np.unique(mesh.triangles[areal])
         leaf_of_vertex = np.zeros(len(mesh.positions), dtype=np.int64)
         depth = max(0, int(np.ceil(np.log2(max(len(used), 1) / BUCKET))))

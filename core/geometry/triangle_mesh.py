@@ -14,6 +14,8 @@ _UNIT_LENGTH = 2.0 ** -50
 and a mesh made of another one's normals would not be the same."""
 _CHUNK = 8192
 """Triangles whose normals are worked out at once: their arrays stay in the caches."""
+_NO_AREA = 1e-14
+"""Of the square of its size: what a triangle's area normal must be longer than."""
 _STRANGE = 1e100
 """Normals longer than this, or shorter than its inverse, have squares that are no numbers or have lost digits."""
 
@@ -117,6 +119,11 @@ def area_normals(corners: np.ndarray) -> np.ndarray:
     before = np.where(first, edge[2], np.where(second, edge[0], edge[1]))
     after = np.where(first, edge[0], np.where(second, edge[1], edge[2]))
     return cross(before, after)
+
+
+def has_area(normal_length: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """Which triangles have an area that is more than rounding, by the lengths of their area normals and their sizes."""
+    return normal_length > _NO_AREA * size**2
 
 
 def _flat_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
