@@ -21,7 +21,7 @@ from .scene_contacts import hidden_sides
 PAIRS_AT_ONCE = 1 << 17
 MOST_PIECES = 1 << 18  # as many as cameras are cut into altogether
 MOST_HIDING = 1 << 18  # pairs of a camera and a triangle that hides a part of it; cameras with the most stay whole
-MOST_WORK = 1 << 21  # lines of cameras, each once for every triangle that hides a part of its camera
+MOST_WORK = 1 << 23  # lines of cameras, each once for every triangle that hides a part of its camera
 DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden places lie; doubled faces hide nothing
 
 
