@@ -7,7 +7,8 @@ import numpy as np
 
 from ..support import breathe, crowded
 from .cones import Cones
-from .scene_tree import CONES_AT_ONCE, SceneTree
+from .node_tree import CONES_AT_ONCE
+from .scene_tree import SceneTree
 
 VISITS_OF_A_PAIR = 3  # tests of a cone against a node, to a pair that may be found
 

@@ -9,14 +9,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Order, TriangleMesh, has_area, norm, ordered, ranges, rows, unit
+from ..geometry import TriangleMesh, has_area, norm, ordered, ranges, rows, unit
 from ..support import breathe
 from .cones import Cones
 from .magnification import Magnification
-from .scene_tree import FIRST_LEVEL, STRIDE, median_leaves, node_spheres
+from .node_tree import NodeTree, leaves_of, node_spheres
 
 BUCKET = 4
-CONES_AT_ONCE = 1024
 SMALL = 1.0  # pixels: the image of a node that one of its vertices may stand for
 
 
@@ -43,23 +42,12 @@ class PointPairs:
 
 
 @dataclass(frozen=True)
-class PointTree:
-    """The vertices of a diffuse scene; build it once with `PointTree.build` while the scene stands still.
+class PointTree(NodeTree):
+    """The vertices of a diffuse scene, those of triangles with an area, or all where there are no triangles; build it
+    once with `PointTree.build` while the scene stands still.
 
     Attributes
     ----------
-    mesh : TriangleMesh
-        The scene in its canonical order, which all that follows names.
-    given : Order
-        Where its parts are in the mesh that was given.
-    depth : int
-        The leaves are the 2**depth nodes of the last level.
-    spheres : list of (4, 2**level) float64
-        Centre and radius around the vertices of each node of each level; a radius of -inf where a node has none.
-    order : (n,) int64
-        The vertices, leaf after leaf: those of triangles with an area, or all where there are no triangles.
-    leaf_start : (2**depth + 1,) int64
-        Leaf i holds order[leaf_start[i]:leaf_start[i + 1]].
     normal : (3, v) float64
         Unit normal of the surface at each vertex of the mesh, up to its sign; zero where it has none.
     reach : (v,) float64
@@ -75,12 +63,6 @@ class PointTree:
     3
     """
 
-    mesh: TriangleMesh
-    given: Order
-    depth: int
-    spheres: list
-    order: np.ndarray
-    leaf_start: np.ndarray
     normal: np.ndarray
     reach: np.ndarray
 
@@ -92,8 +74,7 @@ class PointTree:
             raise ValueError("The mesh of a PointTree must be a TriangleMesh; make one of its positions and triangles.")
         mesh, given = ordered(mesh, shading=False)
         used, normal, reach = _surface(mesh)
-        depth = max(0, int(np.ceil(np.log2(max(len(used), 1) / BUCKET))))
-        leaf = median_leaves(mesh.positions[used], depth)
+        leaf, depth = leaves_of(mesh.positions[used], BUCKET)
         order = np.argsort(leaf, kind="stable")
         leaf_start = np.searchsorted(leaf[order], np.arange(2**depth + 1))
         order = used[order]
@@ -103,10 +84,7 @@ class PointTree:
             # vertices without faces: what a leaf holds is spread evenly over a disc of the leaf's size
             count = np.maximum(np.diff(leaf_start), 1)
             reach[order] = np.repeat(2.0 * np.maximum(spheres[-1][3], 0.0) / np.sqrt(count), np.diff(leaf_start))
-        return cls(mesh, given, depth, spheres, order, leaf_start, normal, reach)
-
-    def __len__(self) -> int:
-        return len(self.order)
+        return cls(mesh, given, depth, spheres, leaf_start, order, normal, reach)
 
     def trace(self, cones: Cones, magnification: Magnification) -> PointPairs:
         """All pairs whose images together show what the cameras see of the vertices."""
@@ -114,35 +92,23 @@ class PointTree:
         cameras, vertices, radii, visited = [none], [none], [np.zeros(0)], 0
         # +1 where the run of a node that is stood for begins in `order`, -1 behind its end
         change = np.zeros(len(self.order) + 1, dtype=np.int64)
-        for start in range(0, len(cones.radius), CONES_AT_ONCE):
+
+        def stood_for(level: int, cone: np.ndarray, node: np.ndarray) -> np.ndarray:
+            small = magnification.pixels(cones, cone, np.take(self.spheres[level], node, axis=1)) < SMALL
+            nodes, inverse = np.unique(node[small], return_inverse=True)
+            begin, end = self.runs(level, nodes)
+            np.add.at(change, begin, 1)
+            np.add.at(change, end, -1)
+            vertex, radius = self._representatives(level, nodes)
+            cameras.append(cone[small])
+            vertices.append(vertex[inverse])
+            radii.append(radius[inverse])
+            return small
+
+        for cone, leaf, tested in self.descended(cones, np.ones(len(cones.radius), dtype=bool), stood_for):
             breathe()
-            cone = np.arange(start, min(start + CONES_AT_ONCE, len(cones.radius)))
-            level = min(FIRST_LEVEL, self.depth)
-            cone, node = np.repeat(cone, 2**level), np.tile(np.arange(2**level), len(cone))
-            while True:
-                visited += len(cone)
-                sphere = np.take(self.spheres[level], node, axis=1)
-                touching = np.flatnonzero(cones.touch(cone, sphere[:3], sphere[3]))
-                cone, node, sphere = cone[touching], node[touching], sphere[:, touching]
-                small = magnification.pixels(cones, cone, sphere) < SMALL
-                chosen = np.zeros(2**level, dtype=bool)
-                chosen[node[small]] = True
-                nodes = np.flatnonzero(chosen)
-                inverse = (np.cumsum(chosen) - 1)[node[small]]
-                begin, end = self._runs(level, nodes)
-                change += np.bincount(begin, minlength=len(change)) - np.bincount(end, minlength=len(change))
-                vertex, radius = self._representatives(level, nodes)
-                cameras.append(cone[small])
-                vertices.append(vertex[inverse])
-                radii.append(radius[inverse])
-                cone, node = cone[~small], node[~small]
-                if level == self.depth:
-                    break
-                fan = 2 ** min(STRIDE, self.depth - level)
-                level += min(STRIDE, self.depth - level)
-                cone = np.repeat(cone, fan)
-                node = (node[:, None] * fan + np.arange(fan)).ravel()
-            begin, end = self._runs(level, node)
+            visited += tested
+            begin, end = self.runs(self.depth, leaf)
             entry, pair = ranges(begin, end - begin)
             cone, vertex = cone[pair], self.order[entry]
             touching = cones.touch(cone, rows(self.mesh.positions[vertex]), np.zeros(len(cone)))
@@ -155,14 +121,9 @@ class PointTree:
         projected[vertex] = True
         return PointPairs(camera, vertex, radius, visited, int((covered & ~projected[self.order]).sum()))
 
-    def _runs(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Where in `order` the vertices of nodes begin and end."""
-        fan = 2 ** (self.depth - level)
-        return self.leaf_start[node * fan], self.leaf_start[(node + 1) * fan]
-
     def _representatives(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The vertex nearest the middle of each node, and how far from it the node's other vertices are at most."""
-        begin, end = self._runs(level, node)
+        begin, end = self.runs(level, node)
         if not len(node):
             return np.zeros(0, dtype=np.int64), np.zeros(0)
         entry, run = ranges(begin, end - begin)

@@ -57,7 +57,7 @@ def test_the_trace_meets_every_triangle_that_a_camera_sees(data, place):
     met[cone, triangle] = True
     assert len(cone) == met.sum()
     areal = np.zeros(len(mesh.triangles), dtype=bool)
-    areal[tree.leaf_triangles] = True
+    areal[tree.order] = True
     # A vertex that projects, and a ray that hits: the triangle must be met.
     needed = np.zeros_like(met)
     used = np.unique(mesh.triangles)
@@ -89,13 +89,13 @@ def test_each_triangle_with_an_area_hangs_at_one_leaf_inside_the_spheres_above_i
     mesh = tree.mesh
     a, b, c = np.moveaxis(mesh.positions[mesh.triangles], 1, 0)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    assert len(np.unique(tree.leaf_triangles)) == len(tree.leaf_triangles)
+    assert len(np.unique(tree.order)) == len(tree.order)
     clear = np.flatnonzero(area > 1e-9 * (np.abs(b - a).max(axis=1) + np.abs(c - a).max(axis=1)) ** 2)
-    assert np.isin(clear, tree.leaf_triangles).all()
-    assert (area[tree.leaf_triangles] > 0.0).all()
+    assert np.isin(clear, tree.order).all()
+    assert (area[tree.order] > 0.0).all()
     assert len(tree.leaf_start) == 2**tree.depth + 1
     leaf = np.repeat(np.arange(2**tree.depth), np.diff(tree.leaf_start))
-    corners = mesh.positions[mesh.triangles[tree.leaf_triangles]]
+    corners = mesh.positions[mesh.triangles[tree.order]]
     for level, sphere in enumerate(tree.spheres):
         node = leaf >> (tree.depth - level)
         away = np.linalg.norm(corners - sphere[:3, node].T[:, None], axis=2).max(axis=1)
@@ -107,7 +107,7 @@ def test_zero_area_triangles_are_left_out():
     points[4], points[7] = points[3], 0.5 * (points[6] + points[8])
     points[9:12] = points[9]
     tree = SceneTree.build(TriangleMesh(points, np.arange(12).reshape(-1, 3)))
-    np.testing.assert_array_equal(tree.given.triangle[tree.leaf_triangles], [0])
+    np.testing.assert_array_equal(tree.given.triangle[tree.order], [0])
 
 
 def test_leaves_are_medians_with_no_more_than_a_bucket_of_vertices():
