@@ -2,8 +2,8 @@
 
     python tools/parts.py [folder]
 
-Leaves `parts_bowl.jpg`, `parts_water.jpg` and `parts_suzanne.jpg` in the folder, docs/ by default: the whole picture
-above, parts of it enlarged below.
+Leaves `parts_bowl.jpg`, `parts_water.jpg`, `parts_suzanne.jpg` and, of a sample with hardly any memory,
+`parts_filling.jpg` in the folder, docs/ by default: the whole picture above, parts of it enlarged below.
 """
 from __future__ import annotations
 
@@ -25,7 +25,9 @@ from scipy.sparse.csgraph import connected_components
 WHOLE = 1e-6  # by how much the areas of a triangle's faces may miss the triangle's
 TILE, GAP, LABEL = 396, 6, 26
 CLOSE = 28  # pixels across the place where filling helps most
-BOXES = {"bowl": (140, 250, 380, 490), "water": (770, 520, 1010, 760), "suzanne": (430, 650, 670, 890)}
+BOXES = {"bowl": (140, 250, 380, 490), "water": (770, 520, 1010, 760), "suzanne": (430, 650, 670, 890),
+         "filling": (470, 420, 710, 660)}
+SCARCE = "sphere", 0.012  # the sample for filling, which no sample needs, and the gigabytes that it is allowed
 
 
 def main(folder: Path) -> None:
@@ -34,28 +36,29 @@ def main(folder: Path) -> None:
         scratch = Path(name)
         extension_zip.use_throw_away_preferences(scratch / "preferences")
         extension_zip.install(extension_zip.build(scratch))
-        for sample, box in BOXES.items():
-            _save(folder / f"parts_{sample}.jpg", _pictures(sample, scratch), box)
+        for sheet, box in BOXES.items():
+            sample, memory = SCARCE if sheet == "filling" else (sheet, 2.0)
+            _save(folder / f"parts_{sheet}.jpg", _pictures(sample, memory, scratch), box)
         extension_zip.switch_off()
 
 
-def _pictures(sample: str, scratch: Path) -> list[tuple[str, Image.Image]]:
+def _pictures(sample: str, memory: float, scratch: Path) -> list[tuple[str, Image.Image]]:
     """Each part's label and picture."""
     with _nothing_filled():
-        obj, mesh = _generated(sample)
+        obj, mesh = _generated(sample, memory)
     everything, whole = obj.data.copy(), joined_whole(mesh)
     _keep_faces(obj.data, whole)
     connected = _render(obj, scratch)
     obj.data = everything
     clipped = _render(obj, scratch)
-    obj, filled = _generated(sample)
+    obj, filled = _generated(sample, memory)
     return [(f"connection only: {whole.sum():,} faces", connected),
             (f"+ clipping: {len(whole):,} faces", clipped),
             (f"+ filling: {filled.counts['filled']:,} pieces more", _render(obj, scratch)),
             ("Cycles, tracing the mirror", _render(None, scratch))]
 
 
-def _generated(sample: str) -> tuple:
+def _generated(sample: str, memory: float) -> tuple:
     """Open the sample and reflect it: the object and core's mesh, whose faces it has in the same order."""
     import bpy
     bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{sample}.blend"))
@@ -64,7 +67,7 @@ def _generated(sample: str) -> tuple:
             # what is reflected is the viewport's mesh: a render shows no finer one
             modifier.render_levels = modifier.levels
     chosen = _room("addon.blender_data.roles").choose(bpy.context)
-    steps = _room("addon.generate").generation(bpy.context, chosen, _room("core").Settings())
+    steps = _room("addon.generate").generation(bpy.context, chosen, _room("core").Settings(maximum_memory=memory))
     while True:
         try:
             next(steps)
