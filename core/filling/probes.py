@@ -9,10 +9,12 @@ import numpy as np
 
 from ..cameras import MirrorMap
 from ..culling import SceneAndMirrors, SceneTree, first_crossed
-from ..geometry import TriangleMesh, View, dot, ranges, unit
+from ..geometry import TriangleMesh, View, dot, ranges, shares, unit
+from ..support import breathe
 
 ACROSS = 16  # probes along each side of the box round the mirror in the picture
 MARGIN = 1.0  # pixels that a face may end before a place that it covers
+PAIRS_AT_ONCE = 1 << 18  # of a face and a probe that it may cover
 SAME_PLACE = 1e-6  # of its distance from the eye
 
 
@@ -61,16 +63,19 @@ def _covered(corners: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarr
     first, last = (np.clip(np.nan_to_num(bound), -1, ACROSS).astype(np.int64) for bound in
                    (np.ceil(places.min(axis=1) - MARGIN / step), np.floor(places.max(axis=1) + MARGIN / step)))
     first, count = np.maximum(first, 0), np.minimum(last, ACROSS - 1) + 1 - np.maximum(first, 0)
-    face = np.flatnonzero((count > 0).all(axis=1))
-    y, row = ranges(first[face, 1], count[face, 1])
-    x, run = ranges(first[face[row], 0], count[face[row], 0])
-    face, y = face[row[run]], y[run]
-    offset = corners[face] - (low + step * (np.stack((x, y), axis=1) + 0.5))[:, None]
-    following = np.roll(offset, -1, axis=1)
-    across = offset[..., 0] * following[..., 1] - offset[..., 1] * following[..., 0]
-    away = across / np.maximum(np.linalg.norm(following - offset, axis=2), 1e-300)
-    away *= np.sign(across.sum(axis=1))[:, None]
-    covered = np.zeros(ACROSS * ACROSS, dtype=bool)
-    inside = away.min(axis=1) >= -MARGIN
-    covered[(y * ACROSS + x)[inside]] = True
+    face, covered = np.flatnonzero((count > 0).all(axis=1)), np.zeros(ACROSS * ACROSS, dtype=bool)
+    for part in shares(count[face].prod(axis=1), PAIRS_AT_ONCE):
+        breathe()
+        some = face[part]
+        y, row = ranges(first[some, 1], count[some, 1])
+        x, run = ranges(first[some[row], 0], count[some[row], 0])
+        some, y = some[row[run]], y[run]
+        offset = corners[some] - (low + step * (np.stack((x, y), axis=1) + 0.5))[:, None]
+        following = np.roll(offset, -1, axis=1)
+        across = offset[..., 0] * following[..., 1] - offset[..., 1] * following[..., 0]
+        away = across / np.maximum(np.linalg.norm(following - offset, axis=2), 1e-300)
+        away *= np.sign(across.sum(axis=1))[:, None]
+        covered[(y * ACROSS + x)[away.min(axis=1) >= -MARGIN]] = True
+        if covered.all():
+            break
     return covered

@@ -1,4 +1,6 @@
 """Probes: a result from which whole regions are missing says so, and no other does."""
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ from core import Settings, TriangleMesh, View, reflect
 from core.cameras.mirror_map import MirrorMap
 from core.culling.scene_and_mirrors import SceneAndMirrors
 from core.culling.scene_tree import SceneTree
+from core.filling import probes
 from core.filling.probes import missed_probes
 from core.geometry.canonical_order import ordered
 from tests.inputs import shapes
@@ -59,3 +62,13 @@ def test_nothing_is_probed_where_the_mirror_shows_nothing():
     behind = TriangleMesh([[0.0, 4.0, 0.0], [1.0, 4.0, 0.0], [0.0, 4.0, 1.0]], [[0, 1, 2]])
     mesh = reflect(view, mirror, behind, Settings())
     assert mesh.counts["probes"] == 0 and mesh.missing_share == 0.0
+
+
+def test_a_mirror_of_a_pixel_with_many_faces_is_probed_in_little_memory():
+    # each face may cover each probe, as the margin round it is wider than the lattice
+    corners = np.random.default_rng(3).uniform(40.0, 40.5, (60_000, 3, 2))
+    tracemalloc.start()
+    covered = probes._covered(corners, np.array([40.0, 40.0]), np.array([0.5, 0.5]) / probes.ACROSS)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert covered.all() and peak < 300e6
