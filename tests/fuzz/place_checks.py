@@ -11,7 +11,7 @@ from tests.oracles.truth import reflected_rays
 
 ON_SOURCE = 1e-6  # of the scene's size
 ON_MIRROR = 1e-5  # of the scene's size
-ON_TRIANGLE, MORE = 3.0, 2.0  # pixels and tolerances between a corner and the mirror's triangle that its face names
+ON_TRIANGLE, MORE = 2.0, 2.0  # pixels and tolerances between a corner and the mirror's triangle that its face names
 SAMPLE = 300  # corners of faces
 LEAST_AREA = 0.3  # pixels: faces below show nothing
 TOLERANCES, FEWEST = 5.0, 10  # by which one ray in ten may miss, of as many at least
