@@ -5,6 +5,30 @@ from ..core import ReflectionMesh
 
 MISSING = 3.0  # per cent of what the mirror shows
 MISSED = 3  # probes: fewer may lie on an outline
+# what is said where the result counts it
+SENTENCES = {
+    "crowded":
+        "In {count} parts of the mirror more lies over one another than the picture or the memory allows to "
+        "be cut exactly, and rays show it to a pixel: simplify the meshes or raise the memory.",
+    "overlaid":
+        "In {count} parts of the mirror too much of it lies over itself to be cut exactly, and something "
+        "hidden may show: simplify the mirror.",
+    "pierced":
+        "Through {count} parts of the mirror pass more faces than can be followed, and something behind them "
+        "may show: simplify the objects that pass through the mirror.",
+    "many_outlines":
+        "In {count} parts of the mirror more outlines of mirrors cross than can be cut along, and their edges"
+        " are rough: simplify the mirrors.",
+    "unfollowed":
+        "{count} small parts of mirrors in mirrors are not followed further, since the picture is too small "
+        "for them: lower the depth or enlarge the picture.",
+    "bounded":
+        "Refinement stopped at the largest number of faces, so that the error may exceed the tolerance: raise"
+        " the tolerance or the memory.",
+    "coarse":
+        "{count} of {points} points are too far from their neighbours to be discs without gaps: subdivide the"
+        " diffuse objects, or choose the method General.",
+}
 
 
 def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
@@ -13,26 +37,6 @@ def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
     if counts.get("missed", 0) >= MISSED and result.missing_share > MISSING:
         told.append(f"About {result.missing_share:.0f} % of what the mirror shows is missing: give it a clean mesh, or "
                     "move the camera.")
-    if counts.get("crowded"):
-        told.append(f"In {counts['crowded']} parts of the mirror more lies over one another than the picture or the "
-                    "memory allows to be cut exactly, and rays show it to a pixel: simplify the meshes or raise the "
-                    "memory.")
-    if counts.get("overlaid"):
-        told.append(f"In {counts['overlaid']} parts of the mirror too much of it lies over itself to be cut exactly, "
-                    "and something hidden may show: simplify the mirror.")
-    if counts.get("pierced"):
-        told.append(f"Through {counts['pierced']} parts of the mirror pass more faces than can be followed, and "
-                    "something behind them may show: simplify the objects that pass through the mirror.")
-    if counts.get("many_outlines"):
-        told.append(f"In {counts['many_outlines']} parts of the mirror more outlines of mirrors cross than can be cut "
-                    "along, and their edges are rough: simplify the mirrors.")
-    if counts.get("unfollowed"):
-        told.append(f"{counts['unfollowed']} small parts of mirrors in mirrors are not followed further, since the "
-                    "picture is too small for them: lower the depth or enlarge the picture.")
-    if counts.get("bounded"):
-        told.append("Refinement stopped at the largest number of faces, so that the error may exceed the tolerance: "
-                    "raise the tolerance or the memory.")
-    if counts.get("coarse"):
-        told.append(f"{counts['coarse']} of {len(result.positions)} points are too far from their neighbours to be "
-                    "discs without gaps: subdivide the diffuse objects, or choose the method General.")
+    told += [sentence.format(count=counts[what], points=len(result.positions)) for what, sentence in SENTENCES.items()
+             if counts.get(what)]
     return [f"{name}: {sentence}" for sentence in told]

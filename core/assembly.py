@@ -6,7 +6,7 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import MirrorMap, brought_back, distance_from
 from .culling import SceneAndMirrors
-from .geometry import SceneFrames, groups, norm, rows
+from .geometry import SceneFrames, doubled_areas, groups, norm, rows
 from .result import ReflectionMesh, place
 
 BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
@@ -51,8 +51,7 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> dict:
     owner[triangles.ravel()] = np.repeat(face, 3)
     seen = _on_mirror(first_map, mirror_map.first(face), triangles, seen)
     pixels = first_map.view.pixels(seen.T)[triangles]
-    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
-    order = np.where((u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0.0)[:, None], (0, 2, 1), (0, 1, 2))
+    order = np.where((doubled_areas(pixels) < 0.0)[:, None], (0, 2, 1), (0, 1, 2))
     triangles = np.take_along_axis(triangles, order, axis=1)
     weights = np.take_along_axis(weights.T.reshape(-1, 3, 3), order[:, :, None], axis=1)
     uv = mirror_map.coordinates(owner, seen)

@@ -6,7 +6,7 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import BouncedMap, Cameras
 from .culling import SceneAndMirrors
-from .geometry import groups, norm
+from .geometry import doubled_areas, groups, norm
 
 SAME_RAY = 1e-7  # of its length: rays at one node that differ by less are one ray
 PATCHES = 8  # smooth patches of a mirror that meet in a node; more share no corners
@@ -24,8 +24,7 @@ def bounced_cameras(bounce: Bounce, met: SceneAndMirrors) -> Cameras:
     frames, nodes, faces, before = bounce.frames, bounce.nodes, bounce.faces, bounce.cameras.mirror_map
     triangle = frames.triangle[faces.column] - met.diffuse
     pixels = before.view.pixels(nodes.place.T)[faces.nodes]
-    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
-    large = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > SMALLEST
+    large = np.abs(doubled_areas(pixels)) > SMALLEST
     seen = np.flatnonzero(met.shows_mirror(frames)[faces.column] & large)
     face_before, triangle = bounce.cameras.face[faces.camera[seen]], triangle[seen]
     first, chain = groups(face_before, triangle)

@@ -8,12 +8,13 @@ from .camera_splitting import in_picture, split_cameras, with_pieces
 from .mirror_map import MirrorMap
 from .mirror_refinement import refine_mirror
 from .mirror_surface import MirrorSurface, drawn_in
-from .picture_areas import covered_pixels, picture_areas, pixels_of
+from .picture_areas import covered_pixels, picture_areas, pixels_around, pixels_of
 from .reflection_map import ReflectionMap
 from .shading_horizon import beyond_horizon, cut_at_horizon
 from .three_ray_cameras import Cameras, three_ray_cameras, visible_triangles
 from .triangle_walk import brought_back, distance_from, settle
 
 __all__ = ["BouncedMap", "Cameras", "MirrorMap", "MirrorSurface", "ReflectionMap", "beyond_horizon", "brought_back",
-           "covered_pixels", "cut_at_horizon", "distance_from", "drawn_in", "in_picture", "picture_areas", "pixels_of",
-           "refine_mirror", "settle", "split_cameras", "three_ray_cameras", "visible_triangles", "with_pieces"]
+           "covered_pixels", "cut_at_horizon", "distance_from", "drawn_in", "in_picture", "picture_areas",
+           "pixels_around", "pixels_of", "refine_mirror", "settle", "split_cameras", "three_ray_cameras",
+           "visible_triangles", "with_pieces"]

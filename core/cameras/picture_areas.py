@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry import doubled_areas, edge_lengths
 from .three_ray_cameras import Cameras
 
 LEAST_WORTH = 1.0 / 16.0  # square pixels: no camera counts for less
@@ -15,10 +16,12 @@ def picture_areas(cameras: Cameras) -> np.ndarray:
 
 def pixels_of(cameras: Cameras) -> np.ndarray:
     """About how many pixels of the picture cameras (n,) cover."""
-    view = cameras.view
-    pixels = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
-    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
-    return 0.5 * np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+    return 0.5 * np.abs(doubled_areas(_corners(cameras)))
+
+
+def pixels_around(cameras: Cameras) -> np.ndarray:
+    """About how many pixels long the way round cameras (n,) is in the picture."""
+    return edge_lengths(_corners(cameras)).sum(axis=1)
 
 
 def covered_pixels(cameras: Cameras) -> int:
@@ -28,3 +31,9 @@ def covered_pixels(cameras: Cameras) -> int:
     pixels = np.floor(np.clip(view.pixels(places.T), 0.0, np.subtract(view.resolution, 1))).astype(np.int64)
     _, pixel = np.unique(pixels @ (1, view.resolution[0]), return_inverse=True)
     return round(float(np.minimum(np.bincount(pixel, pixels_of(cameras)), 1.0).sum()))
+
+
+def _corners(cameras: Cameras) -> np.ndarray:
+    """Corners (n, 3, 2) of the cameras in pixels, those beyond the picture on its border."""
+    view = cameras.view
+    return np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]

@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..cameras import Cameras, covered_pixels, picture_areas, pixels_of, with_pieces
+from ..cameras import Cameras, covered_pixels, picture_areas, pixels_around, pixels_of, with_pieces
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, edge_lengths, groups
+from ..geometry import SceneFrames, groups
 from ..support import crowded
 from .limits import Limits
 from .picture_squares import in_squares
@@ -85,7 +85,7 @@ def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, most: int) -> t
     """Cells of crowded cameras that show something, the triangle (m,) that each shows, and how many rays, about `most`
     at most, were traced for it."""
     # a camera lies in about as many squares as its area holds, its edges cross more, and one
-    area, crossed = pixels_of(cameras).sum(), CROSSED * _lengths(cameras).sum()
+    area, crossed = pixels_of(cameras).sum(), CROSSED * pixels_around(cameras).sum()
     room = max(most - len(cameras), most / 2)
     size = max(SQUARE, 2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300))
     cells, square = _cells(cameras, size)
@@ -95,13 +95,6 @@ def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, most: int) -> t
     triangle = met.shown_in_middles(cells.select(first))[group]
     shown = np.flatnonzero(triangle >= 0)
     return cells.select(shown), triangle[shown], len(first)
-
-
-def _lengths(cameras: Cameras) -> np.ndarray:
-    """The lengths (n,) of the way round cameras, about as far as it lies in the picture."""
-    view = cameras.view
-    corners = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
-    return edge_lengths(corners).sum(axis=1)
 
 
 def _cells(cameras: Cameras, size: float) -> tuple[Cameras, np.ndarray]:

@@ -6,11 +6,11 @@ their places decide, and which triangles lie beyond each other's sides.
 from .adjacency import neighbours, opposite_corners
 from .canonical_order import TURNS, Order, ordered
 from .scene_frames import SceneFrames, falling
-from .subdivision import edge_lengths, parent_side, shared_edges, split
+from .subdivision import doubled_areas, edge_lengths, parent_side, shared_edges, split
 from .triangle_mesh import TriangleMesh, area_normals, has_area
 from .vectors import columns, cross, dot, groups, norm, ranges, rows, shares, solve, unit
 from .view import View
 
 __all__ = ["Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns", "cross", "dot",
-           "edge_lengths", "falling", "groups", "has_area", "neighbours", "norm", "opposite_corners", "ordered",
-           "parent_side", "ranges", "rows", "shared_edges", "shares", "solve", "split", "unit"]
+           "doubled_areas", "edge_lengths", "falling", "groups", "has_area", "neighbours", "norm", "opposite_corners",
+           "ordered", "parent_side", "ranges", "rows", "shared_edges", "shares", "solve", "split", "unit"]

@@ -61,11 +61,6 @@ class SceneFrames:
         return cls(triangle, vertices, mesh.positions, c, cross(v, normal) / area, cross(normal, u) / area,
                    normal / (size * np.sqrt(size)))
 
-    def columns(self, triangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Column of each of the scene's triangles, and whether there is one."""
-        column = np.minimum(np.searchsorted(self.triangle, triangle), max(len(self.triangle) - 1, 0))
-        return column, self.triangle[column] == triangle if len(self.triangle) else np.zeros(len(triangle), dtype=bool)
-
     def coordinates(self, column: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Barycentric coordinates of the first and second vertex, and height, of points (3, ...) in frames `column`."""
         offset = points - self._take(self.origin, column, points)

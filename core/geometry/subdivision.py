@@ -59,6 +59,12 @@ def edge_lengths(corners: np.ndarray) -> np.ndarray:
     return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
 
 
+def doubled_areas(corners: np.ndarray) -> np.ndarray:
+    """Twice the areas (n,) of triangles with `corners` (n, 3, 2), negative where they turn to the right."""
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+
 def shared_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Edges of triangles (n, 3), each once.
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..cameras import beyond_horizon, split_cameras
 from ..culling import Candidates, SceneAndMirrors, overlapping
-from ..geometry import edge_lengths, ranges
+from ..geometry import doubled_areas, edge_lengths, ranges
 from ..support import breathe
 from .clipping import clip
 from .convex_polygons import Line, scene_edges
@@ -95,7 +95,7 @@ def _bent_edges(candidates: Candidates, lines: np.ndarray, tolerance: float) -> 
     view = cameras.view
     pixels = view.pixels(cameras.places.T)[cameras.corners]
     across, up = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
-    area = np.abs(across[:, 0] * up[:, 1] - across[:, 1] * up[:, 0])
+    area = np.abs(doubled_areas(pixels))
     camera = candidates.camera
     rise, climb = candidates.sides[:, 1] - candidates.sides[:, 0], candidates.sides[:, 2] - candidates.sides[:, 0]
     steepness = np.hypot(rise * up[camera, 1] - climb * across[camera, 1],

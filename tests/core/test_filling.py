@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from core import SceneTree, Settings, TriangleMesh, View, reflect
+from core.cameras import covered_pixels, pixels_of, with_pieces
 from core.cameras.camera_splitting import in_picture
 from core.cameras.mirror_map import MirrorMap
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
@@ -132,6 +133,21 @@ def test_what_rays_filled_is_no_more_than_the_mirror_however_much_lies_over_one_
                    Settings(depth=2, maximum_memory=1e-4))
     assert mesh.counts["filled"] > mesh.counts["mirror_pixels"]
     assert mesh.counts["filled_pixels"] <= 2 * mesh.counts["mirror_pixels"] and mesh.filled_share <= 100.0
+
+
+def test_pixels_that_many_cells_lie_over_are_filled_once():
+    # fifty upright mirrors a hair behind one another: each covers the pixels that the first one does
+    mirror = shapes.combine(*(shapes.quad((0.0, 0.001 * k, 0.8), (1.5, 0.0, 0.0), (0.0, 0.0, 1.0)) for k in range(50)))
+    cells = in_squares_of_a_pixel(three_ray_cameras(MirrorMap(VIEW, mirror), mirror, visible_triangles(VIEW, mirror)))
+    first = cells.select(cells.face < 2)
+    assert pixels_of(cells).sum() > 49.0 * pixels_of(first).sum()
+    assert covered_pixels(first) == pytest.approx(pixels_of(first).sum(), rel=0.02)
+    assert covered_pixels(first) <= covered_pixels(cells) <= 1.05 * covered_pixels(first)
+
+
+def in_squares_of_a_pixel(cameras):
+    parent, weights = in_squares(cameras, 1.0).triangles(0.0)
+    return with_pieces(cameras, np.zeros(len(cameras), dtype=bool), parent, weights)[0]
 
 
 def test_a_sliver_across_a_picture_becomes_no_more_cells_than_squares_it_passes():
