@@ -43,7 +43,7 @@ def assert_same_reflection(one, other, scene, mirror):
             np.testing.assert_array_equal(getattr(one.discs, name), getattr(other.discs, name))
 
 
-@pytest.mark.parametrize("name", ["sphere", "flat", "cylinder", "bowl", "torus"])
+@pytest.mark.parametrize("name", ["sphere", "flat", "flat_ortho", "cylinder", "water", "bowl", "torus"])
 @pytest.mark.parametrize("settings", [Settings(), Settings(method="POINTS"), Settings(method="PARALLEL")],
                          ids=lambda settings: settings.method)
 def test_order_does_not_matter(name, settings):
