@@ -4,12 +4,13 @@ In come cameras and meshes; out come candidates, pairs of a camera and a triangl
 what the one sees of the other.
 """
 from .candidates import Candidates, overlapping
-from .cones import Cones
+from .cones import Balls, Cones
 from .first_crossed import first_crossed
 from .magnification import Magnification
 from .point_tree import PointTree
 from .scene_and_mirrors import ABOVE, SceneAndMirrors
+from .scene_pieces import ScenePieces
 from .scene_tree import SceneTree
 
-__all__ = ["ABOVE", "Candidates", "Cones", "Magnification", "PointTree", "SceneAndMirrors", "SceneTree",
-           "first_crossed", "overlapping"]
+__all__ = ["ABOVE", "Balls", "Candidates", "Cones", "Magnification", "PointTree", "SceneAndMirrors", "ScenePieces",
+           "SceneTree", "first_crossed", "overlapping"]

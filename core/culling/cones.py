@@ -1,4 +1,5 @@
-"""Bounding cones of cameras: a disc at the mirror that widens along an axis, around all rays of a camera."""
+"""Bounding cones of cameras: a disc at the mirror that widens along an axis, around all rays of a camera; and balls.
+"""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -29,14 +30,18 @@ class Cones:
 
     @classmethod
     def around(cls, cameras: Cameras) -> Cones:
-        places = cameras.origins[:, cameras.corners]
-        rays = unit(cameras.rays[:, cameras.corners])
+        return cls.round(cameras.origins[:, cameras.corners], cameras.rays[:, cameras.corners])
+
+    @classmethod
+    def round(cls, places: np.ndarray, rays: np.ndarray, wider: float = 1.0) -> Cones:
+        """Cones round rays (3, n, k) that leave triangles with corners `places` (3, n, 3), `wider` than these."""
+        rays = unit(rays)
         centre = places.mean(axis=2)
         radius = np.sqrt(((places - centre[:, :, None]) ** 2).sum(axis=0)).max(axis=1)
         total = rays.sum(axis=2)
         axis = unit(total)
         # |axis - ray| = 2 sin(angle / 2) keeps its digits where the angle is small
-        half = 0.5 * np.sqrt(((rays - axis[:, :, None]) ** 2).sum(axis=0)).max(axis=1) + 1e-12
+        half = wider * 0.5 * np.sqrt(((rays - axis[:, :, None]) ** 2).sum(axis=0)).max(axis=1) + 1e-12
         wide = (half >= 0.7) | (norm(total) < 1e-6)
         cosine = np.where(wide, -1.0, 1.0 - 2.0 * half**2)
         sine = 2.0 * half * np.sqrt(np.maximum(1.0 - half**2, 0.0))
@@ -51,3 +56,21 @@ class Cones:
         room = self.radius[cone] + radius
         sine, cosine = self.sine[cone], self.cosine[cone]
         return (cosine <= 0.0) | ((away * cosine - height * sine <= room) & (height >= -room))
+
+
+@dataclass(frozen=True)
+class Balls:
+    """Spheres, which descend a tree as cones do.
+
+    Attributes
+    ----------
+    centre : (3, n) float64
+    radius : (n,) float64
+    """
+
+    centre: np.ndarray
+    radius: np.ndarray
+
+    def touch(self, ball: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
+        """Whether the spheres `ball` (n,) and those with `centre` (3, n) and `radius` (n,) overlap."""
+        return norm(np.take(self.centre, ball, axis=1) - centre) <= self.radius[ball] + radius

@@ -1,4 +1,4 @@
-"""A complete tree of medians with spheres round what its nodes hold, and how cones descend it, a level at a time.
+"""A complete tree with spheres round what its nodes hold, and how cones descend it, a level at a time.
 
 J. L. Bentley, "Multidimensional binary search trees used for associative searching", CACM 1975.
 """
@@ -11,11 +11,14 @@ import numpy as np
 
 from ..geometry import Order, TriangleMesh
 from ..support import breathe
-from .cones import Cones
+from .cones import Balls, Cones
 
 FIRST_LEVEL = 4
 STRIDE = 2
 CONES_AT_ONCE, NODES_AT_ONCE = 8192, 1 << 18
+CURVE_BITS = 21  # of each coordinate: three of them fit one number
+_SPREADING = ((32, 0x1f00000000ffff), (16, 0x1f0000ff0000ff), (8, 0x100f00f00f00f00f), (4, 0x10c30c30c30c30c3),
+              (2, 0x1249249249249249))
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ class NodeTree:
     def __len__(self) -> int:
         return len(self.order)
 
-    def descended(self, cones: Cones, wanted: np.ndarray, resting: Callable | None = None
+    def descended(self, cones: Cones | Balls, wanted: np.ndarray, resting: Callable | None = None
                   ) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
         """Cones and leaves that touch, and how many nodes were tested for it, in shares that fit the memory. A cone
         that is no longer `wanted` (n,) when its turn comes goes no further; nor do cones at nodes where `resting`,
@@ -61,7 +64,7 @@ class NodeTree:
             while waiting:
                 yield self._step(cones, wanted, resting, waiting)
 
-    def _step(self, cones: Cones, wanted: np.ndarray, resting: Callable | None,
+    def _step(self, cones: Cones | Balls, wanted: np.ndarray, resting: Callable | None,
               waiting: list) -> tuple[np.ndarray, np.ndarray, int]:
         """One level of the tree for the cones and nodes that have waited least; what comes of them waits in its turn,
         unless they are leaves."""
@@ -87,14 +90,36 @@ class NodeTree:
         return self.leaf_start[node * fan], self.leaf_start[(node + 1) * fan]
 
 
-def leaves_of(points: np.ndarray, bucket: int) -> tuple[np.ndarray, int]:
-    """The leaf of each point (n, 3) in a tree of medians with about `bucket` points a leaf, and its depth."""
-    depth = max(0, int(np.ceil(np.log2(max(len(points), 1) / bucket))))
-    return median_leaves(points, depth), depth
+def depth_for(count: int, bucket: int) -> int:
+    """The depth of a complete tree with about `bucket` of so many points a leaf."""
+    return max(0, int(np.ceil(np.log2(max(count, 1) / bucket))))
+
+
+def curve_leaves(points: np.ndarray, depth: int) -> np.ndarray:
+    """Leaf of each point (n, 3) in a complete tree, of equal parts of a Z curve through all of them.
+
+    Its order is that of a tree that halves the widest box along x, y and z in turn, and comes from one sort
+    (C. Lauterbach et al., "Fast BVH Construction on GPUs", Eurographics 2009).
+    """
+    count = len(points)
+    low, size = points.min(axis=0), np.ptp(points, axis=0).max()
+    most = 2.0**CURVE_BITS - 1.0
+    code = np.zeros(count, dtype=np.uint64)
+    for axis in range(3):
+        breathe()
+        cell = np.minimum((points[:, axis] - low[axis]) * (most / (size if size > 0.0 else 1.0)), most)
+        code |= _spread(cell.astype(np.uint64)) << np.uint64(axis)
+    leaf = np.empty(count, dtype=np.int64)
+    leaf[np.argsort(code, kind="stable")] = np.arange(count) * 2**depth // max(count, 1)
+    return leaf
 
 
 def median_leaves(points: np.ndarray, depth: int) -> np.ndarray:
-    """Leaf of each point (n, 3) in a complete tree of medians of the widest axis; leaf sizes differ by the padding."""
+    """Leaf of each point (n, 3) in a complete tree of medians of the widest axis; leaf sizes differ by the padding.
+
+    It takes four times as long as a curve, and its nodes are more compact: they stand for all that they hold where that
+    is smaller than a pixel.
+    """
     count = len(points)
     if depth == 0:
         return np.zeros(count, dtype=np.int64)
@@ -111,6 +136,13 @@ def median_leaves(points: np.ndarray, depth: int) -> np.ndarray:
     leaf = np.empty(count, dtype=np.int64)
     leaf[order.ravel()] = np.repeat(np.arange(2**depth), width)
     return leaf
+
+
+def _spread(number: np.ndarray) -> np.ndarray:
+    """Numbers (n,) of 21 bits with two zeros between each two of their bits."""
+    for shift, mask in _SPREADING:
+        number = (number | (number << np.uint64(shift))) & np.uint64(mask)
+    return number
 
 
 def node_spheres(low: np.ndarray, high: np.ndarray, leaf_start: np.ndarray, depth: int) -> list:

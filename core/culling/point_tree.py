@@ -13,7 +13,7 @@ from ..geometry import TriangleMesh, has_area, norm, ordered, ranges, rows, unit
 from ..support import breathe
 from .cones import Cones
 from .magnification import Magnification
-from .node_tree import NodeTree, leaves_of, node_spheres
+from .node_tree import NodeTree, depth_for, median_leaves, node_spheres
 
 BUCKET = 4
 SMALL = 1.0  # pixels: the image of a node that one of its vertices may stand for
@@ -74,7 +74,8 @@ class PointTree(NodeTree):
             raise ValueError("The mesh of a PointTree must be a TriangleMesh; make one of its positions and triangles.")
         mesh, given = ordered(mesh, shading=False)
         used, normal, reach = _surface(mesh)
-        leaf, depth = leaves_of(mesh.positions[used], BUCKET)
+        depth = depth_for(len(used), BUCKET)
+        leaf = median_leaves(mesh.positions[used], depth)
         order = np.argsort(leaf, kind="stable")
         leaf_start = np.searchsorted(leaf[order], np.arange(2**depth + 1))
         order = used[order]

@@ -5,6 +5,9 @@ asked for it is the next mirror. Convex mirrors never see themselves: their tria
 """
 from __future__ import annotations
 
+from copy import copy
+from functools import cached_property
+
 import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
@@ -14,10 +17,12 @@ from .candidates import Candidates
 from .cones import Cones
 from .first_crossed import first_crossed
 from .point_tree import PointTree
+from .scene_pieces import ScenePieces
 from .scene_tree import SceneTree
 
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
-
+DIRECTIONS = 64  # in which a body's farthest corner is looked for
+RISEN = 1e-5  # of the mirrors' size: what rises less is seen by rays along the mirror alone
 
 
 class SceneAndMirrors:
@@ -30,7 +35,9 @@ class SceneAndMirrors:
     positions : (n, 3) float64
     triangles : (m, 3) int64
     diffuse : int
-        How many triangles are diffuse; the others are the mirrors'.
+        How many triangles are diffuse, pieces of some among them; the others are the mirrors'.
+    pieces : ScenePieces, optional
+        What is left to the cameras of a patch; their triangles are numbered behind those of the scene.
     surface : MirrorSurface
         Of the mirrors.
     mirror_tree : SceneTree
@@ -41,14 +48,33 @@ class SceneAndMirrors:
     """
 
     def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh) -> None:
-        self.tree, self.mirror_tree = tree, SceneTree.of_ordered(mirrors)
+        self.tree, self.mirrors, self.mirror_tree = tree, mirrors, SceneTree.of_ordered(mirrors)
         self.mirror_corners = rows(mirrors.positions[mirrors.triangles])
         self.size = float(np.ptp(mirrors.positions[mirrors.triangles.ravel()], axis=0).max())
-        self.diffuse = len(tree.mesh.triangles)
         self.surface = MirrorSurface(mirrors)
         self._beyond = rows(opposite_corners(mirrors))
-        self.positions = np.concatenate((tree.mesh.positions, mirrors.positions))
-        self.triangles = np.concatenate((tree.mesh.triangles, mirrors.triangles + len(tree.mesh.positions)))
+        self._number(None)
+
+    def _number(self, pieces: ScenePieces | None) -> None:
+        mesh, mirrors, self.pieces = self.tree.mesh, self.mirrors, pieces
+        positions = mesh.positions if pieces is None else pieces.mesh.positions
+        triangles = [mesh.triangles] if pieces is None else [mesh.triangles, pieces.mesh.triangles]
+        self.diffuse = sum(map(len, triangles))
+        self.positions = np.concatenate((positions, mirrors.positions))
+        self.triangles = np.concatenate((*triangles, mirrors.triangles + len(positions)))
+
+    def left_to(self, pieces: ScenePieces) -> SceneAndMirrors:
+        """The same, where the cameras of a patch have to show these pieces alone."""
+        left = copy(self)
+        left._number(pieces)
+        return left
+
+    def sources(self, triangle: np.ndarray) -> np.ndarray:
+        """The triangles of the scene that diffuse triangles (n,) lie in."""
+        if self.pieces is None:
+            return triangle
+        whole = len(self.tree.mesh.triangles)
+        return np.where(triangle < whole, triangle, np.append(self.pieces.source, 0)[np.maximum(triangle - whole, 0)])
 
     @property
     def bounds(self) -> tuple[np.ndarray, float]:
@@ -56,29 +82,35 @@ class SceneAndMirrors:
         sphere = self.tree.spheres[0][:, 0]
         return sphere[:3], float(sphere[3])
 
-    def showing_mirrors(self, cameras: Cameras, most: int) -> np.ndarray:
+    def showing_mirrors(self, cameras: Cameras, most: int) -> tuple[np.ndarray, np.ndarray]:
         """Which faces of the map, by their number, may show a mirror in any of the cameras, those among them for which
-        more than `most` pairs of cameras and triangles would have to be looked at."""
-        camera, _, _, given_up = self.mirrors_in(cameras, most, np.ones(len(cameras)))
-        found = np.zeros(int(cameras.face.max(initial=-1)) + 1, dtype=bool)
-        found[cameras.face[camera]] = True
-        found[cameras.face[given_up]] = True
-        return found
+        more than `most` pairs of cameras and triangles would have to be looked at; and which may show more of one than
+        rises above them by the rounding of single precision."""
+        camera, triangle, _, given_up = self.mirrors_in(cameras, most, np.ones(len(cameras)))
+        risen = self._above(self._upper_sides(cameras), camera, triangle, RISEN)
+        found, plainly = (np.zeros(int(cameras.face.max(initial=-1)) + 1, dtype=bool) for _ in range(2))
+        for showing, chosen in ((found, camera), (plainly, camera[risen])):
+            showing[cameras.face[chosen]] = True
+            showing[cameras.face[given_up]] = True
+        return found, plainly
 
     def showing_scene(self, cameras: Cameras) -> np.ndarray:
         """Which cameras (n,) may show the diffuse scene."""
         centre, radius = self.bounds
         count = len(cameras)
-        return Cones.around(cameras).touch(np.arange(count), np.repeat(centre[:, None], count, axis=1),
-                                           np.full(count, radius))
+        found = Cones.around(cameras).touch(np.arange(count), np.repeat(centre[:, None], count, axis=1),
+                                            np.full(count, radius))
+        if self.pieces is not None:
+            on_patch = np.flatnonzero(self.pieces.holds(cameras))
+            found[on_patch] &= self.pieces.shown(cameras.select(on_patch))
+        return found
 
     def trace(self, cameras: Cameras, showing: np.ndarray, most: int,
               worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
         """Pairs of cameras and triangles that may be seen in them, how many tree nodes were visited for that, and which
         cameras (n,) were given up, by their `worth` (n,), since there would be more than `most` pairs; mirrors are
         looked for on the faces that `showing_mirrors` found."""
-        assert isinstance(self.tree, SceneTree)  # points have a trace of their own
-        camera, triangle, visited, given_up = bounded_trace(self.tree, Cones.around(cameras), most, worth)
+        camera, triangle, visited, given_up = self._diffuse_in(cameras, most, worth)
         chosen = np.flatnonzero(showing[cameras.face])
         mirror_camera, mirror_triangle, more, mirror_given_up = self.mirrors_in(cameras.select(chosen),
                                                                                  most, worth[chosen])
@@ -90,11 +122,56 @@ class SceneAndMirrors:
             camera, triangle = camera[kept], triangle[kept]
         return camera, triangle, visited + more, given_up
 
+    def _diffuse_in(self, cameras: Cameras, most: int,
+                    worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+        """Pairs of cameras and diffuse triangles that may be seen in them; tree nodes visited; what was given up."""
+        assert isinstance(self.tree, SceneTree)  # points have a trace of their own
+        pieces = self.pieces
+        if pieces is None:
+            return bounded_trace(self.tree, Cones.around(cameras), most, worth)
+        on_patch, pairs, visited = pieces.holds(cameras), [], 0
+        given_up = np.zeros(len(cameras), dtype=bool)
+        for tree, first, own in ((self.tree, 0, ~on_patch), (pieces.tree, len(self.tree.mesh.triangles), on_patch)):
+            chosen = np.flatnonzero(own)
+            camera, triangle, more, crowd = bounded_trace(tree, Cones.around(cameras.select(chosen)), most,
+                                                          worth[chosen])
+            pairs.append((chosen[camera], first + triangle))
+            given_up[chosen[crowd]] = True
+            visited += more
+        return *(np.concatenate(side) for side in zip(*pairs)), visited, given_up
+
+    @cached_property
+    def _outside(self) -> float:
+        """On which side of their triangles the mirrors bound one convex body from without: 1 on that of their normals,
+        -1 on the other; 0 where they do not, or not all round."""
+        heights = dot(self._beyond - self.surface.a[:, :, None], self.surface.face_normal[:, :, None])
+        room = RISEN * self.size
+        for side in (1.0, -1.0):
+            if (side * heights <= room).all():  # not where there is nothing beyond
+                break
+        else:
+            return 0.0
+        # a surface that winds about itself is convex everywhere but as a whole
+        corners = self.mirror_corners.reshape(3, -1)
+        turn = np.arange(DIRECTIONS) + 0.5
+        height, angle = 1.0 - 2.0 * turn / DIRECTIONS, np.pi * (1.0 + np.sqrt(5.0)) * turn
+        ring = np.sqrt(1.0 - height * height)
+        for direction in np.stack((ring * np.cos(angle), ring * np.sin(angle), height), axis=1):
+            farthest = corners[:, np.argmax(direction @ corners)]
+            if (side * dot(farthest[:, None] - self.surface.a, self.surface.face_normal) > room).any():
+                return 0.0
+        return side
+
     def mirrors_in(self, cameras: Cameras, most: int,
                     worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
         """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited; what was given up."""
         # which side of its triangle the rays of a camera leave is asked once
         sides = self._upper_sides(cameras)
+        if len(cameras) and self._outside and cameras.mirror_map.bounce == 1:
+            surface, face = cameras.mirror_map.last(cameras.face)
+            if (self._outside * dot(sides[1], surface.face_normal[:, face]) > 0.0).all():
+                none = np.zeros(0, dtype=np.int64)
+                return none, none, 0, np.zeros(len(cameras), dtype=bool)
         return bounded_trace(self.mirror_tree, Cones.around(cameras), most, worth,
                              lambda camera, triangle: self._above(sides, camera, triangle))
 
@@ -125,13 +202,15 @@ class SceneAndMirrors:
         normal = surface.face_normal[:, face]
         return surface.a[:, face], normal * np.sign(dot(cameras.rays[:, cameras.corners].sum(axis=2), normal))
 
-    def _above(self, sides: tuple[np.ndarray, np.ndarray], camera: np.ndarray, triangle: np.ndarray) -> np.ndarray:
-        """Whether triangles (p,) of the mirrors rise above the planes of the cameras (p,)."""
+    def _above(self, sides: tuple[np.ndarray, np.ndarray], camera: np.ndarray, triangle: np.ndarray,
+               least: float = ABOVE) -> np.ndarray:
+        """Whether triangles (p,) of mirrors rise above the planes of the cameras (p,), by more than the `least` part
+        of the mirrors' size."""
         base, normal = (np.take(side, camera, axis=1) for side in sides)
         found = np.zeros(len(camera), dtype=bool)
         for corner in range(3):
             offset = np.take(self.mirror_corners[:, :, corner], triangle, axis=1) - base
-            found |= dot(offset, normal) > ABOVE * self.size
+            found |= dot(offset, normal) > least * self.size
         return found
 
     def shows_mirror(self, frames: SceneFrames) -> np.ndarray:

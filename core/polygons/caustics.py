@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras
-from ..geometry import SceneFrames, cross, dot, norm, shared_edges
+from ..cameras import Cameras, may_fold
+from ..geometry import SceneFrames, shared_edges
 from ..support import breathe
 from .polygon_corners import Nodes
 from .triangulation import Faces
@@ -28,7 +28,7 @@ def split_at_caustics(cameras: Cameras, frames: SceneFrames, nodes: Nodes,
         How many edges were cut.
     """
     mirror_map = cameras.mirror_map
-    folding = np.flatnonzero(_may_fold(cameras)[faces.camera])
+    folding = np.flatnonzero(may_fold(cameras)[faces.camera])
     chosen = faces.select(folding)
     start, following = chosen.nodes.ravel(), np.roll(chosen.nodes, -1, axis=1).ravel()
     face, column = np.repeat(cameras.face[chosen.camera], 3), np.repeat(chosen.column, 3)
@@ -74,18 +74,3 @@ def _zero(mirror_map, frames, face, column, start, end) -> tuple[np.ndarray, np.
     origin, ray = mirror_map.leave(face, mirror_map.coordinates(face, place))
     s = np.maximum(frames.distance(column, origin, ray), 0.0)
     return place, origin + s * ray, s
-
-
-def _may_fold(cameras: Cameras) -> np.ndarray:
-    """Cameras whose rays may cross at some distance: the moved triangle's area across a corner's ray,
-    n0 + s n1 + s^2 n2, has coefficients of both signs."""
-    places, rays = cameras.origins[:, cameras.corners], cameras.rays[:, cameras.corners]
-    p, q = places[:, :, 1] - places[:, :, 0], places[:, :, 2] - places[:, :, 0]
-    r, t = rays[:, :, 1] - rays[:, :, 0], rays[:, :, 2] - rays[:, :, 0]
-    normals = cross(p, q), cross(p, t) + cross(r, q), cross(r, t)
-    coefficients = np.stack([dot(normal[:, :, None], rays) for normal in normals])
-    # curvature below rounding, as on flat mirrors, is none: places and rays may have different units
-    size, turn = norm(p) + norm(q), norm(r) + norm(t)
-    size, turn, length = size[:, None], turn[:, None], norm(rays)
-    noise = 1e-12 * length * np.stack((size * size + 0.0 * length, size * length, turn * length))
-    return (coefficients > noise).any(axis=(0, 2)) & (coefficients < -noise).any(axis=(0, 2))

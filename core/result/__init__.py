@@ -1,7 +1,7 @@
 """What comes out: the reflection mesh, its discs, where it is drawn, and in whose numbers it is told."""
 from .discs import Discs
 from .given_order import in_given_order
-from .placement import place
+from .placement import DEPTH, GAP, place
 from .reflection_mesh import ReflectionMesh
 
-__all__ = ["Discs", "ReflectionMesh", "in_given_order", "place"]
+__all__ = ["DEPTH", "Discs", "GAP", "ReflectionMesh", "in_given_order", "place"]

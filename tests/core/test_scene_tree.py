@@ -110,7 +110,7 @@ def test_zero_area_triangles_are_left_out():
     np.testing.assert_array_equal(tree.given.triangle[tree.order], [0])
 
 
-def test_leaves_are_medians_with_no_more_than_a_bucket_of_vertices():
+def test_leaves_hold_no_more_than_a_bucket_of_vertices():
     mesh, _ = case("large", "here")
     tree = SceneTree.build(mesh)
     # A triangle hangs at its first vertex, so that a leaf has no more triangles than vertices here.

@@ -1,0 +1,94 @@
+"""A grid over the picture that tells, for any box, whether something marked lies in it, by sums over its cells.
+
+F. C. Crow, "Summed-area tables for texture mapping", SIGGRAPH 1984.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry import ranges
+
+SIDE = 2.0  # pixels along a cell, where that does not make too many
+MOST = 1 << 21
+
+
+@dataclass(frozen=True)
+class PictureCells:
+    """Cells of which some are marked.
+
+    Attributes
+    ----------
+    low : (2,) float64
+        The corner of the grid, in pixels.
+    side : float
+        Pixels along a side of a cell.
+    before : (height + 1, width + 1) int64
+        How many marked cells lie before each row and column.
+    """
+
+    low: np.ndarray
+    side: float
+    before: np.ndarray
+
+    @classmethod
+    def empty(cls, low: np.ndarray, high: np.ndarray) -> PictureCells:
+        """A grid from `low` to `high` (2,) pixels."""
+        side = max(SIDE, float(np.sqrt(np.prod(high - low) / MOST)), float((high - low).max()) / MOST)
+        width, height = np.ceil((high - low) / side).astype(np.int64) + 1
+        return cls(low, side, np.zeros((height + 1, width + 1), dtype=np.int64))
+
+    def unmarked(self) -> PictureCells:
+        """The grid with no cell marked."""
+        return PictureCells(self.low, self.side, np.zeros_like(self.before))
+
+    @property
+    def high(self) -> np.ndarray:
+        """(2,): the opposite corner, in pixels."""
+        return self.low + self.side * self._size[:, 0]
+
+    @property
+    def _size(self) -> np.ndarray:
+        """(2, 1): width and height in cells."""
+        return np.subtract(self.before.shape, 1)[::-1, None]
+
+    def _cell(self, spots: np.ndarray) -> np.ndarray:
+        """Column and row (2, n) of spots (2, n), those outside as at the rim."""
+        with np.errstate(invalid="ignore"):
+            cell = np.floor((spots - self.low[:, None]) / self.side)
+        return np.clip(np.nan_to_num(cell), 0, self._size - 1).astype(np.int64)
+
+    def with_lines(self, start: np.ndarray, end: np.ndarray, room: float = 0.0) -> PictureCells:
+        """The grid with all cells marked that lie on lines (2, n) from `start` to `end`, beside such a cell, or within
+        `room` pixels of one."""
+        inside = np.isfinite(start + end).all(axis=0)
+        start, end = (np.clip(side[:, inside], (self.low - room)[:, None], (self.high + room)[:, None])
+                      for side in (start, end))
+        count = np.ceil(np.abs(end - start).max(axis=0) / (0.5 * self.side)).astype(np.int64) + 1
+        step, line = ranges(np.zeros(len(count), dtype=np.int64), count)
+        spots = start[:, line] + step / np.maximum(count - 1, 1)[line] * (end - start)[:, line]
+        return self.with_boxes(spots - self.side - room, spots + self.side + room)
+
+    def with_boxes(self, low: np.ndarray, high: np.ndarray) -> PictureCells:
+        """The grid with all cells marked that boxes from `low` to `high` (2, n) touch."""
+        (x0, y0), (x1, y1) = self._cell(low), self._cell(high) + 1
+        height, width = self.before.shape
+        change = np.zeros(height * width)
+        for x, y, sign in ((x0, y0, 1.0), (x1, y0, -1.0), (x0, y1, -1.0), (x1, y1, 1.0)):
+            change += sign * np.bincount(y * width + x, minlength=len(change))
+        marked = change.reshape(height, width).cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0.5
+        marked |= np.diff(np.diff(self.before, axis=0), axis=1) > 0
+        before = np.zeros_like(self.before)
+        before[1:, 1:] = marked.cumsum(axis=0).cumsum(axis=1)
+        return PictureCells(self.low, self.side, before)
+
+    def touched(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """Whether boxes from `low` to `high` (2, n) touch a marked cell, those outside of the grid one at its rim."""
+        (x0, y0), (x1, y1) = self._cell(low), self._cell(high) + 1
+        return self.before[y1, x1] - self.before[y0, x1] - self.before[y1, x0] + self.before[y0, x0] > 0
+
+    def holds(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """Whether boxes from `low` to `high` (2, n) lie in the grid whole."""
+        with np.errstate(invalid="ignore"):
+            return ((low > self.low[:, None]) & (high < self.high[:, None])).all(axis=0)
