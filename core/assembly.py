@@ -1,38 +1,80 @@
 """Assembly: nodes and faces of all bounces as the plain arrays of the result."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from .bounce import Bounce
 from .cameras import MirrorMap, brought_back, distance_from
 from .culling import SceneAndMirrors
 from .geometry import SceneFrames, doubled_areas, groups, norm, rows
+from .polygons import Faces
 from .result import ReflectionMesh, place
+from .whole_faces import Seamed
 
 BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
 OFF_MIRROR = 1e-6  # of the size of what is seen of it: how far from it a place may lie
 ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the caustic
 
 
-def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors, placement: str) -> ReflectionMesh:
+def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors, placement: str,
+             reach: float = 0.0, whole: Seamed | None = None) -> ReflectionMesh:
     """The faces as arrays, no two on the same nodes, without unused nodes, all turned to the eye."""
     parts, start = [], 0
     for number, bounce in enumerate(bounces, 1):
-        part = _arrays(mirror_map, bounce, met)
+        part, node = _arrays(mirror_map, bounce, met)
         part["bounces"] = np.full(len(part["triangles"]), number, dtype=np.int8)
         part["triangles"] = part["triangles"] + start
         start += len(part["path_length"])
         parts.append(part)
-    whole = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    whole["positions"] = place(mirror_map.view, whole["mirror_position"].T, whole["path_length"], placement).T
-    return ReflectionMesh(**whole)
+        if whole is not None and number == 1:
+            parts.append(_whole_arrays(mirror_map, whole, bounce, node, met))
+            start += len(parts[-1]["path_length"])
+    arrays = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    arrays["positions"] = place(mirror_map.view, arrays["mirror_position"].T, arrays["path_length"], placement, reach).T
+    return ReflectionMesh(**arrays)
 
 
-def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> dict:
+def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np.ndarray,
+                  met: SceneAndMirrors) -> dict:
+    """The whole faces of the first bounce, behind the vertices of its others, of which `node` (n,) names the nodes."""
+    count = len(whole.same)
+    places, points = (np.concatenate(both, axis=1) for both in ((whole.place, bounce.nodes.place),
+                                                                (whole.point, bounce.nodes.point)))
+    turned = doubled_areas(mirror_map.view.pixels(places.T)[whole.nodes]) < 0.0
+    nodes = np.where(turned[:, None], whole.nodes[:, [0, 2, 1]], whole.nodes)
+    # vertices that the faces of cameras have already
+    vertex_of = np.full(places.shape[1], -1)
+    vertex_of[count + node[::-1]] = np.arange(len(node))[::-1]
+    shared = np.flatnonzero(whole.same >= 0)
+    vertex_of[shared] = vertex_of[count + whole.same[shared]]
+    used = np.zeros(len(vertex_of), dtype=bool)
+    used[nodes.ravel()] = True
+    new = np.flatnonzero(used & (vertex_of < 0))
+    vertex_of[new] = len(node) + np.arange(len(new))
+    place, point = places[:, new], points[:, new]
+    weights = np.where(turned[:, None, None], np.eye(3)[[0, 2, 1]], np.eye(3))
+    part = np.flatnonzero(whole.split)
+    if len(part):
+        source, column = np.unique(whole.source[part], return_inverse=True)
+        frames = SceneFrames.of(met, source)
+        own = np.maximum(frames.weights(np.repeat(column.ravel(), 3), points[:, nodes[part].ravel()]), 0.0)
+        weights[part] = (own / own.sum(axis=0)).T.reshape(-1, 3, 3)
+    return {
+        "triangles": vertex_of[nodes], "reflected_position": point.T, "mirror_position": place.T,
+        "path_length": norm(point - place), "image_parity": np.ones(len(new), dtype=np.int8),
+        "source_face": whole.source, "source_weights": weights, "mirror_face": whole.mirror_face,
+        "bounces": np.ones(len(nodes), dtype=np.int8)}
+
+
+def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple[dict, np.ndarray]:
+    """The faces of a bounce, and the node that each vertex was."""
     frames, nodes, faces = bounce.frames, bounce.nodes, bounce.faces
     mirror_map = bounce.cameras.mirror_map
     # mirrors are seen by what they show
     faces = faces.select(~met.shows_mirror(frames)[faces.column])
+    frames, faces = _on_whole_triangles(frames, faces, met)
     # doubled triangles of the scene, and polygons that fold flat, give the same face twice
     once, _ = groups(*np.sort(faces.nodes, axis=1).T)
     faces = faces.select(np.sort(once))
@@ -63,7 +105,15 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> dict:
         "triangles": triangles, "reflected_position": point.T, "mirror_position": seen.T, "path_length": path,
         "image_parity": np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8),
         "source_face": frames.triangle[faces.column],
-        "source_weights": weights, "mirror_face": mirror_map.first(face)}
+        "source_weights": weights, "mirror_face": mirror_map.first(face)}, used
+
+
+def _on_whole_triangles(frames: SceneFrames, faces: Faces, met: SceneAndMirrors) -> tuple[SceneFrames, Faces]:
+    """The faces with columns for the triangles that their pieces lie in."""
+    if met.pieces is None:
+        return frames, faces
+    source, column = np.unique(met.sources(frames.triangle[faces.column]), return_inverse=True)
+    return SceneFrames.of(met, source), replace(faces, column=column.reshape(-1))
 
 
 def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, point: np.ndarray, frames: SceneFrames,

@@ -48,6 +48,11 @@ class Task:
     last: bool
     progress: Progress
 
+    def reach(self, cameras: Cameras) -> float:
+        """Length of the longest path from cameras to the diffuse scene, in scene units."""
+        centre, radius = self.met.bounds
+        return float(norm(cameras.origins - centre[:, None]).max(initial=0.0) + radius)
+
 
 @dataclass(frozen=True)
 class Bounce:
@@ -70,11 +75,10 @@ class Bounce:
     left: np.ndarray
 
 
-def bounced(cameras: Cameras, task: Task) -> Bounce:
-    """All that the cameras see."""
+def bounced(cameras: Cameras, task: Task, showing: np.ndarray) -> Bounce:
+    """All that the cameras see; faces of their map that may show a mirror are told by `showing`."""
     crowds = Crowds(task.met, task.limits)
     cameras = crowds.without_most(cameras)
-    showing = _faces_showing_mirrors(cameras, task)
     cameras = refined(cameras, task, None if task.last else showing)
     candidates = _culled(cameras, task, showing, crowds)
     images = _projected(candidates, task)
@@ -90,19 +94,20 @@ def refined(cameras: Cameras, task: Task, showing: np.ndarray | None) -> Cameras
     if showing is not None:
         seeing |= showing[cameras.face]
     cameras = cameras.select(seeing)
-    centre, radius = task.met.bounds
-    reach = float(norm(cameras.origins - centre[:, None]).max(initial=0.0) + radius)
-    cameras, limited = refine_mirror(cameras, MIRROR_SHARE * task.settings.tolerance, reach, task.limits.cameras)
+    cameras, limited = refine_mirror(cameras, MIRROR_SHARE * task.settings.tolerance, task.reach(cameras),
+                                     task.limits.cameras)
+    if task.last:
+        cameras = cameras.select(task.met.showing_scene(cameras))
     task.progress.done("cameras", limited=limited)
     return cameras
 
 
-def _faces_showing_mirrors(cameras: Cameras, task: Task) -> np.ndarray:
-    """Which faces of the map may show a mirror. To look twice for mirrors pays where few cameras see any: hardly after
-    a bounce."""
+def faces_showing_mirrors(cameras: Cameras, met: SceneAndMirrors, limits: Limits) -> tuple[np.ndarray, np.ndarray]:
+    """Which faces of the map may show a mirror, and which of them more than rounding. To look twice for mirrors pays
+    where few cameras see any: hardly after a bounce."""
     if cameras.mirror_map.bounce == 1:
-        return task.met.showing_mirrors(cameras, task.limits.pairs // 4)
-    return np.ones(int(cameras.face.max(initial=-1)) + 1, dtype=bool)
+        return met.showing_mirrors(cameras, limits.pairs // 4)
+    return (np.ones(int(cameras.face.max(initial=-1)) + 1, dtype=bool),) * 2
 
 
 def _culled(cameras: Cameras, task: Task, showing: np.ndarray, crowds: Crowds) -> Candidates:

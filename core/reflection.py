@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from .assembly import assemble
-from .bounce import Bounce, Task, bounced, refined
+from .bounce import Bounce, Task, bounced, faces_showing_mirrors, refined
 from .bounced_cameras import bounced_cameras
 from .cameras import (
     Cameras,
@@ -26,7 +26,9 @@ from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
 from .support import LARGEST, Progress, ReflectionError, Settings, in_steps
 from .visibility import cut_before_eye, without_hidden, without_occluded
+from .whole_faces import WholeFaces, seamed, whole_faces
 
+INSIDE_WHOLE = 1.1  # of whole faces, which are judged in their middles too
 INSIDE = 4.0 / 3.0  # a quadratic that is zero at a triangle's corners exceeds its values at the edges' middles by this
 
 
@@ -119,6 +121,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     progress.next(0.1, "cameras")
     mirror_map = MirrorMap(view, mirror, settings.method == "PARALLEL")
     cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
+    uncut = cameras.places.shape[1]
     cameras = cameras.select(in_picture(cameras))
     if not len(cameras):
         raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
@@ -135,26 +138,55 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
         mesh = reflected_points(cameras, tree, met, settings.placement, progress)
         progress.done("points", **mesh.counts)
         return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds)
-    bounces = _bounces(cameras, met, settings, limits, progress)
+    task = Task(met, settings, limits, settings.depth == 1, progress)
+    showing, plainly = faces_showing_mirrors(cameras, met, limits)
+    whole, task = (None, task) if overlaid else _whole_first(cameras, uncut, task, plainly)
+    bounces, seams = _bounces(cameras, task, showing), None
+    if whole is not None and task.met.pieces is not None:
+        seams, nodes = seamed(whole, bounces[0], task.met.pieces.on_patch)
+        bounces[0] = replace(bounces[0], nodes=nodes)
 
     progress.start, progress.share = 0.0, 1.0
     progress.next(0.95, "depth order")
-    mesh = in_given_order(assemble(mirror_map, bounces, met, settings.placement), tree.given, given)
+    # whole faces were told apart by where they would lie if this were the longest path
+    reach = 0.0 if whole is None else task.reach(cameras)
+    mesh = assemble(mirror_map, bounces, task.met, settings.placement, reach, seams)
+    mesh = in_given_order(mesh, tree.given, given)
     progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
-    probes, missed = missed_probes(view, mirror, mirror_map, met, mesh.mirror_position, mesh.triangles)
+    probes, missed = missed_probes(view, mirror, mirror_map, task.met, mesh.mirror_position, mesh.triangles)
     progress.done("probes", probes=probes, missed=missed)
     left = np.concatenate([bounce.left for bounce in bounces], axis=1)
-    return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=_estimate(*left))
+    error = max(_estimate(*left), 0.0 if whole is None else INSIDE_WHOLE * _over_length(*whole.straying))
+    return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=error)
 
 
-def _bounces(cameras: Cameras, met: SceneAndMirrors, settings: Settings, limits: Limits,
-             progress: Progress) -> list[Bounce]:
+def _whole_first(cameras: Cameras, uncut: int, task: Task,
+                 showing: np.ndarray) -> tuple[WholeFaces | None, Task]:
+    """The faces that a part of the mirror shows whole, drawn from the images of their vertices, and the task with what
+    is left; cameras that have not been cut have no corners behind the first `uncut`."""
+    settings, limits, tree = task.settings, task.limits, task.met.tree
+    if settings.method != "GENERAL" or settings.hidden_faces or not isinstance(tree, SceneTree):
+        return None, task
+    task.progress.next(0.15, "whole faces")
+    eligible = (cameras.corners < uncut).all(axis=1) & (np.bincount(cameras.face)[cameras.face] == 1)
+    whole = whole_faces(cameras, eligible & ~showing[cameras.face], tree, task.reach(cameras), settings, limits.pieces)
+    if whole is None:
+        return None, task
+    drawn = int(whole.drawn.sum())
+    task.progress.done("whole faces", whole=drawn, left=whole.left.sum(), pieces=len(whole.pieces),
+                       hidden=whole.hidden, limited=whole.limited)
+    return whole, replace(task, met=task.met.left_to(whole.scene_pieces()),
+                          limits=replace(limits, faces=max(limits.faces - drawn, 1)))
+
+
+def _bounces(cameras: Cameras, task: Task, showing: np.ndarray) -> list[Bounce]:
     """What is seen after one mirror, after two, and so on to the depth asked for, or until nothing is left to see."""
-    bounces = []
+    bounces: list[Bounce] = []
+    met, settings, limits, progress = task.met, task.settings, task.limits, task.progress
     for number in range(settings.depth):
         progress.start, progress.share = 0.15 + 0.8 * number / settings.depth, 0.8 / settings.depth
         last = number + 1 == settings.depth
-        bounces.append(bounced(cameras, Task(met, settings, limits, last, progress)))
+        bounces.append(bounced(cameras, replace(task, limits=limits, last=last), showing))
         if last:
             break
         cameras = bounced_cameras(bounces[-1], met)
@@ -167,6 +199,7 @@ def _bounces(cameras: Cameras, met: SceneAndMirrors, settings: Settings, limits:
         progress.done("cameras", bounced_cameras=len(cameras), unfollowed=max(found - limits.bounced, 0))
         if not len(cameras):
             break
+        showing, _ = faces_showing_mirrors(cameras, met, limits)
     return bounces
 
 
@@ -174,10 +207,14 @@ def _estimate(straying: np.ndarray, length: np.ndarray) -> float:
     """99th percentile of the displacement inside the faces, from what edges stray by halfway, on the safe side: that
     over the edges with what the inside may add, or that over the edges' length, where most edges are too short to be
     seen."""
+    return float(max(INSIDE * np.percentile(straying, 99), _over_length(straying, length)))
+
+
+def _over_length(straying: np.ndarray, length: np.ndarray) -> float:
+    """What 99 % of the length of all edges strays by at most."""
     order = np.argsort(straying)
     below = np.cumsum(length[order])
-    of_length = straying[order[min(np.searchsorted(below, 0.99 * below[-1]), len(order) - 1)]]
-    return float(max(INSIDE * np.percentile(straying, 99), of_length))
+    return straying[order[min(np.searchsorted(below, 0.99 * below[-1]), len(order) - 1)]] if len(order) else 0.0
 
 
 def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,

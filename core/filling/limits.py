@@ -11,7 +11,7 @@ from dataclasses import astuple, dataclass
 
 from ..support import Settings
 
-CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES = 1200, 160, 1100  # of the arrays that each takes at most at one time
+CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES, PIECE_BYTES = 1200, 160, 1100, 400  # of arrays, at most at one time
 LATER = 1.0 / 2.0  # of the limits of a bounce: those of the next
 
 
@@ -34,6 +34,8 @@ class Limits:
         Through crowded cameras.
     bounced : int
         Cameras that a bounce hands on to the next.
+    pieces : int
+        Of the scene's triangles, whole faces among them.
     """
 
     cameras: int
@@ -43,6 +45,7 @@ class Limits:
     faces: int
     rays: int
     bounced: int
+    pieces: int
 
     @classmethod
     def of(cls, settings: Settings, pixels: int, triangles: int) -> Limits:
@@ -53,7 +56,8 @@ class Limits:
                    int(min(100_000 + 8 * pixels + 4 * triangles, memory / CANDIDATE_BYTES, faces)),
                    int(50_000 + 10 * pixels + 8 * triangles),
                    int(min(200_000 + 32 * pixels + 16 * triangles, memory / FACE_BYTES, faces)),
-                   int(min(8000 + pixels, 250_000, faces)), int(min(8000 + pixels // 2, faces // 16)))
+                   int(min(8000 + pixels, 250_000, faces)), int(min(8000 + pixels // 2, faces // 16)),
+                   int(min(200_000 + 32 * pixels + triangles, memory / PIECE_BYTES)))
 
     def of_next_bounce(self) -> Limits:
         """Light that has met one mirror more shows less, each part of it smaller."""

@@ -3,6 +3,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from .checks import LARGEST, number, whole_number
 
 PLACEMENTS = ("LAYERED", "SURFACE", "VIRTUAL")
@@ -33,6 +35,9 @@ class Settings:
     maximum_memory : float
         Gigabytes of arrays. What would need more is worked out more coarsely or refused, and the result says so;
         infinite for no bound.
+    hidden_faces : bool
+        Also the faces that nearer ones hide whole, for scenes that let light through and for whoever takes objects
+        away; all of the geometry, at the price of work for what nobody sees.
 
     Raises
     ------
@@ -57,6 +62,7 @@ class Settings:
     depth: int = 1
     maximum_faces: int = 4_000_000
     maximum_memory: float = 2.0
+    hidden_faces: bool = False
 
     def __post_init__(self) -> None:
         tolerance, memory = number(self.tolerance), number(self.maximum_memory)
@@ -77,6 +83,9 @@ class Settings:
             raise ValueError("The maximum_faces must be a whole number of faces, at least 1.")
         if not memory > 0.0:
             raise ValueError("The maximum_memory must be a number of gigabytes greater than zero.")
+        if not isinstance(self.hidden_faces, (bool, np.bool_)):
+            raise ValueError("The hidden_faces must be True or False.")
         for name, value in (("tolerance", tolerance), ("placement", str(self.placement)), ("method", str(self.method)),
-                            ("depth", depth), ("maximum_faces", faces), ("maximum_memory", memory)):
+                            ("depth", depth), ("maximum_faces", faces), ("maximum_memory", memory),
+                            ("hidden_faces", bool(self.hidden_faces))):
             object.__setattr__(self, name, value)

@@ -90,6 +90,8 @@ SETTINGS = [
     *cases("depth", lambda given: Settings(method="POINTS", depth=given), of_points=2),
     *cases("maximum_faces", lambda given: Settings(maximum_faces=given), **NO_NUMBERS, zero=0, float=1e6, nan=NAN,
            inf=INF, endless=10 ** 400),
+    *cases("hidden_faces", lambda given: Settings(hidden_faces=given), none=None, one=1, text="no",
+           array=np.array([True, False])),
     *cases("maximum_memory", lambda given: Settings(maximum_memory=given), **NO_NUMBERS, zero=0, negative=-1.0,
            nan=NAN),
 ]

@@ -5,12 +5,14 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from core import ReflectionMesh, Settings, reflect
 from tests.inputs.scenes import SCENES, Scene
 from tests.oracles.truth import Truth, reflected_rays, trace
 
 PIXELS = 256
+SIDES = 8  # parts of a side between the places that tell where a triangle of the mirror lies
 
 
 @cache
@@ -107,8 +109,30 @@ class Corners:
     bent: np.ndarray
 
 
+def faces_at_corners(case: Scene, mesh: ReflectionMesh) -> np.ndarray:
+    """The mirror's triangle (3 m,) at each corner of the faces: the one that the face names, or, where it spans
+    several, the one that the corner lies on, of the nearest few the one that its place is least far from."""
+    face, place = np.repeat(mesh.mirror_face, 3), mesh.mirror_position[mesh.triangles.ravel()]
+    open_ = np.flatnonzero(face < 0)
+    if not len(open_):
+        return face
+    corners = case.mirror.positions[case.mirror.triangles]
+    # long triangles are near all over, not only round their middles
+    weights = np.array([(i, j, SIDES - i - j) for i in range(SIDES + 1) for j in range(SIDES + 1 - i)]) / SIDES
+    _, near = cKDTree(np.einsum("kc,mcx->mkx", weights, corners).reshape(-1, 3)).query(place[open_], k=24)
+    near //= len(weights)
+    a, u, v = corners[near, 0], corners[near, 1] - corners[near, 0], corners[near, 2] - corners[near, 0]
+    normal, away = np.cross(u, v), place[open_][:, None] - a
+    square = np.maximum((normal * normal).sum(axis=2), 1e-300)
+    b, c = ((np.cross(*sides) * normal).sum(axis=2) / square for sides in ((away, v), (u, away)))
+    height = np.abs((away * normal).sum(axis=2)) / np.sqrt(square)
+    beside = np.maximum(-np.minimum(np.minimum(b, c), 1.0 - b - c), 0.0) * np.sqrt(np.sqrt(square))
+    face[open_] = np.take_along_axis(near, (height + beside).argmin(axis=1)[:, None], axis=1)[:, 0]
+    return face
+
+
 def corners_on_true_map(case: Scene, mesh: ReflectionMesh) -> Corners:
-    face, vertex, size = np.repeat(mesh.mirror_face, 3), mesh.triangles.ravel(), size_of(case)
+    face, vertex, size = faces_at_corners(case, mesh), mesh.triangles.ravel(), size_of(case)
     place, point = mesh.mirror_position[vertex], mesh.reflected_position[vertex]
     found, ray, weights, bent = true_rays(case.mirror, face, *view_rays(case.view, place))
     along = ((point - place) * ray).sum(axis=1)

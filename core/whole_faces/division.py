@@ -1,0 +1,169 @@
+"""Division: pieces are split until they are whole faces, straight enough, or too small to bother.
+
+Edges of the scene have bent images: those whose middle strays from the chord get a node there. Triangles over the
+border of the patch are diced, so that what is left for cameras is small. What is decided of an edge holds for both its
+sides.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..support import breathe
+from .images import Images
+from .patch import Patch
+from .pieces import Pieces, turned, whole
+from .sinking import Sinking, sides
+
+LEVELS = 10
+DICED = 48.0  # pixels: longer edges of triangles over the border are split
+OUTLINE = 0.25  # of the tolerance: what outlines may stray, which are seen at both their sides, and in one line
+DEEP = 6.0  # pixels: shorter edges that sink too deep are left to cameras
+SHORTEST = 0.25  # pixels: an edge that is not longer cannot stray by what anybody sees
+DOUBT = 0.5  # of the tolerance: what straying is guessed to be from which on the middle is looked for
+
+
+@dataclass(frozen=True)
+class Division:
+    """How pieces are split.
+
+    Attributes
+    ----------
+    patch : Patch
+    tolerance : float
+        Pixels that edges inside a surface may stray.
+    sinking : Sinking
+    virtual : bool
+        Faces are drawn at the virtual image's depth.
+    most : int
+        Pieces that there may be.
+    """
+
+    patch: Patch
+    tolerance: float
+    sinking: Sinking
+    virtual: bool
+    most: int
+
+    def depths(self, images: Images, node: np.ndarray) -> np.ndarray:
+        """How deep nodes (n,) lie before the eye's plane: edges are straight in space, not evenly so in the picture."""
+        if self.patch.mirror_map.orthographic:
+            return np.ones(len(node))
+        place = images.place[:, node] * ((1.0 + images.distance[node]) if self.virtual else 1.0)
+        return np.maximum(self.patch.view.depths((place + self.patch.eye).T), 1e-300)
+
+    def divided(self, images: Images, pieces: Pieces) -> tuple[Images, Pieces, np.ndarray, int]:
+        """Images of more nodes, the pieces; by how many pixels, and over how many, (2, e), their edges stray; and how
+        many edges were not split since there would be too many pieces."""
+        finished, left, limited = [], [np.zeros((2, 0))], 0
+        for _ in range(LEVELS):
+            breathe()
+            # short edges and such as leave the patch beside whole faces are what they are
+            asked = self._asked(images, pieces)
+            some = asked[0] | asked[1] | asked[2]
+            finished.append(pieces.select(~some))
+            pieces, asked = pieces.select(some), asked[:, some]
+            if not len(pieces):
+                continue
+            side, face = np.nonzero(asked)
+            one, other = pieces.nodes[side, face], pieces.nodes[(side + 1) % 3, face]
+            count = len(images)
+            keys, edge = np.unique(np.minimum(one, other) * count + np.maximum(one, other), return_inverse=True)
+            over = np.zeros(len(keys), dtype=bool)
+            over[edge[~whole(self.patch, images, pieces)[face]]] = True
+            outline = _outlines(images, pieces, face, edge, len(keys))
+            ends = keys // count, keys % count
+            images = images.moved(self.patch, *ends)
+            marked, lost, straying, middles = self._judged(images, *ends, over, outline)
+            left.append(straying)
+            if sum(map(len, finished)) + len(pieces) + 2 * len(middles) > self.most:
+                limited = len(middles)
+                finished.append(pieces)
+                break
+            new = np.full(len(keys), -1)
+            new[marked] = count + np.arange(len(middles))
+            images = images.joined(middles)
+            middle = np.full(pieces.nodes.shape, -1)
+            middle[side, face] = new[edge]
+            pieces.lost[side, face] |= lost[edge]
+            pieces.done[side, face] = True
+            divided = middle.max(axis=0) >= 0
+            finished.append(pieces.select(~divided))
+            pieces = pieces.select(divided).split(middle[:, divided])
+        else:
+            finished.append(pieces)
+        return images, Pieces.joined(finished), np.concatenate(left, axis=1), limited
+
+    def strays_inside(self, images: Images, nodes: np.ndarray) -> np.ndarray:
+        """Which faces (3, f) stray in their middles by more than the tolerance: those over several triangles of the
+        mirror, where the map has kinks, of which their edges tell little."""
+        members = images.member[nodes]
+        chosen = np.flatnonzero((members[0] != members[1]) | (members[1] != members[2]))
+        corners = nodes[:, chosen]
+        images = images.moved(self.patch, *corners)
+        bent = np.zeros(len(chosen))
+        for a, b in sides(corners):
+            bent = np.maximum(bent, self._seems(images, a, b)[0])
+        asked = bent > DOUBT * self.tolerance
+        chosen, corners = chosen[asked], corners[:, asked]
+        depth = np.stack([self.depths(images, corner) for corner in corners])
+        drawn = (images.pixel[:, corners] * depth).sum(axis=1) / depth.sum(axis=0)
+        middles = images.around(self.patch, corners)
+        found = np.zeros(nodes.shape[1], dtype=bool)
+        found[chosen] = ~middles.found | (np.hypot(*(middles.pixel - drawn)) > self.tolerance)
+        return found
+
+    def _seems(self, images: Images, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, ...]:
+        """By how many pixels edges (e,) from a to b seem to stray from their chords; the chords, how far the image at a
+        moves, (2, e) each, and which share of the chord lies before its middle."""
+        along = images.point[:, b] - images.point[:, a]
+        chord = images.pixel[:, b] - images.pixel[:, a]
+        moved, back = ((images.moving[:, :, end] * along).sum(axis=1) for end in (a, b))
+        near, far = (self.depths(images, end) for end in (a, b))
+        # a cubic through both ends strays from its chord by a quarter of what it turns away from it at an end
+        straying = 0.25 * np.maximum(np.hypot(*(moved - far / near * chord)), np.hypot(*(back - near / far * chord)))
+        return straying, chord, moved, far / (near + far)
+
+    def _asked(self, images: Images, pieces: Pieces) -> np.ndarray:
+        """Edges (3, f) that may have to be split."""
+        found, spots = images.found[pieces.nodes], images.pixel[:, pieces.nodes]
+        some, asked = found[0] | found[1] | found[2], np.empty(found.shape, dtype=bool)
+        for k in range(3):
+            there = (k + 1) % 3
+            both = found[k] & found[there]
+            away = np.maximum(*np.abs(spots[:, k] - spots[:, there]))
+            asked[k] = (both & (away > 2.0 * OUTLINE * self.tolerance)) | (some & (found[k] != found[there]))
+        return asked & ~pieces.done
+
+    def _judged(self, images: Images, a: np.ndarray, b: np.ndarray, over: np.ndarray,
+                outline: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, Images]:
+        """Which edges (e,) from a to b are to be split; whose middles have no image; what those stray by that stay,
+        over which lengths; images of the middles of those that are split."""
+        tolerance = np.where(outline, OUTLINE, 1.0) * self.tolerance
+        a, b = np.where(images.found[a], (a, b), (b, a))
+        both = images.found[b]
+        straying, chord, moved, share = self._seems(images, a, b)
+        length = np.hypot(*np.where(both, chord, moved))
+        diced = over & (length > DICED)
+        sunk = both & (length > DEEP) & self.sinking.too_deep(self.patch, images, a, b)
+        asked = np.flatnonzero(diced | sunk | (both & (length > SHORTEST) & (straying > DOUBT * tolerance)))
+        middles = images.between(self.patch, a[asked], b[asked])
+        halfway = images.pixel[:, a[asked]] + share[asked] * chord[:, asked]
+        found = middles.found & both[asked]
+        straying[asked] = np.where(found, np.hypot(*(middles.pixel - halfway)), np.inf)
+        marked = diced | sunk
+        marked[asked] |= found & (straying[asked] > tolerance[asked])
+        lost = np.zeros(len(a), dtype=bool)
+        lost[asked] = both[asked] & ~found
+        marked &= ~lost | diced
+        stay = both & ~marked & ~lost
+        return marked, lost, np.stack((straying[stay], length[stay])), middles.select(marked[asked])
+
+
+def _outlines(images: Images, pieces: Pieces, face: np.ndarray, edge: np.ndarray, count: int) -> np.ndarray:
+    """Which of so many edges are outlines, given the face and the edge of each side (k,) of a piece: those at which the
+    surface ends, or turns over in the picture."""
+    found = images.found[pieces.nodes]
+    turn = np.where(found[0] & found[1] & found[2], np.sign(turned(images.pixel[:, pieces.nodes])), 0.0)[face]
+    return (np.bincount(edge, minlength=count) != 2) | (np.abs(np.bincount(edge, turn, minlength=count)) != 2.0)

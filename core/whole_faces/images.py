@@ -1,0 +1,84 @@
+"""Nodes of the whole faces: points of the scene with their images on the patch."""
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from .patch import Patch
+from .walk import Starts, find, jacobians
+
+
+@dataclass(frozen=True)
+class Images:
+    """Points (n) and their images, one each at the most.
+
+    Attributes
+    ----------
+    point : (3, n) float64, from the eye
+    member : (n,) int64, the triangle of the patch
+    uv : (2, n) float64
+    distance : (n,) float64, s
+    found : (n,) bool, whether there is an image; nothing that follows means anything where there is none
+    place : (3, n) float64, from the eye
+    pixel : (2, n) float64
+    moving : (2, 3, n) float64, pixels by which the image moves where its point moves, of those asked for by `moved`
+    """
+
+    point: np.ndarray
+    member: np.ndarray
+    uv: np.ndarray
+    distance: np.ndarray
+    found: np.ndarray
+    place: np.ndarray
+    pixel: np.ndarray
+    moving: np.ndarray
+
+    @classmethod
+    def of(cls, patch: Patch, points: np.ndarray) -> Images:
+        """Images of points (3, n) from the eye, looked for by their directions."""
+        return cls.near(patch, points, *Starts.of(patch).near(points))
+
+    @classmethod
+    def near(cls, patch: Patch, points: np.ndarray, member: np.ndarray, uv: np.ndarray, s: np.ndarray) -> Images:
+        """Images of points (3, n) from the eye, looked for from starts."""
+        member, uv, s, found = find(patch, member, uv, s, points)
+        place = patch.places(member, uv)
+        pixel = patch.pixels(place)
+        found &= np.isfinite(pixel).all(axis=0)
+        return cls(points, member, uv, s, found, place, pixel, np.full((2, 3, len(s)), np.nan))
+
+    def __len__(self) -> int:
+        return len(self.member)
+
+    def select(self, chosen: np.ndarray) -> Images:
+        return Images(*(getattr(self, field.name)[..., chosen] for field in fields(Images)))
+
+    def joined(self, other: Images) -> Images:
+        return Images(*(np.concatenate((getattr(self, field.name), getattr(other, field.name)), axis=-1)
+                        for field in fields(Images)))
+
+    def moved(self, patch: Patch, *nodes: np.ndarray) -> Images:
+        """The same, of which it is known for all these nodes how their images move."""
+        asked = np.zeros(len(self), dtype=bool)
+        for some in nodes:
+            asked[some] = True
+        asked &= self.found & np.isnan(self.moving[0, 0])
+        chosen = np.flatnonzero(asked)
+        self.moving[:, :, chosen] = jacobians(patch, self.member[chosen], self.uv[:, chosen], self.distance[chosen])
+        return self
+
+    def between(self, patch: Patch, a: np.ndarray, b: np.ndarray) -> Images:
+        """Images of the middles between points a and b (e,), looked for between their images."""
+        member = self.member[a]
+        start = patch.coordinates(member, 0.5 * (self.place[:, a] + self.place[:, b]))
+        lone = ~self.found[b]
+        start = np.where(lone, self.uv[:, a], np.clip(start, -1.0, 2.0))
+        s = np.where(lone, self.distance[a], 0.5 * (self.distance[a] + self.distance[b]))
+        return Images.near(patch, 0.5 * (self.point[:, a] + self.point[:, b]), member, start, s)
+
+    def around(self, patch: Patch, nodes: np.ndarray) -> Images:
+        """Images of the middles of faces (3, f)."""
+        member = self.member[nodes[0]]
+        start = np.clip(patch.coordinates(member, self.place[:, nodes].mean(axis=1)), -1.0, 2.0)
+        return Images.near(patch, self.point[:, nodes].mean(axis=1), member, start, self.distance[nodes].mean(axis=0))

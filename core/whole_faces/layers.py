@@ -1,0 +1,105 @@
+"""What lies over what: which whole faces nearer ones hide, and which are seen in order."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry import rows
+from ..result import DEPTH, GAP
+from .coverage import Covered, Grid, least_around
+from .images import Images
+from .patch import Patch
+from .sinking import Sinking
+
+INSIDE = 4.0 / 3.0  # what the inside of a triangle sinks by, to the most that its edges do
+APART = 1e-6  # of the nearness: what lies closer before a face does not hide it
+
+
+@dataclass(frozen=True)
+class Layers:
+    """What of whole faces is seen, and in which order."""
+
+    patch: Patch
+    images: Images
+    sinking: Sinking
+
+    def hidden_and_close(self, nodes: np.ndarray, solid: np.ndarray,
+                         near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Which of the faces (3, f) nearer ones that are `solid` (f,) hide whole; and which of the others lie over one
+        another, or behind triangles of the scene with corners `near` (3, 3, t), so closely that what is seen could
+        change when they sink or slide."""
+        sinking = self.sinking
+        grid, corners, order = self._given(nodes)
+        covered = Covered.of(corners, order, grid.size, False)
+        hidden, pixels = self._hidden(solid, covered, (corners, order, grid.size)), grid.size[0] * grid.size[1]
+        close = np.zeros(nodes.shape[1], dtype=bool)
+        if sinking.layered:
+            left = ~hidden[covered.face]
+            face, pixel, order_there = covered.face[left], covered.pixel[left], covered.order[left]
+            close[self._close(nodes, face, pixel, order_there, pixels)] = True
+            close[self._behind_contacts(nodes, face, pixel, grid, near)] = True
+        return hidden, close
+
+    def hidden(self, nodes: np.ndarray) -> np.ndarray:
+        """Which of the faces (3, f), all of them solid, nearer ones hide whole."""
+        grid, corners, order = self._given(nodes)
+        covered = Covered.of(corners, order, grid.size, False)
+        return self._hidden(np.ones(nodes.shape[1], dtype=bool), covered, (corners, order, grid.size))
+
+    def _given(self, nodes: np.ndarray) -> tuple[Grid, np.ndarray, np.ndarray]:
+        """The grid, and on it the corners (2, 3, f) of faces (3, f); and how near these come to the eye."""
+        grid = Grid.over(self.patch)
+        return grid, grid.spots(self.images.pixel[:, nodes]), self.sinking.order(self.patch, self.images)[nodes]
+
+    def _hidden(self, solid: np.ndarray, covered: Covered, given: tuple) -> np.ndarray:
+        """Which faces (f,) those that are `solid` hide; `given` are their corners, their order and the grid's size."""
+        corners, order, size = given
+        front, own = np.full(size[0] * size[1], -1.0), solid[covered.face]
+        np.maximum.at(front, covered.pixel[own], covered.order[own])
+        shown = np.zeros(len(solid), dtype=bool)
+        shown[covered.face[covered.order >= front[covered.pixel]]] = True
+        # what is seen in no pixel's middle may be seen beside it
+        doubtful = np.flatnonzero(~shown)
+        touched = Covered.of(corners[:, :, doubtful], order[:, doubtful], size, True)
+        around = least_around(front.reshape(size[::-1])).ravel()
+        inside = np.bincount(touched.face, minlength=len(doubtful)) > 0
+        shown[doubtful[~inside]] = True
+        shown[doubtful[touched.face[touched.order * (1.0 + APART) >= around[touched.pixel]]]] = True
+        return ~shown & solid
+
+    def _close(self, nodes, face, pixel, near, pixels: int) -> np.ndarray:
+        """Faces that lie before others by less than they sink, given the faces at samples."""
+        first, second = np.full(pixels, -1.0), np.full(pixels, -1.0)
+        np.maximum.at(first, pixel, near)
+        ahead = near >= first[pixel]
+        np.maximum.at(second, pixel[~ahead], near[~ahead])
+        # what lies behind may sink
+        ahead &= second[pixel] >= 0.0
+        face, pixel = face[ahead], pixel[ahead]
+        over, column = np.unique(face, return_inverse=True)
+        sagitta = INSIDE * self.sinking.deepest(self.patch, self.images, nodes[:, over])
+        return face[DEPTH * (first - second)[pixel] <= sagitta[column.reshape(-1)]]
+
+    def _behind_contacts(self, nodes, face, pixel, grid: Grid, near: np.ndarray) -> np.ndarray:
+        """Faces that the scene hides from the eye from so near that they would slide through it."""
+        patch = self.patch
+        depth = patch.view.depths(near.reshape(3, -1).T).reshape(near.shape[1:])
+        ahead = (depth > 0.0).all(axis=0)
+        near, depth = near[:, :, ahead], depth[:, ahead]
+        if not depth.size:
+            return face[:0]
+        spots = grid.spots(rows(patch.view.pixels(near.reshape(3, -1).T)).reshape(2, *depth.shape))
+        nearness = -depth if patch.mirror_map.orthographic else 1.0 / depth
+        scene = Covered.of(spots, nearness, grid.size, True)
+        front = np.full(grid.size[0] * grid.size[1], -np.inf)
+        np.maximum.at(front, scene.pixel, scene.order)
+        some = np.isfinite(front[pixel])
+        face, pixel = face[some], pixel[some]
+        over, column = np.unique(face, return_inverse=True)
+        depth = patch.view.depths((self.images.place[:, nodes[:, over].ravel()] + patch.eye).T).reshape(3, -1)
+        slid = (GAP + DEPTH) * (self.sinking.size if patch.mirror_map.orthographic else depth.max(axis=0))
+        lowest, highest = depth.min(axis=0) - 2.0 * slid, depth.max(axis=0)
+        lowest, highest = (-end if patch.mirror_map.orthographic else 1.0 / end for end in (lowest, highest))
+        column = column.reshape(-1)
+        return face[(front[pixel] >= highest[column]) & (front[pixel] <= lowest[column])]

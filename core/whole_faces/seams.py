@@ -1,0 +1,161 @@
+"""Seams: where whole faces lie beside faces that cameras have cut, both get the same nodes.
+
+What a camera shows of a triangle has a node wherever the image of an edge crosses a side of the mirror. A whole face on
+the other side of that edge would leave a crack of as much as its chord strays: it takes all these nodes into its edge.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from ..cameras import Cameras
+from ..geometry import SceneFrames, ranges
+from ..polygons import Faces, Nodes
+from .images import Images
+from .whole import WholeFaces
+
+ON_EDGE = 1e-6  # of a triangle: a node so near its edge lies on it, and one so near an end is the end
+SAME_IMAGE = 0.05  # pixels: ends that are farther apart are two images
+
+
+@dataclass(frozen=True)
+class Seamed:
+    """Whole faces (f) with the nodes of their neighbours.
+
+    Attributes
+    ----------
+    place, point : (3, n) float64
+        Of the faces' own nodes, in world space.
+    same : (n,) int64, the node of the cameras' faces that each of them is, or -1
+    nodes : (f, 3) int64
+        Own nodes, and numbered behind them the nodes of the cameras' faces.
+    source : (f,) int64, the scene's triangle that each lies in
+    split : (f,) bool, whether it is a part of that triangle only
+    mirror_face : (f,) int64, the mirror's triangle that each lies on, -1 where these are several
+    """
+
+    place: np.ndarray
+    point: np.ndarray
+    same: np.ndarray
+    nodes: np.ndarray
+    source: np.ndarray
+    split: np.ndarray
+    mirror_face: np.ndarray
+
+
+class CutFaces(Protocol):
+    """Faces that cameras have cut."""
+
+    @property
+    def cameras(self) -> Cameras: ...
+
+    @property
+    def frames(self) -> SceneFrames: ...
+
+    @property
+    def nodes(self) -> Nodes: ...
+
+    @property
+    def faces(self) -> Faces: ...
+
+
+def seamed(whole: WholeFaces, cut: CutFaces, on_patch: np.ndarray) -> tuple[Seamed, Nodes]:
+    """The whole faces that are drawn beside the faces that cameras have `cut`, some of these `on_patch` (m,), the
+    mirror's triangles that both are seen on; and the nodes of the latter with the ends that both share in one place."""
+    nodes = cut.nodes
+    images, drawn, left = whole.images, whole.pieces.select(whole.drawn), whole.pieces.select(whole.left)
+    count = len(images)
+    nodes_of = drawn.nodes.T
+    keys, own = _edges(nodes_of, count)
+    seam = np.intersect1d(keys, _edges(left.nodes.T, count)[0])
+    key, node, share = _on_edges(cut, on_patch, seam, count)
+    same = np.full(count, -1)
+    view, eye = whole.patch.view, whole.patch.eye
+    for end, near in ((key // count, share < ON_EDGE), (key % count, share > 1.0 - ON_EDGE)):
+        image, own_node = end[near], node[near]
+        away = np.linalg.norm(view.pixels(nodes.place[:, own_node].T).T - images.pixel[:, image], axis=0)
+        same[image[away < SAME_IMAGE]] = own_node[away < SAME_IMAGE]
+    met = np.flatnonzero(same >= 0)
+    place, point, distance = nodes.place.copy(), nodes.point.copy(), nodes.distance.copy()
+    place[:, same[met]], point[:, same[met]] = images.place[:, met] + eye, images.point[:, met] + eye
+    distance[same[met]] = images.distance[met]
+    inside = (share >= ON_EDGE) & (share <= 1.0 - ON_EDGE)
+    order = np.lexsort((share[inside], key[inside]))
+    key, node = key[inside][order], node[inside][order]
+    split = np.bincount(whole.pieces.source)[drawn.source] > 1
+    images, corners, face = _with_nodes(whole, images, nodes_of, own, key, node)
+    member = images.member[np.minimum(corners, len(images) - 1)]
+    alone = (member == member[:, :1]).all(axis=1) & (corners < len(images)).all(axis=1)
+    same = np.concatenate((same, np.full(len(images) - count, -1)))
+    return Seamed(images.place + eye, images.point + eye, same, corners, drawn.source[face],
+                  split[face] | (np.bincount(face)[face] > 1),
+                  np.where(alone, whole.patch.face[member[:, 0]], -1)), Nodes(place, point, distance)
+
+
+def _edges(nodes: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers of the edges of faces (f, 3), one face behind another, and of the edges 01, 12, 20 of each face."""
+    following = np.roll(nodes, -1, axis=1)
+    own = np.minimum(nodes, following) * count + np.maximum(nodes, following)
+    return own.ravel(), own
+
+
+def _on_edges(cut: CutFaces, on_patch: np.ndarray, seam: np.ndarray,
+              count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The nodes of the cameras' faces that lie on edges of the `seam`: the edge, the node, and its share of the way
+    along it."""
+    frames, nodes, faces = cut.frames, cut.nodes, cut.faces
+    face, side = np.nonzero(faces.on_scene_edge & on_patch[cut.cameras.face[faces.camera]][:, None])
+    ends = np.stack((faces.nodes[face, side], faces.nodes[face, (side + 1) % 3]))
+    column, row = faces.column[face], np.arange(len(face))
+    weights = [frames.weights(column, nodes.point[:, end]) for end in ends]
+    off = np.maximum(*np.abs(weights))
+    third = off.argmin(axis=0)
+    vertices = frames.vertices[:, column]
+    one, other = vertices[(third + 1) % 3, row], vertices[(third + 2) % 3, row]
+    low, high = np.minimum(one, other), np.maximum(one, other)
+    key = np.where((high < count) & (off[third, row] < ON_EDGE), low * count + high, -1)
+    at = np.minimum(np.searchsorted(seam, key), max(len(seam) - 1, 0))
+    kept = np.flatnonzero(seam[at] == key) if len(seam) else np.zeros(0, dtype=np.int64)
+    toward = np.where(one > other, (third + 1) % 3, (third + 2) % 3)
+    found = [(key[kept], end[kept], weight[toward[kept], kept]) for end, weight in zip(ends, weights)]
+    key, node, share = (np.concatenate(part) for part in zip(*found))
+    order = np.lexsort((node, key))
+    new = np.ones(len(order), dtype=bool)
+    new[1:] = (np.diff(key[order]) != 0) | (np.diff(node[order]) != 0)
+    order = order[new]
+    return key[order], node[order], share[order]
+
+
+def _with_nodes(whole: WholeFaces, images: Images, nodes: np.ndarray, own: np.ndarray, key: np.ndarray,
+                node: np.ndarray) -> tuple[Images, np.ndarray, np.ndarray]:
+    """The faces (f, 3), those with further nodes on edges as fans round their middles, whose images are new; the nodes
+    of all, and the face that each is a part of. Nodes come along each edge (k,) from its lower end to its higher."""
+    count = len(images)
+    start, stop = (np.searchsorted(key, own, side) for side in ("left", "right"))
+    more = stop - start
+    chosen = np.flatnonzero(more.any(axis=1))
+    rest = np.flatnonzero(~more.any(axis=1))
+    if not len(chosen):
+        return images, nodes[rest], rest
+    middles = _middles(whole, images, nodes[chosen])
+    # the corners of each ring: along each edge its first end, and the nodes on it
+    start, more, corners = start[chosen].ravel(), more[chosen].ravel(), nodes[chosen]
+    back = (corners > np.roll(corners, -1, axis=1)).ravel()
+    step, edge = ranges(np.zeros(len(more), dtype=np.int64), more + 1)
+    at = np.where(back[edge], start[edge] + more[edge] - step, start[edge] + step - 1)
+    ring = np.where(step == 0, corners.ravel()[edge], count + len(middles) + node[np.minimum(at, len(node) - 1)])
+    fan = edge // 3
+    following = np.append(ring[1:], ring[:1])
+    first = np.append(0, np.flatnonzero(np.diff(fan)) + 1)
+    following[np.append(first[1:], len(fan)) - 1] = ring[first]
+    return images.joined(middles), np.concatenate((
+        nodes[rest], np.stack((ring, following, count + fan), axis=1))), np.concatenate((rest, chosen[fan]))
+
+
+def _middles(whole: WholeFaces, images: Images, nodes: np.ndarray) -> Images:
+    """Images of the middles of faces (f, 3)."""
+    found = images.around(whole.patch, nodes.T)
+    return replace(found, place=np.where(found.found, found.place, images.place[:, nodes].mean(axis=2)),
+                   distance=np.where(found.found, found.distance, images.distance[nodes].mean(axis=1)))

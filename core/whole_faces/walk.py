@@ -1,0 +1,171 @@
+"""Images of points on a patch: Newton's method on the true map, with a walk over the mirror's triangles.
+
+An image is a root of Q(u, v) + s R(u, v) = P; on a patch there is one at the most, and any start that leads to it will
+do. Starts come from a table of the directions in which the patch reflects, a cube map (N. Greene, "Environment Mapping
+and Other Applications of World Projections", IEEE CG&A 1986), asked again from the place that it answers.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry import cross, dot, norm
+from ..support import breathe
+from .patch import Patch
+
+SIDE = 48  # cells along a side of the cube map
+ASKED = 3  # times, each from the place of the last answer
+AT_ONCE = 8192  # points: what their arrays take fits the cache
+STEPS, WALKS = 2, 40  # of Newton's method between looks at where it is; of such looks
+ARRIVED = 1e-7  # of a mirror triangle: the step after which the next is rounding
+LONGEST = 1.5  # mirror triangles: no step goes further
+INSIDE = 1e-6  # of a triangle: rounding
+
+
+@dataclass(frozen=True)
+class Starts:
+    """The place of the patch whose reflected direction is nearest.
+
+    Attributes
+    ----------
+    patch : Patch
+    member : (n,) int64, triangles of the patch
+    place : (3, n) float64, from the eye
+    middle : (3, 1) float64
+    table : (6 * SIDE * SIDE,) int64
+    """
+
+    patch: Patch
+    member: np.ndarray
+    place: np.ndarray
+    middle: np.ndarray
+    table: np.ndarray
+
+    @classmethod
+    def of(cls, patch: Patch) -> Starts:
+        member = np.repeat(np.arange(len(patch)), 4)
+        uv = np.tile(np.array([[1 / 3, 0.2, 0.6, 0.2], [1 / 3, 0.2, 0.2, 0.6]]), (1, len(patch)))
+        place, ray = patch.leaving(member, uv)
+        table = np.full(6 * SIDE * SIDE, -1)
+        table[_cell(ray)] = np.arange(len(member))
+        table = table.reshape(6, SIDE, SIDE)
+        for _ in range(2 * SIDE):
+            if (table >= 0).all():
+                break
+            for axis, step in ((1, 1), (1, -1), (2, 1), (2, -1)):
+                table = np.where(table < 0, np.roll(table, step, axis=axis), table)
+        return cls(patch, member, place, place.mean(axis=1, keepdims=True), np.maximum(table, 0).ravel())
+
+    def near(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Triangle, (u, v) and s from which to look for the images of points (3, n) from the eye."""
+        found = self.table[_cell(points - self.middle)]
+        for _ in range(ASKED - 1):
+            found = self.table[_cell(points - self.place[:, found])]
+        place = self.place[:, found]
+        way = norm(self.patch.arriving(place))
+        return self.member[found], np.full((2, len(found)), 1 / 3), norm(points - place) / way
+
+
+def _cell(direction: np.ndarray) -> np.ndarray:
+    """The cell of the cube map that each direction (3, n) lies in."""
+    axis, row = np.abs(direction).argmax(axis=0), np.arange(direction.shape[1])
+    along = direction[axis, row]
+    size = np.maximum(np.abs(along), 1e-300)
+    x, y = (np.clip(np.nan_to_num((direction[(axis + step) % 3, row] / size * 0.5 + 0.5) * SIDE), 0.0, SIDE - 1.0)
+            for step in (1, 2))
+    return ((axis * 2 + (along < 0.0)) * SIDE + x.astype(np.int64)) * SIDE + y.astype(np.int64)
+
+
+def find(patch: Patch, member: np.ndarray, uv: np.ndarray, s: np.ndarray,
+         points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Triangles, (u, v) and s of the images of `points` (3, n) from the eye, and which of them there are, each looked
+    for from a start."""
+    member, uv, s = member.copy(), uv.copy(), s.copy()
+    found = np.zeros(len(member), dtype=bool)
+    for start in range(0, len(member), AT_ONCE):
+        breathe()
+        part = slice(start, start + AT_ONCE)
+        _find(patch, member[part], uv[:, part], s[part], points[:, part], found[part])
+    return member, uv, s, found
+
+
+def _find(patch: Patch, member, uv, s, points, found) -> None:
+    """As `find`, in the arrays given."""
+    active, before = np.arange(len(member)), np.full(len(member), -1)
+    for _ in range(WALKS):
+        now = member[active]
+        new, distance, moved = _newton(patch, now, uv[:, active], s[active], points[:, active])
+        uv[:, active], s[active] = new, distance
+        weights = np.stack((1.0 - new[0] - new[1], new[0], new[1]))
+        corner = weights.argmin(axis=0)
+        least = weights.min(axis=0)
+        inside = least >= -INSIDE
+        done = inside & (moved < ARRIVED)
+        found[active[done]] = distance[done] > 0.0
+        beyond = patch.across[now, corner]
+        # left by either of two triangles to the other: it is not there yet, or nowhere
+        back = ~inside & (beyond == before[active])
+        staying = (inside & ~done) | (back & (moved >= ARRIVED))
+        before[active[back]] = -1
+        drawn = np.maximum(weights, 0.0)
+        drawn /= drawn.sum(axis=0)
+        walking = ~inside & ~back & (beyond >= 0)
+        i = active[walking]
+        if len(i):
+            place = patch.places(member[i], drawn[1:, walking])
+            before[i], member[i] = member[i], beyond[walking]
+            uv[:, i] = patch.coordinates(member[i], place)
+        active = active[staying | walking]
+        if not len(active):
+            break
+
+
+def _newton(patch: Patch, member, uv, s, points) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(u, v) and s after steps of Newton's method, and how long the last one was in (u, v)."""
+    shape = patch.shape.take(member, axis=1).reshape(6, 3, -1)
+    for _ in range(STEPS):
+        place, c0, c1, ray = _moved(patch, shape, uv, s)
+        du, dv, ds = _solved(c0, c1, ray, points - place - s * ray)
+        short = 1.0 / np.maximum(1.0, np.maximum(np.abs(du), np.abs(dv)) / LONGEST)
+        uv, s = np.stack((uv[0] + short * du, uv[1] + short * dv)), s + short * ds
+    return uv, s, np.maximum(np.abs(du), np.abs(dv))
+
+
+def _moved(patch: Patch, shape, uv, s) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Places (3, n), the derivatives of Q + s R along u and v, and the rays R."""
+    a, u, v, n0, nu, nv = shape
+    place = a + uv[0] * u + uv[1] * v
+    arriving = patch.arriving(place)
+    n = n0 + uv[0] * nu + uv[1] * nv
+    inverse = 1.0 / dot(n, n)
+    slope = 2.0 * dot(arriving, n) * inverse
+    sides = []
+    for along, turn in ((u, nu), (v, nv)):
+        # R = d - slope n, where the direction d moves with the place but in orthographic views
+        change = dot(arriving, turn) - slope * dot(n, turn)
+        if patch.mirror_map.orthographic:
+            sides.append(along - s * (2.0 * change * inverse * n + slope * turn))
+        else:
+            sides.append(along + s * (along - 2.0 * (dot(along, n) + change) * inverse * n - slope * turn))
+    return place, sides[0], sides[1], arriving - slope * n
+
+
+def _solved(c0, c1, ray, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """u, v, s with u c0 + v c1 + s R = right."""
+    normal, turned = cross(c1, ray), cross(right, c0)
+    determinant = dot(c0, normal)
+    inverse = 1.0 / np.where(np.abs(determinant) > 1e-300, determinant, 1e-300)
+    return dot(right, normal) * inverse, -dot(turned, ray) * inverse, dot(turned, c1) * inverse
+
+
+def jacobians(patch: Patch, member, uv, s) -> np.ndarray:
+    """(2, 3, n): pixels by which images move where their points move."""
+    shape = patch.shape.take(member, axis=1).reshape(6, 3, -1)
+    place, c0, c1, ray = _moved(patch, shape, uv, s)
+    normal = cross(c1, ray)
+    determinant = dot(c0, normal)
+    inverse = 1.0 / np.where(np.abs(determinant) > 1e-300, determinant, 1e-300)
+    places = (place + patch.eye).T
+    along_u, along_v = (patch.view.pixel_derivatives(places, side.T).T for side in (shape[1], shape[2]))
+    return along_u[:, None] * (normal * inverse) - along_v[:, None] * (cross(c0, ray) * inverse)
