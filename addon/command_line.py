@@ -85,6 +85,7 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--depth", type=int, default=1, metavar="BOUNCES", help="followed from mirror to mirror")
     parser.add_argument("--memory", type=float, default=2.0, metavar="GB",
                         help="what would need more is worked out more coarsely, or refused (2)")
+    parser.add_argument("--hidden-faces", action="store_true", help="also the faces that nearer ones hide whole")
 
 
 def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 
@@ -11,6 +11,7 @@ from .blender_data import (
     Participants,
     Reflection,
     choose,
+    is_opaque,
     mesh_arrays,
     point_arrays,
     read_mirror,
@@ -66,6 +67,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     depsgraph = context.evaluated_depsgraph_get()
     surfaces = [read_mirror(depsgraph, mirror) for mirror in chosen.mirrors]
     scene = read_scene(depsgraph, chosen.diffuse)
+    if not all(map(is_opaque, scene.materials)):
+        settings = replace(settings, hidden_faces=True)
     yield 0.5 * READING, "Building the tree"
     kind = core.PointTree if settings.method == "POINTS" else core.SceneTree
     tree = yield from part(core.in_steps(lambda: kind.build(scene.mesh)), 0.5 * READING, 0.5 * READING,

@@ -58,6 +58,12 @@ def memory_property() -> FloatProperty:
                          options=set())
 
 
+def hidden_property() -> BoolProperty:
+    return BoolProperty(name="Hidden Faces", description="Also the faces that nearer ones hide whole, for objects that "
+                        "are to be taken away later; what lets light through keeps them anyway", default=False,
+                        options=set())
+
+
 class SettingsProperties:
     """What operators, the scene and the command line have in common: a field for each of `SETTINGS`."""
 
@@ -66,6 +72,7 @@ class SettingsProperties:
     method: method_property()
     depth: depth_property()
     memory: memory_property()
+    hidden_faces: hidden_property()
 
 
 SETTINGS = tuple(SettingsProperties.__annotations__)
@@ -81,7 +88,7 @@ def settings_of(holder) -> Settings:
     """
     try:
         return Settings(tolerance=holder.tolerance, placement=holder.placement, method=holder.method,
-                        depth=holder.depth, maximum_memory=holder.memory)
+                        depth=holder.depth, maximum_memory=holder.memory, hidden_faces=holder.hidden_faces)
     except ValueError as error:
         raise ReflectionError(str(error)) from error
 

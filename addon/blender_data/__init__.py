@@ -3,6 +3,7 @@ from .disc_nodes import disc_nodes, forget_nodes
 from .join_meshes import DiffuseScene, MirrorSurface, read_mirror, read_scene
 from .mesh_arrays import mesh_arrays
 from .mirror_materials import is_mirror
+from .opaque_materials import is_opaque
 from .point_arrays import point_arrays
 from .read_meshes import SURFACES
 from .read_view import read_view, render_size
@@ -11,5 +12,5 @@ from .write_mesh import write_mesh
 from .write_object import RAYS, Reflection, show_to_camera, write_object
 
 __all__ = ["DiffuseScene", "MirrorSurface", "Participants", "RAYS", "Reflection", "SURFACES", "choose", "disc_nodes",
-           "forget_nodes", "is_mirror", "mesh_arrays", "participants", "point_arrays", "read_mirror", "read_scene",
-           "read_view", "render_size", "results_of", "show_to_camera", "write_mesh", "write_object"]
+           "forget_nodes", "is_mirror", "is_opaque", "mesh_arrays", "participants", "point_arrays", "read_mirror",
+           "read_scene", "read_view", "render_size", "results_of", "show_to_camera", "write_mesh", "write_object"]

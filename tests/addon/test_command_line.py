@@ -95,8 +95,9 @@ def test_all_settings_reach_the_core(saved, room, tmp_path, capsys, monkeypatch,
     monkeypatch.setattr(room(f"addon.{verb}"), "generation", told)
     monkeypatch.setattr(room("addon.command_line"), "generation", told)
     assert room("addon.command_line").run([verb, "--tolerance", "2", "--placement", "VIRTUAL", "--method", "PARALLEL",
-                                           "--depth", "3", "--memory", "0.5", "--output", str(tmp_path / "x")]) == 1
-    expected = room("core").Settings(2.0, "VIRTUAL", "PARALLEL", 3, maximum_memory=0.5)
+                                           "--depth", "3", "--memory", "0.5", "--hidden-faces", "--output",
+                                           str(tmp_path / "x")]) == 1
+    expected = room("core").Settings(2.0, "VIRTUAL", "PARALLEL", 3, maximum_memory=0.5, hidden_faces=True)
     assert capsys.readouterr().err == f"Error: {expected}.\n"
 
 

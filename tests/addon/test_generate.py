@@ -152,13 +152,14 @@ def test_colours_and_uvs_that_are_no_numbers_become_zero(wall_scene, method, dom
 
 
 def test_all_settings_reach_the_core(wall_scene, room, tmp_path, monkeypatch):
-    chosen = {"tolerance": 2.0, "placement": "VIRTUAL", "method": "PARALLEL", "depth": 3, "memory": 0.5}
+    chosen = {"tolerance": 2.0, "placement": "VIRTUAL", "method": "PARALLEL", "depth": 3, "memory": 0.5,
+              "hidden_faces": True}
 
     def told(context, participants, settings, *_):
         raise room("core").ReflectionError(f"{settings}.")
     for verb in ("generate", "compare"):
         monkeypatch.setattr(room(f"addon.{verb}"), "generation", told)
-    expected = str(room("core").Settings(2.0, "VIRTUAL", "PARALLEL", 3, maximum_memory=0.5)) + "."
+    expected = str(room("core").Settings(2.0, "VIRTUAL", "PARALLEL", 3, maximum_memory=0.5, hidden_faces=True)) + "."
     assert parts.refusal(**chosen) == expected
     assert parts.refusal(bpy.ops.reflection_mesh.compare, filepath=str(tmp_path), **chosen) == expected
 

@@ -155,7 +155,8 @@ def test_the_page_is_offered_in_its_session_and_scene_alone(scene, room, tmp_pat
 
 
 def test_the_panel_hands_every_setting_on(scene, room):
-    chosen = {"tolerance": 2.0, "placement": "VIRTUAL", "method": "POINTS", "depth": 3, "memory": 7.0}
+    chosen = {"tolerance": 2.0, "placement": "VIRTUAL", "method": "POINTS", "depth": 3, "memory": 7.0,
+              "hidden_faces": True}
     for name, value in chosen.items():
         setattr(scene.reflection_mesh, name, value)
     layout = drawn(room)
