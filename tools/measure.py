@@ -46,7 +46,7 @@ def main(arguments: list[str]) -> int:
         quietly(extension_zip.switch_off)
     import bpy
     print(f"Blender {bpy.app.version_string}, tolerance {options.tolerance:g} px, {os.cpu_count()} threads\n")
-    print_table(rows)
+    print_table([ROWS, *rows])
     return 0
 
 
@@ -87,9 +87,9 @@ def _cycles_seconds() -> float:
 
 
 def print_table(rows: list) -> None:
-    """A table in Markdown."""
-    cells = [[_cell(value) for value in row] for row in (ROWS, *rows)]
-    widths = [max(len(row[k]) for row in cells) for k in range(len(ROWS))]
+    """A table in Markdown, its head first."""
+    cells = [[_cell(value) for value in row] for row in rows]
+    widths = [max(map(len, column)) for column in zip(*cells)]
     for index, row in enumerate(cells):
         print("| " + " | ".join(cell.rjust(width) if k else cell.ljust(width)
                                 for k, (cell, width) in enumerate(zip(row, widths))) + " |")
