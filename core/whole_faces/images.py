@@ -59,7 +59,7 @@ class Images:
                         for field in fields(Images)))
 
     def moved(self, patch: Patch, *nodes: np.ndarray) -> Images:
-        """The same, of which it is known for all these nodes how their images move."""
+        """The same images; how those of all these nodes move is worked out and kept, once for each."""
         asked = np.zeros(len(self), dtype=bool)
         for some in nodes:
             asked[some] = True

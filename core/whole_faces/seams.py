@@ -67,9 +67,8 @@ def seamed(whole: WholeFaces, cut: CutFaces, on_patch: np.ndarray) -> tuple[Seam
     nodes = cut.nodes
     images, drawn, left = whole.images, whole.pieces.select(whole.drawn), whole.pieces.select(whole.left)
     count = len(images)
-    nodes_of = drawn.nodes.T
-    keys, own = _edges(nodes_of, count)
-    seam = np.intersect1d(keys, _edges(left.nodes.T, count)[0])
+    own = _edges(drawn.nodes.T, count)
+    seam = np.intersect1d(own, _edges(left.nodes.T, count))
     key, node, share = _on_edges(cut, on_patch, seam, count)
     same = np.full(count, -1)
     view, eye = whole.patch.view, whole.patch.eye
@@ -85,7 +84,7 @@ def seamed(whole: WholeFaces, cut: CutFaces, on_patch: np.ndarray) -> tuple[Seam
     order = np.lexsort((share[inside], key[inside]))
     key, node = key[inside][order], node[inside][order]
     split = np.bincount(whole.pieces.source)[drawn.source] > 1
-    images, corners, face = _with_nodes(whole, images, nodes_of, own, key, node)
+    images, corners, face = _with_nodes(whole, images, drawn.nodes.T, own, key, node)
     member = images.member[np.minimum(corners, len(images) - 1)]
     alone = (member == member[:, :1]).all(axis=1) & (corners < len(images)).all(axis=1)
     same = np.concatenate((same, np.full(len(images) - count, -1)))
@@ -94,11 +93,10 @@ def seamed(whole: WholeFaces, cut: CutFaces, on_patch: np.ndarray) -> tuple[Seam
                   np.where(alone, whole.patch.face[member[:, 0]], -1)), Nodes(place, point, distance)
 
 
-def _edges(nodes: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers of the edges of faces (f, 3), one face behind another, and of the edges 01, 12, 20 of each face."""
+def _edges(nodes: np.ndarray, count: int) -> np.ndarray:
+    """Numbers (f, 3) of the edges 01, 12, 20 of faces (f, 3), the same from both sides."""
     following = np.roll(nodes, -1, axis=1)
-    own = np.minimum(nodes, following) * count + np.maximum(nodes, following)
-    return own.ravel(), own
+    return np.minimum(nodes, following) * count + np.maximum(nodes, following)
 
 
 def _on_edges(cut: CutFaces, on_patch: np.ndarray, seam: np.ndarray,

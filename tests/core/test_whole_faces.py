@@ -12,8 +12,10 @@ from tests.inputs import shapes
 from tests.inputs.dense_scenes import dense, posts_in_water
 from tests.inputs.scenes import SCENES
 from tests.oracles.judge import compare
+from tests.oracles.raster import rasterise
 from tests.oracles.true_map import corners_on_true_map, picture_areas
 from tests.oracles.truth import trace
+from tests.oracles.truth_bounces import trace_bounces
 
 pytestmark = pytest.mark.slow
 PIXELS, LONGEST = 384, 0.24
@@ -143,6 +145,25 @@ def test_coarse_scenes_would_be_right_as_well(name, monkeypatch):
     assert numbers["p99"] < 0.5 and numbers["uncovered"] < 0.1 and numbers["sunk"] < 0.01
     if name not in ("bowl", "water"):
         assert mesh.counts["whole"] > 50
+
+
+@pytest.mark.parametrize("depth", [1, 2])
+def test_a_wall_beside_the_ball_shows_and_hides(depth):
+    """Of a mirror in which another is seen only the rest is a patch; what that one hides is not shown."""
+    case = dense("sphere_ico", (256, 256), LONGEST)
+    wall = shapes.combine(shapes.quad((1.9, -0.4, 1.5), (-0.6, 1.2, 0.0), (0.0, 0.0, 1.2)))
+    mirrors = TriangleMesh.joined([case.mirror, wall])
+    mesh = reflect(case.view, case.mirror, case.scene, Settings(depth=depth), mirrors)
+    truth = trace_bounces(case.view, case.mirror, case.scene, mirrors, depth)
+    drawn = rasterise(case.view, mesh.positions, mesh.triangles)
+    shown = drawn.triangle >= 0
+    asked = truth.seen & ~truth.bent
+    sees = asked & (truth.source >= 0)
+    assert mesh.counts["whole"] > 500 and sees.sum() > 3000
+    assert (sees & ~shown).sum() + (asked & ~sees & shown).sum() < 2e-3 * asked.sum()
+    face = np.maximum(drawn.triangle, 0)
+    wrong = sees & shown & (mesh.source_face[face] != truth.source)
+    assert wrong.sum() < 0.06 * sees.sum()  # along the edges of small triangles neighbours stand in
 
 
 def test_the_order_of_the_scene_does_not_matter():
