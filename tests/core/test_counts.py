@@ -42,6 +42,7 @@ def test_the_work_is_what_it_was(name):
         assert found[count] == pytest.approx(held[count], rel=SHARE, abs=2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DENSE)
 def test_as_many_faces_are_whole_as_were(name):
     held, found = json.loads(FILE.read_text(encoding="utf-8"))[name], counted(name)
