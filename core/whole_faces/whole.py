@@ -83,6 +83,28 @@ def _beyond(patch: Patch, images: Images, nodes: np.ndarray) -> np.ndarray:
     return ((high < -ROOM) | (low > np.array(patch.view.resolution)[:, None] + ROOM)).any(axis=0)
 
 
+def _over_what_goes_through(patch: Patch, images: Images, nodes: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Which of the `faces` (n,) among pieces (3, f) lie over several triangles of the mirror where pieces are seen that
+    go through it: these may lie closer behind them than they sink."""
+    found, ahead = images.found[nodes], images.distance[nodes] > 0.0
+    cells, some = patch.border.unmarked(), False
+    for a, b in ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2)):
+        through = np.flatnonzero(found[a] & ~found[b] & ~ahead[b])
+        if not len(through):
+            continue
+        start, end = nodes[a, through], nodes[b, through]
+        images.moved(patch, start)
+        way = images.point[:, end] - images.point[:, start]
+        spot = images.pixel[:, start]
+        other = spot + np.clip((images.moving[:, :, start] * way).sum(axis=1), -FAR, FAR)
+        cells, some = cells.with_boxes(np.minimum(spot, other) - ROOM, np.maximum(spot, other) + ROOM), True
+    if not some:
+        return np.zeros(len(faces), dtype=bool)
+    members = images.member[nodes[:, faces]]
+    several = (members[0] != members[1]) | (members[1] != members[2])
+    return several & cells.touched(*box(images.pixel[:, nodes[:, faces]]))
+
+
 def _boxes(patch: Patch, images: Images, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Boxes (2, f) in the picture, from `low` to `high`, in which the images of pieces (3, f) lie; of which pieces
     nothing is known."""
@@ -188,6 +210,9 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, tree: SceneTree, reach: 
     hidden, close = layers.hidden_and_close(pieces.nodes[:, found], drawn[found], corners)
     drawn[found] &= ~hidden & ~close
     left[found] |= close
+    over = np.flatnonzero(drawn)
+    over = over[_over_what_goes_through(patch, images, pieces.nodes, over)]
+    drawn[over], left[over] = False, True
     gone = len(areal) - len(np.unique(pieces.source))
     return WholeFaces(positions, patch, images, pieces, drawn, left, gone + int((~drawn & ~left).sum()), straying,
                       limited)
