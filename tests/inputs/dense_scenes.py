@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from core import TriangleMesh
+from core import TriangleMesh, View
 from core.geometry import split
 from tests.inputs import shapes
 from tests.inputs.scenes import SCENES, Scene
@@ -38,9 +38,27 @@ def dense(name: str, resolution=(1024, 1024), longest: float = LONGEST) -> Scene
     return replace(case, scene=TriangleMesh(positions + shift, triangles))
 
 
+def knots_in_a_ball(resolution=(1024, 1024)) -> Scene:
+    """Three bumpy knots of 20,000 vertices on a ground, two of which go through the ball that mirrors them."""
+    parts = [shapes.quad((0.0, 0.0, 0.0), (6.0, 0.0, 0.0), (0.0, 6.0, 0.0))]
+    for middle, turns, size in (((-1.7, -1.5, 1.1), 3, 0.75), ((1.7, -1.4, 1.1), 5, 0.75), ((0.1, -2.9, 0.7), 7, 0.45)):
+        i, j = np.meshgrid(np.arange(379), np.arange(17), indexing="ij")
+        u, v = i * 2.0 * np.pi / 379, j * 2.0 * np.pi / 17
+        radius = 1.0 + 0.35 * np.cos(turns * u)
+        way = np.stack((radius * np.cos(2.0 * u), radius * np.sin(2.0 * u), 0.45 * np.sin(turns * u)), axis=-1)
+        thick = 0.16 + 0.02 * np.sin(23.0 * u + 3.0 * v) + 0.012 * np.sin(41.0 * u - 7.0 * v)
+        out = np.stack((np.cos(2.0 * u) * np.cos(v), np.sin(2.0 * u) * np.cos(v), np.sin(v)), axis=-1)
+        a, b, c, d = ((((i + x) % 379) * 17 + (j + y) % 17).ravel() for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+        parts.append((((way + thick[..., None] * out) * size + middle).reshape(-1, 3),
+                      np.concatenate((np.stack((a, b, c), axis=1), np.stack((a, c, d), axis=1))), None))
+    scene = shapes.combine(*parts)
+    view = View.looking_at((0.2, -5.4, 2.6), (0.08, 0.0, 1.2), resolution, field_of_view=2.0 * np.arctan(18.0 / 58.0))
+    return Scene("knots", view, shapes.combine(shapes.uv_sphere((0.1, 0.2, 1.26), 1.2, 28, 28)),
+                 TriangleMesh(scene.positions, scene.triangles))
+
+
 def posts_in_water(resolution=(512, 512)) -> Scene:
     """Boxes and a ball that stand in waves of 96 x 96 cells."""
-    from core import View
     boxes = (shapes.box((-1.2, 0.2, 0.5), (0.6, 0.6, 1.6), 0.5), shapes.box((1.3, 0.6, 0.5), (0.5, 0.5, 1.6), 1.1),
              shapes.icosphere((0.1, 1.0, 0.2), 0.5, 4), shapes.quad((0.0, 4.2, 2.0), (4.0, 0.0, 0.0), (0.0, 0.0, 1.9)))
     view = View.looking_at((0.0, -6.0, 2.8), (0.0, 0.4, 0.2), resolution, field_of_view=0.72)
