@@ -59,16 +59,12 @@ class PictureCells:
             cell = np.floor((spots - self.low[:, None]) / self.side)
         return np.clip(np.nan_to_num(cell), 0, self._size - 1).astype(np.int64)
 
-    def with_lines(self, start: np.ndarray, end: np.ndarray, room: float = 0.0) -> PictureCells:
-        """The grid with all cells marked that lie on lines (2, n) from `start` to `end`, beside such a cell, or within
-        `room` pixels of one."""
-        inside = np.isfinite(start + end).all(axis=0)
-        start, end = (np.clip(side[:, inside], (self.low - room)[:, None], (self.high + room)[:, None])
-                      for side in (start, end))
+    def with_lines(self, start: np.ndarray, end: np.ndarray) -> PictureCells:
+        """The grid with all cells marked that lie on lines (2, n) from `start` to `end`, or beside such a cell."""
         count = np.ceil(np.abs(end - start).max(axis=0) / (0.5 * self.side)).astype(np.int64) + 1
         step, line = ranges(np.zeros(len(count), dtype=np.int64), count)
         spots = start[:, line] + step / np.maximum(count - 1, 1)[line] * (end - start)[:, line]
-        return self.with_boxes(spots - self.side - room, spots + self.side + room)
+        return self.with_boxes(spots - self.side, spots + self.side)
 
     def with_boxes(self, low: np.ndarray, high: np.ndarray) -> PictureCells:
         """The grid with all cells marked that boxes from `low` to `high` (2, n) touch."""

@@ -1,5 +1,4 @@
-"""Bounding cones of cameras: a disc at the mirror that widens along an axis, around all rays of a camera; and balls.
-"""
+"""Bounding cones of cameras, discs at the mirror that widen along an axis, around all of their rays; and balls."""
 from __future__ import annotations
 
 from dataclasses import dataclass

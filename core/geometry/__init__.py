@@ -3,7 +3,7 @@
 In come a camera's matrices and meshes as they were given; out come pixels, directions, meshes in an order that only
 their places decide, and which triangles lie beyond each other's sides.
 """
-from .adjacency import neighbours, opposite_corners
+from .adjacency import corners_beyond, neighbours, opposite_corners
 from .canonical_order import TURNS, Order, ordered
 from .scene_frames import SceneFrames, falling
 from .subdivision import doubled_areas, edge_lengths, parent_side, shared_edges, split
@@ -11,6 +11,7 @@ from .triangle_mesh import TriangleMesh, area_normals, has_area
 from .vectors import columns, cross, dot, groups, norm, ranges, rows, shares, solve, unit
 from .view import View
 
-__all__ = ["Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns", "cross", "dot",
-           "doubled_areas", "edge_lengths", "falling", "groups", "has_area", "neighbours", "norm", "opposite_corners",
-           "ordered", "parent_side", "ranges", "rows", "shared_edges", "shares", "solve", "split", "unit"]
+__all__ = ["Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns", "corners_beyond",
+           "cross", "dot", "doubled_areas", "edge_lengths", "falling", "groups", "has_area", "neighbours", "norm",
+           "opposite_corners", "ordered", "parent_side", "ranges", "rows", "shared_edges", "shares", "solve", "split",
+           "unit"]

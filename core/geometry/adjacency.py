@@ -9,8 +9,7 @@ from .triangle_mesh import TriangleMesh
 
 def neighbours(mesh: TriangleMesh) -> np.ndarray:
     """Triangle (m, 3) across the side opposite to each corner; -1 where there is none, or more than one."""
-    beyond = _corners_beyond(mesh)
-    return np.where(beyond >= 0, beyond // 3, -1)
+    return _corners_beyond(mesh) // 3
 
 
 def opposite_corners(mesh: TriangleMesh) -> np.ndarray:
@@ -21,9 +20,15 @@ def opposite_corners(mesh: TriangleMesh) -> np.ndarray:
 
 
 def _corners_beyond(mesh: TriangleMesh) -> np.ndarray:
-    """For each corner (m, 3) the one beyond the opposite side, an entry of the flattened triangles, or -1."""
+    """As `corners_beyond`, of vertices that lie in one place as if they were one."""
     _, vertex = np.unique(mesh.positions, axis=0, return_inverse=True)
-    _, _, edge = shared_edges(vertex.reshape(-1)[mesh.triangles])
+    return corners_beyond(vertex.reshape(-1)[mesh.triangles])
+
+
+def corners_beyond(triangles: np.ndarray) -> np.ndarray:
+    """For each corner of triangles (m, 3) the one beyond the opposite side, an entry of the flattened triangles, or -1
+    where there is none, or more than one."""
+    _, _, edge = shared_edges(triangles)
     # edge k runs from corner k to the next; the side opposite to corner j is edge j + 1
     edge = edge[:, [1, 2, 0]].ravel()
     order = np.argsort(edge, kind="stable")

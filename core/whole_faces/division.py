@@ -10,10 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry import doubled_areas
 from ..support import breathe
 from .images import Images
 from .patch import Patch
-from .pieces import Pieces, turned, whole
+from .pieces import Pieces, whole
 from .sinking import Sinking, sides
 
 LEVELS = 10
@@ -98,8 +99,7 @@ class Division:
     def strays_inside(self, images: Images, nodes: np.ndarray) -> np.ndarray:
         """Which faces (3, f) stray in their middles by more than the tolerance: those over several triangles of the
         mirror, where the map has kinks, of which their edges tell little."""
-        members = images.member[nodes]
-        chosen = np.flatnonzero((members[0] != members[1]) | (members[1] != members[2]))
+        chosen = np.flatnonzero(images.several(nodes))
         corners = nodes[:, chosen]
         images = images.moved(self.patch, *corners)
         bent = np.zeros(len(chosen))
@@ -165,5 +165,5 @@ def _outlines(images: Images, pieces: Pieces, face: np.ndarray, edge: np.ndarray
     """Which of so many edges are outlines, given the face and the edge of each side (k,) of a piece: those at which the
     surface ends, or turns over in the picture."""
     found = images.found[pieces.nodes]
-    turn = np.where(found[0] & found[1] & found[2], np.sign(turned(images.pixel[:, pieces.nodes])), 0.0)[face]
+    turn = np.where(found[0] & found[1] & found[2], np.sign(doubled_areas(images.pixel[:, pieces.nodes].T)), 0.0)[face]
     return (np.bincount(edge, minlength=count) != 2) | (np.abs(np.bincount(edge, turn, minlength=count)) != 2.0)

@@ -58,6 +58,11 @@ class Images:
         return Images(*(np.concatenate((getattr(self, field.name), getattr(other, field.name)), axis=-1)
                         for field in fields(Images)))
 
+    def several(self, nodes: np.ndarray) -> np.ndarray:
+        """Which faces (3, f) lie over several triangles of the mirror."""
+        one, other, third = self.member[nodes]
+        return (one != other) | (other != third)
+
     def moved(self, patch: Patch, *nodes: np.ndarray) -> Images:
         """The same images; how those of all these nodes move is worked out and kept, once for each."""
         asked = np.zeros(len(self), dtype=bool)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, MirrorMap, PictureCells, may_fold, picture_areas
-from ..geometry import View, dot, norm, rows, shared_edges
+from ..geometry import View, corners_beyond, dot, norm, rows
 
 MARGIN = 8.0  # pixels: by how much the picture's grid is larger than the patch
 SMOOTH = 0.5  # cosine: normals at the corners of a triangle that differ by more turn too much between them
@@ -48,7 +48,7 @@ class Patch:
         if not len(cameras):
             return None
         cameras = cameras.select(np.argsort(cameras.face, kind="stable"))
-        label = _connected(_across(cameras.corners))
+        label = _connected(corners_beyond(cameras.corners) // 3)
         size = np.bincount(label, picture_areas(cameras))
         cameras = cameras.select(label == np.argmax(size))
         surface, face = mirror_map.surface, cameras.face
@@ -60,7 +60,7 @@ class Patch:
         shape = np.concatenate([part[:, face] for part in
                                 (surface.a - eye, surface.u, surface.v, surface.normal, surface.normal_u,
                                  surface.normal_v)])
-        across = _across(corners)
+        across = corners_beyond(corners) // 3
         border = _border(cameras.view, cameras.places, corners, across)
         return None if border is None else cls(mirror_map, face, across, np.ascontiguousarray(shape), border)
 
@@ -81,20 +81,14 @@ class Patch:
         k = self.shape[:9].take(member, axis=1)
         return k[:3] + uv[0] * k[3:6] + uv[1] * k[6:9]
 
-    def normals(self, member: np.ndarray, uv: np.ndarray) -> np.ndarray:
-        """Interpolated normals (3, n), not of unit length."""
-        k = self.shape[9:].take(member, axis=1)
-        return k[:3] + uv[0] * k[3:6] + uv[1] * k[6:9]
-
     def arriving(self, places: np.ndarray) -> np.ndarray:
         """View directions (3, n) of places from the eye."""
         return np.broadcast_to(self.mirror_map.forward, places.shape) if self.mirror_map.orthographic else places
 
     def leaving(self, member: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Places from the eye and the rays that leave there, (3, n) each."""
-        place, normal = self.places(member, uv), self.normals(member, uv)
-        arriving = self.arriving(place)
-        return place, arriving - 2.0 * dot(arriving, normal) / dot(normal, normal) * normal
+        place, ray = self.mirror_map.leave(self.face[member], uv)
+        return place - self.eye, ray
 
     def far(self, corners: np.ndarray) -> np.ndarray:
         """To what length (n,) triangles with corners (3, 3, n) from the eye slide a share of towards it."""
@@ -140,18 +134,6 @@ def _smooth(mirror_map: MirrorMap, face: np.ndarray) -> np.ndarray:
     a = surface.normal[:, face]
     b, c = a + surface.normal_u[:, face], a + surface.normal_v[:, face]
     return (dot(a, b) > SMOOTH) & (dot(b, c) > SMOOTH) & (dot(c, a) > SMOOTH) & ~mirror_map.grazing[face]
-
-
-def _across(corners: np.ndarray) -> np.ndarray:
-    """(k, 3): the triangle beyond the side opposite to each corner of triangles on shared `corners` (k, 3); -1 where
-    there is none, or more than one."""
-    _, _, edge = shared_edges(corners)
-    edge = edge[:, [1, 2, 0]].ravel()
-    order = np.argsort(edge, kind="stable")
-    one, other = order[np.bincount(edge)[edge[order]] == 2].reshape(-1, 2).T
-    across = np.full(len(edge), -1)
-    across[one], across[other] = other // 3, one // 3
-    return across.reshape(-1, 3)
 
 
 def _connected(across: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..geometry import parent_side, rows, split
+from ..geometry import doubled_areas, parent_side, rows, split
 from .coverage import box
 from .images import Images
 from .patch import Patch
@@ -60,12 +60,6 @@ class Pieces:
                       unsplit & self.lost[own, parent], unsplit & self.done[own, parent])
 
 
-def turned(spots: np.ndarray) -> np.ndarray:
-    """Twice the areas (f,) of triangles with corners (2, 3, f), negative where they turn to the right."""
-    (ax, ay), (bx, by) = (spots[:, k] - spots[:, 0] for k in (1, 2))
-    return ax * by - ay * bx
-
-
 def whole(patch: Patch, images: Images, pieces: Pieces) -> np.ndarray:
     """Which pieces (f,) are seen whole on the patch."""
     found, lost = images.found[pieces.nodes], pieces.lost
@@ -74,6 +68,6 @@ def whole(patch: Patch, images: Images, pieces: Pieces) -> np.ndarray:
     spots = images.pixel[:, pieces.nodes[:, chosen]]
     low, high = box(spots)
     # with a corner on the patch, what touches no border lies on it whole
-    all_found[chosen] = (patch.border.holds(low - NEAR, high + NEAR) & (turned(spots) != 0.0)
+    all_found[chosen] = (patch.border.holds(low - NEAR, high + NEAR) & (doubled_areas(spots.T) != 0.0)
                          & ~patch.border.touched(low - NEAR, high + NEAR))
     return all_found

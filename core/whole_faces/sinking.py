@@ -56,17 +56,15 @@ class Sinking:
     def deepest(self, patch: Patch, images: Images, nodes: np.ndarray) -> np.ndarray:
         """How far the edges of faces (3, f) sink at most."""
         most = np.zeros(nodes.shape[1])
-        members = images.member[nodes]
         # a face on one triangle of the mirror does not sink
-        some = np.flatnonzero((members[0] != members[1]) | (members[1] != members[2]))
+        some = np.flatnonzero(images.several(nodes))
         for edge in sides(nodes[:, some]):
             most[some] = np.maximum(most[some], self.sagitta(patch, images, *edge))
         return most
 
     def sunk(self, patch: Patch, images: Images, nodes: np.ndarray) -> np.ndarray:
         """Which faces (3, f) sink nearly to the mirror."""
-        members = images.member[nodes]
-        some = np.flatnonzero((members[0] != members[1]) | (members[1] != members[2]))
+        some = np.flatnonzero(images.several(nodes))
         found = np.zeros(nodes.shape[1], dtype=bool)
         for edge in sides(nodes[:, some]):
             found[some] |= self.too_deep(patch, images, *edge)

@@ -23,6 +23,7 @@ LEAST_SHARE = 0.25  # of what is seen of the mirror: a smaller patch is not wort
 SMALL, MANY = 4.0, 50_000  # pixels: images of edges bend less; how many faces are worth a look before the others
 SPECK = 1e-6  # of the distance from the eye
 ROOM, FAR = 2.0, 64.0  # pixels round a piece; by which edges that leave the patch may be longer
+WAYS = ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2))  # from corner to corner of a triangle
 PROBES = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (1 / 3, 1 / 3))
 WIDER = 1.25  # than the rays of a triangle at its probes: those between them
 
@@ -88,7 +89,7 @@ def _over_what_goes_through(patch: Patch, images: Images, nodes: np.ndarray, fac
     go through it: these may lie closer behind them than they sink."""
     found, ahead = images.found[nodes], images.distance[nodes] > 0.0
     cells, some = patch.border.unmarked(), False
-    for a, b in ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2)):
+    for a, b in WAYS:
         through = np.flatnonzero(found[a] & ~found[b] & ~ahead[b])
         if not len(through):
             continue
@@ -100,9 +101,7 @@ def _over_what_goes_through(patch: Patch, images: Images, nodes: np.ndarray, fac
         cells, some = cells.with_boxes(np.minimum(spot, other) - ROOM, np.maximum(spot, other) + ROOM), True
     if not some:
         return np.zeros(len(faces), dtype=bool)
-    members = images.member[nodes[:, faces]]
-    several = (members[0] != members[1]) | (members[1] != members[2])
-    return several & cells.touched(*box(images.pixel[:, nodes[:, faces]]))
+    return images.several(nodes[:, faces]) & cells.touched(*box(images.pixel[:, nodes[:, faces]]))
 
 
 def _boxes(patch: Patch, images: Images, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -112,7 +111,7 @@ def _boxes(patch: Patch, images: Images, nodes: np.ndarray) -> tuple[np.ndarray,
     spots = images.pixel[:, nodes]
     low, high = (end(np.where(found, spots, other), axis=1) for end, other in ((np.min, np.inf), (np.max, -np.inf)))
     room = np.full(nodes.shape[1], ROOM)
-    for a, b in ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2)):
+    for a, b in WAYS:
         lone = np.flatnonzero(found[a] & ~found[b])
         start = nodes[a, lone]
         way = norm(images.point[:, nodes[b, lone]] - images.point[:, start])

@@ -1,6 +1,4 @@
 """Vertices first: triangles that a smooth part of the mirror shows whole, beside what cameras cut of the rest."""
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -115,7 +113,7 @@ def test_scenes_of_few_triangles_are_left_to_cameras():
     assert "whole" not in reflect(case.view, case.mirror, case.scene).counts
 
 
-def test_what_stands_in_the_mirror_does_not_come_out_of_it(monkeypatch):
+def test_what_stands_in_the_mirror_does_not_come_out_of_it():
     """A ball in a floor that cuts through it: what lies behind the floor is not seen above it."""
     case = dense("sphere", (PIXELS, PIXELS), LONGEST)
     scene = TriangleMesh(case.scene.positions + [0.0, 0.0, 0.9], case.scene.triangles)
@@ -252,8 +250,7 @@ def test_pixels_are_covered_whose_middles_lie_in_a_triangle():
         places = np.floor(share @ corners[:, :, face].T).astype(int)
         seen = ((places >= 0) & (places < size)).all(axis=1)
         assert held["touched"][face, (places @ (1, size[0]))[seen]].all()
-        near = np.abs(np.stack(turned)).min(axis=0)
-        assert (held["touched"][face] >= inside).all() and near.shape == inside.shape
+        assert (held["touched"][face] >= inside).all()
     assert touched.order.max() <= order.max() + 1e-9
     a, b, c = order[:, covered.face]
     assert (covered.order <= np.maximum(np.maximum(a, b), c) + 1e-9).all()
@@ -270,11 +267,10 @@ def test_a_wall_hides_what_stands_behind_it():
     wall = shapes.sheet(upright, 80, 80, (-1.5, 1.5), (0.0, 2.6))
     scene = shapes.combine(wall, ball)
     scene = TriangleMesh(scene.positions, scene.triangles)
-    eye = replace(case.view, camera_to_world=case.view.camera_to_world.copy())
     first = len(wall[1])
-    hidden = reflect(eye, case.mirror, scene)
-    every = reflect(eye, case.mirror, scene, Settings(hidden_faces=True))
+    hidden = reflect(case.view, case.mirror, scene)
+    every = reflect(case.view, case.mirror, scene, Settings(hidden_faces=True))
     assert (every.source_face >= first).sum() > 100
     assert (hidden.source_face >= first).sum() < 0.05 * (every.source_face >= first).sum()
-    truth = trace(eye, case.mirror, scene)
-    assert compare(eye, case.mirror, hidden, truth).numbers["uncovered"] < 0.03
+    truth = trace(case.view, case.mirror, scene)
+    assert compare(case.view, case.mirror, hidden, truth).numbers["uncovered"] < 0.03
