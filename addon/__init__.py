@@ -1,7 +1,8 @@
 """What Blender sees of the extension: roles, operators, a panel and a command; the optics are in `core`."""
-from . import clear, command_line, compare, generate, panel, properties
+from . import clear, command_line, compare, generate, light, panel, properties
+from .lighting import stale_light
 
-MODULES = (properties, generate, compare, clear, panel, command_line)
+MODULES = (properties, stale_light, generate, light, compare, clear, panel, command_line)
 
 
 def register() -> None:

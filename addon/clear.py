@@ -5,9 +5,10 @@ import bpy
 
 from .blender_data import disc_nodes, forget_nodes, results_of, show_to_camera
 from .faults import in_one_sentence
+from .lighting import forget_light
 
 
-def results_to_clear(context: bpy.types.Context) -> list:
+def chosen_results(context: bpy.types.Context) -> list:
     """The selected results, or those of selected mirrors; where the selection names none, all of the scene."""
     results = [obj for obj in context.scene.objects
                if obj.reflection_mesh.role == "REFLECTION" and obj.library is None]
@@ -23,6 +24,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
     mirror = active.reflection_mesh.mirror if active in results else None
     meshes = {obj.data for obj in results if isinstance(obj.data, bpy.types.Mesh)}
     nodes = {disc_nodes(obj) for obj in results}
+    lights = {obj.reflection_mesh.light_material for obj in results} - {None}
     # from here on nothing can fail, so that results go all or none
     if mirror is not None and mirror.name in layer.objects:
         layer.objects.active = mirror
@@ -33,6 +35,8 @@ def clear(context: bpy.types.Context, results: list) -> None:
             bpy.data.meshes.remove(mesh)
     for group in nodes:
         forget_nodes(group)
+    for material in lights:
+        forget_light(material)
     for obj in context.scene.objects:
         if obj.reflection_mesh.camera_hidden and not results_of(context, obj):
             show_to_camera(obj)
@@ -50,7 +54,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
         if context.mode != "OBJECT":
             self.report({"ERROR"}, "Reflections are cleared in Object Mode: leave the present mode first.")
             return {"CANCELLED"}
-        results = results_to_clear(context)
+        results = chosen_results(context)
         if not results and not any(obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
             self.report({"WARNING"}, "The scene has no reflection to clear.")
             return {"CANCELLED"}

@@ -1,4 +1,4 @@
-"""`blender -b scene.blend --command reflection_mesh generate|compare|benchmark ...`, and the same for PyPI's bpy."""
+"""`blender -b scene.blend --command reflection_mesh generate|light|compare|benchmark ...`, and the same for PyPI's bpy."""
 from __future__ import annotations
 
 import argparse
@@ -12,10 +12,13 @@ import bpy
 from .. import core
 from . import benchmark
 from .blender_data import Participants, choose
+from .clear import chosen_results
 from .compare import comparison, summary
 from .faults import STATUS, Steps, finished, sentence
 from .files import check_place, save_blend, staged
 from .generate import generation
+from .light import SAMPLES, lighting
+from .light import summary as lighting_summary
 from .properties import METHODS, PLACEMENTS, settings_of
 
 COMMAND = "reflection_mesh"
@@ -50,8 +53,14 @@ def _parser() -> argparse.ArgumentParser:
     generate.add_argument("--mirror", nargs="+", default=[], metavar="NAME",
                           help="mirror objects (else by selection and role, as in the window)")
     generate.add_argument("--diffuse", nargs="+", default=[], metavar="NAME", help="diffuse objects")
-    generate.add_argument("--output", metavar="FILE", help="save here, and leave the opened file as it is")
+    generate.add_argument("--light", type=int, nargs="?", const=SAMPLES, default=0, metavar="N",
+                          help=f"light them too, with N samples per pixel ({SAMPLES})")
+    _add_output(generate)
     generate.set_defaults(work=_generate)
+    light = verbs.add_parser("light", help="let the reflections look as the mirrors do, and save the file")
+    light.add_argument("--samples", type=int, default=SAMPLES, metavar="N", help=f"samples per pixel ({SAMPLES})")
+    _add_output(light)
+    light.set_defaults(work=_light)
     compare = verbs.add_parser("compare", help="compare with a Cycles render of the same view")
     _add_settings(compare)
     compare.add_argument("--samples", type=int, default=16, metavar="N", help="samples per pixel of the pictures")
@@ -78,6 +87,10 @@ def _add_benchmark(verb: argparse.ArgumentParser) -> None:
     verb.set_defaults(work=_benchmark)
 
 
+def _add_output(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--output", metavar="FILE", help="save here, and leave the opened file as it is")
+
+
 def _add_settings(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--tolerance", type=float, default=0.5, metavar="PIXELS")
     parser.add_argument("--placement", choices=[item[0] for item in PLACEMENTS], default="LAYERED")
@@ -89,16 +102,42 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
 
 
 def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
+    path = _path_to_save(options)
+    if options.light < 0:
+        raise core.ReflectionError("Light takes at least one sample: raise --light.")
+    started = time.perf_counter()
+    outcome = _announced(generation(context, _chosen(context, options), settings_of(options)))
+    told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
+    if options.light:
+        # the view layer knows new objects only from its next update on
+        context.view_layer.update()
+        told.append(_lit(context, [obj for obj, _ in outcome.results], options.light))
+    save_blend(path)
+    print(*told, sep="\n")
+
+
+def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
+    path = _path_to_save(options)
+    if options.samples < 1:
+        raise core.ReflectionError("Light takes at least one sample: raise --samples.")
+    told = _lit(context, chosen_results(context), options.samples)
+    save_blend(path)
+    print(told)
+
+
+def _lit(context: bpy.types.Context, results: list, samples: int) -> str:
+    started = time.perf_counter()
+    lit = _announced(lighting(context, results, samples))
+    return lighting_summary(lit, time.perf_counter() - started)
+
+
+def _path_to_save(options: argparse.Namespace) -> str:
+    """Where the file is to be saved, which can be written."""
     if not (options.output or bpy.data.filepath):
         raise core.ReflectionError("There is no file to save to: open a .blend file or name one with --output.")
-    started = time.perf_counter()
     path = os.path.abspath(options.output or bpy.data.filepath)
     check_place(path)
-    outcome = _announced(generation(context, _chosen(context, options), settings_of(options)))
-    save_blend(path)
-    for remark in outcome.remarks:
-        print(remark)
-    print(outcome.summary(time.perf_counter() - started))
+    return path
 
 
 def _announced(steps: Steps) -> object:

@@ -20,6 +20,7 @@ from .blender_data import (
     write_object,
 )
 from .faults import AllOrNothing, SteppedOperator, Steps, part
+from .lighting import keep_light
 from .properties import SettingsProperties, settings_of
 from .shortcomings import shortcomings
 
@@ -96,6 +97,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     with AllOrNothing() as whole:
         results = [(write_object(context, made, settings.placement, whole), made.result) for made in prepared]
         for obj, _ in results:
+            keep_light(obj, view)
             obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
     return Outcome(results, remarks + refused)
 

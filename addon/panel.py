@@ -6,6 +6,7 @@ import bpy
 from ..core.result.reflection_mesh import filled_share
 from .blender_data import records
 from .comparison import show_comparison
+from .lighting import light_lines
 from .properties import SETTINGS
 
 
@@ -30,6 +31,7 @@ class REFLECTION_MESH_PT_main(bpy.types.Panel):
             column.prop(settings, name)
         column = layout.column(align=True)
         generate = column.operator("reflection_mesh.generate", icon="MOD_MIRROR")
+        column.operator("reflection_mesh.light", icon="LIGHT")
         compare = column.operator("reflection_mesh.compare", icon="IMAGE_DATA")
         for operator in (generate, compare):
             for name in SETTINGS:
@@ -53,6 +55,8 @@ def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     counts = records.counts(obj)
     if "filled_pixels" in counts and "mirror_pixels" in counts:
         box.label(text=f"{filled_share(counts):.3f} % filled by rays")
+    for line in light_lines(obj):
+        box.label(text=line, icon="LIGHT")
     box.label(text=f"Error about {record.estimated_error:.2f} px at {record.resolution[0]} x {record.resolution[1]}")
 
 

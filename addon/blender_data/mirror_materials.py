@@ -18,7 +18,7 @@ def is_mirror(material: bpy.types.Material | None) -> bool:
         return False
     if not compat.uses_nodes(material):
         return material.metallic >= FULL_METALLIC and material.roughness <= SHARP_ROUGHNESS
-    shader = _surface_shader(material.node_tree)
+    shader = surface_shader(material.node_tree)
     if shader is None or not _constant(shader, "Roughness", at_most=SHARP_ROUGHNESS):
         return False
     if shader.type == "BSDF_PRINCIPLED":
@@ -26,7 +26,7 @@ def is_mirror(material: bpy.types.Material | None) -> bool:
     return shader.type in {"BSDF_GLOSSY", "BSDF_METALLIC"}
 
 
-def _surface_shader(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
+def surface_shader(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
     """The shader node behind the active output's Surface socket."""
     output = tree.get_output_node("ALL")
     if output is None:

@@ -8,7 +8,7 @@ import bpy
 from mathutils import Matrix
 
 from ...core import ReflectionMesh
-from ..faults import AllOrNothing, keep_mesh, keep_mirror, keep_object, keep_others_mesh
+from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from .disc_nodes import hide_discs, show_discs
 from .mesh_arrays import MeshArrays
 from .roles import results_of
@@ -52,11 +52,11 @@ def write_object(context: bpy.types.Context, made: Reflection, placement: str,
         active = context.view_layer.objects.active
         obj = active if active in earlier else earlier[0]
         keep_object(obj, whole)
-        shared = obj.data.users > 1 or obj.data.library is not None
-        (keep_others_mesh if shared else keep_mesh)(obj, whole)
+        keep_data(obj, whole)
     else:
         obj = _new_object(context, mirror, whole)
     keep_mirror(mirror, whole)
+    show_own_materials(obj)
     write_mesh(obj.data, made.arrays)
     if made.result.discs is None:
         whole.after(hide_discs, obj)
@@ -119,3 +119,12 @@ def show_to_camera(mirror: bpy.types.Object) -> None:
     if mirror.reflection_mesh.camera_hidden and mirror.library is None:
         mirror.visible_camera = True
         mirror.reflection_mesh.camera_hidden = False
+
+
+def show_own_materials(obj: bpy.types.Object) -> None:
+    """Let an object show the materials of its mesh, and none of its own."""
+    for slot in obj.material_slots:
+        if slot.link == "OBJECT":
+            # first, since a slot that goes keeps what it held counted as used
+            slot.material = None
+            slot.link = "DATA"

@@ -3,9 +3,9 @@ from .all_or_nothing import AllOrNothing
 from .interrupts import STATUS, interrupt_held
 from .stepped_operator import BrowsingOperator, SteppedOperator
 from .steps import Steps, Undivided, finished, part
-from .take_back import keep_mesh, keep_mirror, keep_object, keep_others_mesh, still_there
+from .take_back import keep_data, keep_mirror, keep_object, still_there
 from .unforeseen import in_one_sentence, sentence
 
 __all__ = ["AllOrNothing", "BrowsingOperator", "STATUS", "SteppedOperator", "Steps", "Undivided", "finished",
-           "in_one_sentence", "interrupt_held", "keep_mesh", "keep_mirror", "keep_object", "keep_others_mesh", "part",
-           "sentence", "still_there"]
+           "in_one_sentence", "interrupt_held", "keep_data", "keep_mirror", "keep_object", "part", "sentence",
+           "still_there"]

@@ -6,7 +6,8 @@ import bpy
 from .all_or_nothing import AllOrNothing
 
 PLACE = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
-RECORD = ("role", "mirror", "estimated_error", "seconds", "counts", "resolution", "faces", "points")
+RECORD = ("role", "mirror", "estimated_error", "seconds", "counts", "resolution", "faces", "points", "light",
+          "light_material", "light_stale")
 
 
 def still_there(items: list) -> list:
@@ -22,12 +23,13 @@ def _is_there(item: bpy.types.ID) -> bool:
 
 
 def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
-    """Let `whole` bring back where a result stands and what it knows."""
+    """Let `whole` bring back where a result stands, what it knows and which materials it shows."""
     matrix, place = obj.matrix_world.copy(), {name: tuple(getattr(obj, name)) for name in PLACE}
     record = obj.reflection_mesh
     known = {name: getattr(record, name) for name in RECORD}
     known["resolution"] = tuple(record.resolution)
     sources = [source.object for source in record.sources]
+    slots = [(slot.link, slot.material) for slot in obj.material_slots]
 
     def back() -> None:
         # the matrix, so that it is right before Blender works it out anew; then the numbers, which it rounds
@@ -39,10 +41,21 @@ def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
         record.sources.clear()
         for source in sources:
             record.sources.add().object = source
+        for slot, (link, material) in zip(obj.material_slots, slots, strict=False):
+            slot.link = link
+            if link == "OBJECT":
+                slot.material = material
+    # what is kept later, such as the mesh with its slots, comes back before
     whole.undo(back)
 
 
-def keep_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
+def keep_data(obj: bpy.types.Object, whole: AllOrNothing) -> None:
+    """Let the mesh of `obj` be written, which is its own from then on."""
+    shared = obj.data.users > 1 or obj.data.library is not None
+    (_keep_others_mesh if shared else _keep_mesh)(obj, whole)
+
+
+def _keep_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
     """Let the mesh of `obj`, which nothing else uses, be written: `whole` brings back a copy, under its name.
 
     The copy shares its arrays with the mesh until these are written, and so takes no time and no memory.
@@ -58,7 +71,7 @@ def keep_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
     whole.after(bpy.data.meshes.remove, spare)
 
 
-def keep_others_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
+def _keep_others_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
     """Give `obj` a mesh of its own to be written: whoever else shows its present one keeps that as it is."""
     shared = obj.data
     own = shared.copy()

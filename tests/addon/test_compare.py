@@ -16,7 +16,8 @@ COUNTED = ("objects", "meshes", "materials", "scenes", "cameras", "lights", "wor
 def rooms(room) -> SimpleNamespace:
     """The extension's rooms for comparing."""
     names = ("blender_data.compat", "compare", "metrics.pixel_errors", "comparison.compare_pictures",
-             "judge.cycles_codes", "judge.cycles_render", "judge.cycles_scene", "blender_data.read_view", "faults")
+             "judge.cycles_codes", "judge.cycles_render", "judge.cycles_scene", "rendering.cycles_pictures",
+             "blender_data.read_view", "faults")
     return SimpleNamespace(**{name.rpartition(".")[2]: room(f"addon.{name}") for name in names})
 
 
@@ -219,14 +220,14 @@ def test_nothing_changes_when_a_render_fails(rooms, flat_scene, tmp_path, monkey
 
 def test_nothing_is_left_when_a_render_is_cancelled(rooms, flat_scene, tmp_path, monkeypatch):
     """A render that is cancelled leaves no file; the reflection that was made for the comparison goes too."""
-    before, render, count = state(), rooms.cycles_render._write_still, []
+    before, render, count = state(), rooms.cycles_pictures._write_still, []
 
     def cancelled_at_the_last(scene):
         count.append(scene.name)
         if len(count) < 6:
             render(scene)
 
-    monkeypatch.setattr(rooms.cycles_render, "_write_still", cancelled_at_the_last)
+    monkeypatch.setattr(rooms.cycles_pictures, "_write_still", cancelled_at_the_last)
     with pytest.raises(RuntimeError, match="cancelled"):
         bpy.ops.reflection_mesh.compare(filepath=str(tmp_path), samples=1)
     assert len(count) == 6
@@ -239,13 +240,13 @@ def test_pictures_are_rendered_as_the_scene_is_set(rooms, flat_scene, tmp_path, 
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.glossy_bounces = 3, False, 7
-    render, seen = rooms.cycles_render._write_still, []
+    render, seen = rooms.cycles_pictures._write_still, []
 
     def watched(copy):
         seen.append((copy.cycles.samples, copy.cycles.glossy_bounces))
         render(copy)
 
-    monkeypatch.setattr(rooms.cycles_render, "_write_still", watched)
+    monkeypatch.setattr(rooms.cycles_pictures, "_write_still", watched)
     bpy.ops.reflection_mesh.compare(filepath=str(tmp_path), samples=0)
     assert seen[-2:] == [(3, 7), (3, 7)] and set(seen[:-2]) == {(1, 1)}
 

@@ -82,7 +82,7 @@ def test_steps_give_the_numbers_that_one_go_gives(scene, room, job, tmp_path):
 
 
 def test_a_step_is_one_render_at_most(scene, room, job, monkeypatch):
-    place, count = room("addon.judge.cycles_render"), []
+    place, count = room("addon.rendering.cycles_pictures"), []
     render = place._write_still
 
     def counted(copied):

@@ -75,7 +75,7 @@ def sentence_of(operator, capfd, **options) -> str:
     ("compare", "compare", "measure", "Compare with Cycles"),
     ("compare", "compare", "write_report", "Compare with Cycles"),
     ("compare", "compare", "participants", "Compare with Cycles"),
-    ("clear", "clear", "results_to_clear", "Clear Reflections"),
+    ("clear", "clear", "chosen_results", "Clear Reflections"),
     ("clear", "clear", "clear", "Clear Reflections"),
 ])
 def test_an_operator_says_one_sentence(scene, room, monkeypatch, capfd, tmp_path, verb, place, name, label):

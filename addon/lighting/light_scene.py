@@ -1,0 +1,137 @@
+"""A temporary scene in which the mirrors show their own light: the user's, with settings that may be changed."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ...core import View
+from ..faults import still_there
+from ..rendering import rendered, with_cycles
+
+MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
+COVERAGE_SAMPLES = 32
+
+
+@dataclass(frozen=True)
+class Window:
+    """A part of the picture: its lowest column and row, its width and height, in pixels of a picture of `size`."""
+
+    column: int
+    row: int
+    width: int
+    height: int
+    size: tuple[int, int]
+
+    @classmethod
+    def around(cls, view: View, places: np.ndarray) -> Window | None:
+        """The window that shows places (n, 3) in world space; None where that is nothing."""
+        spots = view.pixels(places)
+        spots = spots[np.isfinite(spots).all(axis=1)]
+        if not len(spots):
+            return None
+        lowest, highest = (np.clip(side, 0, view.resolution).astype(int) for side in (
+            np.floor(spots.min(axis=0)) - MARGIN, np.ceil(spots.max(axis=0)) + MARGIN))
+        if (highest <= lowest).any():
+            return None
+        return cls(*lowest.tolist(), *(highest - lowest).tolist(), view.resolution)
+
+
+@dataclass(frozen=True)
+class LightScene:
+    """A copy of the user's scene that renders one window of its picture."""
+
+    scene: bpy.types.Scene
+    results: list
+
+    def light(self, samples: int) -> np.ndarray:
+        """What the mirrors show in the window, (height, width, 3) float32 in linear light from the lowest row up."""
+        self.scene.cycles.samples = samples
+        return rendered(self.scene)[..., :3]
+
+    def coverage(self) -> np.ndarray:
+        """How much of each pixel the results cover, (height, width) float32, by the picture's own filter: nothing where
+        something stands before them."""
+        scene, layer = self.scene, self.scene.view_layers[0]
+        stage, others = (bpy.data.collections.new(name) for name in ("Reflection Light", "Reflection Light Others"))
+        made: list = []
+        try:
+            for obj in list(scene.collection.objects):
+                scene.collection.objects.unlink(obj)
+                others.objects.link(obj)
+            scene.collection.children.link(others)
+            for branch in layer.layer_collection.children:
+                branch.holdout = True
+            scene.collection.children.link(stage)
+            for result in self.results:
+                made.append(_stand_in(result))
+                stage.objects.link(made[-1])
+            cycles = scene.cycles
+            cycles.samples, cycles.max_bounces, cycles.use_denoising = COVERAGE_SAMPLES, 0, False
+            scene.render.film_transparent = True
+            return rendered(scene)[..., 3]
+        finally:
+            bpy.data.batch_remove([*still_there(made), stage, others])
+
+
+@contextmanager
+def light_scene(context: bpy.types.Context, results: list, window: Window) -> Iterator[LightScene]:
+    """The user's scene as a copy that shares its objects; results are hidden in it, their mirrors seen."""
+    scene = context.scene.copy()
+    with ExitStack() as back:
+        back.callback(bpy.data.scenes.remove, scene)
+        scene.name = "Reflection Light"
+        _prepare(scene, context.view_layer.name, window)
+        camera = _sharp_camera(context.scene.camera)
+        back.callback(bpy.data.cameras.remove, camera.data)
+        scene.collection.objects.link(camera)
+        scene.camera = camera
+        for result in results:
+            back.callback(setattr, result, "hide_render", result.hide_render)
+            result.hide_render = True
+            mirror = result.reflection_mesh.mirror
+            if mirror is not None and mirror.reflection_mesh.camera_hidden:
+                back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
+                mirror.visible_camera = True
+        yield LightScene(scene, results)
+
+
+def _prepare(scene: bpy.types.Scene, layer: str, window: Window) -> None:
+    """One view layer, one window of the picture, nothing after the render; sampling that denoises well."""
+    with_cycles(scene)
+    for other in [other for other in scene.view_layers if other.name != layer]:
+        scene.view_layers.remove(other)
+    render, cycles = scene.render, scene.cycles
+    for name in ("use_compositing", "use_sequencer", "use_motion_blur", "use_freestyle", "use_multiview", "use_stamp",
+                 "film_transparent"):
+        setattr(render, name, False)
+    render.use_persistent_data = True
+    width, height = window.size
+    render.use_border = render.use_crop_to_border = True
+    render.border_min_x, render.border_max_x = window.column / width, (window.column + window.width) / width
+    render.border_min_y, render.border_max_y = window.row / height, (window.row + window.height) / height
+    cycles.film_exposure = 1.0
+    cycles.use_denoising = True
+    cycles.denoiser = "OPENIMAGEDENOISE"
+    cycles.denoising_input_passes, cycles.denoising_prefilter = "RGB_ALBEDO_NORMAL", "ACCURATE"
+    # a noise of its own: a render of the file must not agree with it by having the same
+    cycles.seed = scene.cycles.seed + 1
+
+
+def _sharp_camera(camera: bpy.types.Object) -> bpy.types.Object:
+    """A copy of a camera with all in focus."""
+    copy, copy.data = camera.copy(), camera.data.copy()
+    copy.data.dof.use_dof = False
+    return copy
+
+
+def _stand_in(result: bpy.types.Object) -> bpy.types.Object:
+    """A result as the camera sees it, and nothing else does."""
+    copy = result.copy()
+    copy.hide_render = False
+    for slot in copy.material_slots:
+        slot.link, slot.material = "OBJECT", None
+    return copy

@@ -1,0 +1,57 @@
+"""Which results look right as they are: what they show emits its own light, and their mirror takes nothing of it."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ..blender_data import compat
+from ..blender_data.mirror_materials import is_mirror, surface_shader
+
+WHITE = 0.999
+TINTS = {"BSDF_GLOSSY": ("Color",), "BSDF_PRINCIPLED": ("Base Color", "Specular Tint")}
+# a metal that is white, sharp and nothing else shows all of the light, from any side
+PLAIN = {"Metallic": 1.0, "Roughness": 0.0, "Alpha": 1.0, "Transmission Weight": 0.0, "Coat Weight": 0.0,
+         "Sheen Weight": 0.0, "Emission Strength": 0.0, "Thin Film Thickness": 0.0}
+
+
+def needs_light(result: bpy.types.Object) -> bool:
+    """Whether a result does not yet look as its mirror does."""
+    mirror = result.reflection_mesh.mirror
+    if mirror is None or not all(map(emits, _shown(result))):
+        return True
+    mirrors = [slot.material for slot in mirror.material_slots if is_mirror(slot.material)]
+    return not mirrors or not all(map(is_plain, mirrors))
+
+
+def emits(material: bpy.types.Material | None) -> bool:
+    """Whether a material shows what it emits, and no lamp changes it."""
+    if material is None or not compat.uses_nodes(material):
+        return False
+    shader = surface_shader(material.node_tree)
+    return shader is not None and shader.type == "EMISSION"
+
+
+def is_plain(material: bpy.types.Material) -> bool:
+    """Whether a mirror shows all of the light that it meets, sharp and in its own colour."""
+    shader = surface_shader(material.node_tree) if compat.uses_nodes(material) else None
+    if shader is None or shader.type not in TINTS:
+        return False
+    tints = [shader.inputs[name] for name in TINTS[shader.type] if name in shader.inputs]
+    values = [(shader.inputs[name], value) for name, value in PLAIN.items() if name in shader.inputs]
+    # the strength of an emission of black says nothing
+    dark = "Emission Color" in shader.inputs and max(shader.inputs["Emission Color"].default_value[:3]) == 0.0
+    return (all(not tint.is_linked and min(tint.default_value[:3]) >= WHITE for tint in tints)
+            and all(not socket.is_linked and (socket.default_value == value or (dark and "Emission" in socket.name))
+                    for socket, value in values)
+            and not (shader.inputs["Normal"].is_linked))
+
+
+def _shown(result: bpy.types.Object) -> list:
+    """The materials of the faces or points of a result."""
+    mesh = result.data
+    known = mesh.attributes.get("material_index" if len(mesh.polygons) else "source_material")
+    if known is None:
+        return list(mesh.materials)
+    index = np.empty(len(known.data), dtype=np.int32)
+    known.data.foreach_get("value", index)
+    return [mesh.materials[number] if number < len(mesh.materials) else None for number in np.unique(index)]

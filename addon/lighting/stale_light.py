@@ -1,0 +1,49 @@
+"""Tells when light is no longer that of the scene: something has changed that it may depend on."""
+from __future__ import annotations
+
+import bpy
+from bpy.app.handlers import persistent
+
+# what may change light; all else, such as pictures that are only looked at, does not
+KINDS = (bpy.types.Object, bpy.types.Material, bpy.types.World, bpy.types.Light, bpy.types.Mesh, bpy.types.Curve,
+         bpy.types.MetaBall, bpy.types.Camera, bpy.types.NodeTree)
+
+
+@persistent
+def _mark(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Mark the lit results of a scene in which something has changed."""
+    if bpy.app.is_job_running("RENDER"):
+        return
+    lit = [obj for obj in scene.objects
+           if obj.reflection_mesh.light_material is not None and not obj.reflection_mesh.light_stale]
+    if not lit:
+        return
+    own = _own(scene)
+    if any(_tells(update, own) for update in depsgraph.updates):
+        for obj in lit:
+            obj.reflection_mesh.light_stale = True
+
+
+def _own(scene: bpy.types.Scene) -> set:
+    """Results, and what makes them."""
+    results = {obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
+    materials = {obj.reflection_mesh.light_material for obj in results} - {None}
+    return results | materials | {obj.data for obj in results} | {material.node_tree for material in materials}
+
+
+def _tells(update: bpy.types.DepsgraphUpdate, own: set) -> bool:
+    changed = update.is_updated_transform or update.is_updated_geometry
+    # an object's shading counts as updated whenever anything is added to the scene
+    if not isinstance(update.id, bpy.types.Object):
+        changed |= update.is_updated_shading
+    return changed and isinstance(update.id, KINDS) and update.id.original not in own
+
+
+def register() -> None:
+    bpy.app.handlers.depsgraph_update_post.append(_mark)
+    bpy.app.handlers.frame_change_post.append(_mark)
+
+
+def unregister() -> None:
+    bpy.app.handlers.frame_change_post.remove(_mark)
+    bpy.app.handlers.depsgraph_update_post.remove(_mark)

@@ -1,0 +1,121 @@
+"""From what a render shows to what texels must hold, so that rendering them shows it again.
+
+A render weighs the light within a pixel by its filter; a texture between its texels interpolates linearly. Shown as it
+is, the picture would be blurred once more. And pixels on the border of what the texture covers show what lies beside
+too.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+SEEN_WHOLE = 0.995  # of a pixel: coverage from which it shows nothing else
+SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
+UNSEEN = 0.002
+REACH = 3           # texels around the covered ones that filters and interpolation may ask for
+FINE = 512          # places across a pixel at which its filter is summed
+LEAST_RESPONSE = 0.2  # of a wave that a wide filter hardly lets through no more is brought back
+
+
+def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray) -> np.ndarray:
+    """The texels whose picture is `light` where results cover it.
+
+    Parameters
+    ----------
+    light : (height, width, 3) float32
+        What is seen, through the picture's filter.
+    coverage : (height, width) float32
+        The part of each pixel that results cover, by the same filter.
+    kernel : (k,) float64
+        As `pixel_kernel` gives it.
+
+    Returns
+    -------
+    texels : (height, width, 3) float32, zero farther than `REACH` from what is covered.
+    """
+    needed = _grown(coverage > 0.0, REACH)
+    filled = _filled(*_without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64)), needed)
+    sharp = np.maximum(_unfiltered(filled, kernel), 0.0)
+    return np.where(needed[..., None], sharp, 0.0).astype(np.float32)
+
+
+def pixel_kernel(kind: str, width: float) -> np.ndarray:
+    """Weights (k,) with which texels along a row, one a pixel and interpolated linearly, make a pixel.
+
+    Parameters
+    ----------
+    kind : str
+        Of Cycles' filters BOX, GAUSSIAN, BLACKMAN_HARRIS.
+    width : float
+        Of the filter, in pixels.
+    """
+    at = (np.arange(FINE) + 0.5) / FINE - 0.5
+    if kind == "GAUSSIAN":
+        weight = np.exp(-2.0 * (6.0 * at) ** 2)
+    elif kind == "BLACKMAN_HARRIS":
+        turn = 2.0 * np.pi * (at + 0.5)
+        weight = 0.35875 - 0.48829 * np.cos(turn) + 0.14128 * np.cos(2.0 * turn) - 0.01168 * np.cos(3.0 * turn)
+    else:
+        weight = np.ones(FINE)
+    # how far Cycles lets its filters reach (intern/cycles/scene/film.cpp)
+    width *= {"GAUSSIAN": 3.0, "BLACKMAN_HARRIS": 2.0}.get(kind, 1.0)
+    half = int(np.ceil(0.5 * width + 1.0))
+    tents = np.maximum(1.0 - np.abs(width * at - np.arange(-half, half + 1)[:, None]), 0.0)
+    return tents @ (weight / weight.sum())
+
+
+def _without_what_lies_beside(light: np.ndarray, coverage: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What results show in pixels that they cover in part, where the light beside them, continued, tells; and which
+    pixels (height, width) are known so."""
+    border = (coverage > SEEN_PARTLY) & (coverage < SEEN_WHOLE)
+    beside = _filled(light, coverage <= UNSEEN, border)
+    share = np.maximum(coverage, SEEN_PARTLY)[..., None]
+    alone = np.maximum((light - (1.0 - share) * beside) / share, 0.0)
+    return np.where(border[..., None], alone, light), coverage > SEEN_PARTLY
+
+
+def _unfiltered(picture: np.ndarray, kernel: np.ndarray) -> np.ndarray:
+    """What the kernel, along rows and columns, makes `picture` of."""
+    height, width = picture.shape[:2]
+    around = np.pad(picture, ((2 * REACH,) * 2,) * 2 + ((0, 0),), mode="edge")
+    rows, columns = around.shape[:2]
+    response = np.outer(_response(kernel, rows), _response(kernel, columns)[:columns // 2 + 1])
+    waves = np.fft.rfft2(around, axes=(0, 1)) / response[..., None]
+    return np.fft.irfft2(waves, s=(rows, columns), axes=(0, 1))[2 * REACH:, 2 * REACH:][:height, :width]
+
+
+def _response(kernel: np.ndarray, count: int) -> np.ndarray:
+    """How much the kernel lets through of each of `count` waves."""
+    step = np.arange(len(kernel)) - len(kernel) // 2
+    response = np.cos(2.0 * np.pi * np.outer(np.arange(count) / count, step)) @ kernel
+    return np.maximum(response, LEAST_RESPONSE)
+
+
+def _filled(picture: np.ndarray, known: np.ndarray, needed: np.ndarray) -> np.ndarray:
+    """The picture with its unknown pixels, where needed, as the known ones around them, ring by ring."""
+    filled, known = np.where(known[..., None], picture, 0.0), known.copy()
+    if not known.any():
+        return picture
+    for _ in range(max(known.shape)):
+        open_ = needed & ~known
+        if not open_.any():
+            break
+        weight = _sum_around(known.astype(np.float64))
+        ring = open_ & (weight > 0.0)
+        if not ring.any():
+            break
+        filled[ring] = _sum_around(filled)[ring] / weight[ring, None]
+        known |= ring
+    return np.where(known[..., None], filled, picture)
+
+
+def _sum_around(values: np.ndarray) -> np.ndarray:
+    """The sum of each pixel and its eight neighbours."""
+    padded = np.pad(values, ((1, 1), (1, 1)) + ((0, 0),) * (values.ndim - 2))
+    across = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
+    return across[:-2] + across[1:-1] + across[2:]
+
+
+def _grown(mask: np.ndarray, reach: int) -> np.ndarray:
+    for _ in range(reach):
+        mask = _sum_around(mask.astype(np.uint8)) > 0
+    return mask

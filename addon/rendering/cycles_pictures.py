@@ -1,0 +1,97 @@
+"""What Cycles renders, as arrays."""
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+
+from ...core import ReflectionError
+from ..blender_data import render_size
+from ..faults import interrupt_held
+from ..files import has_room, is_whole, scratch_folder, scratch_is_full
+
+SLOT = "Reflection Comparison"
+
+
+def with_cycles(scene: bpy.types.Scene) -> None:
+    """Let Cycles render a temporary scene, into lossless linear pictures.
+
+    Raises
+    ------
+    ReflectionError
+        Where Cycles is switched off.
+    """
+    try:
+        scene.render.engine = "CYCLES"
+    except TypeError as error:
+        raise ReflectionError("Cycles is not available: enable the add-on 'Cycles Render Engine' in the "
+                              "preferences.") from error
+    settings = scene.render.image_settings
+    if hasattr(settings, "media_type"):
+        settings.media_type = "IMAGE"
+    settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGBA", "32"
+    settings.exr_codec = "ZIP"
+
+
+def rendered(scene: bpy.types.Scene) -> np.ndarray:
+    """The picture of a temporary scene, (height, width, 4) float32 in linear light from the lowest row up.
+
+    Raises
+    ------
+    ReflectionError
+        Where the render is cancelled, or its file has no room.
+    """
+    # a file, since a render result has no pixels to read without a window.
+    with scratch_folder() as folder, _slot_of_its_own():
+        path = os.path.join(folder, "render.exr")
+        scene.render.filepath = path
+        with interrupt_held():
+            _write_still(scene)
+        if os.path.exists(path):
+            if not is_whole(path):
+                raise scratch_is_full()
+        elif has_room(folder, _largest(scene)):
+            raise ReflectionError("The render was cancelled: nothing has changed.")
+        else:
+            raise scratch_is_full()
+        image = bpy.data.images.load(path)
+        try:
+            image.colorspace_settings.name = "Non-Color"
+            width, height = image.size
+            pixels = np.empty(width * height * image.channels, dtype=np.float32)
+            image.pixels.foreach_get(pixels)
+            return pixels.reshape(height, width, -1)
+        finally:
+            bpy.data.images.remove(image)
+
+
+def _largest(scene: bpy.types.Scene) -> int:
+    """The most bytes that a picture takes in a file."""
+    width, height = render_size(scene)
+    return width * height * 4 * 4 + 20 * height + 10_000
+
+
+def _write_still(scene: bpy.types.Scene) -> None:
+    """Render to the scene's path; where that is cancelled there is no file."""
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+
+
+@contextmanager
+def _slot_of_its_own() -> Iterator[None]:
+    """Keep the user's last render: ours goes into another slot of the render result."""
+    result = bpy.data.images.get("Render Result")
+    if bpy.app.background or result is None:
+        yield
+        return
+    slots = result.render_slots
+    active = slots.active_index
+    if slots.find(SLOT) < 0:
+        slots.new(name=SLOT)
+    slots.active_index = slots.find(SLOT)
+    try:
+        yield
+    finally:
+        slots.active_index = active
