@@ -1,4 +1,4 @@
-"""`blender -b scene.blend --command reflection_mesh generate|light|compare|benchmark ...`, and the same for PyPI's bpy."""
+"""`blender -b scene.blend --command reflection_mesh generate|light|compare ...`, and the same for PyPI's bpy."""
 from __future__ import annotations
 
 import argparse

@@ -2,9 +2,10 @@
 
     python sample_blends/make_samples.py [folder] [name ...]
 
-Run it with the oldest supported `bpy` (4.2), so that every supported Blender opens the files. What the mirrors show
+Run it with the oldest supported `bpy` (4.2), so that every supported Blender opens the files. What most mirrors show
 is unlit (emission of an image or of a colour attribute with the light painted in), so that a reflection can be judged
-by its colours; frames, lids and stands are lit and take no part. Mirror and diffuse objects are saved selected.
+by its colours; frames, lids and stands are lit and take no part. Three scenes, of `LIT`, have lamps, and mirrors with
+a colour and a Fresnel of their own. Mirror and diffuse objects are saved selected.
 """
 from __future__ import annotations
 
@@ -82,6 +83,77 @@ def lit(name: str, colour: tuple) -> bpy.types.Material:
     material.diffuse_color = (*colour, 1.0)
     material.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (*colour, 1.0)
     return material
+
+
+def surface(name: str, colour: tuple, texture: str = "", coordinates: str = "UV", scale: float = 5.0,
+            **values) -> bpy.types.Material:
+    """A lit material: a Principled BSDF whose base colour a procedural texture may darken in places."""
+    material = lit(name, colour)
+    tree = material.node_tree
+    shader = tree.nodes["Principled BSDF"]
+    for key, value in values.items():
+        shader.inputs[key.replace("_", " ")].default_value = value
+    if texture:
+        place, pattern, mixed = (tree.nodes.new(kind) for kind in
+                                 ("ShaderNodeTexCoord", f"ShaderNodeTex{texture}", "ShaderNodeMix"))
+        mixed.data_type = "RGBA"
+        mixed.inputs[6].default_value = (*(0.25 * part for part in colour), 1.0)
+        mixed.inputs[7].default_value = (*colour, 1.0)
+        pattern.inputs["Scale"].default_value = scale
+        tree.links.new(place.outputs[coordinates], pattern.inputs["Vector"])
+        tree.links.new(pattern.outputs["Fac" if "Fac" in pattern.outputs else "Color"], mixed.inputs[0])
+        tree.links.new(mixed.outputs[2], shader.inputs["Base Color"])
+    return material
+
+
+def fresnel_water(name: str, colour: tuple) -> bpy.types.Material:
+    """Still water: a mirror from the side, a dark ground from above."""
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.remove(tree.nodes["Principled BSDF"])
+    share, ground, gloss, both = (tree.nodes.new(f"ShaderNode{kind}") for kind in
+                                  ("Fresnel", "BsdfDiffuse", "BsdfAnisotropic", "MixShader"))
+    share.inputs["IOR"].default_value = 1.33
+    ground.inputs["Color"].default_value = (*colour, 1.0)
+    gloss.inputs["Roughness"].default_value = 0.0
+    gloss.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    for source, target in ((share.outputs[0], both.inputs[0]), (ground.outputs[0], both.inputs[1]),
+                           (gloss.outputs[0], both.inputs[2]),
+                           (both.outputs[0], tree.nodes["Material Output"].inputs["Surface"])):
+        tree.links.new(source, target)
+    return material
+
+
+def leaf(name: str, colour: tuple) -> bpy.types.Material:
+    """A leaf on a transparent card, by the alpha of an image."""
+    u = (np.arange(128) + 0.5) / 64 - 1.0
+    x, y = np.meshgrid(u, u)
+    inside = np.abs(x) < 0.55 * np.sqrt(np.maximum(1.0 - y * y, 0.0)) * (1.0 - 0.5 * y)
+    vein = 1.0 - 0.45 * (np.abs(x) < 0.03) - 0.25 * (np.abs((8.0 * (y + np.abs(x))) % 2.0 - 1.0) < 0.12)
+    image = bpy.data.images.new(name, 128, 128, alpha=True)
+    rgba = np.ones((128, 128, 4), dtype=np.float32)
+    rgba[..., :3] = np.array(colour) ** (1.0 / 2.2) * vein[..., None]
+    rgba[..., 3] = inside
+    image.pixels.foreach_set(rgba.ravel())
+    image.pack()
+    material = surface(name, colour, Roughness=0.6)
+    tree = material.node_tree
+    look = tree.nodes.new("ShaderNodeTexImage")
+    look.image = image
+    tree.links.new(look.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
+    tree.links.new(look.outputs["Alpha"], tree.nodes["Principled BSDF"].inputs["Alpha"])
+    return material
+
+
+def lamp(name: str, location: tuple, target: tuple, watts: float, size: float, colour: tuple = (1, 1, 1)) -> None:
+    """An area lamp that shines at `target`."""
+    data = bpy.data.lights.new(name, "AREA")
+    data.energy, data.size, data.color = watts, size, colour
+    made = bpy.data.objects.new(name, data)
+    made.location = location
+    made.rotation_euler = (Vector(target) - Vector(location)).to_track_quat("-Z", "Y").to_euler()
+    bpy.context.scene.collection.objects.link(made)
 
 
 def checks(size: int, count: int, dark: tuple, light: tuple, shadows: list = (), extent: float = 1.0) -> np.ndarray:
@@ -347,7 +419,87 @@ def mirrors() -> tuple:
     return wall, []
 
 
-SCENES = {scene.__name__: scene for scene in (sphere, flat_mirror, bowl, water, cylinder, suzanne, mirrors)}
+def room() -> tuple:
+    """A golden ball in a room with two lamps: shadows, light from wall to wall, textures of every kind."""
+    gold = surface("Gold", (0.95, 0.78, 0.48), Metallic=1.0, Roughness=0.0)
+    mirror = add("uv_sphere", "Golden Ball", (0, 0, 1.0), gold, radius=1.0, segments=64, ring_count=32, smooth=True)
+    add("plane", "Tiles", (0, -1.5, 0), surface("Tiles", (0.80, 0.74, 0.66), "Checker", scale=18.0, Roughness=0.35),
+        size=9)
+    plaster = surface("Plaster", (0.78, 0.76, 0.70), Roughness=0.9)
+    add("plane", "Left Wall", (-4.5, -1.5, 1.75), surface("Red Wall", (0.62, 0.12, 0.08), Roughness=0.9), size=1,
+        scale=(3.5, 9, 1), rotation=(0, pi / 2, 0))
+    add("plane", "Right Wall", (4.5, -1.5, 1.75), surface("Green Wall", (0.12, 0.42, 0.16), Roughness=0.9), size=1,
+        scale=(3.5, 9, 1), rotation=(0, -pi / 2, 0))
+    add("plane", "Back Wall", (0, 3.0, 1.75), plaster, size=1, scale=(9, 3.5, 1), rotation=(pi / 2, 0, 0))
+    add("plane", "Front Wall", (0, -6.0, 1.75), surface("Bricks", (0.85, 0.48, 0.30), "Brick", scale=4.0,
+                                                        Roughness=0.9), size=1, scale=(9, 3.5, 1),
+        rotation=(-pi / 2, 0, 0))
+    add("monkey", "Suzanne", (-1.9, -1.7, 0.72), surface("Marble", (0.85, 0.80, 0.86), "Noise", "Generated", 5.0),
+        size=1.4, rotation=(-0.3, 0, 2.5), smooth=True)
+    add("cube", "Crate", (1.9, -1.5, 0.5), surface("Wood", (0.60, 0.34, 0.14), "Wave", "Object", 2.0), size=1.0,
+        rotation=(0, 0, 0.5))
+    add("torus", "Blue Ring", (0.3, -2.4, 0.2), surface("Glaze", (0.05, 0.14, 0.65), Roughness=0.15),
+        major_radius=0.55, minor_radius=0.19, major_segments=40, minor_segments=16, smooth=True)
+    lamp("Ceiling Lamp", (1.5, -2.0, 3.4), (0.5, -1.5, 0), 260.0, 1.2)
+    lamp("Warm Lamp", (-3.2, -4.6, 2.6), (0, -1, 0.8), 90.0, 0.5, (1.0, 0.62, 0.30))
+    eye((0.6, -5.4, 2.0), (0.0, 0.0, 0.95), 48)
+    return mirror, ()
+
+
+def bathroom() -> tuple:
+    """A tinted flat mirror over a shelf, before a wall of tiles."""
+    silver = surface("Tinted Silver", (0.70, 0.86, 0.80), Metallic=1.0, Roughness=0.0)
+    mirror = add("plane", "Mirror", (0, 1.48, 1.75), silver, size=1, scale=(2.6, 1.7, 1), rotation=(pi / 2, 0, 0))
+    tiles = surface("Wall Tiles", (0.82, 0.86, 0.88), "Brick", scale=9.0, Roughness=0.2)
+    wall = add("plane", "Mirror Wall", (0, 1.5, 1.6), tiles, size=1, scale=(6, 3.2, 1), rotation=(pi / 2, 0, 0))
+    add("plane", "Floor", (0, -1.0, 0), surface("Floor", (0.30, 0.33, 0.36), "Checker", scale=24.0, Roughness=0.3),
+        size=6, scale=(1, 5 / 6, 1))
+    add("plane", "Door Wall", (0, -3.5, 1.6), surface("Paint", (0.80, 0.72, 0.58), Roughness=0.8), size=1,
+        scale=(6, 3.2, 1), rotation=(-pi / 2, 0, 0))
+    add("cube", "Door", (-1.0, -3.46, 1.05), surface("Door", (0.32, 0.17, 0.08), "Wave", "Object", 3.0,
+                                                     Roughness=0.4), size=1, scale=(0.95, 0.06, 2.1))
+    add("plane", "Side Wall", (3.0, -1.0, 1.6), tiles, size=1, scale=(3.2, 5, 1), rotation=(0, -pi / 2, 0))
+    add("cube", "Shelf", (0, 1.2, 0.80), surface("Shelf", (0.55, 0.42, 0.28), "Noise", "Generated", 8.0), size=1,
+        scale=(2.6, 0.5, 0.06))
+    add("uv_sphere", "Soap", (-0.75, 1.12, 0.90), surface("Soap", (0.90, 0.45, 0.55), Roughness=0.25), radius=0.13,
+        scale=(1.4, 1.0, 0.6), segments=32, ring_count=16, smooth=True)
+    add("cylinder", "Bottle", (0.55, 1.15, 1.03), surface("Bottle", (0.06, 0.30, 0.34), Roughness=0.1), radius=0.1,
+        depth=0.4, vertices=40, smooth=False)
+    add("monkey", "Suzanne", (0.3, -0.6, 1.45), surface("Skin", (0.75, 0.45, 0.30), Roughness=0.5), size=1.0,
+        rotation=(-0.1, 0, pi + 0.25), smooth=True)
+    add("cube", "Towel", (2.9, -0.5, 1.5), surface("Towel", (0.10, 0.20, 0.55), "Checker", "Object", 8.0,
+                                                   Roughness=1.0), size=1, scale=(0.08, 0.7, 1.0))
+    lamp("Mirror Lamp", (0, 0.9, 2.9), (0, 0.4, 1.0), 60.0, 0.9, (1.0, 0.92, 0.80))
+    lamp("Window", (-2.8, -1.5, 2.0), (0, -1.0, 1.0), 90.0, 1.2, (0.70, 0.85, 1.0))
+    eye((-1.0, -2.6, 1.85), (0.15, 1.4, 1.55), 35)
+    return mirror, (wall,)
+
+
+def pond() -> tuple:
+    """Water that mirrors by Fresnel, under a wall with posts and hanging leaves."""
+    def waves(points: np.ndarray) -> np.ndarray:
+        x, y = 6.0 * points[:, 0], 6.0 * points[:, 1]
+        return np.column_stack([x, y, 0.010 * np.sin(1.2 * x + 1.9 * y) + 0.007 * np.sin(-1.5 * x + 2.1 * y + 1.0)])
+
+    mirror = moulded("Pond", 40, 40, waves, fresnel_water("Water", (0.02, 0.05, 0.05)))
+    add("cube", "Wall", (0, 5.2, 0.9), surface("Stone", (0.55, 0.50, 0.44), "Voronoi", "Object", 2.2, Roughness=0.9),
+        size=1, scale=(12, 0.6, 2.2))
+    for k, x in enumerate((-3.6, -1.2, 1.4, 3.8)):
+        add("cylinder", f"Post {k + 1}", (x, 4.1, 0.9), surface(f"Post {k + 1}", (RED, YELLOW, BLUE, WHITE)[k],
+                                                                Roughness=0.5), radius=0.18, depth=2.2, vertices=24)
+    add("uv_sphere", "Buoy", (0.4, 1.9, 0.75), surface("Buoy", (0.90, 0.30, 0.03), Roughness=0.3), radius=0.4,
+        segments=24, ring_count=12, smooth=True)
+    leaves = [leaf("Green Leaf", (0.10, 0.42, 0.06)), leaf("Yellow Leaf", (0.80, 0.55, 0.05))]
+    places = np.random.default_rng(5).uniform((-4.0, 2.2, 1.2), (4.5, 4.0, 2.6), (26, 3))
+    for k, place in enumerate(places):
+        turn = tuple(np.random.default_rng(k).uniform(-0.7, 0.7, 3) + (pi / 2, 0, 0))
+        add("plane", f"Leaf {k + 1}", tuple(place), leaves[k % 2], size=0.55, rotation=turn)
+    eye((0.5, -6.6, 2.6), (0.0, 2.0, 0.75), 42)
+    return mirror, ()
+
+
+LIT = (room, bathroom, pond)
+SCENES = {scene.__name__: scene for scene in (sphere, flat_mirror, bowl, water, cylinder, suzanne, mirrors, *LIT)}
 
 
 def write(name: str, folder: Path) -> Path:
@@ -359,7 +511,8 @@ def write(name: str, folder: Path) -> Path:
     sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
     sun.rotation_euler = Vector(-LIGHT).to_track_quat("-Z", "Y").to_euler()
     sun.data.energy = 3.0
-    scene.collection.objects.link(sun)
+    if SCENES[name] not in (room, bathroom):
+        scene.collection.objects.link(sun)
     scene.render.engine = "CYCLES"
     scene.render.resolution_x = scene.render.resolution_y = RESOLUTION
     scene.cycles.samples = 64

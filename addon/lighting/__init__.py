@@ -5,5 +5,5 @@ from .lit_results import forget_light, keep_light, light_lines, mirror_positions
 from .needs_light import needs_light
 from .texels import pixel_kernel, texels_of
 
-__all__ = ["Window", "forget_light", "keep_light", "light_lines", "light_scene", "mirror_positions", "needs_light", "new_image",
-           "new_material", "pixel_kernel", "show_light", "texels_of"]
+__all__ = ["Window", "forget_light", "keep_light", "light_lines", "light_scene", "mirror_positions", "needs_light",
+           "new_image", "new_material", "pixel_kernel", "show_light", "texels_of"]

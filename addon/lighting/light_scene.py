@@ -57,7 +57,8 @@ class LightScene:
         something stands before them."""
         scene, layer = self.scene, self.scene.view_layers[0]
         stage, others = (bpy.data.collections.new(name) for name in ("Reflection Light", "Reflection Light Others"))
-        made: list = []
+        opaque = bpy.data.materials.new("Reflection Light Opaque")
+        made: list = [opaque]
         try:
             for obj in list(scene.collection.objects):
                 scene.collection.objects.unlink(obj)
@@ -67,7 +68,7 @@ class LightScene:
                 branch.holdout = True
             scene.collection.children.link(stage)
             for result in self.results:
-                made.append(_stand_in(result))
+                made.append(_stand_in(result, opaque))
                 stage.objects.link(made[-1])
             cycles = scene.cycles
             cycles.samples, cycles.max_bounces, cycles.use_denoising = COVERAGE_SAMPLES, 0, False
@@ -128,10 +129,10 @@ def _sharp_camera(camera: bpy.types.Object) -> bpy.types.Object:
     return copy
 
 
-def _stand_in(result: bpy.types.Object) -> bpy.types.Object:
+def _stand_in(result: bpy.types.Object, material: bpy.types.Material) -> bpy.types.Object:
     """A result as the camera sees it, and nothing else does."""
     copy = result.copy()
     copy.hide_render = False
     for slot in copy.material_slots:
-        slot.link, slot.material = "OBJECT", None
+        slot.link, slot.material = "OBJECT", material
     return copy
