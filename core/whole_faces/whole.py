@@ -8,13 +8,13 @@ import numpy as np
 from ..cameras import Cameras, picture_areas
 from ..culling import Cones, ScenePieces, SceneTree
 from ..geometry import TriangleMesh, norm
+from ..patches import Patch
 from ..support import FACE_SHARE, Settings
 from .contacts import contacts
 from .coverage import box
 from .division import Division
 from .images import Images
 from .layers import Layers
-from .patch import Patch
 from .pieces import Pieces, whole
 from .sinking import Sinking
 
