@@ -3,7 +3,7 @@
 In come cameras and points; out come the mirror's triangles, places on them and distances. Starts come from a cube map
 (N. Greene, IEEE CG&A 1986), and Newton's method walks from there.
 """
-from .patch import Patch
-from .walk import Starts, find, jacobians
+from .patch import Patch, speck
+from .walk import Starts, derivatives, find, jacobians
 
-__all__ = ["Patch", "Starts", "find", "jacobians"]
+__all__ = ["Patch", "Starts", "derivatives", "find", "jacobians", "speck"]

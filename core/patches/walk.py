@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import cross, dot, norm
+from ..geometry import columns, cross, dot, norm
 from ..support import breathe
 from .patch import Patch
 
@@ -104,13 +104,13 @@ def _find(patch: Patch, member, uv, s, points, found) -> None:
         done = inside & (moved < ARRIVED)
         found[active[done]] = distance[done] > 0.0
         beyond = patch.across[now, corner]
-        # left by either of two triangles to the other: it is not there yet, or nowhere
-        back = ~inside & (beyond == before[active])
-        staying = (inside & ~done) | (back & (moved >= ARRIVED))
+        # left by either of two triangles to the other, or to none: it is not there yet, or nowhere
+        back = ~inside & ((beyond == before[active]) | (beyond < 0))
+        staying = (inside | back) & (moved >= ARRIVED)
         before[active[back]] = -1
         drawn = np.maximum(weights, 0.0)
         drawn /= drawn.sum(axis=0)
-        walking = ~inside & ~back & (beyond >= 0)
+        walking = ~inside & ~back
         i = active[walking]
         if len(i):
             place = patch.places(member[i], drawn[1:, walking])
@@ -123,7 +123,7 @@ def _find(patch: Patch, member, uv, s, points, found) -> None:
 
 def _newton(patch: Patch, member, uv, s, points) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(u, v) and s after steps of Newton's method, and how long the last one was in (u, v)."""
-    shape = patch.shape.take(member, axis=1).reshape(6, 3, -1)
+    shape = columns(patch.shape, member).reshape(6, 3, -1)
     for _ in range(STEPS):
         place, c0, c1, ray = _moved(patch, shape, uv, s)
         du, dv, ds = _solved(c0, c1, ray, points - place - s * ray)
@@ -161,11 +161,22 @@ def _solved(c0, c1, ray, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def jacobians(patch: Patch, member, uv, s) -> np.ndarray:
     """(2, 3, n): pixels by which images move where their points move."""
-    shape = patch.shape.take(member, axis=1).reshape(6, 3, -1)
-    place, c0, c1, ray = _moved(patch, shape, uv, s)
+    shape = columns(patch.shape, member).reshape(6, 3, -1)
+    place, *moved = _moved(patch, shape, uv, s)
+    by_u, by_v, _ = _inverse(*moved)
+    places = (place + patch.eye).T
+    along_u, along_v = (patch.view.pixel_derivatives(places, side.T).T for side in (shape[1], shape[2]))
+    return along_u[:, None] * by_u + along_v[:, None] * by_v
+
+
+def derivatives(patch: Patch, member, uv, s) -> np.ndarray:
+    """(3, 3, n): by what u, v and s of images change where their points move, as [which, component]."""
+    return np.stack(_inverse(*_moved(patch, columns(patch.shape, member).reshape(6, 3, -1), uv, s)[1:]))
+
+
+def _inverse(c0, c1, ray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The rows (3, n) of the inverse of matrices with the columns c0, c1 and R."""
     normal = cross(c1, ray)
     determinant = dot(c0, normal)
     inverse = 1.0 / np.where(np.abs(determinant) > 1e-300, determinant, 1e-300)
-    places = (place + patch.eye).T
-    along_u, along_v = (patch.view.pixel_derivatives(places, side.T).T for side in (shape[1], shape[2]))
-    return along_u[:, None] * (normal * inverse) - along_v[:, None] * (cross(c0, ray) * inverse)
+    return normal * inverse, cross(ray, c0) * inverse, cross(c0, c1) * inverse

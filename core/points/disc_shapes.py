@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import MirrorMap
 from ..geometry import View, dot, norm, unit
 
 SMALLEST = 0.75  # pixels: a disc of half a pixel's diagonal holds the middle of a pixel wherever it lies
@@ -18,14 +17,16 @@ LEAST_FALL = 0.25  # sine at which a ray meets a surface at least: at an edge of
 STEEPEST = 8.0  # depth over breadth of a disc, as the eye sees it
 
 
-def picture_ellipses(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarray,
-                     normal: np.ndarray, reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def picture_ellipses(view: View, seen: tuple, s: np.ndarray, normal: np.ndarray,
+                     reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Images of circles round diffuse points, as half axes in pixels.
 
     Parameters
     ----------
-    face, uv, s
-        Where on the mirror the middles are seen, and how far along the ray they lie.
+    seen : tuple
+        What `MirrorMap.linearise` tells along `ALONG_UV` where on the mirror the middles are seen.
+    s : (n,) float64
+        How far along the rays they lie.
     normal : (3, n) float64
         Unit normal of the circle's plane; zero where it faces the ray.
     reach : (n,) float64
@@ -38,8 +39,7 @@ def picture_ellipses(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s:
     wanted : (n,) float64
         Length of the longer one without the bound above.
     """
-    one, zero, view = np.ones_like(s), np.zeros_like(s), mirror_map.view
-    place, ray, moves = mirror_map.linearise(face, uv, (one, zero), (zero, one))
+    place, ray, moves = seen
     (a, c), (b, d) = (view.pixel_derivatives(place.T, move.T).T for move, _ in moves)
     area = a * d - b * c
     area = np.where(np.abs(area) > 1e-14 * (np.abs(a * d) + np.abs(b * c)) + 1e-150, area, 1e-150)
@@ -65,8 +65,6 @@ def picture_ellipses(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s:
         apart = sum(norm(part - dot(part, ahead) * ahead) for part in parts)
         motion[0] = np.maximum(motion[0], apart / MAGNIFIED)
         length = reach / np.maximum(motion, 1e-300)
-    # beyond the horizon rays are made up, and what they magnify is nothing
-    length[:, mirror_map.lifted(face, uv)] = 0.0
     wanted = length.max(axis=0)
     return direction * np.clip(length, SMALLEST, LARGEST), wanted
 
