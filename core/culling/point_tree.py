@@ -94,7 +94,7 @@ class PointTree(NodeTree):
         covered = np.zeros(len(self.mesh.positions), dtype=bool)
 
         def stood_for(level: int, cone: np.ndarray, node: np.ndarray) -> np.ndarray:
-            small = self.small(magnification, cones, cone, level, node)
+            small = magnification.pixels(cones, cone, columns(self.spheres[level], node)) < SMALL
             nodes, inverse = np.unique(node[small], return_inverse=True)
             covered[self.held(level, nodes)[0]] = True
             vertex, radius = self.representatives(level, nodes)
@@ -121,10 +121,10 @@ class PointTree(NodeTree):
         entry, run = ranges(begin, end - begin)
         return self.order[entry], run
 
-    def small(self, magnification: Magnification, cones: Cones, cone: np.ndarray, level: int,
-              node: np.ndarray) -> np.ndarray:
-        """Which nodes (n,) are surely smaller than a pixel in cameras `cone` (n,), so that a vertex stands for all."""
-        return magnification.pixels(cones, cone, columns(self.spheres[level], node)) < SMALL
+    def small(self, level: int, node: np.ndarray, scale: np.ndarray) -> np.ndarray:
+        """Which nodes (n,) one vertex may stand for where a scene unit is `scale` (n,) pixels long."""
+        # an empty one, of radius -inf, has none
+        return 2.0 * np.abs(self.spheres[level][3, node]) * scale < SMALL
 
     def representatives(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The vertex nearest the middle of each node, and how far from it the node's other vertices are at most."""

@@ -104,9 +104,7 @@ class Patch:
     def scale(self, places: np.ndarray, s: np.ndarray) -> np.ndarray:
         """Pixels (n,) that a scene unit is long at most where points are seen at `places` (3, n) from the eye: as long
         as in a flat mirror, or less."""
-        moves = [self.view.pixel_derivatives((places + self.eye).T, np.broadcast_to(axis, places.T.shape))
-                 for axis in np.eye(3)]
-        length = np.linalg.norm(np.stack(moves), axis=(0, 2))
+        length = np.sqrt((self.view.pixel_gradients(places + self.eye) ** 2).sum(axis=(0, 1)))
         return length if self.mirror_map.orthographic else length / (1.0 + s)
 
     def coordinates(self, member: np.ndarray, places: np.ndarray) -> np.ndarray:

@@ -164,9 +164,8 @@ def jacobians(patch: Patch, member, uv, s) -> np.ndarray:
     shape = columns(patch.shape, member).reshape(6, 3, -1)
     place, *moved = _moved(patch, shape, uv, s)
     by_u, by_v, _ = _inverse(*moved)
-    places = (place + patch.eye).T
-    along_u, along_v = (patch.view.pixel_derivatives(places, side.T).T for side in (shape[1], shape[2]))
-    return along_u[:, None] * by_u + along_v[:, None] * by_v
+    return np.stack([dot(gradient, shape[1]) * by_u + dot(gradient, shape[2]) * by_v
+                     for gradient in patch.view.pixel_gradients(place + patch.eye)])
 
 
 def derivatives(patch: Patch, member, uv, s) -> np.ndarray:

@@ -1,6 +1,8 @@
 """Images of vertices on a patch, where each has one at the most, and just beyond its border."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..cameras import INSIDE, drawn_in, settle
@@ -8,7 +10,7 @@ from ..culling import PointTree
 from ..geometry import rows
 from ..patches import Patch
 from ..support import breathe
-from .patch_nodes import Descent, NodeVertices, Walk
+from .patch_nodes import Descent, Walk
 from .point_images import PointImages
 
 AT_ONCE = 8192  # vertices: what their arrays take fits the cache
@@ -29,39 +31,38 @@ def images_on_patch(patch: Patch, tree: PointTree) -> tuple[PointImages, np.ndar
     """
     walk = Walk(patch)
     descent, wanted = Descent(walk, tree), 0
-    found: list[PointImages] = []
+    found, left = [PointImages.none()], [PointImages.none()]
     for some in descent.vertices():
         descent.covered[some.vertex] = False
         wanted += len(some.vertex)
         for start in range(0, len(some.vertex), AT_ONCE):
             breathe()
-            found.append(_found(walk, tree, some, slice(start, start + AT_ONCE)))
-    images = PointImages.joined(found)
-    return images, descent.covered, {"nodes_visited": walk.asked - wanted, "pairs": wanted, "projections": walk.asked,
-                                     "roots": len(images)}
+            part = slice(start, start + AT_ONCE)
+            vertex = some.vertex[part]
+            points = rows(tree.mesh.positions[vertex]) - patch.eye
+            member, uv, s, arrived = walk.images(points, some.nodes, some.node[part])
+            images = PointImages(vertex, patch.face[member], uv, s, some.stood[part])
+            arrived &= np.minimum(uv.min(axis=0), 1.0 - uv[0] - uv[1]) >= -INSIDE
+            found.append(images.select(np.flatnonzero(arrived)))
+            left.append(images.select(np.flatnonzero(~arrived & (s > 0.0))))
+    images = PointImages.joined((*found, _over_border(patch, PointImages.joined(left), tree.mesh.positions)))
+    counts = {"nodes_visited": walk.asked - wanted, "pairs": wanted, "projections": walk.asked, "roots": len(images)}
+    return replace(images, uv=drawn_in(images.uv)), descent.covered, counts
 
 
-def _found(walk: Walk, tree: PointTree, some: NodeVertices, part: slice) -> PointImages:
-    """The images of a part of the vertices."""
-    patch, vertex, stood = walk.patch, some.vertex[part], some.stood[part]
-    points = rows(tree.mesh.positions[vertex])
-    member, uv, s, found = walk.images(points - patch.eye, some.nodes, some.node[part])
-    face = patch.face[member]
-    _over_border(patch, face, uv, s, found, points)
-    seen = np.flatnonzero(found)
-    return PointImages(vertex[seen], face[seen], drawn_in(uv[:, seen]), s[seen], stood[seen])
-
-
-def _over_border(patch: Patch, face, uv, s, found, points) -> None:
-    """Images that are looked for over the border, in the arrays given: the way to some on the patch leads round a
-    corner of it, and some close by are seen on the patch by the cameras there, which interpolate, and left to it."""
+def _over_border(patch: Patch, images: PointImages, positions: np.ndarray) -> PointImages:
+    """Images that Newton's method has left for over the border: the way to some on the patch leads round a corner of
+    it, and some close by are seen on the patch by the cameras there, which interpolate, and left to it."""
     mirror_map, view = patch.mirror_map, patch.view
-    left = np.flatnonzero((s > 0.0) & ~(found & (np.minimum(uv.min(axis=0), 1.0 - uv[0] - uv[1]) >= -INSIDE)))
-    found[left] = False
-    border, outside = (view.pixels(mirror_map.places(face[left], at).T) for at in (drawn_in(uv[:, left]), uv[:, left]))
-    left = left[np.linalg.norm(outside - border, axis=1) < BESIDE]
-    face[left], uv[:, left], s[left], real = settle(mirror_map, face[left], uv[:, left], s[left], points[:, left])
-    real &= mirror_map.meets(face[left], uv[:, left], s[left], points[:, left])
-    left = left[real]
-    pixel = rows(view.pixels(mirror_map.places(face[left], uv[:, left]).T))
-    found[left] = np.isin(face[left], patch.face) | patch.border.touched(pixel - STRAYING, pixel + STRAYING)
+
+    def pixels(face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+        return view.pixels(mirror_map.places(face, uv).T)
+
+    outside = pixels(images.face, images.uv) - pixels(images.face, drawn_in(images.uv))
+    images = images.select(np.linalg.norm(outside, axis=1) < BESIDE)
+    points = rows(positions[images.vertex])
+    face, uv, s, real = settle(mirror_map, images.face, images.uv, images.distance, points)
+    real &= mirror_map.meets(face, uv, s, points)
+    spot = rows(pixels(face, uv))
+    real &= np.isin(face, patch.face) | patch.border.touched(spot - STRAYING, spot + STRAYING)
+    return PointImages(images.vertex, face, uv, s, images.stood).select(real)

@@ -10,15 +10,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..culling import Cones, Magnification, PointTree, median_leaves
+from ..culling import Cones, PointTree, median_leaves
 from ..geometry import columns, dot, norm, unit
-from ..patches import Patch, derivatives, find
+from ..patches import Patch, derivatives, find, jacobians
 from ..support import breathe
 
 NODES_AT_ONCE = 2048  # what they hold fits the cache
 RAYS, SHEAVES = 9, 6  # two to the power of so many rays from all over the patch, and parts of it
 FAR_AT_ONCE = 512  # points of which all these rays are asked
 WIDER = 1.25  # than the rays at the corners of triangles: those between them
+LARGER = 1.25  # than where a node's middle is seen: what the rest of it is magnified by at most
 NEAR = 2.0  # mirror triangles: further away a derivative is not asked
 
 
@@ -68,6 +69,7 @@ class NodeImages:
     member : (k,) int64, triangles of the patch
     place : (3, k) float64, u, v and s
     change : (9, k) float64, derivatives of these three by the point
+    scale : (k,) float64, pixels that a scene unit there is long at most
     """
 
     found: np.ndarray
@@ -75,13 +77,17 @@ class NodeImages:
     member: np.ndarray
     place: np.ndarray
     change: np.ndarray
+    scale: np.ndarray
 
     @classmethod
     def of(cls, walk: Walk, points: np.ndarray, above: NodeImages | None, parent: np.ndarray) -> NodeImages:
         """Images of points (3, k) from the eye, in nodes `parent` (k,) of those above."""
         member, uv, s, found = walk.images(points, above, parent)
         change = derivatives(walk.patch, member, uv, s)
-        return cls(found, points, member, np.concatenate((uv, s[None])), change.reshape(9, -1))
+        right, up = jacobians(walk.patch, member, uv, s)
+        scale = np.sqrt(0.5 * (dot(right, right) + dot(up, up))
+                        + np.hypot(0.5 * (dot(right, right) - dot(up, up)), dot(right, up)))
+        return cls(found, points, member, np.concatenate((uv, s[None])), change.reshape(9, -1), scale)
 
     def around(self, node: np.ndarray, points: np.ndarray) -> np.ndarray:
         """Places (3, n) at which `points` (3, n) from the eye, in nodes (n,), should be seen by the derivatives."""
@@ -122,7 +128,6 @@ class Descent:
     def __init__(self, walk: Walk, tree: PointTree) -> None:
         self.walk, self.tree = walk, tree
         self.sheaves = _sheaves(walk.patch)
-        self.cones, self.magnification = Cones.around(walk.patch.cameras), Magnification.of(walk.patch.cameras)
         self.covered = np.zeros(len(tree.mesh.positions), dtype=bool)
 
     def vertices(self) -> Generator[NodeVertices, None, None]:
@@ -155,9 +160,7 @@ class Descent:
     def _opened(self, level: int, node: np.ndarray, images: NodeImages,
                 row: np.ndarray) -> tuple[np.ndarray, NodeVertices]:
         """Which nodes (n,), seen about where the images (n,) tell, are to be opened; vertices that stand for others."""
-        small = images.found[row]
-        some = np.flatnonzero(small)
-        small[some] = self.tree.small(self.magnification, self.cones, images.member[row[some]], level, node[some])
+        small = images.found[row] & self.tree.small(level, node, LARGER * images.scale[row])
         some = np.flatnonzero(small)
         self.covered[self.tree.held(level, node[some])[0]] = True
         return ~small, NodeVertices(images, row[some], *self.tree.representatives(level, node[some]))

@@ -36,6 +36,11 @@ class PointImages:
     def select(self, chosen: np.ndarray | slice) -> PointImages:
         return PointImages(*(getattr(self, field.name)[..., chosen] for field in fields(PointImages)))
 
+    @classmethod
+    def none(cls) -> PointImages:
+        whole, places = np.zeros(0, dtype=np.int64), np.zeros((2, 0))
+        return cls(whole, whole, places, places[0], places[0])
+
     @staticmethod
     def joined(parts: Sequence[PointImages]) -> PointImages:
         return PointImages(*(np.concatenate([getattr(part, field.name) for part in parts], axis=-1)
