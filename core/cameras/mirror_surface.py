@@ -135,6 +135,11 @@ class MirrorSurface:
         return np.where(dot(ray, flat) < least * length, lifted * length, ray)
 
 
+def least_weight(uv: np.ndarray) -> np.ndarray:
+    """The least barycentric coordinate (n,) of places (u, v): negative outside of the triangle."""
+    return np.minimum(np.minimum(uv[0], uv[1]), 1.0 - uv[0] - uv[1])
+
+
 def drawn_in(uv: np.ndarray) -> np.ndarray:
     """Places (u, v), those outside of their triangle drawn to its rim."""
     uv = np.maximum(uv, 0.0)

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -122,6 +123,11 @@ class View:
         axis = -self.camera_to_world[:3, 2]
         return axis / np.linalg.norm(axis)
 
+    @cached_property
+    def _turned_back(self) -> np.ndarray:
+        """From the world's axes to the eye's."""
+        return np.linalg.inv(self.camera_to_world[:3, :3])
+
     def directions(self, points: np.ndarray) -> np.ndarray:
         """View directions d of the rays through `points` (n, 3): P - E, not normalised, or the constant forward."""
         if self.orthographic:
@@ -137,8 +143,7 @@ class View:
 
     def clip(self, points: np.ndarray) -> np.ndarray:
         """Homogeneous clip coordinates (n, 4) of `points` (n, 3)."""
-        rotation = self.camera_to_world[:3, :3]
-        local = (points - self.eye) @ np.linalg.inv(rotation).T
+        local = (points - self.eye) @ self._turned_back.T
         return local @ self.projection[:, :3].T + self.projection[:, 3]
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
@@ -153,7 +158,7 @@ class View:
     def pixel_gradients(self, points: np.ndarray) -> np.ndarray:
         """Pixels (2, 3, n), as [right or up, component], that the pictures of `points` (3, n) move by where the points
         move by a scene unit along an axis, in the first order."""
-        towards = self.projection[:, :3] @ np.linalg.inv(self.camera_to_world[:3, :3])
+        towards = self.projection[:, :3] @ self._turned_back
         offset = points - self.eye[:, None]
         right, up, depth = (dot(towards[row], offset) + self.projection[row, 3] for row in (0, 1, 3))
         gradients = np.empty((2, *points.shape))

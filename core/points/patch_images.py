@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..cameras import INSIDE, drawn_in, settle
+from ..cameras import INSIDE, drawn_in, least_weight, settle
 from ..culling import PointTree
 from ..geometry import rows
 from ..patches import Patch
@@ -42,10 +42,15 @@ def images_on_patch(patch: Patch, tree: PointTree) -> tuple[PointImages, np.ndar
             points = rows(tree.mesh.positions[vertex]) - patch.eye
             member, uv, s, arrived = walk.images(points, some.nodes, some.node[part])
             images = PointImages(vertex, patch.face[member], uv, s, some.stood[part])
-            arrived &= np.minimum(uv.min(axis=0), 1.0 - uv[0] - uv[1]) >= -INSIDE
+            arrived &= (least_weight(uv) >= -INSIDE)
             found.append(images.select(np.flatnonzero(arrived)))
-            left.append(images.select(np.flatnonzero(~arrived & (s > 0.0))))
-    images = PointImages.joined((*found, _over_border(patch, PointImages.joined(left), tree.mesh.positions)))
+            left.append(images.select(np.flatnonzero(~arrived)))
+    lost = PointImages.joined(left)
+    member, uv, s, arrived = walk.afresh(rows(tree.mesh.positions[lost.vertex]) - patch.eye)
+    lost = PointImages(lost.vertex, patch.face[member], uv, s, lost.stood)
+    arrived &= (least_weight(uv) >= -INSIDE)
+    found += [lost.select(arrived), _over_border(patch, lost.select(~arrived & (s > 0.0)), tree.mesh.positions)]
+    images = PointImages.joined(found)
     counts = {"nodes_visited": walk.asked - wanted, "pairs": wanted, "projections": walk.asked, "roots": len(images)}
     return replace(images, uv=drawn_in(images.uv)), descent.covered, counts
 

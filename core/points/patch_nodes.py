@@ -20,7 +20,7 @@ RAYS, SHEAVES = 9, 6  # two to the power of so many rays from all over the patch
 FAR_AT_ONCE = 512  # points of which all these rays are asked
 WIDER = 1.25  # than the rays at the corners of triangles: those between them
 LARGER = 1.25  # than where a node's middle is seen: what the rest of it is magnified by at most
-NEAR = 2.0  # mirror triangles: further away a derivative is not asked
+FEW_LOOKS = 4  # from a near start
 
 
 class Walk:
@@ -32,21 +32,19 @@ class Walk:
         place, ray = patch.leaving(self.member, np.full((2, len(self.member)), 1.0 / 3.0))
         self.place, self.ray, self.length = place.T, unit(ray).T, norm(ray)
 
-    def images(self, points: np.ndarray, nodes: NodeImages | None, node: np.ndarray) -> tuple:
-        """As `find`, from where the `nodes` that the points lie in, `node` (n,) among them, tell; None before any."""
+    def images(self, points: np.ndarray, nodes: NodeImages, node: np.ndarray) -> tuple:
+        """As `find`, from where the `nodes` tell, of which each point lies in one, `node` (n,): most are found so."""
         self.asked += points.shape[1]
-        if nodes is None:
-            return find(self.patch, *self._near(points), points)
-        member, place = nodes.member[node], nodes.around(node, points)
-        found = nodes.found[node] & (np.abs(place[:2]).max(axis=0) < NEAR) & (place[2] > 0.0)
-        near = np.flatnonzero(found)
-        member[near], place[:2, near], place[2, near], found[near] = find(
-            self.patch, member[near], place[:2, near], place[2, near], points[:, near])
-        for start in range(0, len(far := np.flatnonzero(~found)), FAR_AT_ONCE):
-            some = far[start:start + FAR_AT_ONCE]
-            member[some], place[:2, some], place[2, some], found[some] = find(
-                self.patch, *self._near(points[:, some]), points[:, some])
-        return member, place[:2], place[2], found
+        place = nodes.around(node, points)
+        member, uv, s, found = find(self.patch, nodes.member[node], place[:2], place[2], points, FEW_LOOKS)
+        return member, uv, s, found & nodes.found[node]
+
+    def afresh(self, points: np.ndarray) -> tuple:
+        """The same from where rays pass near."""
+        parts = [self._near(points[:, start:start + FAR_AT_ONCE])
+                 for start in range(0, max(points.shape[1], 1), FAR_AT_ONCE)]
+        member, uv, s = (np.concatenate(part, axis=-1) for part in zip(*parts))
+        return find(self.patch, member, uv, s, points)
 
     def _near(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Triangle, (u, v) and s of the ray that passes nearest to each point, of some all over the patch."""
@@ -82,7 +80,12 @@ class NodeImages:
     @classmethod
     def of(cls, walk: Walk, points: np.ndarray, above: NodeImages | None, parent: np.ndarray) -> NodeImages:
         """Images of points (3, k) from the eye, in nodes `parent` (k,) of those above."""
-        member, uv, s, found = walk.images(points, above, parent)
+        if above is None:
+            member, uv, s, found = walk.afresh(points)
+        else:
+            member, uv, s, found = walk.images(points, above, parent)
+            far = np.flatnonzero(~found)
+            member[far], uv[:, far], s[far], found[far] = walk.afresh(points[:, far])
         change = derivatives(walk.patch, member, uv, s)
         right, up = jacobians(walk.patch, member, uv, s)
         scale = np.sqrt(0.5 * (dot(right, right) + dot(up, up))
