@@ -18,8 +18,10 @@ BESIDE, STRAYING = 32.0, 1.0  # pixels: further over the border nothing is looke
 
 
 @np.errstate(all="ignore")  # what is too large or too small to be told has no image
-def images_on_patch(patch: Patch, tree: PointTree) -> tuple[PointImages, np.ndarray, dict[str, int]]:
-    """The images that a patch shows of the vertices of a tree.
+def images_on_patch(patch: Patch, tree: PointTree,
+                    elsewhere: np.ndarray) -> tuple[PointImages, np.ndarray, dict[str, int]]:
+    """The images that a patch shows of the vertices of a tree, and those just over its border to faces seen
+    `elsewhere`.
 
     Returns
     -------
@@ -39,23 +41,28 @@ def images_on_patch(patch: Patch, tree: PointTree) -> tuple[PointImages, np.ndar
             breathe()
             part = slice(start, start + AT_ONCE)
             vertex = some.vertex[part]
-            points = rows(tree.mesh.positions[vertex]) - patch.eye
-            member, uv, s, arrived = walk.images(points, some.nodes, some.node[part])
-            images = PointImages(vertex, patch.face[member], uv, s, some.stood[part])
-            arrived &= (least_weight(uv) >= -INSIDE)
-            found.append(images.select(np.flatnonzero(arrived)))
-            left.append(images.select(np.flatnonzero(~arrived)))
+            looked = walk.images(rows(tree.mesh.positions[vertex]) - patch.eye, some.nodes, some.node[part])
+            sure, lost = _split(patch, vertex, some.stood[part], looked)
+            found.append(sure)
+            left.append(lost)
     lost = PointImages.joined(left)
-    member, uv, s, arrived = walk.afresh(rows(tree.mesh.positions[lost.vertex]) - patch.eye)
-    lost = PointImages(lost.vertex, patch.face[member], uv, s, lost.stood)
-    arrived &= (least_weight(uv) >= -INSIDE)
-    found += [lost.select(arrived), _over_border(patch, lost.select(~arrived & (s > 0.0)), tree.mesh.positions)]
+    looked = walk.afresh(rows(tree.mesh.positions[lost.vertex]) - patch.eye)
+    sure, lost = _split(patch, lost.vertex, lost.stood, looked)
+    found += [sure, _over_border(patch, lost, tree, elsewhere)]
     images = PointImages.joined(found)
     counts = {"nodes_visited": walk.asked - wanted, "pairs": wanted, "projections": walk.asked, "roots": len(images)}
     return replace(images, uv=drawn_in(images.uv)), descent.covered, counts
 
 
-def _over_border(patch: Patch, images: PointImages, positions: np.ndarray) -> PointImages:
+def _split(patch: Patch, vertex: np.ndarray, stood: np.ndarray, looked: tuple) -> tuple[PointImages, PointImages]:
+    """Images that are found, as what `find` tells, and what is left at other places."""
+    member, uv, s, found = looked
+    found &= least_weight(uv) >= -INSIDE
+    images = PointImages(vertex, patch.face[member], uv, s, stood)
+    return images.select(np.flatnonzero(found)), images.select(np.flatnonzero(~found))
+
+
+def _over_border(patch: Patch, images: PointImages, tree: PointTree, elsewhere: np.ndarray) -> PointImages:
     """Images that Newton's method has left for over the border: the way to some on the patch leads round a corner of
     it, and some close by are seen on the patch by the cameras there, which interpolate, and left to it."""
     mirror_map, view = patch.mirror_map, patch.view
@@ -64,10 +71,11 @@ def _over_border(patch: Patch, images: PointImages, positions: np.ndarray) -> Po
         return view.pixels(mirror_map.places(face, uv).T)
 
     outside = pixels(images.face, images.uv) - pixels(images.face, drawn_in(images.uv))
-    images = images.select(np.linalg.norm(outside, axis=1) < BESIDE)
-    points = rows(positions[images.vertex])
+    images = images.select((np.linalg.norm(outside, axis=1) < BESIDE) & (images.distance > 0.0))
+    points = rows(tree.mesh.positions[images.vertex])
     face, uv, s, real = settle(mirror_map, images.face, images.uv, images.distance, points)
     real &= mirror_map.meets(face, uv, s, points)
     spot = rows(pixels(face, uv))
-    real &= np.isin(face, patch.face) | patch.border.touched(spot - STRAYING, spot + STRAYING)
+    close = patch.border.touched(spot - STRAYING, spot + STRAYING)
+    real &= np.isin(face, patch.face) | (close & np.isin(face, elsewhere))
     return PointImages(images.vertex, face, uv, s, images.stood).select(real)

@@ -36,11 +36,12 @@ def reflected_points(cameras: Cameras, patch: Patch | None, met: SceneAndMirrors
     images, stood_for, counts = _images(cameras, tree, met, progress)
     if patch is not None:
         progress.next(0.6, "projection")
-        own, also, more = images_on_patch(patch, tree)
+        own, also, more = images_on_patch(patch, tree, cameras.face)
         images = own.with_others(images, mirror_map, len(stood_for))
         counts = {name: count + more[name] for name, count in counts.items()}
         stood_for |= also
-    counts.update(images=len(images), stood_for=int(stood_for.sum()))
+    # each camera's cone goes down the tree, and all of a patch at once
+    counts.update(descents=len(cameras) + (patch is not None), images=len(images), stood_for=int(stood_for.sum()))
     progress.next(0.75, "discs")
     return _drawn(mirror_map, tree, images, placement, counts)
 
