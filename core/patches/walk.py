@@ -96,7 +96,7 @@ def _find(patch: Patch, member, uv, s, points, looks: int) -> np.ndarray:
     found = np.zeros(len(member), dtype=bool)
     active, before = np.arange(len(member)), np.full(len(member), -1)
     for _ in range(looks):
-        uv[:, active], s[active], moved = _newton(patch, member[active], uv[:, active], s[active], points[:, active])
+        uv[:, active], s[active], moved = newton(patch, member[active], uv[:, active], s[active], points[:, active])
         inside = least_weight(uv[:, active]) >= -INSIDE
         done = inside & (moved < ARRIVED)
         found[active[done]] = s[active[done]] > 0.0
@@ -120,7 +120,7 @@ def _find(patch: Patch, member, uv, s, points, looks: int) -> np.ndarray:
     return found
 
 
-def _newton(patch: Patch, member, uv, s, points) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def newton(patch: Patch, member, uv, s, points) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(u, v) and s after steps of Newton's method, and how long the last one was in (u, v)."""
     shape = columns(patch.shape, member).reshape(6, 3, -1)
     for _ in range(STEPS):
