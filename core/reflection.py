@@ -21,6 +21,7 @@ from .cameras import (
 from .culling import PointTree, SceneAndMirrors, SceneTree
 from .filling import Limits, missed_probes
 from .geometry import TriangleMesh, View, area_normals, cross, dot, norm, ordered, rows
+from .patches import Patch, speck
 from .points import reflected_points
 from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
@@ -134,8 +135,13 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
 
     limits = Limits.of(settings, grid.mirror_pixels, len(met.triangles))
     if isinstance(tree, PointTree):
-        cameras = refined(cameras, Task(met, settings, limits, True, progress), None)
-        mesh = reflected_points(cameras, tree, met, settings.placement, progress)
+        patch = None
+        if not (overlaid or speck(view, tree.spheres[0][:, 0])):
+            _, plainly = faces_showing_mirrors(cameras, met, limits)
+            patch = Patch.largest(cameras, _entire(cameras, uncut) & ~plainly[cameras.face])
+        rest = cameras if patch is None else cameras.select(~np.isin(cameras.face, patch.face))
+        rest = refined(rest, Task(met, settings, limits, True, progress), None)
+        mesh = reflected_points(rest, patch, met, settings.placement, progress)
         progress.done("points", **mesh.counts)
         return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds)
     task = Task(met, settings, limits, settings.depth == 1, progress)
@@ -168,8 +174,8 @@ def _whole_first(cameras: Cameras, uncut: int, task: Task,
     if settings.method != "GENERAL" or settings.hidden_faces or not isinstance(tree, SceneTree):
         return None, task
     task.progress.next(0.15, "whole faces")
-    eligible = (cameras.corners < uncut).all(axis=1) & (np.bincount(cameras.face)[cameras.face] == 1)
-    whole = whole_faces(cameras, eligible & ~showing[cameras.face], tree, task.reach(cameras), settings, limits.pieces)
+    eligible = _entire(cameras, uncut) & ~showing[cameras.face]
+    whole = whole_faces(cameras, eligible, tree, task.reach(cameras), settings, limits.pieces)
     if whole is None:
         return None, task
     drawn = int(whole.drawn.sum())
@@ -177,6 +183,11 @@ def _whole_first(cameras: Cameras, uncut: int, task: Task,
                        hidden=whole.hidden, limited=whole.limited)
     return whole, replace(task, met=task.met.left_to(whole.scene_pieces()),
                           limits=replace(limits, faces=max(limits.faces - drawn, 1)))
+
+
+def _entire(cameras: Cameras, uncut: int) -> np.ndarray:
+    """Which cameras (n,) are triangles of the mirror whole: their corners lie before the `uncut` ones."""
+    return (cameras.corners < uncut).all(axis=1) & (np.bincount(cameras.face)[cameras.face] == 1)
 
 
 def _bounces(cameras: Cameras, task: Task, showing: np.ndarray) -> list[Bounce]:

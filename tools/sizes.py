@@ -1,19 +1,22 @@
-"""Seconds against the size of the scene, in one run: the operator, one Cycles sample, and Embree tracing the picture.
+"""Seconds against the size of the scene, in one run: the operator, one Cycles sample, Embree and BVHTree.
 
     python tools/sizes.py [1000 10000 100000 1000000] [--runs 3] [--mirror 32] [--everything]
 
 A ball of 2 x MIRROR^2 triangles mirrors bumpy knots on a ground, at 1024 x 1024. Cycles renders the file as it is, one
-sample, without its data from the last time. Embree traces the eye's rays and the mirrored ones, its trees built.
+sample, without its data from the last time. Embree traces the eye's rays and the mirrored ones, its trees built;
+mathutils' BVHTree, in a loop of Python, the mirrored ones alone.
 With --everything the operator is timed without whole faces too: all of the geometry, by cameras alone.
 """
 from __future__ import annotations
 
 import argparse
+import importlib
 import os
 import statistics
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import extension_zip
@@ -45,7 +48,7 @@ def main(arguments: list[str]) -> int:
     print(f"Blender {bpy.app.version_string}, {os.cpu_count()} threads, medians of {options.runs} runs; ratios of the "
           "medians, and the smallest and largest of single runs\n")
     print_table([("vertices", "faces", "generate s", "Cycles s", "Embree s", "Cycles / generate", "from", "to",
-                  "Embree / generate", "all geometry s"), *rows])
+                  "Embree / generate", "BVHTree s", "BVHTree / generate", "from", "to", "all geometry s"), *rows])
     return 0
 
 
@@ -53,7 +56,8 @@ def _measured(count: int, options: argparse.Namespace) -> list:
     """One row of the table."""
     import bpy
     ball, scene = _scene(count, options.mirror)
-    generate, cycles, embree, everything = [], [], [], []
+    bvhtree = _bvhtree(ball, scene)
+    generate, cycles, embree, looped, everything = [], [], [], [], []
     for _ in range(options.runs):
         generate.append(_generate())
         faces = sum(len(obj.data.polygons) for obj in bpy.context.scene.objects
@@ -61,13 +65,19 @@ def _measured(count: int, options: argparse.Namespace) -> list:
         bpy.ops.reflection_mesh.clear()
         cycles.append(_cycles())
         embree.append(_embree(ball, scene))
+        looped.append(bvhtree())
     if options.everything:
         everything.append(_generate(hidden_faces=True))
         bpy.ops.reflection_mesh.clear()
-    ratios = [c / g for c, g in zip(cycles, generate)]
-    mine, theirs, traced = (statistics.median(seconds) for seconds in (generate, cycles, embree))
-    return [count, faces, mine, theirs, traced, theirs / mine, min(ratios), max(ratios), traced / mine,
-            everything[0] if everything else None]
+    mine, theirs, traced, loop = (statistics.median(seconds) for seconds in (generate, cycles, embree, looped))
+    return [count, faces, mine, theirs, traced, theirs / mine, *_spread(cycles, generate), traced / mine, loop,
+            loop / mine, *_spread(looped, generate), everything[0] if everything else None]
+
+
+def _spread(seconds: list[float], others: list[float]) -> tuple[float, float]:
+    """The smallest and the largest ratio of single runs."""
+    ratios = [one / other for one, other in zip(seconds, others)]
+    return min(ratios), max(ratios)
 
 
 def _generate(**settings) -> float:
@@ -111,6 +121,20 @@ def _embree(ball: tuple, scene: tuple) -> float:
     started = time.perf_counter()
     tracer.run(place, mirrored)
     return spent + time.perf_counter() - started
+
+
+def _bvhtree(ball: tuple, scene: tuple) -> Callable[[], float]:
+    """Seconds of the benchmark's rival that asks Blender's tree for one ray after the other, its tree built and the
+    eye's rays given."""
+    core = importlib.import_module(extension_zip.PACKAGE + ".core")
+    rivals = importlib.import_module(extension_zip.PACKAGE + ".core.rivals")
+    rival = importlib.import_module(extension_zip.PACKAGE + ".addon.benchmark.rival_bvhtree").RIVAL
+    view = core.View.looking_at(EYE, TARGET, (SIZE, SIZE), field_of_view=2.0 * np.arctan(18.0 / LENS))
+    normals = ball[0] - ball[0].mean(axis=0)
+    mirror = core.TriangleMesh(*ball, normals[ball[1]] / np.linalg.norm(normals[0]))
+    objects = core.TriangleMesh(*scene)
+    hits = rivals.primary_hits(view, mirror, objects)
+    return lambda: rival.run(view, mirror, objects, 1, hits).seconds["rays"]
 
 
 def _axes() -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -8,15 +8,16 @@ from .camera_splitting import in_picture, split_cameras, with_pieces
 from .folding import may_fold
 from .mirror_map import MirrorMap
 from .mirror_refinement import refine_mirror
-from .mirror_surface import MirrorSurface, drawn_in
+from .mirror_surface import MirrorSurface, drawn_in, least_weight
 from .picture_areas import covered_pixels, picture_areas, pixels_around, pixels_of
 from .picture_cells import PictureCells
-from .reflection_map import ReflectionMap
+from .reflection_map import ALONG_UV, ReflectionMap, grown
 from .shading_horizon import beyond_horizon, cut_at_horizon
 from .three_ray_cameras import Cameras, three_ray_cameras, visible_triangles
-from .triangle_walk import brought_back, distance_from, settle
+from .triangle_walk import INSIDE, brought_back, distance_from, settle
 
-__all__ = ["BouncedMap", "Cameras", "MirrorMap", "MirrorSurface", "PictureCells", "ReflectionMap", "beyond_horizon",
-           "brought_back", "covered_pixels", "cut_at_horizon", "distance_from", "drawn_in", "in_picture", "may_fold",
-           "picture_areas", "pixels_around", "pixels_of", "refine_mirror", "settle", "split_cameras",
-           "three_ray_cameras", "visible_triangles", "with_pieces"]
+__all__ = ["ALONG_UV", "BouncedMap", "Cameras", "INSIDE", "MirrorMap", "MirrorSurface", "PictureCells",
+           "ReflectionMap", "beyond_horizon", "brought_back", "covered_pixels", "cut_at_horizon", "distance_from",
+           "drawn_in", "grown", "in_picture", "least_weight", "may_fold", "picture_areas", "pixels_around",
+           "pixels_of", "refine_mirror", "settle", "split_cameras", "three_ray_cameras", "visible_triangles",
+           "with_pieces"]

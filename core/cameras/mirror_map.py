@@ -96,13 +96,13 @@ class MirrorMap(ReflectionMap):
         return found
 
     def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: Way) -> tuple:
-        u, v = self.spans(face)
-        place = self.places(face, uv)
-        moves = [way[0] * u + way[1] * v for way in ways]
+        own, every = self.surface.select(face), slice(None)
+        place = own.places(every, uv)
+        moves = [way[0] * own.u + way[1] * own.v for way in ways]
         if self.parallel:
             return place, self.constant[:, face], [(move, np.zeros_like(move)) for move in moves]
         seen = [np.zeros_like(move) if self.orthographic else move for move in moves]
-        ray, changes = self.surface.derivatives(face, uv, self.arriving(place), list(zip(ways, seen)))
+        ray, changes = own.derivatives(every, uv, self.arriving(place), list(zip(ways, seen)))
         part = np.flatnonzero(self.lifted(face, uv))
         if len(part):
             near = face[part], uv[:, part]

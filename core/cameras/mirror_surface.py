@@ -12,10 +12,11 @@ rises by t along g is therefore sqrt((i . x)^2 + (i . g)^2 - t^2) x + t g - (i -
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 
 import numpy as np
 
-from ..geometry import TriangleMesh, cross, dot, norm, rows, unit
+from ..geometry import TriangleMesh, columns, cross, dot, norm, rows, unit
 
 LEAST_RISE = 0.01  # sine of the angle at which Cycles lets a bent ray leave
 Way = np.ndarray | tuple[np.ndarray, np.ndarray]
@@ -30,18 +31,27 @@ class MirrorSurface:
 
     def __init__(self, mirror: TriangleMesh) -> None:
         corners = mirror.positions[mirror.triangles]
-        self.a = rows(corners[:, 0])
-        self.u, self.v = rows(corners[:, 1]) - self.a, rows(corners[:, 2]) - self.a
-        self.flat = cross(self.u, self.v)
-        self.face_normal = unit(self.flat)
-        self.normal = rows(mirror.corner_normals[:, 0])
-        self.normal_u = rows(mirror.corner_normals[:, 1]) - self.normal
-        self.normal_v = rows(mirror.corner_normals[:, 2]) - self.normal
+        a, b, c = (rows(corners[:, k]) for k in range(3))
+        normal, normal_b, normal_c = (rows(mirror.corner_normals[:, k]) for k in range(3))
+        flat = cross(b - a, c - a)
+        self._set(np.concatenate((a, b - a, c - a, flat, unit(flat), normal, normal_b - normal, normal_c - normal)))
+
+    def _set(self, parts: np.ndarray) -> None:
+        self._parts = parts
+        (self.a, self.u, self.v, self.flat, self.face_normal, self.normal, self.normal_u,
+         self.normal_v) = parts.reshape(8, 3, -1)
+
+    def select(self, face: np.ndarray) -> MirrorSurface:
+        """A surface of the triangles `face` (n,): to gather all that is known of them at once is quicker than one by
+        one."""
+        chosen = copy(self)
+        chosen._set(columns(self._parts, face))
+        return chosen
 
     def __len__(self) -> int:
         return self.a.shape[1]
 
-    def places(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    def places(self, face: np.ndarray | slice, uv: np.ndarray) -> np.ndarray:
         """Q."""
         return self.a[:, face] + uv[0] * self.u[:, face] + uv[1] * self.v[:, face]
 
@@ -59,30 +69,34 @@ class MirrorSurface:
         u, v, flat = self.u[:, face], self.v[:, face], self.flat[:, face]
         return np.stack((dot(cross(moves, v), flat), dot(cross(u, moves), flat))) / dot(flat, flat)
 
-    def raw_normals(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    def raw_normals(self, face: np.ndarray | slice, uv: np.ndarray) -> np.ndarray:
         """Interpolated normals before they are made unit vectors."""
         return self.normal[:, face] + uv[0] * self.normal_u[:, face] + uv[1] * self.normal_v[:, face]
 
     def normals(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
         """Unit interpolated normals."""
-        return self._unit_normal(self.raw_normals(face, uv), face)
+        return self._unit_normal(self.raw_normals(face, uv), face)[0]
 
-    def _unit_normal(self, raw: np.ndarray, face: np.ndarray) -> np.ndarray:
+    def _unit_normal(self, raw: np.ndarray, face: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
+        """Unit normals, and how long (n,) they were."""
+        size = norm(raw)
+        normal = raw / np.where(size > 0.0, size, 1.0)
         # opposite normals may cancel along an edge: the flat normal is then the only one left
-        return np.where(norm(raw) > 1e-12, unit(raw), self.face_normal[:, face])
+        lost = np.flatnonzero(~(size > 1e-12))
+        normal[:, lost] = self.face_normal[:, face][:, lost]
+        return normal, np.maximum(size, 1e-12)
 
     def unbent(self, face: np.ndarray, uv: np.ndarray, direction: np.ndarray) -> np.ndarray:
         """Rays of the interpolated normals alone, whether they enter the triangle or not."""
         normal = self.normals(face, uv)
         return direction - 2.0 * dot(direction, normal) * normal
 
-    def derivatives(self, face: np.ndarray, uv: np.ndarray, direction: np.ndarray,
+    def derivatives(self, face: np.ndarray | slice, uv: np.ndarray, direction: np.ndarray,
                     changes: Sequence[tuple[Way, np.ndarray]]) -> tuple[np.ndarray, list[np.ndarray]]:
         """The unbent rays, and what they change by for each of the `changes`: of (u, v), (2, n), and of the direction
         that arrives, (3, n)."""
         raw = self.raw_normals(face, uv)
-        normal = self._unit_normal(raw, face)
-        size = np.maximum(norm(raw), 1e-12)
+        normal, size = self._unit_normal(raw, face)
         slope = dot(direction, normal)
         turned = []
         for way, move in changes:
@@ -119,6 +133,11 @@ class MirrorSurface:
         forth = np.sqrt(np.maximum(sideways**2 + upright**2 - least**2, 0.0))
         lifted = forth * tangent + least * flat - (to_eye - sideways * tangent - upright * flat)
         return np.where(dot(ray, flat) < least * length, lifted * length, ray)
+
+
+def least_weight(uv: np.ndarray) -> np.ndarray:
+    """The least barycentric coordinate (n,) of places (u, v): negative outside of the triangle."""
+    return np.minimum(np.minimum(uv[0], uv[1]), 1.0 - uv[0] - uv[1])
 
 
 def drawn_in(uv: np.ndarray) -> np.ndarray:

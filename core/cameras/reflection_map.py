@@ -13,6 +13,7 @@ import numpy as np
 from ..geometry import View, cross, dot, norm, solve
 from .mirror_surface import MirrorSurface, Way
 
+ALONG_UV = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])  # ways in (u, v)
 ARRIVED = 1e-10  # of the path and the viewing distance: by how much a ray that Newton's method found may miss
 
 
@@ -92,9 +93,8 @@ class ReflectionMap(ABC):
     def locate(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray,
                steps: int = 4) -> tuple[np.ndarray, np.ndarray]:
         """Newton's method for O(u, v) + s R(u, v) = P from a near start, `points` P as (3, n); returns uv and s."""
-        one, zero = np.ones_like(s), np.zeros_like(s)
         for _ in range(steps):
-            origin, ray, ((ou, ru), (ov, rv)) = self.linearise(face, uv, (one, zero), (zero, one))
+            origin, ray, ((ou, ru), (ov, rv)) = self.linearise(face, uv, *ALONG_UV)
             step = solve(ou + s * ru, ov + s * rv, ray, points - origin - s * ray)
             # a step longer than the triangle tells a start too far off: keep its direction only
             step = step / np.maximum(1.0, np.abs(step[:2]).max(axis=0))
@@ -130,8 +130,12 @@ class ReflectionMap(ABC):
 
         Its sign is the image's parity: it starts at +1 on the mirror and crosses zero on a caustic.
         """
-        one, zero = np.ones_like(s), np.zeros_like(s)
-        _, ray, ((ou, ru), (ov, rv)) = self.linearise(face, uv, (one, zero), (zero, one))
-        before = dot(cross(ou, ov), ray)
-        after = dot(cross(ou + s * ru, ov + s * rv), ray)
-        return self.turned_before(face, uv) * after / np.where(before != 0.0, before, 1.0)
+        return self.turned_before(face, uv) * grown(self.linearise(face, uv, *ALONG_UV), s)
+
+
+def grown(seen: tuple, s: np.ndarray) -> np.ndarray:
+    """`ReflectionMap.turned` by the last mirror alone, from what `ReflectionMap.linearise` tells along `ALONG_UV`."""
+    _, ray, ((ou, ru), (ov, rv)) = seen
+    before = dot(cross(ou, ov), ray)
+    after = dot(cross(ou + s * ru, ov + s * rv), ray)
+    return after / np.where(before != 0.0, before, 1.0)

@@ -28,9 +28,10 @@ def settle(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarra
     for _ in range(STEPS):
         following = across[face[wandering], corner[wandering]]
         # left by either of two triangles to the other: on their edge, where the map has a kink
-        back = (following == came_from[wandering]) & (np.minimum(least, before)[wandering] > -BETWEEN)
+        inner = following >= 0
+        back = inner & (following == came_from[wandering]) & (np.minimum(least, before)[wandering] > -BETWEEN)
         found[wandering[back]] = True
-        going = (following >= 0) & ~back
+        going = inner & ~back
         wandering, following = wandering[going], following[going]
         if not len(wandering):
             break

@@ -7,10 +7,11 @@ from .candidates import Candidates, overlapping
 from .cones import Balls, Cones
 from .first_crossed import first_crossed
 from .magnification import Magnification
+from .node_tree import median_leaves
 from .point_tree import PointTree
 from .scene_and_mirrors import ABOVE, SceneAndMirrors
 from .scene_pieces import ScenePieces
 from .scene_tree import SceneTree
 
 __all__ = ["ABOVE", "Balls", "Candidates", "Cones", "Magnification", "PointTree", "SceneAndMirrors", "ScenePieces",
-           "SceneTree", "first_crossed", "overlapping"]
+           "SceneTree", "first_crossed", "median_leaves", "overlapping"]

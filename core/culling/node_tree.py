@@ -56,11 +56,11 @@ class NodeTree:
         """Cones and leaves that touch, and how many nodes were tested for it, in shares that fit the memory. A cone
         that is no longer `wanted` (n,) when its turn comes goes no further; nor do cones at nodes where `resting`,
         asked with (level, cone, node), says so."""
-        level = min(FIRST_LEVEL, self.depth)
+        level, first = self.top()
         for start in range(0, len(cones.radius), CONES_AT_ONCE):
             breathe()
             cone = np.arange(start, min(start + CONES_AT_ONCE, len(cones.radius)))
-            waiting = [(level, np.repeat(cone, 2**level), np.tile(np.arange(2**level), len(cone)))]
+            waiting = [(level, np.repeat(cone, len(first)), np.tile(first, len(cone)))]
             while waiting:
                 yield self._step(cones, wanted, resting, waiting)
 
@@ -77,12 +77,22 @@ class NodeTree:
             cone, node = cone[going], node[going]
         if level == self.depth:
             return cone, node, visited
-        fan = 2 ** min(STRIDE, self.depth - level)
-        below = level + min(STRIDE, self.depth - level)
         for start in reversed(range(0, max(len(cone), 1), NODES_AT_ONCE)):
             part = slice(start, start + NODES_AT_ONCE)
-            waiting.append((below, np.repeat(cone[part], fan), (node[part, None] * fan + np.arange(fan)).ravel()))
+            below, inner, parent = self.below(level, node[part])
+            waiting.append((below, cone[part][parent], inner))
         return cone[:0], node[:0], visited
+
+    def top(self) -> tuple[int, np.ndarray]:
+        """The level at which a descent begins, and its nodes."""
+        level = min(FIRST_LEVEL, self.depth)
+        return level, np.arange(2**level)
+
+    def below(self, level: int, node: np.ndarray) -> tuple[int, np.ndarray, np.ndarray]:
+        """The level to which a descent goes on from nodes (n,), what they hold there, and which of the n each is of."""
+        step = min(STRIDE, self.depth - level)
+        fan = np.arange(2**step)
+        return level + step, (node[:, None] * len(fan) + fan).ravel(), np.repeat(np.arange(len(node)), len(fan))
 
     def runs(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Where in `order` what nodes hold begins and ends."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, has_area, norm, ordered, ranges, rows, unit
+from ..geometry import TriangleMesh, columns, has_area, norm, ordered, ranges, rows, unit
 from ..support import breathe
 from .cones import Cones
 from .magnification import Magnification
@@ -30,15 +30,15 @@ class PointPairs:
         Radius of the sphere round the vertices that this one stands for, 0 where it stands for itself alone.
     visited : int
         Tests of a cone against a node.
-    stood_for : int
-        Vertices of which another one is projected.
+    covered : (v,) bool
+        Vertices of the mesh in nodes of which one stands for all.
     """
 
     camera: np.ndarray
     vertex: np.ndarray
     stood: np.ndarray
     visited: int
-    stood_for: int
+    covered: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -91,16 +91,13 @@ class PointTree(NodeTree):
         """All pairs whose images together show what the cameras see of the vertices."""
         none = np.zeros(0, dtype=np.int64)
         cameras, vertices, radii, visited = [none], [none], [np.zeros(0)], 0
-        # +1 where the run of a node that is stood for begins in `order`, -1 behind its end
-        change = np.zeros(len(self.order) + 1, dtype=np.int64)
+        covered = np.zeros(len(self.mesh.positions), dtype=bool)
 
         def stood_for(level: int, cone: np.ndarray, node: np.ndarray) -> np.ndarray:
-            small = magnification.pixels(cones, cone, np.take(self.spheres[level], node, axis=1)) < SMALL
+            small = magnification.pixels(cones, cone, columns(self.spheres[level], node)) < SMALL
             nodes, inverse = np.unique(node[small], return_inverse=True)
-            begin, end = self.runs(level, nodes)
-            np.add.at(change, begin, 1)
-            np.add.at(change, end, -1)
-            vertex, radius = self._representatives(level, nodes)
+            covered[self.held(level, nodes)[0]] = True
+            vertex, radius = self.representatives(level, nodes)
             cameras.append(cone[small])
             vertices.append(vertex[inverse])
             radii.append(radius[inverse])
@@ -109,32 +106,38 @@ class PointTree(NodeTree):
         for cone, leaf, tested in self.descended(cones, np.ones(len(cones.radius), dtype=bool), stood_for):
             breathe()
             visited += tested
-            begin, end = self.runs(self.depth, leaf)
-            entry, pair = ranges(begin, end - begin)
-            cone, vertex = cone[pair], self.order[entry]
+            vertex, pair = self.held(self.depth, leaf)
+            cone = cone[pair]
             touching = cones.touch(cone, rows(self.mesh.positions[vertex]), np.zeros(len(cone)))
             cameras.append(cone[touching])
             vertices.append(vertex[touching])
             radii.append(np.zeros(int(touching.sum())))
         camera, vertex, radius = (np.concatenate(parts) for parts in (cameras, vertices, radii))
-        covered = np.cumsum(change[:-1]) > 0
-        projected = np.zeros(len(self.mesh.positions), dtype=bool)
-        projected[vertex] = True
-        return PointPairs(camera, vertex, radius, visited, int((covered & ~projected[self.order]).sum()))
+        return PointPairs(camera, vertex, radius, visited, covered)
 
-    def _representatives(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The vertex nearest the middle of each node, and how far from it the node's other vertices are at most."""
+    def held(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The vertices (m,) in nodes (n,), and in which of the n each is."""
         begin, end = self.runs(level, node)
+        entry, run = ranges(begin, end - begin)
+        return self.order[entry], run
+
+    def small(self, level: int, node: np.ndarray, scale: np.ndarray) -> np.ndarray:
+        """Which nodes (n,) one vertex may stand for where a scene unit is `scale` (n,) pixels long."""
+        # an empty one, of radius -inf, has none
+        return 2.0 * np.abs(self.spheres[level][3, node]) * scale < SMALL
+
+    def representatives(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The vertex nearest the middle of each node, and how far from it the node's other vertices are at most."""
         if not len(node):
             return np.zeros(0, dtype=np.int64), np.zeros(0)
-        entry, run = ranges(begin, end - begin)
+        held, run = self.held(level, node)
         middle = self.spheres[level][:3, node]
-        points = rows(self.mesh.positions[self.order[entry]])
+        points = rows(self.mesh.positions[held])
         away = norm(points - middle[:, run])
-        first = np.append(0, np.cumsum(end - begin)[:-1])
+        first = np.flatnonzero(np.diff(run, prepend=-1))
         nearest = np.flatnonzero(away == np.minimum.reduceat(away, first)[run])
         _, once = np.unique(run[nearest], return_index=True)
-        vertex = self.order[entry[nearest[once]]]
+        vertex = held[nearest[once]]
         spread = norm(points - rows(self.mesh.positions[vertex])[:, run])
         return vertex, np.maximum.reduceat(spread, first)
 

@@ -2,10 +2,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..support import LARGEST, number, numbers, whole_number
+from .vectors import dot
 
 SIZE_LIMIT = 65536
 """Pixels along a side of the picture: Blender's own limit."""
@@ -121,6 +123,11 @@ class View:
         axis = -self.camera_to_world[:3, 2]
         return axis / np.linalg.norm(axis)
 
+    @cached_property
+    def _turned_back(self) -> np.ndarray:
+        """From the world's axes to the eye's."""
+        return np.linalg.inv(self.camera_to_world[:3, :3])
+
     def directions(self, points: np.ndarray) -> np.ndarray:
         """View directions d of the rays through `points` (n, 3): P - E, not normalised, or the constant forward."""
         if self.orthographic:
@@ -136,8 +143,7 @@ class View:
 
     def clip(self, points: np.ndarray) -> np.ndarray:
         """Homogeneous clip coordinates (n, 4) of `points` (n, 3)."""
-        rotation = self.camera_to_world[:3, :3]
-        local = (points - self.eye) @ np.linalg.inv(rotation).T
+        local = (points - self.eye) @ self._turned_back.T
         return local @ self.projection[:, :3].T + self.projection[:, 3]
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
@@ -149,14 +155,20 @@ class View:
         with np.errstate(divide="ignore", invalid="ignore"):
             return (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * self.resolution
 
-    def pixel_derivatives(self, points: np.ndarray, moves: np.ndarray) -> np.ndarray:
-        """Pixels (n, 2) that the pictures of `points` (n, 3) move by where the points move by `moves` (n, 3), in the
-        first order."""
-        clip = self.clip(points)
-        turned = moves @ np.linalg.inv(self.camera_to_world[:3, :3]).T @ self.projection[:, :3].T
+    def pixel_gradients(self, points: np.ndarray) -> np.ndarray:
+        """Pixels (2, 3, n), as [right or up, component], that the pictures of `points` (3, n) move by where the points
+        move by a scene unit along an axis, in the first order."""
+        towards = self.projection[:, :3] @ self._turned_back
+        offset = points - self.eye[:, None]
+        right, up, depth = (dot(towards[row], offset) + self.projection[row, 3] for row in (0, 1, 3))
+        gradients = np.empty((2, *points.shape))
         with np.errstate(divide="ignore", invalid="ignore"):
-            change = (turned[:, :2] - clip[:, :2] / clip[:, 3:] * turned[:, 3:]) / clip[:, 3:]
-        return 0.5 * change * self.resolution
+            for gradient, along, row, size in zip(gradients, (right, up), towards, self.resolution):
+                along /= depth
+                scale = 0.5 * size / depth
+                for component, own, deeper in zip(gradient, row, towards[3]):
+                    np.multiply(own - along * deeper, scale, out=component)
+        return gradients
 
     def rays(self, pixels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """World origins and unit directions, (n, 3) each, of the rays through `pixels` (n, 2)."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import MirrorMap
 from ..geometry import View, dot, norm, unit
 
 SMALLEST = 0.75  # pixels: a disc of half a pixel's diagonal holds the middle of a pixel wherever it lies
@@ -18,14 +17,16 @@ LEAST_FALL = 0.25  # sine at which a ray meets a surface at least: at an edge of
 STEEPEST = 8.0  # depth over breadth of a disc, as the eye sees it
 
 
-def picture_ellipses(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarray,
-                     normal: np.ndarray, reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def picture_ellipses(view: View, seen: tuple, s: np.ndarray, normal: np.ndarray,
+                     reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Images of circles round diffuse points, as half axes in pixels.
 
     Parameters
     ----------
-    face, uv, s
-        Where on the mirror the middles are seen, and how far along the ray they lie.
+    seen : tuple
+        What `MirrorMap.linearise` tells along `ALONG_UV` where on the mirror the middles are seen.
+    s : (n,) float64
+        How far along the rays they lie.
     normal : (3, n) float64
         Unit normal of the circle's plane; zero where it faces the ray.
     reach : (n,) float64
@@ -38,35 +39,32 @@ def picture_ellipses(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s:
     wanted : (n,) float64
         Length of the longer one without the bound above.
     """
-    one, zero, view = np.ones_like(s), np.zeros_like(s), mirror_map.view
-    place, ray, moves = mirror_map.linearise(face, uv, (one, zero), (zero, one))
-    (a, c), (b, d) = (view.pixel_derivatives(place.T, move.T).T for move, _ in moves)
+    place, ray, moves = seen
+    (a, b), (c, d) = ([dot(gradient, move) for move, _ in moves] for gradient in view.pixel_gradients(place))
     area = a * d - b * c
     area = np.where(np.abs(area) > 1e-14 * (np.abs(a * d) + np.abs(b * c)) + 1e-150, area, 1e-150)
     # a pixel to the right and one up, in (u, v)
     ways = (d / area, -c / area), (-b / area, a / area)
     ahead = unit(ray)
-    normal = np.where(norm(normal) > 0.0, normal, ahead)
+    normal = np.where(dot(normal, normal) > 0.0, normal, ahead)
     fall = dot(normal, ahead)
-    fall = np.where(fall < 0.0, -1.0, 1.0) * np.maximum(np.abs(fall), LEAST_FALL)
-    across, focus = [], []
-    for x, y in ways:
-        still, moving = (x * moves[0][k] + y * moves[1][k] for k in (0, 1))
+    fall = np.copysign(np.maximum(np.abs(fall), LEAST_FALL), fall)
+    across = []
+    for still, moving in moves:
         free = still + s * moving
         across.append(free - dot(normal, free) / fall * ahead)
-        focus.append((still, s * moving))
     with np.errstate(over="ignore", invalid="ignore"):
-        gram = np.nan_to_num([dot(across[0], across[0]), dot(across[0], across[1]), dot(across[1], across[1])],
-                             posinf=1e300, neginf=-1e300)
+        uu, uv, vv = dot(across[0], across[0]), dot(across[0], across[1]), dot(across[1], across[1])
+        (x, y), (z, w) = ways
+        gram = np.nan_to_num([x * (x * uu + 2.0 * y * uv) + y * y * vv, x * (z * uu + w * uv) + y * (z * uv + w * vv),
+                              z * (z * uu + 2.0 * w * uv) + w * w * vv], posinf=1e300, neginf=-1e300)
         direction, motion = _principal(gram)
         # near a caustic what the mirror's place and its ray's turning move the point by cancel
-        x, y = direction[:, 0]
-        parts = [x * focus[0][k] + y * focus[1][k] for k in (0, 1)]
-        apart = sum(norm(part - dot(part, ahead) * ahead) for part in parts)
+        u, v = (direction[0, 0] * right + direction[1, 0] * up for right, up in zip(*ways))
+        still, moving = (u * moves[0][k] + v * moves[1][k] for k in (0, 1))
+        apart = sum(norm(part - dot(part, ahead) * ahead) for part in (still, s * moving))
         motion[0] = np.maximum(motion[0], apart / MAGNIFIED)
         length = reach / np.maximum(motion, 1e-300)
-    # beyond the horizon rays are made up, and what they magnify is nothing
-    length[:, mirror_map.lifted(face, uv)] = 0.0
     wanted = length.max(axis=0)
     return direction * np.clip(length, SMALLEST, LARGEST), wanted
 
@@ -118,10 +116,14 @@ def _principal(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Of symmetric 2 x 2 matrices by their entries 00, 01, 11: unit eigenvectors (2, 2, n) as [x or y, which], that of
     the smaller eigenvalue first, and the roots (2, n) of the eigenvalues."""
     half, off = 0.5 * (gram[0] - gram[2]), gram[1]
-    angle = 0.5 * np.arctan2(off, half)
-    x, y = np.cos(angle), np.sin(angle)
-    direction = np.stack((np.stack((-y, x)), np.stack((x, y))))
     spread = np.hypot(half, off)
+    # half the angle whose cosine and sine are half and off over spread
+    some = np.maximum(spread, 1e-300)
+    longer = np.sqrt(0.5 + 0.5 * np.where(spread > 0.0, np.abs(half) / some, 1.0))
+    shorter = 0.5 * np.abs(off) / (some * longer)
+    x, y = np.where(half < 0.0, (shorter, longer), (longer, shorter))
+    y = np.copysign(y, off)
+    direction = np.stack((np.stack((-y, x)), np.stack((x, y))))
     middle = 0.5 * (gram[0] + gram[2])
     larger = middle + spread
     # the product of both is the determinant, which keeps its digits where the smaller one cancels

@@ -4,79 +4,115 @@ Nothing is clipped and nothing joined: where triangles are smaller than a pixel,
 """
 from __future__ import annotations
 
+from collections.abc import Generator
+
 import numpy as np
 
-from ..cameras import Cameras, MirrorMap, drawn_in, settle
+from ..cameras import ALONG_UV, Cameras, MirrorMap, drawn_in, grown, settle
 from ..culling import Cones, Magnification, PointTree, SceneAndMirrors
-from ..geometry import norm, rows
-from ..polygons import VertexImages, images_of_pairs, repeated
+from ..geometry import columns, norm, rows
+from ..patches import Patch
+from ..polygons import VertexImages, images_of_pairs
 from ..result import Discs, ReflectionMesh
 from ..result import place as placed
-from ..support import Progress
+from ..support import Progress, breathe
 from .beams import Beams
 from .disc_shapes import LARGEST, flat_discs, picture_ellipses
 from .hidden_points import hidden_by_mirrors
+from .patch_images import images_on_patch
+from .point_images import PointImages
 
 PAIRS_AT_ONCE = 131072
+AT_ONCE = 8192  # images: what the arrays of their discs take fits the cache
 ON_CAUSTIC = 1e-9  # magnification
 
 
-def reflected_points(cameras: Cameras, tree: PointTree, met: SceneAndMirrors, placement: str,
+def reflected_points(cameras: Cameras, patch: Patch | None, met: SceneAndMirrors, placement: str,
                      progress: Progress) -> ReflectionMesh:
-    """Every image of the tree's vertices in the cameras, once, as a point with its disc."""
-    images, reach, counts = _images(cameras, tree, progress)
-    images, reach, face, uv = _settled(cameras, images, reach, tree.mesh.positions, met)
-    counts["images"] = len(reach)
-
+    """Every image of the scene's vertices in the patch, and in the cameras of the rest, once, as a point with its
+    disc."""
+    tree, mirror_map = met.tree, cameras.mirror_map
+    assert isinstance(tree, PointTree) and isinstance(mirror_map, MirrorMap)  # points follow one bounce only
+    images, stood_for, counts = _images(cameras, tree, met, progress)
+    if patch is not None:
+        progress.next(0.6, "projection")
+        own, also, more = images_on_patch(patch, tree, cameras.face)
+        images = own.with_others(images, mirror_map, len(stood_for))
+        counts = {name: count + more[name] for name, count in counts.items()}
+        stood_for |= also
+    # each camera's cone goes down the tree, and all of a patch at once
+    counts.update(descents=len(cameras) + (patch is not None), images=len(images), stood_for=int(stood_for.sum()))
     progress.next(0.75, "discs")
-    view, mirror_map = cameras.view, cameras.mirror_map
-    assert isinstance(mirror_map, MirrorMap)  # points follow one bounce only
-    turned = mirror_map.turned(face, uv, images.distance)
-    parity = np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8)
-    # what stands for others beside it has no one plane
-    normal = np.where(reach == 0.0, tree.normal[:, images.vertex], 0.0)
-    axes, wanted = picture_ellipses(mirror_map, face, uv, images.distance, normal, tree.reach[images.vertex] + reach)
+    return _drawn(mirror_map, tree, images, placement, counts)
+
+
+def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, placement: str,
+           counts: dict[str, int]) -> ReflectionMesh:
+    """The images as points with their discs."""
+    view, surface, count = mirror_map.view, mirror_map.surface, len(images)
+    point, spot, flat = np.empty((3, count)), np.empty((3, count)), np.empty((count, 2, 3))
+    axes, wanted, radius = np.empty((2, 2, count)), np.empty(count), np.empty(count)
+    parity = np.empty(count, dtype=np.int8)
+    for part in _parts(count):
+        some = images.select(part)
+        seen = mirror_map.linearise(some.face, some.uv, *ALONG_UV)
+        turned = grown(seen, some.distance)
+        parity[part] = np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned))
+        normal, reach = columns(tree.normal, some.vertex), tree.reach[some.vertex] + some.stood
+        # what stands for others beside it has no one plane; beyond the horizon rays are made up, and magnify nothing
+        normal[:, some.stood > 0.0] = 0.0
+        reach[mirror_map.lifted(some.face, some.uv)] = 0.0
+        axes[:, :, part], wanted[part] = picture_ellipses(view, seen, some.distance, normal, reach)
+        point[:, part], spot[:, part] = tree.mesh.positions[some.vertex].T, seen[0]
+    path = norm(point - spot)
+    drawn = placed(view, spot, path, placement)
+    for part in _parts(count):
+        slope = None if placement == "VIRTUAL" else columns(surface.face_normal, images.face[part])
+        flat[part], radius[part] = flat_discs(view, spot[:, part], axes[:, :, part], slope, drawn[:, part])
     counts["coarse"] = int((wanted > LARGEST).sum())
-    point = rows(tree.mesh.positions[images.vertex])
-    path = norm(point - images.place)
-    drawn = placed(view, images.place, path, placement)
-    slope = None if placement == "VIRTUAL" else mirror_map.surface.face_normal[:, face]
-    flat, radius = flat_discs(view, images.place, axes, slope, drawn)
+    weights = np.stack((1.0 - images.uv[0] - images.uv[1], *images.uv), axis=1)
     return ReflectionMesh(
         positions=drawn.T, triangles=np.zeros((0, 3), dtype=np.int64), reflected_position=point.T,
-        mirror_position=images.place.T, path_length=path, image_parity=parity,
+        mirror_position=spot.T, path_length=path, image_parity=parity,
         source_face=np.zeros(0, dtype=np.int64), source_weights=np.zeros((0, 3, 3)),
         mirror_face=np.zeros(0, dtype=np.int64), counts=counts,
-        estimated_error=float(np.percentile(np.minimum(wanted, LARGEST), 99)) if len(wanted) else 0.0,
-        discs=Discs(images.vertex, face, np.stack((1.0 - uv[0] - uv[1], *uv), axis=1), radius, flat))
+        estimated_error=float(np.percentile(np.minimum(wanted, LARGEST), 99)) if count else 0.0,
+        discs=Discs(images.vertex, images.face, weights, radius, flat))
 
 
-def _images(cameras: Cameras, tree: PointTree,
-            progress: Progress) -> tuple[VertexImages, np.ndarray, dict[str, int]]:
-    """Images as each camera finds them, how far the vertices reach that each stands for (n,), and counts."""
+def _parts(count: int) -> Generator[slice, None, None]:
+    """Parts of so many images that fit the cache."""
+    for start in range(0, count, AT_ONCE):
+        breathe()
+        yield slice(start, start + AT_ONCE)
+
+
+def _images(cameras: Cameras, tree: PointTree, met: SceneAndMirrors,
+            progress: Progress) -> tuple[PointImages, np.ndarray, dict[str, int]]:
+    """Images as each camera finds them, which vertices (v,) others stand for, and counts."""
     progress.next(0.2, "cones through the tree")
     cones, positions = Cones.around(cameras), tree.mesh.positions
     pairs = tree.trace(cones, Magnification.of(cameras))
-    counts = {"nodes_visited": pairs.visited, "pairs": len(pairs.camera), "stood_for": pairs.stood_for,
-              "projections": 0, "roots": 0}
-    found, reach, beams = [], [], Beams.of(cameras, cones)
+    counts = {"nodes_visited": pairs.visited, "pairs": len(pairs.camera), "projections": 0, "roots": 0}
+    pairs.covered[pairs.vertex] = False
+    found, stood, beams = [], [], Beams.of(cameras, cones)
     for start in range(0, max(len(pairs.camera), 1), PAIRS_AT_ONCE):
-        progress.next(0.3 + 0.4 * start / max(len(pairs.camera), 1), "projection")
+        progress.next(0.3 + 0.3 * start / max(len(pairs.camera), 1), "projection")
         part = slice(start, start + PAIRS_AT_ONCE)
-        camera, vertex, stood = pairs.camera[part], pairs.vertex[part], pairs.stood[part]
+        camera, vertex, radius = pairs.camera[part], pairs.vertex[part], pairs.stood[part]
         held = beams.hold(camera, rows(positions[vertex]))
-        images, solved, pair = images_of_pairs(cameras, positions, camera[held], vertex[held])
-        found.append(images)
-        reach.append(stood[held][pair])
+        seen, solved, pair = images_of_pairs(cameras, positions, camera[held], vertex[held])
+        found.append(seen)
+        stood.append(radius[held][pair])
         for name in ("projections", "roots"):
             counts[name] += solved[name]
-    return VertexImages.joined(found), np.concatenate(reach), counts
+    images = _settled(cameras, VertexImages.joined(found), np.concatenate(stood), positions, met)
+    return images, pairs.covered, counts
 
 
-def _settled(cameras: Cameras, images: VertexImages, reach: np.ndarray, positions: np.ndarray,
-             met: SceneAndMirrors) -> tuple[VertexImages, np.ndarray, np.ndarray, np.ndarray]:
-    """Images that the eye sees, each once, on the triangle of the mirror that it truly lies on; how far each stands
-    for, and its face (n,) and place (u, v)."""
+def _settled(cameras: Cameras, images: VertexImages, stood: np.ndarray, positions: np.ndarray,
+             met: SceneAndMirrors) -> PointImages:
+    """Images that the eye sees, each once, on the triangle of the mirror that it truly lies on."""
     mirror_map = cameras.mirror_map
     assert isinstance(mirror_map, MirrorMap)
     face = cameras.face[images.camera]
@@ -85,10 +121,5 @@ def _settled(cameras: Cameras, images: VertexImages, reach: np.ndarray, position
     # what lies between two triangles is shown on the edge of one
     uv = drawn_in(uv)
     place = mirror_map.places(face, uv)
-    images = VertexImages(images.vertex, images.camera, distance, place, cameras.view.pixels(place.T))
-    # of one image, that which stands for most is kept
-    order = np.lexsort((images.camera, -reach, images.vertex))
     hidden = hidden_by_mirrors(met, cameras, images.camera, place, positions[images.vertex].T)
-    order = order[(real & ~hidden)[order]]
-    order = order[~repeated(images.select(order))]
-    return images.select(order), reach[order], face[order], uv[:, order]
+    return PointImages(images.vertex, face, uv, distance, stood).select(real & ~hidden).once(mirror_map)

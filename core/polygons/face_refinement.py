@@ -161,7 +161,8 @@ class FaceRefinement:
         right = self.frames.directions(column, shown - point)[:2]
         x, y = _solve(a, b, c, d, *right)
         place = self._map.places(face, uv)
-        seen_u, seen_v = (self._view.pixel_derivatives(place.T, span.T).T for span in self._map.spans(face))
+        gradients = self._view.pixel_gradients(place)
+        seen_u, seen_v = (np.stack([dot(gradient, span) for gradient in gradients]) for span in self._map.spans(face))
         drift = np.hypot(*(x * seen_u + y * seen_v))
         motion = [norm(x * moving[0] + y * moving[1]) for x, y in
                   (_solve(seen_u[0], seen_v[0], seen_u[1], seen_v[1], *step) for step in ((1.0, 0.0), (0.0, 1.0)))]

@@ -76,7 +76,7 @@ def vertex_images(candidates: Candidates) -> tuple[VertexImages, dict]:
     touching = Cones.around(cameras).touch(camera, points, np.zeros(len(camera)))
     images, counts, _ = images_of_pairs(cameras, positions, camera[touching], vertex[touching])
     images = images.select(np.lexsort((images.camera, images.vertex)))
-    images = images.select(~repeated(images))
+    images = images.select(~repeated(images.vertex, images.pixel))
     counts["images"] = len(images.vertex)
     return images, counts
 
@@ -111,13 +111,14 @@ def images_of_pairs(cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
     return images, counts, found.pair[kept]
 
 
-def repeated(images: VertexImages) -> np.ndarray:
-    """Which images, sorted by vertex, an earlier camera already found: those on a shared edge or mirror vertex."""
-    again = np.zeros(len(images.vertex), dtype=bool)
+def repeated(vertex: np.ndarray, pixel: np.ndarray) -> np.ndarray:
+    """Which images, each of a `vertex` (n,) at a `pixel` (n, 2) and sorted by vertex, repeat an earlier one: those on a
+    shared edge or mirror vertex."""
+    again = np.zeros(len(vertex), dtype=bool)
     for gap in range(1, 9):
-        same = np.flatnonzero(images.vertex[gap:] == images.vertex[:-gap]) + gap
+        same = np.flatnonzero(vertex[gap:] == vertex[:-gap]) + gap
         if not len(same):
             break
-        away = np.linalg.norm(images.pixel[same] - images.pixel[same - gap], axis=1)
+        away = np.linalg.norm(pixel[same] - pixel[same - gap], axis=1)
         again[same[away < SAME_IMAGE]] = True
     return again

@@ -38,9 +38,11 @@ def parallel(view: View, mirror: TriangleMesh, scene: TriangleMesh, times: int, 
 
 
 def points(view: View, mirror: TriangleMesh, scene: TriangleMesh, vertices: int, hits: PrimaryHits) -> RivalPicture:
-    """Every image of about `vertices` points of the diffuse surface as a flat disc."""
+    """Every image of about `vertices` points of the diffuse surface, of its own vertices where these are as many, as a
+    flat disc."""
     work = Work()
-    finer, source = tessellated(scene, vertices)
+    own = scene, np.arange(len(scene.triangles))
+    finer, source = own if vertices <= len(scene.positions) else tessellated(scene, vertices)
     triangle_of = np.zeros(len(finer.positions), dtype=np.int64)
     triangle_of[finer.triangles.ravel()] = np.repeat(source, 3)
     work.done("tessellation")
@@ -58,8 +60,8 @@ def _drawn(view: View, mesh: ReflectionMesh, triangle_of: np.ndarray | None, hit
     work.done("reflection")
     work.seconds.pop("reflection")
     work.seconds.update(mesh.seconds)
-    cameras = mesh.counts.get("cameras", mesh.counts["mirror_triangles"])
-    work.count(projections=mesh.counts["projections"], traversals=cameras, nodes=mesh.counts["nodes_visited"],
+    descents = mesh.counts["cameras" if mesh.discs is None else "descents"]
+    work.count(projections=mesh.counts["projections"], traversals=descents, nodes=mesh.counts["nodes_visited"],
                rays=mesh.counts.get("rays", 0))
     if triangle_of is None or mesh.discs is None:
         positions, triangles, source, point = mesh.positions, mesh.triangles, mesh.source_face, mesh.reflected_position

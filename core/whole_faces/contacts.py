@@ -9,9 +9,9 @@ import numpy as np
 
 from ..culling import Balls, SceneTree
 from ..geometry import cross, dot, norm, unit
+from ..patches import Patch
 from ..result import DEPTH, GAP
 from ..support import breathe
-from .patch import Patch
 
 LARGE = 256.0  # pixels: larger triangles of the mirror are cut too often to be cut along pieces of the scene
 

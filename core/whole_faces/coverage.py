@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import ranges, shares
+from ..patches import Patch
 from ..support import breathe
-from .patch import Patch
 
 ROWS_AT_ONCE = 1 << 14
 MOST_SAMPLES = 1 << 23

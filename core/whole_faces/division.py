@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import doubled_areas
+from ..patches import Patch
 from ..support import breathe
 from .images import Images
-from .patch import Patch
 from .pieces import Pieces, whole
 from .sinking import Sinking, sides
 

@@ -5,8 +5,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from .patch import Patch
-from .walk import Starts, find, jacobians
+from ..patches import Patch, Starts, find, jacobians
 
 
 @dataclass(frozen=True)

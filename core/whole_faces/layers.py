@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import rows
+from ..patches import Patch
 from ..result import DEPTH, GAP
 from .coverage import Covered, Grid, least_around
 from .images import Images
-from .patch import Patch
 from .sinking import Sinking
 
 INSIDE = 4.0 / 3.0  # what the inside of a triangle sinks by, to the most that its edges do

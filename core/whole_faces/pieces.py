@@ -9,9 +9,9 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..geometry import doubled_areas, parent_side, rows, split
+from ..patches import Patch
 from .coverage import box
 from .images import Images
-from .patch import Patch
 
 NEAR = 0.5  # pixels from the box of a face: where its bent edges may lie
 

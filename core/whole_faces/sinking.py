@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import dot
+from ..patches import Patch
 from ..result import DEPTH, GAP
 from .images import Images
-from .patch import Patch
 
 SINKING = 0.5  # of the room before the mirror: what an edge may take of it; the inside of a face takes a third more
 

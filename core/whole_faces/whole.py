@@ -8,20 +8,19 @@ import numpy as np
 from ..cameras import Cameras, picture_areas
 from ..culling import Cones, ScenePieces, SceneTree
 from ..geometry import TriangleMesh, norm
+from ..patches import Patch, speck
 from ..support import FACE_SHARE, Settings
 from .contacts import contacts
 from .coverage import box
 from .division import Division
 from .images import Images
 from .layers import Layers
-from .patch import Patch
 from .pieces import Pieces, whole
 from .sinking import Sinking
 
 LEAST_TRIANGLES, LEAST_PATCH = 8000, 32  # of the scene, and of the mirror: fewer are cut sooner than looked at twice
 LEAST_SHARE = 0.25  # of what is seen of the mirror: a smaller patch is not worth it
 SMALL, MANY = 4.0, 50_000  # pixels: images of edges bend less; how many faces are worth a look before the others
-SPECK = 1e-6  # of the distance from the eye
 ROOM, FAR = 2.0, 64.0  # pixels round a piece; by which edges that leave the patch may be longer
 WAYS = ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2))  # from corner to corner of a triangle
 PROBES = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (1 / 3, 1 / 3))
@@ -172,9 +171,7 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, tree: SceneTree, reach: 
         None where no part of the mirror may show any, or too few to be worth it.
     """
     positions, triangles, areal = tree.mesh.positions, tree.mesh.triangles, np.sort(tree.order)
-    sphere = tree.spheres[0][:, 0]
-    # a scene that is a speck from where the eye is has no digits left there
-    if not LEAST_TRIANGLES <= len(triangles) <= most or sphere[3] < SPECK * norm(sphere[:3] - cameras.view.eye):
+    if not LEAST_TRIANGLES <= len(triangles) <= most or speck(cameras.view, tree.spheres[0][:, 0]):
         return None
     patch = Patch.largest(cameras, eligible)
     if patch is not None:

@@ -82,8 +82,8 @@ def test_rays_are_exact_at_the_centres_and_a_broken_mesh_is_not(rooms, ball):
         # a pixel to the right, which is less where the camera is nearer than the mirror's middle
         drawn = mesh.picture.mesh
         right = scene.case.view.camera_to_world[:3, 0]
-        step = scene.case.view.pixel_derivatives(drawn.positions, np.tile(right, (len(drawn.positions), 1)))[:, :1]
-        shifted = replace(drawn, positions=drawn.positions + right / step)
+        step = right @ scene.case.view.pixel_gradients(drawn.positions.T)[0]
+        shifted = replace(drawn, positions=drawn.positions + right / step[:, None])
         moved = replace(mesh, picture=replace(mesh.picture, mesh=shifted))
         wrong = rooms.judging.errors(scene.case, truths, moved)
         assert wrong["mean_error_px"] > good["mean_error_px"] + 0.4

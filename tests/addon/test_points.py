@@ -45,8 +45,10 @@ def test_every_vertex_is_a_point_on_the_ray_to_its_mirrored_place(scan_scene):
     result = parts.generate(method="POINTS")
     assert result.name == "Mirror Reflection" and result.reflection_mesh.role == "REFLECTION"
     assert result.reflection_mesh.mirror == mirror and result.reflection_mesh.sources[0].object == ball
-    assert result.reflection_mesh.points == len(result.data.vertices) == len(ball.data.vertices)
-    assert json.loads(result.reflection_mesh.counts)["images"] == len(ball.data.vertices)
+    counts = json.loads(result.reflection_mesh.counts)
+    assert result.reflection_mesh.points == len(result.data.vertices) == counts["images"]
+    # a few lie so close together that one stands for two
+    assert counts["images"] + counts["stood_for"] == len(ball.data.vertices) and counts["stood_for"] < 10
     assert len(result.data.polygons) == 0 and result.reflection_mesh.faces == 0
     found = {name: result.data.attributes[name].data_type for name in ATTRIBUTES}
     assert found == ATTRIBUTES
@@ -57,11 +59,11 @@ def test_every_vertex_is_a_point_on_the_ray_to_its_mirrored_place(scan_scene):
     towards = (image - EYE) / np.linalg.norm(image - EYE, axis=1, keepdims=True)
     assert np.linalg.norm(np.cross(position - EYE, towards), axis=1).max() < 3e-6
     assert (position[:, 1] < 1.0).all()
-    tree = KDTree(len(reflected))
-    for index, place in enumerate(reflected):
-        tree.insert(place, index)
+    tree = KDTree(len(ball.data.vertices))
+    for vertex in ball.data.vertices:
+        tree.insert(vertex.co + ball.location, vertex.index)
     tree.balance()
-    nearest = [tree.find(vertex.co + ball.location) for vertex in ball.data.vertices]
+    nearest = [tree.find(place) for place in reflected]
     assert max(away for _, _, away in nearest) < 1e-6 and len({index for _, index, _ in nearest}) == len(reflected)
     length = np.linalg.norm(reflected - parts.attribute(result, "mirror_position"), axis=1)
     assert np.allclose(parts.attribute(result, "path_length"), length, atol=1e-5)

@@ -7,9 +7,11 @@ import pytest
 from scipy.spatial import cKDTree
 
 import core.culling.point_tree
+import core.reflection
 from core import PointTree, Settings, TriangleMesh, View, reflect
 from tests.core.test_vertex_images import brute_force, floating
 from tests.inputs import shapes
+from tests.inputs.dense_scenes import dense as on_floors
 from tests.inputs.disc_mesh import polygons_of
 from tests.inputs.scenes import SCENES
 from tests.oracles.judge import compare
@@ -201,6 +203,41 @@ def test_a_scan_without_faces_gives_the_same_images():
     seen = (truth.source_triangle >= 0).sum()
     judged = compare(case.view, case.mirror, polygons_of(bare), truth)
     assert judged.numbers["hole"] * judged.mirror_pixels / seen < 0.5
+
+
+@pytest.mark.parametrize("name", ["sphere", "sphere_ortho", "sphere_far", "cylinder", "torus", "flat"])
+def test_a_patch_shows_what_its_cameras_show(name, each_for_itself, monkeypatch):
+    case = on_floors(name, (400, 400), 0.2)
+    mesh = points_of(case)
+    monkeypatch.setattr(core.reflection, "speck", lambda view, sphere: True)  # no patch, cameras alone
+    every = points_of(case)
+    assert len(every.positions) > 3000
+    spots = [np.column_stack((1e4 * found.discs.source_vertex, case.view.pixels(found.mirror_position)))
+             for found in (mesh, every)]
+    away, index = cKDTree(spots[0]).query(spots[1])
+    # nothing is lost, but for what lies within rounding of an open mirror's rim
+    lost = away > 1e-3
+    assert lost.sum() <= 2 and (every.discs.mirror_weights[lost].min(axis=1) < 1e-3).all()
+    index, every_index = index[~lost], np.flatnonzero(~lost)
+    assert np.abs(mesh.positions[index] - every.positions[every_index]).max() < 1e-7
+    assert np.abs(mesh.discs.radius[index] / every.discs.radius[every_index] - 1.0).max() < 1e-6
+    assert (mesh.image_parity[index] == every.image_parity[every_index]).all()
+    # on the edge between two faces an image is on either
+    other = mesh.discs.mirror_face[index] != every.discs.mirror_face[every_index]
+    assert (every.discs.mirror_weights[every_index[other]].min(axis=1) < 1e-6).all()
+    # cameras at the silhouette, whose rays the horizon bends, miss a few images that the true map has
+    gained = cKDTree(spots[1]).query(spots[0])[0] > 1e-3
+    assert gained.sum() < 1e-3 * len(away)
+    _, ray, _, _ = true_rays(case.mirror, mesh.discs.mirror_face, *view_rays(case.view, mesh.mirror_position))
+    offset = mesh.reflected_position - mesh.mirror_position
+    along = (offset * ray).sum(axis=1, keepdims=True)
+    assert np.linalg.norm(offset - along * ray, axis=1).max() < 1e-7
+
+
+def test_a_vertex_on_a_patch_costs_little_more_than_one_projection():
+    case = dense("sphere", 6)
+    counts = points_of(case).counts
+    assert counts["images"] > 10_000 and counts["projections"] < 1.3 * len(case.scene.positions)
 
 
 def test_points_too_far_apart_are_counted():

@@ -10,14 +10,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import cross, dot, norm
+from ..cameras import least_weight
+from ..geometry import columns, cross, dot, norm
 from ..support import breathe
 from .patch import Patch
 
 SIDE = 48  # cells along a side of the cube map
 ASKED = 3  # times, each from the place of the last answer
 AT_ONCE = 8192  # points: what their arrays take fits the cache
-STEPS, WALKS = 2, 40  # of Newton's method between looks at where it is; of such looks
+STEPS, LOOKS = 2, 40  # of Newton's method between looks at where it is; of such looks
 ARRIVED = 1e-7  # of a mirror triangle: the step after which the next is rounding
 LONGEST = 1.5  # mirror triangles: no step goes further
 INSIDE = 1e-6  # of a triangle: rounding
@@ -77,8 +78,8 @@ def _cell(direction: np.ndarray) -> np.ndarray:
     return ((axis * 2 + (along < 0.0)) * SIDE + x.astype(np.int64)) * SIDE + y.astype(np.int64)
 
 
-def find(patch: Patch, member: np.ndarray, uv: np.ndarray, s: np.ndarray,
-         points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def find(patch: Patch, member: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray,
+         looks: int = LOOKS) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Triangles, (u, v) and s of the images of `points` (3, n) from the eye, and which of them there are, each looked
     for from a start."""
     member, uv, s = member.copy(), uv.copy(), s.copy()
@@ -86,44 +87,42 @@ def find(patch: Patch, member: np.ndarray, uv: np.ndarray, s: np.ndarray,
     for start in range(0, len(member), AT_ONCE):
         breathe()
         part = slice(start, start + AT_ONCE)
-        _find(patch, member[part], uv[:, part], s[part], points[:, part], found[part])
+        found[part] = _find(patch, member[part], uv[:, part], s[part], points[:, part], looks)
     return member, uv, s, found
 
 
-def _find(patch: Patch, member, uv, s, points, found) -> None:
+def _find(patch: Patch, member, uv, s, points, looks: int) -> np.ndarray:
     """As `find`, in the arrays given."""
+    found = np.zeros(len(member), dtype=bool)
     active, before = np.arange(len(member)), np.full(len(member), -1)
-    for _ in range(WALKS):
-        now = member[active]
-        new, distance, moved = _newton(patch, now, uv[:, active], s[active], points[:, active])
-        uv[:, active], s[active] = new, distance
-        weights = np.stack((1.0 - new[0] - new[1], new[0], new[1]))
-        corner = weights.argmin(axis=0)
-        least = weights.min(axis=0)
-        inside = least >= -INSIDE
+    for _ in range(looks):
+        uv[:, active], s[active], moved = newton(patch, member[active], uv[:, active], s[active], points[:, active])
+        inside = least_weight(uv[:, active]) >= -INSIDE
         done = inside & (moved < ARRIVED)
-        found[active[done]] = distance[done] > 0.0
-        beyond = patch.across[now, corner]
-        # left by either of two triangles to the other: it is not there yet, or nowhere
-        back = ~inside & (beyond == before[active])
-        staying = (inside & ~done) | (back & (moved >= ARRIVED))
+        found[active[done]] = s[active[done]] > 0.0
+        active, moved, inside = active[~done], moved[~done], inside[~done]
+        u, v = uv[:, active]
+        weights = np.stack((1.0 - u - v, u, v))
+        beyond = patch.across[member[active], weights.argmin(axis=0)]
+        # left by either of two triangles to the other, or to none: it is not there yet, or nowhere
+        back = ~inside & ((beyond == before[active]) | (beyond < 0))
         before[active[back]] = -1
-        drawn = np.maximum(weights, 0.0)
-        drawn /= drawn.sum(axis=0)
-        walking = ~inside & ~back & (beyond >= 0)
+        walking = ~inside & ~back
         i = active[walking]
         if len(i):
-            place = patch.places(member[i], drawn[1:, walking])
+            drawn = np.maximum(weights[:, walking], 0.0)
+            place = patch.places(member[i], drawn[1:] / drawn.sum(axis=0))
             before[i], member[i] = member[i], beyond[walking]
             uv[:, i] = patch.coordinates(member[i], place)
-        active = active[staying | walking]
+        active = active[walking | (moved >= ARRIVED)]
         if not len(active):
             break
+    return found
 
 
-def _newton(patch: Patch, member, uv, s, points) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def newton(patch: Patch, member, uv, s, points) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(u, v) and s after steps of Newton's method, and how long the last one was in (u, v)."""
-    shape = patch.shape.take(member, axis=1).reshape(6, 3, -1)
+    shape = columns(patch.shape, member).reshape(6, 3, -1)
     for _ in range(STEPS):
         place, c0, c1, ray = _moved(patch, shape, uv, s)
         du, dv, ds = _solved(c0, c1, ray, points - place - s * ray)
@@ -161,11 +160,21 @@ def _solved(c0, c1, ray, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def jacobians(patch: Patch, member, uv, s) -> np.ndarray:
     """(2, 3, n): pixels by which images move where their points move."""
-    shape = patch.shape.take(member, axis=1).reshape(6, 3, -1)
-    place, c0, c1, ray = _moved(patch, shape, uv, s)
+    shape = columns(patch.shape, member).reshape(6, 3, -1)
+    place, *moved = _moved(patch, shape, uv, s)
+    by_u, by_v, _ = _inverse(*moved)
+    return np.stack([dot(gradient, shape[1]) * by_u + dot(gradient, shape[2]) * by_v
+                     for gradient in patch.view.pixel_gradients(place + patch.eye)])
+
+
+def derivatives(patch: Patch, member, uv, s) -> np.ndarray:
+    """(3, 3, n): by what u, v and s of images change where their points move, as [which, component]."""
+    return np.stack(_inverse(*_moved(patch, columns(patch.shape, member).reshape(6, 3, -1), uv, s)[1:]))
+
+
+def _inverse(c0, c1, ray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The rows (3, n) of the inverse of matrices with the columns c0, c1 and R."""
     normal = cross(c1, ray)
     determinant = dot(c0, normal)
     inverse = 1.0 / np.where(np.abs(determinant) > 1e-300, determinant, 1e-300)
-    places = (place + patch.eye).T
-    along_u, along_v = (patch.view.pixel_derivatives(places, side.T).T for side in (shape[1], shape[2]))
-    return along_u[:, None] * (normal * inverse) - along_v[:, None] * (cross(c0, ray) * inverse)
+    return normal * inverse, cross(ray, c0) * inverse, cross(c0, c1) * inverse

@@ -13,6 +13,7 @@ from ..cameras import Cameras, MirrorMap, PictureCells, may_fold, picture_areas
 from ..geometry import View, corners_beyond, dot, norm, rows
 
 MARGIN = 8.0  # pixels: by how much the picture's grid is larger than the patch
+SPECK = 1e-6  # of the distance from the eye
 SMOOTH = 0.5  # cosine: normals at the corners of a triangle that differ by more turn too much between them
 
 
@@ -22,7 +23,10 @@ class Patch:
 
     Attributes
     ----------
+    cameras : Cameras
+        Those of the triangles.
     mirror_map : MirrorMap
+        The cameras'.
     face : (k,) int64, the mirror's triangles, rising
     across : (k, 3) int64, the triangle of the patch beyond the side opposite to each corner, -1 at its border
     shape : (18, k) float64
@@ -31,6 +35,7 @@ class Patch:
         What lies near the border.
     """
 
+    cameras: Cameras
     mirror_map: MirrorMap
     face: np.ndarray
     across: np.ndarray
@@ -62,7 +67,7 @@ class Patch:
                                  surface.normal_v)])
         across = corners_beyond(corners) // 3
         border = _border(cameras.view, cameras.places, corners, across)
-        return None if border is None else cls(mirror_map, face, across, np.ascontiguousarray(shape), border)
+        return None if border is None else cls(cameras, mirror_map, face, across, np.ascontiguousarray(shape), border)
 
     def __len__(self) -> int:
         return len(self.face)
@@ -99,9 +104,7 @@ class Patch:
     def scale(self, places: np.ndarray, s: np.ndarray) -> np.ndarray:
         """Pixels (n,) that a scene unit is long at most where points are seen at `places` (3, n) from the eye: as long
         as in a flat mirror, or less."""
-        moves = [self.view.pixel_derivatives((places + self.eye).T, np.broadcast_to(axis, places.T.shape))
-                 for axis in np.eye(3)]
-        length = np.linalg.norm(np.stack(moves), axis=(0, 2))
+        length = np.sqrt((self.view.pixel_gradients(places + self.eye) ** 2).sum(axis=(0, 1)))
         return length if self.mirror_map.orthographic else length / (1.0 + s)
 
     def coordinates(self, member: np.ndarray, places: np.ndarray) -> np.ndarray:
@@ -111,6 +114,12 @@ class Patch:
     def pixels(self, places: np.ndarray) -> np.ndarray:
         """Picture positions (2, n) of places from the eye."""
         return rows(self.view.pixels((places + self.eye).T))
+
+
+def speck(view: View, sphere: np.ndarray) -> bool:
+    """Whether what lies in a sphere (4,) is so small from where the eye is that places told from there have no digits
+    left."""
+    return bool(sphere[3] < SPECK * norm(sphere[:3] - view.eye))
 
 
 def _border(view: View, places: np.ndarray, corners: np.ndarray, across: np.ndarray) -> PictureCells | None:

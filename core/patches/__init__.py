@@ -1,0 +1,9 @@
+"""The largest part of a mirror in which a point has one image at the most, and the way of points to these images.
+
+In come cameras and points; out come the mirror's triangles, places on them and distances. Starts come from a cube map
+(N. Greene, IEEE CG&A 1986), and Newton's method walks from there.
+"""
+from .patch import Patch, speck
+from .walk import Starts, derivatives, find, jacobians
+
+__all__ = ["Patch", "Starts", "derivatives", "find", "jacobians", "speck"]
