@@ -1,0 +1,353 @@
+"""Light: a render of the file with its lit reflection equals one without, whatever the scene has; and nothing else has
+changed."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+
+SIZE = 96
+SAMPLES = 128
+
+
+def link(tree: bpy.types.NodeTree, output, socket) -> None:
+    tree.links.new(output, socket)
+
+
+def principled(name: str, colour=(0.8, 0.8, 0.8), **values) -> bpy.types.Material:
+    """A lit material, rough where nothing else is said."""
+    made = parts.material(name, "PRINCIPLED", 1.0, 0.0)
+    shader = shader_of(made)
+    for socket, value in {"Base Color": (*colour, 1.0), **values}.items():
+        shader.inputs[socket].default_value = value
+    return made
+
+
+def shader_of(material: bpy.types.Material) -> bpy.types.Node:
+    return next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+
+
+def patterned(output: str, node: str = "ShaderNodeTexCoord") -> bpy.types.Material:
+    """A material whose colour is noise by the coordinates `output` of a node."""
+    made = principled("Pattern")
+    tree = made.node_tree
+    noise = tree.nodes.new("ShaderNodeTexNoise")
+    noise.inputs["Scale"].default_value = 4.0
+    link(tree, tree.nodes.new(node).outputs[output], noise.inputs["Vector"])
+    link(tree, noise.outputs["Color"], shader_of(made).inputs["Base Color"])
+    return made
+
+
+def source_material(kind: str, box: bpy.types.Object) -> bpy.types.Material:
+    """What the reflected object shows."""
+    if kind in ("Generated", "Object", "Normal", "UV"):
+        return patterned(kind)
+    if kind == "Gloss":
+        return principled("Glossy", (0.7, 0.1, 0.1), Roughness=0.25)
+    if kind == "Glass":
+        return principled("Glass", (0.9, 1.0, 0.9), **{"Transmission Weight": 1.0, "Roughness": 0.0})
+    made = principled("Source", (0.9, 0.3, 0.1))
+    tree, shader = made.node_tree, shader_of(made)
+    if kind == "Bump":
+        bump, noise = tree.nodes.new("ShaderNodeBump"), tree.nodes.new("ShaderNodeTexNoise")
+        bump.inputs["Distance"].default_value = 0.6
+        link(tree, noise.outputs[0], bump.inputs["Height"])
+        link(tree, bump.outputs[0], shader.inputs["Normal"])
+    elif kind == "Random":
+        ramp = tree.nodes.new("ShaderNodeCombineColor")
+        link(tree, tree.nodes.new("ShaderNodeObjectInfo").outputs["Random"], ramp.inputs[1])
+        link(tree, ramp.outputs[0], shader.inputs["Base Color"])
+    elif kind == "Attribute":
+        heat = box.data.attributes.new("heat", "FLOAT", "POINT")
+        heat.data.foreach_set("value", np.linspace(0.0, 1.0, len(heat.data), dtype=np.float32))
+        read = tree.nodes.new("ShaderNodeAttribute")
+        read.attribute_name = "heat"
+        link(tree, read.outputs["Fac"], shader.inputs["Base Color"])
+    elif kind == "Alpha":
+        checks = tree.nodes.new("ShaderNodeTexChecker")
+        checks.inputs["Scale"].default_value = 3.0
+        link(tree, checks.outputs["Fac"], shader.inputs["Alpha"])
+    elif kind == "Backfacing":
+        side, mixed = tree.nodes.new("ShaderNodeNewGeometry"), tree.nodes.new("ShaderNodeMix")
+        mixed.data_type = "RGBA"
+        mixed.inputs[6].default_value, mixed.inputs[7].default_value = (0.9, 0.1, 0.1, 1.0), (0.1, 0.1, 0.9, 1.0)
+        link(tree, side.outputs["Backfacing"], mixed.inputs[0])
+        link(tree, mixed.outputs[2], shader.inputs["Base Color"])
+    return made
+
+
+def mirror_material(kind: str) -> bpy.types.Material:
+    """What the mirror does to what it shows."""
+    silver = principled("Silver", (0.95, 0.7, 0.35) if kind == "Tint" else (1.0, 1.0, 1.0), Metallic=1.0, Roughness=0.0)
+    tree = silver.node_tree
+    if kind == "Textured tint":
+        checks = tree.nodes.new("ShaderNodeTexChecker")
+        checks.inputs["Color1"].default_value, checks.inputs["Color2"].default_value = (1, .9, .5, 1), (.3, .5, .7, 1)
+        link(tree, checks.outputs["Color"], shader_of(silver).inputs["Base Color"])
+    elif kind == "Rough":
+        shader_of(silver).inputs["Roughness"].default_value = 0.1
+    elif kind in ("Fresnel", "Layer weight"):
+        share = tree.nodes.new("ShaderNodeFresnel" if kind == "Fresnel" else "ShaderNodeLayerWeight")
+        ground, gloss, both = (tree.nodes.new(f"ShaderNode{name}") for name in ("BsdfDiffuse", "BsdfAnisotropic",
+                                                                               "MixShader"))
+        gloss.inputs["Roughness"].default_value, gloss.inputs["Color"].default_value = 0.0, (1.0, 1.0, 1.0, 1.0)
+        ground.inputs["Color"].default_value = (0.1, 0.3, 0.2, 1.0)
+        for output, socket in ((share.outputs[0], both.inputs[0]), (ground.outputs[0], both.inputs[1]),
+                               (gloss.outputs[0], both.inputs[2])):
+            link(tree, output, socket)
+        link(tree, both.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
+    return silver
+
+
+def scene_of(context: bpy.types.Context, source: str = "", mirror: str = "") -> bpy.types.Object:
+    """A box or a half open ring and a floor before a wall mirror, under a lamp; returns the mirror."""
+    scene = context.scene
+    if source == "Backfacing":
+        box = parts.add("cylinder", "Box", radius=0.9, depth=1.2, end_fill_type="NOTHING", location=(0.3, -1.2, 1.0),
+                        rotation=(0.9, 0.4, 0.3))
+    else:
+        box = parts.add("cube", "Box", size=1.3, location=(0.3, -1.2, 1.0), rotation=(0.3, 0.2, 0.5))
+    box.data.materials.append(source_material(source, box))
+    floor = parts.add("plane", "Floor", size=8.0, location=(0.0, -1.0, -0.6))
+    floor.data.materials.append(principled("Floor", (0.5, 0.5, 0.6)))
+    wall = parts.add_wall_mirror()
+    wall.data.materials.append(mirror_material(mirror))
+    bpy.ops.object.light_add(type="AREA", location=(-2.5, -3.0, 3.5), rotation=(0.8, -0.4, 0.0))
+    context.object.data.energy, context.object.data.size = 250.0, 1.5
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.color = (0.2, 0.25, 0.3)
+    scene.render.resolution_x = scene.render.resolution_y = SIZE
+    scene.render.engine = "CYCLES"
+    scene.cycles.use_denoising, scene.cycles.use_adaptive_sampling = False, False
+    scene.cycles.samples = SAMPLES
+    parts.select(box, floor, wall)
+    return wall
+
+
+def picture(room, seed: int = 0) -> np.ndarray:
+    """What a render of the file shows, in sRGB, (height, width, 3)."""
+    rendering = room("addon.rendering")
+    scene = bpy.context.scene.copy()
+    try:
+        rendering.with_cycles(scene)
+        scene.cycles.seed = seed
+        linear = np.clip(rendering.rendered(scene)[..., :3], 0.0, 1.0)
+    finally:
+        bpy.data.scenes.remove(scene)
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 1e-9)**(1 / 2.4) - 0.055)
+
+
+def psnr(one: np.ndarray, other: np.ndarray) -> float:
+    """Over the pixels inside the mirror."""
+    inside = slice(SIZE // 5, -SIZE // 5)
+    return float(-10.0 * np.log10(((one - other)[inside, inside]**2).mean()))
+
+
+SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Glass", "Alpha", "Backfacing")
+MIRRORS = ("Tint", "Textured tint", "Rough", "Fresnel", "Layer weight")
+
+
+@pytest.mark.parametrize(("source", "mirror"), [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)])
+def test_a_lit_reflection_is_what_the_mirror_shows(blank, room, source, mirror):
+    scene_of(blank, source, mirror)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    before = psnr(picture(room), reference)
+    assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
+    lit, noise = psnr(picture(room), reference), psnr(other, reference)
+    assert lit > min(38.0, noise - 1.5)
+    # without its light it is another picture
+    assert lit > before + 6.0
+
+
+def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
+    """A small lamp far brighter than white, before what is reflected: no ring around it, no halo."""
+    scene_of(blank)
+    lamp = next(obj for obj in blank.scene.objects if obj.type == "LIGHT")
+    lamp.location, lamp.rotation_euler = (-0.9, -1.5, 1.4), (-np.pi / 2, 0.0, 0.0)
+    lamp.data.size, lamp.data.energy = 0.2, 60.0
+    back = parts.add("plane", "Back", size=8.0, location=(0.0, -4.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
+    back.data.materials.append(principled("Paint", (0.2, 0.3, 0.2)))
+    parts.select(back, *(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    bpy.ops.reflection_mesh.light()
+    assert (reference.min(axis=2) > 0.99).sum() > 5
+    lit = picture(room)
+    assert psnr(lit, reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert abs(int((lit.min(axis=2) > 0.99).sum()) - int((reference.min(axis=2) > 0.99).sum())) <= 8
+
+
+def lit_state() -> dict:
+    """As `parts.state`, and what a light changes of a result."""
+    results = {obj.name: ([(slot.link, slot.material and slot.material.name) for slot in obj.material_slots],
+                          sorted(obj.data.attributes.keys()), obj.reflection_mesh.light, obj.reflection_mesh.light_stale)
+               for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"}
+    cycles = bpy.context.scene.cycles
+    return {**parts.state(), "results": results, "lights": sorted(bpy.data.lights.keys()),
+            "cycles": (cycles.samples, cycles.seed, cycles.use_denoising, cycles.max_bounces, cycles.film_exposure),
+            "layers": [(layer.name, layer.use, [branch.holdout for branch in layer.layer_collection.children])
+                       for layer in bpy.context.scene.view_layers]}
+
+
+@pytest.mark.parametrize("placement", ["LAYERED", "VIRTUAL"])
+def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement):
+    scene_of(blank)
+    result = parts.generate(placement=placement)
+    before, lighting = lit_state(), room("addon.light").lighting
+    for stop in range(1, 6):
+        steps = lighting(blank, [result], 1)
+        for _ in range(stop):
+            next(steps, None)
+        steps.close()
+        if stop < 5:
+            assert lit_state() == before
+    assert lit_state() != before
+
+
+@pytest.mark.parametrize("failing", ["rendered", "new_material", "show_light"])
+def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
+    scene_of(blank)
+    parts.generate()
+    before = lit_state()
+
+    def fails(*arguments):
+        raise room("core").ReflectionError("It failed: try again.")
+    monkeypatch.setattr(room("addon.lighting.light_scene" if failing == "rendered" else "addon.light"), failing, fails)
+    with pytest.raises(RuntimeError, match="It failed: try again."):
+        bpy.ops.reflection_mesh.light(samples=1)
+    assert lit_state() == before
+
+
+def test_what_is_lit_is_the_result_alone(blank):
+    scene_of(blank)
+    result = parts.generate()
+    before, materials = parts.state(), [material.name for material in result.data.materials]
+    bpy.ops.reflection_mesh.light(samples=1)
+    after = parts.state()
+    # the mesh keeps the materials of its sources under their names; the object shows the light
+    assert [material.name for material in result.data.materials] == materials
+    assert {(slot.link, slot.material) for slot in result.material_slots} == {
+        ("OBJECT", result.reflection_mesh.light_material)}
+    new = {kind: set(names) - set(before["data"][kind]) for kind, names in after["data"].items()}
+    assert {kind: names for kind, names in new.items() if names} == {"materials": {"Reflection Light"},
+                                                                     "images": {"Reflection Light"}}
+    assert {**after, "data": 0} == {**before, "data": 0}
+    image = bpy.data.images["Reflection Light"]
+    assert image.packed_file is not None and image.size[0] <= SIZE
+
+
+def test_what_emits_in_a_plain_mirror_needs_no_light(blank):
+    box = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0))
+    box.data.materials.append(parts.material("Paint"))
+    mirror = parts.add_wall_mirror()
+    mirror.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    mirror.data.materials[0].node_tree.nodes[0].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    parts.select(box, mirror)
+    result = parts.generate()
+    before = lit_state()
+    assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
+    assert lit_state() == before and result.reflection_mesh.light_material is None
+    mirror.data.materials[0].node_tree.nodes[0].inputs["Color"].default_value = (0.8, 0.9, 1.0, 1.0)
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert result.reflection_mesh.light_material is not None
+
+
+@pytest.mark.parametrize(("change", "stale"), [
+    (lambda scene: setattr(bpy.data.objects["Box"].location, "x", 0.5), True),
+    (lambda scene: setattr(scene.camera.location, "x", 0.5), True),
+    (lambda scene: setattr(scene.camera.data, "lens", 45.0), True),
+    (lambda scene: setattr(next(iter(bpy.data.lights)), "energy", 10.0), True),
+    (lambda scene: setattr(shader_of(bpy.data.materials["Source"]).inputs["Roughness"], "default_value", 0.2), True),
+    (lambda scene: scene.frame_set(scene.frame_current + 1), False),
+    (lambda scene: bpy.data.objects["Box"].select_set(False), False),
+])
+def test_light_is_stale_when_the_scene_has_changed(blank, change, stale):
+    scene_of(blank)
+    result = parts.generate(tolerance=4.0)
+    bpy.ops.reflection_mesh.light(samples=1)
+    light = result.reflection_mesh.light_material
+    change(blank.scene)
+    blank.view_layer.update()
+    assert result.reflection_mesh.light_stale == stale
+    parts.select(result)
+    parts.generate(tolerance=2.0)
+    # light that fits stays; other light is not shown
+    assert {slot.material == light for slot in result.material_slots} == {not stale}
+    assert result.reflection_mesh.light_stale == stale
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert not result.reflection_mesh.light_stale and len(bpy.data.materials) == 4
+
+
+def test_light_that_was_kept_shows_the_same(blank, room):
+    scene_of(blank, "UV", "Tint")
+    result = parts.generate(tolerance=2.0)
+    bpy.ops.reflection_mesh.light()
+    first = picture(room)
+    parts.select(result)
+    parts.generate(tolerance=0.5)
+    assert psnr(picture(room), first) > 45.0
+
+
+def test_clear_takes_the_light_away(blank):
+    scene_of(blank)
+    before = parts.state()
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=1)
+    parts.generate()
+    bpy.ops.reflection_mesh.clear()
+    after = parts.state()
+    assert after["data"] == before["data"] and after["render"] == before["render"]
+
+
+def test_points_are_lit_too(blank, room):
+    scene_of(blank)
+    box = bpy.data.objects["Box"]
+    box.modifiers.new("Finer", "SUBSURF").levels = 5
+    box.modifiers[0].subdivision_type = "SIMPLE"
+    bpy.data.objects["Floor"].select_set(False)
+    reference = picture(room)
+    parts.generate(method="POINTS")
+    before = psnr(picture(room), reference)
+    bpy.ops.reflection_mesh.light()
+    assert psnr(picture(room), reference) > before + 6.0
+
+
+def test_the_verb_light(saved_scene, room, tmp_path, capsys):
+    run = room("addon.command_line").run
+    output = tmp_path / "lit.blend"
+    assert run(["light", "--samples", "1"]) == 1
+    assert "no reflection to light" in capsys.readouterr().err
+    assert run(["generate", "--light", "2", "--output", str(output)]) == 0
+    assert "lit in" in capsys.readouterr().out
+    bpy.ops.wm.open_mainfile(filepath=str(output))
+    result = bpy.data.objects["Mirror Reflection"]
+    assert result.reflection_mesh.light_material is not None and not result.reflection_mesh.light_stale
+    assert result.material_slots[0].material == result.reflection_mesh.light_material
+    assert run(["light", "--samples", "0"]) == 1
+    assert run(["light", "--samples", "1"]) == 0
+
+
+def test_texels_show_the_picture_that_they_are_made_of(room):
+    """In closed form: a pixel is the integral of linearly interpolated texels times Cycles' filter."""
+    texels = room("addon.lighting.texels")
+    rng = np.random.default_rng(1)
+    for kind, width in (("BLACKMAN_HARRIS", 1.5), ("BOX", 1.0), ("GAUSSIAN", 1.5)):
+        kernel = texels.pixel_kernel(kind, width)
+        assert abs(kernel.sum() - 1.0) < 1e-12 and np.allclose(kernel, kernel[::-1])
+        smooth = 0.3 + 0.2 * rng.random((20, 30, 3))
+        shown = smooth
+        for axis in (0, 1):
+            shown = sum(weight * np.roll(shown, step - len(kernel) // 2, axis) for step, weight in enumerate(kernel))
+        found = texels.texels_of(shown.astype(np.float32), np.ones((20, 30), np.float32), kernel)
+        assert np.abs(found - smooth)[6:-6, 6:-6].max() < 0.02
+
+
+def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):
+    texels = room("addon.lighting.texels")
+    coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
+    own, beside = np.array((0.8, 0.5, 0.1)), np.array((0.1, 0.4, 0.9))
+    light = coverage[..., None] * own + (1.0 - coverage[..., None]) * beside
+    found = texels.texels_of(light.astype(np.float32), coverage.astype(np.float32), texels.pixel_kernel("BOX", 1.0))
+    assert np.abs(found[:, 8:] - own).max() < 1e-3 and (found[:, :5] == 0.0).all()
