@@ -105,25 +105,8 @@ class SceneAndMirrors:
             found[on_patch] &= self.pieces.shown(cameras.select(on_patch))
         return found
 
-    def trace(self, cameras: Cameras, showing: np.ndarray, most: int,
-              worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
-        """Pairs of cameras and triangles that may be seen in them, how many tree nodes were visited for that, and which
-        cameras (n,) were given up, by their `worth` (n,), since there would be more than `most` pairs; mirrors are
-        looked for on the faces that `showing_mirrors` found."""
-        camera, triangle, visited, given_up = self._diffuse_in(cameras, most, worth)
-        chosen = np.flatnonzero(showing[cameras.face])
-        mirror_camera, mirror_triangle, more, mirror_given_up = self.mirrors_in(cameras.select(chosen),
-                                                                                 most, worth[chosen])
-        given_up[chosen[mirror_given_up]] = True
-        camera = np.concatenate((camera, chosen[mirror_camera]))
-        triangle = np.concatenate((triangle, mirror_triangle + self.diffuse))
-        if given_up.any():
-            kept = ~given_up[camera]
-            camera, triangle = camera[kept], triangle[kept]
-        return camera, triangle, visited + more, given_up
-
-    def _diffuse_in(self, cameras: Cameras, most: int,
-                    worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+    def diffuse_in(self, cameras: Cameras, most: int,
+                   worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
         """Pairs of cameras and diffuse triangles that may be seen in them; tree nodes visited; what was given up."""
         assert isinstance(self.tree, SceneTree)  # points have a trace of their own
         pieces = self.pieces
@@ -225,13 +208,6 @@ class SceneAndMirrors:
         """Candidates without the mirrors' triangles."""
         mirror = self.are_mirrors(candidates)
         return candidates.select(np.flatnonzero(~mirror)) if mirror.any() else candidates
-
-    def hiding_something(self, candidates: Candidates) -> Candidates:
-        """Candidates without the mirrors' triangles in cameras that see nothing else, which hide nothing."""
-        mirror = self.are_mirrors(candidates)
-        diffuse = np.zeros(int(candidates.camera.max(initial=-1)) + 1, dtype=bool)
-        diffuse[candidates.camera[~mirror]] = True
-        return candidates.select(np.flatnonzero(~mirror | diffuse[candidates.camera]))
 
     def inner_sides(self, candidates: Candidates) -> np.ndarray:
         """(3, p): sides of the candidates over which a mirror goes on, seen from anywhere in the camera. They bound
