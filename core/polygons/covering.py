@@ -19,7 +19,7 @@ from ..support import side_by_side
 from .clipping import clip
 from .convex_polygons import Line, scene_edges
 
-PAIRS_AT_ONCE = 8192  # fit the cache
+PAIRS_AT_ONCE = 16384  # fit the cache
 FARTHER = 1e-9  # of the distance: what is farther by less is not hidden
 
 
