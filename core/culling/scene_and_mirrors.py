@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
-from ..geometry import SceneFrames, TriangleMesh, cross, dot, opposite_corners, rows, unit
+from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, opposite_corners, rows, unit
 from .bounded_trace import bounded_trace
 from .candidates import Candidates
 from .cones import Cones
@@ -50,6 +50,7 @@ class SceneAndMirrors:
     def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh) -> None:
         self.tree, self.mirrors, self.mirror_tree = tree, mirrors, SceneTree.of_ordered(mirrors)
         self.mirror_corners = rows(mirrors.positions[mirrors.triangles])
+        self._corners = [rows(mirrors.positions[corner]) for corner in mirrors.triangles.T]
         self.size = float(np.ptp(mirrors.positions[mirrors.triangles.ravel()], axis=0).max())
         self.surface = MirrorSurface(mirrors)
         self._beyond = rows(opposite_corners(mirrors))
@@ -189,11 +190,10 @@ class SceneAndMirrors:
                least: float = ABOVE) -> np.ndarray:
         """Whether triangles (p,) of mirrors rise above the planes of the cameras (p,), by more than the `least` part
         of the mirrors' size."""
-        base, normal = (np.take(side, camera, axis=1) for side in sides)
+        base, normal = (columns(side, camera) for side in sides)
         found = np.zeros(len(camera), dtype=bool)
-        for corner in range(3):
-            offset = np.take(self.mirror_corners[:, :, corner], triangle, axis=1) - base
-            found |= dot(offset, normal) > least * self.size
+        for corners in self._corners:
+            found |= dot(columns(corners, triangle) - base, normal) > least * self.size
         return found
 
     def shows_mirror(self, frames: SceneFrames) -> np.ndarray:
@@ -218,16 +218,15 @@ class SceneAndMirrors:
         if not len(pair):
             return inner
         triangle = frames.triangle[candidates.column[pair]] - self.diffuse
-        corners = cameras.corners[candidates.camera[pair]]
-        origins = np.moveaxis(cameras.origins[:, corners], 2, 0)
-        own = np.take(self.mirror_corners, triangle, axis=1)
+        origins = [columns(cameras.origins, corner) for corner in cameras.corners[candidates.camera[pair]].T]
+        own = [columns(corners, triangle) for corners in self._corners]
         for side in range(3):
-            beyond = np.take(self._beyond[:, :, side], triangle, axis=1)
-            start, end = own[:, :, (side + 1) % 3], own[:, :, (side + 2) % 3]
+            beyond = columns(self._beyond[:, :, side], triangle)
+            start, end = own[(side + 1) % 3], own[(side + 2) % 3]
             # a corner's place beside the plane through the side and a ray's origin is linear in the origin: three
             # corners of a camera speak for all of it
             planes = [cross(end - start, start - origin) for origin in origins]
             near, far = (np.sign([dot(plane, corner - start) for plane in planes]).sum(axis=0)
-                         for corner in (own[:, :, side], beyond))
+                         for corner in (own[side], beyond))
             inner[side, pair] = near * far == -9.0
         return inner

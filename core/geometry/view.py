@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -115,6 +116,11 @@ class View:
         """World position of the eye (for an orthographic one, a point of its plane)."""
         return self.camera_to_world[:3, 3]
 
+    @cached_property
+    def _inverse(self) -> np.ndarray:
+        """(3, 3): from world to eye axes."""
+        return np.linalg.inv(self.camera_to_world[:3, :3])
+
     @property
     def forward(self) -> np.ndarray:
         """Unit world direction in which the eye looks."""
@@ -132,12 +138,11 @@ class View:
         own axis."""
         axes = self.camera_to_world[:3, :3]
         sheared = np.abs(axes.T @ axes - np.eye(3)).max() > 4.0 * _LOOSE
-        return (points - self.eye) @ (-np.linalg.inv(axes)[2] if sheared else self.forward)
+        return (points - self.eye) @ (-self._inverse[2] if sheared else self.forward)
 
     def clip(self, points: np.ndarray) -> np.ndarray:
         """Homogeneous clip coordinates (n, 4) of `points` (n, 3)."""
-        rotation = self.camera_to_world[:3, :3]
-        local = (points - self.eye) @ np.linalg.inv(rotation).T
+        local = (points - self.eye) @ self._inverse.T
         return local @ self.projection[:, :3].T + self.projection[:, 3]
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
@@ -153,7 +158,7 @@ class View:
         """Pixels (n, 2) that the pictures of `points` (n, 3) move by where the points move by `moves` (n, 3), in the
         first order."""
         clip = self.clip(points)
-        turned = moves @ np.linalg.inv(self.camera_to_world[:3, :3]).T @ self.projection[:, :3].T
+        turned = moves @ self._inverse.T @ self.projection[:, :3].T
         with np.errstate(divide="ignore", invalid="ignore"):
             change = (turned[:, :2] - clip[:, :2] / clip[:, 3:] * turned[:, 3:]) / clip[:, 3:]
         return 0.5 * change * self.resolution

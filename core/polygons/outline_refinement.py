@@ -18,13 +18,14 @@ from .covering import Overlaps
 
 LEVELS = 10
 SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
-CROWD = 6  # outlines of mirrors that a camera may hold: all that it sees is cut along each
+CROWD = 12  # outlines of mirrors that a camera may hold: all that it sees is cut along those that run through it
+ENDING = 0.4  # of the tolerance: what outlines of mirrors may miss, at which all ends that lies behind
 
 
 def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, met: SceneAndMirrors,
                         last: bool) -> tuple[Candidates, np.ndarray, int]:
     """Candidates of cameras split until no outline in them misses the true one by more than `tolerance` pixels, or
-    until there are `maximum` candidates; mirrors that show what they meet count at the `last` bounce as they hide.
+    until there are `maximum` candidates; at the `last` bounce mirrors only hide.
 
     Returns
     -------
@@ -43,8 +44,9 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
         parts.append(candidates)
         # of each pair so far, the camera's number now, -1 where it has been split
         camera, column = np.append(camera, candidates.camera), np.append(column, candidates.column)
-        bent, long = _bent_edges(candidates, tolerance)
-        split = (bent | _crowded(candidates, met.are_mirrors(candidates))[:, None]) & long
+        mirror = met.are_mirrors(candidates)
+        bent, long = _bent_edges(candidates, tolerance * np.where(mirror, ENDING, 1.0))
+        split = (bent | _crowded(candidates, mirror)[:, None]) & long
         if level == LEVELS or not split.any() or (camera >= 0).sum() > maximum:
             break
         open_ |= (bent & ~long).any(axis=1)
@@ -82,9 +84,9 @@ def _crowded(candidates: Candidates, mirror: np.ndarray) -> np.ndarray:
     return np.bincount(candidates.camera, outlines, minlength=len(candidates.cameras)) > CROWD
 
 
-def _bent_edges(candidates: Candidates, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses too much; and those
-    that are long enough to be split."""
+def _bent_edges(candidates: Candidates, tolerance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses more than the
+    `tolerance` (p,) of its candidate, in pixels; and those that are long enough to be split."""
     cameras, some = candidates.cameras, np.flatnonzero(candidates.outlines.any(axis=0))
     pixels = cameras.view.pixels(cameras.places.T)[cameras.corners]
     across, up = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
@@ -93,7 +95,7 @@ def _bent_edges(candidates: Candidates, tolerance: float) -> tuple[np.ndarray, n
     rise, climb = sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]
     steepness = np.hypot(rise * up[camera, 1] - climb * across[camera, 1],
                          climb * across[camera, 0] - rise * up[camera, 0])
-    misses = np.abs(candidates.bend[:, :, some]) * area[camera] > tolerance * steepness[:, None]
+    misses = np.abs(candidates.bend[:, :, some]) * area[camera] > tolerance[some] * steepness[:, None]
     edge, pair = np.nonzero((misses & candidates.outlines[:, None, some]).any(axis=0))
     bent = np.zeros((len(cameras), 3), dtype=bool)
     bent[camera[pair], edge] = True

@@ -163,18 +163,18 @@ def _changes_sign(polygons: Polygons, corner_values: np.ndarray) -> np.ndarray:
 def _hides(candidates: Candidates, other: np.ndarray, own: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Whether rays at `weights` (3, n) of the cameras meet the mirror triangles of the candidates `other` (n,) before
     they meet the planes of the candidates `own`."""
-    sides = [dot(side[:, other], weights) for side in candidates.sides]
+    sides = [dot(columns(side, other), weights) for side in candidates.sides]
     inside = (sides[0] >= 0.0) & (sides[1] >= 0.0) & (sides[2] >= 0.0) & (other != own)
     met = np.flatnonzero(inside)
-    other, own, weights = other[met], own[met], weights[:, met]
+    other, own, weights = other[met], own[met], columns(weights, met)
     rate = sides[0][met] + sides[1][met] + sides[2][met]
-    own_rate = dot(candidates.rate[:, own], weights)
-    reach, own_reach = dot(candidates.ahead[:, other], weights), dot(candidates.ahead[:, own], weights)
+    own_rate = dot(columns(candidates.rate, own), weights)
+    reach, own_reach = (dot(columns(candidates.ahead, pair), weights) for pair in (other, own))
     inside[met] = (reach >= 0.0) & (reach * own_rate * (1.0 + NEARER) < own_reach * rate * (1.0 - NEARER))
     return inside
 
 
 def _depth_order(candidates: Candidates, other: np.ndarray, own: np.ndarray) -> np.ndarray:
     """(3, n): at the cameras' corners, positive where the planes of `own` are met before those of `other`."""
-    return (candidates.ahead[:, other] * candidates.rate[:, own]
-            - candidates.ahead[:, own] * candidates.rate[:, other])
+    return (columns(candidates.ahead, other) * columns(candidates.rate, own)
+            - columns(candidates.ahead, own) * columns(candidates.rate, other))
