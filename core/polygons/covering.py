@@ -15,7 +15,7 @@ import numpy as np
 from ..cameras import Cameras
 from ..culling import Candidates, SceneAndMirrors, overlapping
 from ..geometry import SceneFrames, dot, largest, smallest
-from ..support import side_by_side
+from ..support import breathe
 from .clipping import clip
 from .convex_polygons import Line, scene_edges
 
@@ -45,10 +45,12 @@ class Overlaps:
     def of(cls, cameras: Cameras, frames: SceneFrames, pairs: tuple[np.ndarray, np.ndarray],
            met: SceneAndMirrors) -> Overlaps:
         """The overlaps among pairs of a camera and a column of the frames."""
-        camera, column = pairs
-        shares = [slice(start, start + PAIRS_AT_ONCE) for start in range(0, max(len(camera), 1), PAIRS_AT_ONCE)]
-        return cls.joined(side_by_side(
-            lambda part: _overlaps(overlapping(cameras, frames, camera[part], column[part]), met), shares))
+        (camera, column), parts = pairs, []
+        for start in range(0, max(len(camera), 1), PAIRS_AT_ONCE):
+            breathe()
+            part = slice(start, start + PAIRS_AT_ONCE)
+            parts.append(_overlaps(overlapping(cameras, frames, camera[part], column[part]), met))
+        return cls.joined(parts)
 
     @classmethod
     def joined(cls, parts: Sequence[Overlaps]) -> Overlaps:

@@ -6,8 +6,7 @@ from .errors import ReflectionError
 from .progress import Progress
 from .settings import METHODS, PLACEMENTS, Settings
 from .stepping import breathe, in_steps
-from .threads import side_by_side
 
 __all__ = ["FACE_SHARE", "LARGEST", "METHODS", "MIRROR_SHARE", "OUTLINE_SHARE", "PLACEMENTS", "Progress",
-           "ReflectionError", "Settings", "breathe", "crowded", "in_steps", "number", "numbers", "side_by_side",
-           "whole_number", "whole_numbers"]
+           "ReflectionError", "Settings", "breathe", "crowded", "in_steps", "number", "numbers", "whole_number",
+           "whole_numbers"]

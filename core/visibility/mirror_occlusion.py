@@ -11,7 +11,7 @@ import numpy as np
 from ..culling import Candidates, SceneAndMirrors
 from ..geometry import columns, dot, groups, largest, ranges, shares, smallest
 from ..polygons import Line, Lines, Polygons, clip, divide, scene_edges
-from ..support import side_by_side
+from ..support import breathe
 
 MOST_PIECES = 1 << 20  # what is not cut along all outlines is hidden or not by its middle
 NEARER = 1e-9  # of the distance: what is nearer by less is the same surface
@@ -93,14 +93,14 @@ def _hidden(mirror: np.ndarray, polygons: Polygons) -> tuple[np.ndarray, np.ndar
     pass through; and which polygons (q,) are hidden in their middles."""
     camera = polygons.candidates.camera[mirror]
     start, stop = (np.searchsorted(camera, polygons.camera, side=side) for side in ("left", "right"))
-
-    def asked(part: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    answers = []
+    for part in shares(stop - start, PAIRS_AT_ONCE):
+        breathe()
         entry, polygon = ranges(start[part], (stop - start)[part])
         passing, through, behind = _behind(mirror[entry], polygon, polygons.select(part))
-        return part.start + passing, through, behind
-
-    passing, through, behind = zip(*side_by_side(asked, shares(stop - start, PAIRS_AT_ONCE)))
-    return np.concatenate(passing), np.concatenate(through), np.concatenate(behind)
+        answers.append((part.start + passing, through, behind))
+    passing, through, behind = (np.concatenate(side) for side in zip(*answers))
+    return passing, through, behind
 
 
 def _not_behind(other: np.ndarray, polygons: Polygons) -> list[Polygons]:
