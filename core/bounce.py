@@ -1,18 +1,19 @@
 """One bounce: from cameras on the last mirror to the faces of all that they see, step by step as in docs/method.md."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .cameras import Cameras, beyond_horizon, picture_areas, refine_mirror
-from .culling import Candidates, SceneAndMirrors, overlapping
+from .culling import Candidates, SceneAndMirrors
 from .filling import Crowds, Limits
 from .geometry import SceneFrames, edge_lengths, norm
 from .polygons import (
     FaceRefinement,
     Faces,
     Nodes,
+    Overlaps,
     Polygons,
     VertexImages,
     clip,
@@ -24,7 +25,7 @@ from .polygons import (
     whole_triangles,
 )
 from .support import FACE_SHARE, MIRROR_SHARE, OUTLINE_SHARE, Progress, Settings
-from .visibility import cut_behind_mirrors, drop_behind_contacts, without_touching
+from .visibility import cut_behind_mirrors, drop_behind_contacts, plainly_seen
 
 
 @dataclass(frozen=True)
@@ -114,24 +115,45 @@ def _culled(cameras: Cameras, task: Task, showing: np.ndarray, crowds: Crowds) -
     """Pairs of cameras and triangles that may be seen in them, the cameras cut until outlines in them are straight."""
     task.progress.next(0.1, "cones through the tree")
     met, limits = task.met, task.limits
-    camera, triangle, visited, crowd = met.trace(cameras, showing, limits.pairs, picture_areas(cameras))
-    seen, column = np.unique(triangle, return_inverse=True)
-    candidates = without_touching(met, overlapping(cameras, SceneFrames.of(met, seen), camera, column))
-    if task.last:
-        candidates = met.hiding_something(candidates)
+    candidates, crowd, pairs, visited = _met(cameras, task, showing)
     candidates, contacts, pierced = crowds.thinned(candidates, crowd), 0, 0
     if cameras.mirror_map.bounce == 1:
-        candidates, crowd, contacts, pierced = drop_behind_contacts(candidates, limits.candidates)
+        candidates, crowd, contacts, pierced = drop_behind_contacts(
+            candidates, limits.candidates,
+            lambda pieces, pairs: Overlaps.of(pieces, candidates.frames, pairs, met).in_sight(task.last))
         candidates = crowds.thinned(candidates, crowd)
     candidates, still_bent, limited = refine_for_outlines(candidates, OUTLINE_SHARE * task.settings.tolerance,
-                                                          limits.candidates, met)
+                                                          limits.candidates, met, task.last)
     # cameras of a pixel in which outlines are bent still, as where rays cross: there is nothing left to cut
     candidates = crowds.thinned(candidates, still_bent)
     still_open, count = int(still_bent.sum()), len(candidates)
-    task.progress.done("cones", nodes_visited=visited, pairs=len(camera), contacts=contacts, pierced=pierced,
+    task.progress.done("cones", nodes_visited=visited, pairs=pairs, contacts=contacts, pierced=pierced,
                        limited=limited, cameras=len(candidates.cameras), candidates=count, open=still_open,
                        crowded=len(crowds) - still_open, bounded=count > limits.candidates)
     return candidates
+
+
+def _met(cameras: Cameras, task: Task, showing: np.ndarray) -> tuple[Candidates, np.ndarray, int, int]:
+    """Pairs of cameras and triangles that may overlap; which cameras (n,) meet too much, how many pairs were looked at,
+    and how many tree nodes visited. Mirrors are looked for on the faces `showing` one, at the last bounce where they
+    may hide something."""
+    met, most, worth = task.met, task.limits.pairs, picture_areas(cameras)
+    camera, triangle, visited, crowd = met.diffuse_in(cameras, most, worth)
+    seen, column = np.unique(triangle, return_inverse=True)
+    diffuse = Overlaps.of(cameras, SceneFrames.of(met, seen), (camera, column), met)
+    looking = showing[cameras.face] & ~crowd
+    if task.last:
+        looking &= np.bincount(diffuse.candidates.camera, minlength=len(cameras)) > 0
+    looking = np.flatnonzero(looking)
+    mirror_camera, triangle, more, given_up = met.mirrors_in(cameras.select(looking), most, worth[looking])
+    crowd[looking[given_up]] = True
+    mirrors, column = np.unique(triangle, return_inverse=True)
+    frames = SceneFrames.of(met, np.append(seen, mirrors + met.diffuse))
+    mirror = Overlaps.of(cameras, frames, (looking[mirror_camera], len(seen) + column), met)
+    mirror = mirror.select(plainly_seen(met, mirror.candidates))
+    diffuse = replace(diffuse, candidates=replace(diffuse.candidates, frames=frames))
+    return (Overlaps.joined((diffuse, mirror)).in_sight(task.last), crowd, len(camera) + len(mirror_camera),
+            visited + more)
 
 
 def _projected(candidates: Candidates, task: Task) -> VertexImages:

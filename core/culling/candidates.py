@@ -7,18 +7,16 @@ halfway along the camera's edges bounds the error of that.
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import SceneFrames
-from ..support import breathe
+from ..geometry import SceneFrames, columns, largest
 
-PAIRS_AT_ONCE = 65536
-PER_PAIR = ("camera", "column", "sides", "ahead", "bend")
+PER_PAIR = ("camera", "column", "sides", "ahead", "bend", "outlines")
 
 
 @dataclass(frozen=True)
@@ -36,6 +34,8 @@ class Candidates:
     ahead : (3, p) float64, the distance a from corner i to the plane, positive on the side that the rays leave
     bend : (3, 3, p) float64, entry [j, k]: what the quadratic part adds to `sides` j halfway along the camera's edge
         from corner k to the next
+    outlines : (3, p) bool, sides that may bound what is seen: not those that the camera has no part of, nor those over
+        which a mirror goes on
     """
 
     cameras: Cameras
@@ -45,25 +45,33 @@ class Candidates:
     sides: np.ndarray
     ahead: np.ndarray
     bend: np.ndarray
+    outlines: np.ndarray
 
     def __len__(self) -> int:
         return len(self.camera)
 
     def select(self, chosen: np.ndarray | slice) -> Candidates:
-        return replace(self, **{name: getattr(self, name)[..., chosen] for name in PER_PAIR})
+        """The pairs `chosen`, as indices, as a mask or as a slice."""
+        if isinstance(chosen, slice):
+            return self._with(lambda values: values[..., chosen])
+        index = np.flatnonzero(chosen) if chosen.dtype == bool else chosen
+        return self._with(lambda values: columns(values, index))
+
+    def _with(self, changed: Callable[[np.ndarray], np.ndarray]) -> Candidates:
+        return Candidates(self.cameras, self.frames, *(changed(getattr(self, name)) for name in PER_PAIR))
 
     @staticmethod
     def joined(parts: Sequence[Candidates]) -> Candidates:
         """All pairs of the parts, which have the same cameras and frames."""
-        return replace(parts[0], **{name: np.concatenate([getattr(part, name) for part in parts], axis=-1)
-                                    for name in PER_PAIR})
+        return Candidates(parts[0].cameras, parts[0].frames,
+                          *(np.concatenate([getattr(part, name) for part in parts], axis=-1) for name in PER_PAIR))
 
     @staticmethod
     def unknown(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray) -> Candidates:
         """Pairs (n,) of which nothing is known but that the camera shows the triangle, and clipping leaves it whole."""
         count = len(camera)
         return Candidates(cameras, frames, camera, column, np.zeros((3, 3, count)), np.ones((3, count)),
-                          np.zeros((3, 3, count)))
+                          np.zeros((3, 3, count)), np.ones((3, count), dtype=bool))
 
     def on(self, cameras: Cameras, now: np.ndarray) -> Candidates:
         """The pairs on other `cameras`, of which `now` (n,) tells the numbers of ours, -1 for those that are gone."""
@@ -75,39 +83,40 @@ class Candidates:
         """(3, p): b at the cameras' corners."""
         return self.sides.sum(axis=0)
 
-    @property
+    @cached_property
     def room(self) -> np.ndarray:
         """(3, p): no more than this does the quadratic part add to `sides` j anywhere in the camera."""
-        return 4.0 / 3.0 * np.abs(self.bend).max(axis=1)
+        return _room(self.bend)
 
 
 def overlapping(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray) -> Candidates:
-    """The pairs among (camera, column) that may overlap.
+    """The pairs among (camera, column) that may overlap; all their sides may bound what is seen.
 
     A pair whose camera lies across the triangle's plane comes twice, once for each side of it.
     """
-    parts = []
-    for start in range(0, max(len(camera), 1), PAIRS_AT_ONCE):
-        breathe()
-        part = slice(start, start + PAIRS_AT_ONCE)
-        parts.append(_overlapping(cameras, frames, camera[part], column[part]))
-    return Candidates(cameras, frames, *(np.concatenate(side, axis=-1) for side in zip(*parts)))
-
-
-def _overlapping(cameras, frames, camera, column):
     corners = cameras.corners[camera].T
-    x, y, z = frames.coordinates(column, np.take(cameras.origins, corners, axis=1))
-    u, v, w = frames.directions(column, np.take(cameras.rays, corners, axis=1))
-    first, second = w * x - z * u, w * y - z * v
-    sides = np.stack((first, second, w - first - second))
-    dx, dy, dz, du, dv, dw = (row - np.roll(row, -1, axis=0) for row in (x, y, z, u, v, w))
-    bend = -0.25 * np.stack((dw * dx - dz * du, dw * dy - dz * dv))
-    bend = np.concatenate((bend, -bend.sum(axis=0, keepdims=True)))
-    room = 4.0 / 3.0 * np.abs(bend).max(axis=1)
+    x, y, z = frames.coordinates(column, columns(cameras.origins, corners))
+    u, v, w = frames.directions(column, columns(cameras.rays, corners))
+    sides, bend = np.empty((3, *z.shape)), np.empty((3, *z.shape))
+    np.subtract(w * x, z * u, out=sides[0])
+    np.subtract(w * y, z * v, out=sides[1])
+    np.subtract(w - sides[0], sides[1], out=sides[2])
+    dx, dy, dz, du, dv, dw = (row - row[[1, 2, 0]] for row in (x, y, z, u, v, w))
+    np.subtract(dz * du, dw * dx, out=bend[0])
+    np.subtract(dz * dv, dw * dy, out=bend[1])
+    np.negative(bend[0] + bend[1], out=bend[2])
+    bend *= 0.25
+    room = _room(bend)
     kept = []
     for sign in (1.0, -1.0):
-        ahead = ((-sign * z).max(axis=0) > 0.0) & ((sign * w).max(axis=0) > 0.0)
-        chosen = np.flatnonzero(((sign * sides).max(axis=1) + room > 0.0).all(axis=0) & ahead)
-        kept.append((camera[chosen], column[chosen], sign * sides[:, :, chosen], -sign * z[:, chosen],
-                     sign * bend[:, :, chosen]))
-    return tuple(np.concatenate(side, axis=-1) for side in zip(*kept))
+        seen = (largest(-sign * z) > 0.0) & (largest(sign * w) > 0.0)
+        for j in range(3):
+            seen &= largest(sign * sides[j]) + room[j] > 0.0
+        chosen = np.flatnonzero(seen)
+        kept.append((camera[chosen], column[chosen], sign * columns(sides, chosen), -sign * columns(z, chosen),
+                     sign * columns(bend, chosen), np.ones((3, len(chosen)), dtype=bool)))
+    return Candidates(cameras, frames, *(np.concatenate(side, axis=-1) for side in zip(*kept)))
+
+
+def _room(bend: np.ndarray) -> np.ndarray:
+    return 4.0 / 3.0 * np.stack([largest(row) for row in np.abs(bend)])

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import dot, norm, unit
+from ..geometry import columns, dot, norm, unit
 
 
 @dataclass(frozen=True)
@@ -48,13 +48,13 @@ class Cones:
 
     def touch(self, cone: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
         """Whether cones `cone` (n,) may touch spheres with `centre` (3, n) and `radius` (n,); never a false no."""
-        offset = centre - np.take(self.centre, cone, axis=1)
-        axis = np.take(self.axis, cone, axis=1)
+        offset, axis = centre - columns(self.centre, cone), columns(self.axis, cone)
         height = dot(offset, axis)
-        away = norm(offset - height * axis)
-        room = self.radius[cone] + radius
-        sine, cosine = self.sine[cone], self.cosine[cone]
-        return (cosine <= 0.0) | ((away * cosine - height * sine <= room) & (height >= -room))
+        axis *= height
+        offset -= axis
+        room = columns(self.radius, cone) + radius
+        sine, cosine = columns(self.sine, cone), columns(self.cosine, cone)
+        return (cosine <= 0.0) | ((norm(offset) * cosine - height * sine <= room) & (height >= -room))
 
 
 @dataclass(frozen=True)
@@ -72,4 +72,4 @@ class Balls:
 
     def touch(self, ball: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
         """Whether the spheres `ball` (n,) and those with `centre` (3, n) and `radius` (n,) overlap."""
-        return norm(np.take(self.centre, ball, axis=1) - centre) <= self.radius[ball] + radius
+        return norm(columns(self.centre, ball) - centre) <= self.radius[ball] + radius

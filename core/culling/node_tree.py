@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Order, TriangleMesh
+from ..geometry import Order, TriangleMesh, columns
 from ..support import breathe
 from .cones import Balls, Cones
 
@@ -70,7 +70,7 @@ class NodeTree:
         unless they are leaves."""
         level, cone, node = waiting.pop()
         sphere, visited = self.spheres[level], len(cone)
-        touching = wanted[cone] & cones.touch(cone, np.take(sphere[:3], node, axis=1), sphere[3][node])
+        touching = wanted[cone] & cones.touch(cone, columns(sphere[:3], node), columns(sphere[3], node))
         cone, node = cone[touching], node[touching]
         if resting is not None:
             going = ~resting(level, cone, node)

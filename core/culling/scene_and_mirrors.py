@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
-from ..geometry import SceneFrames, TriangleMesh, cross, dot, opposite_corners, rows, unit
+from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, opposite_corners, rows, unit
 from .bounded_trace import bounded_trace
 from .candidates import Candidates
 from .cones import Cones
@@ -50,6 +50,7 @@ class SceneAndMirrors:
     def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh) -> None:
         self.tree, self.mirrors, self.mirror_tree = tree, mirrors, SceneTree.of_ordered(mirrors)
         self.mirror_corners = rows(mirrors.positions[mirrors.triangles])
+        self._corners = [rows(mirrors.positions[corner]) for corner in mirrors.triangles.T]
         self.size = float(np.ptp(mirrors.positions[mirrors.triangles.ravel()], axis=0).max())
         self.surface = MirrorSurface(mirrors)
         self._beyond = rows(opposite_corners(mirrors))
@@ -105,25 +106,8 @@ class SceneAndMirrors:
             found[on_patch] &= self.pieces.shown(cameras.select(on_patch))
         return found
 
-    def trace(self, cameras: Cameras, showing: np.ndarray, most: int,
-              worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
-        """Pairs of cameras and triangles that may be seen in them, how many tree nodes were visited for that, and which
-        cameras (n,) were given up, by their `worth` (n,), since there would be more than `most` pairs; mirrors are
-        looked for on the faces that `showing_mirrors` found."""
-        camera, triangle, visited, given_up = self._diffuse_in(cameras, most, worth)
-        chosen = np.flatnonzero(showing[cameras.face])
-        mirror_camera, mirror_triangle, more, mirror_given_up = self.mirrors_in(cameras.select(chosen),
-                                                                                 most, worth[chosen])
-        given_up[chosen[mirror_given_up]] = True
-        camera = np.concatenate((camera, chosen[mirror_camera]))
-        triangle = np.concatenate((triangle, mirror_triangle + self.diffuse))
-        if given_up.any():
-            kept = ~given_up[camera]
-            camera, triangle = camera[kept], triangle[kept]
-        return camera, triangle, visited + more, given_up
-
-    def _diffuse_in(self, cameras: Cameras, most: int,
-                    worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+    def diffuse_in(self, cameras: Cameras, most: int,
+                   worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
         """Pairs of cameras and diffuse triangles that may be seen in them; tree nodes visited; what was given up."""
         assert isinstance(self.tree, SceneTree)  # points have a trace of their own
         pieces = self.pieces
@@ -206,11 +190,10 @@ class SceneAndMirrors:
                least: float = ABOVE) -> np.ndarray:
         """Whether triangles (p,) of mirrors rise above the planes of the cameras (p,), by more than the `least` part
         of the mirrors' size."""
-        base, normal = (np.take(side, camera, axis=1) for side in sides)
+        base, normal = (columns(side, camera) for side in sides)
         found = np.zeros(len(camera), dtype=bool)
-        for corner in range(3):
-            offset = np.take(self.mirror_corners[:, :, corner], triangle, axis=1) - base
-            found |= dot(offset, normal) > least * self.size
+        for corners in self._corners:
+            found |= dot(columns(corners, triangle) - base, normal) > least * self.size
         return found
 
     def shows_mirror(self, frames: SceneFrames) -> np.ndarray:
@@ -226,13 +209,6 @@ class SceneAndMirrors:
         mirror = self.are_mirrors(candidates)
         return candidates.select(np.flatnonzero(~mirror)) if mirror.any() else candidates
 
-    def hiding_something(self, candidates: Candidates) -> Candidates:
-        """Candidates without the mirrors' triangles in cameras that see nothing else, which hide nothing."""
-        mirror = self.are_mirrors(candidates)
-        diffuse = np.zeros(int(candidates.camera.max(initial=-1)) + 1, dtype=bool)
-        diffuse[candidates.camera[~mirror]] = True
-        return candidates.select(np.flatnonzero(~mirror | diffuse[candidates.camera]))
-
     def inner_sides(self, candidates: Candidates) -> np.ndarray:
         """(3, p): sides of the candidates over which a mirror goes on, seen from anywhere in the camera. They bound
         nothing that is seen, as outlines do."""
@@ -242,16 +218,15 @@ class SceneAndMirrors:
         if not len(pair):
             return inner
         triangle = frames.triangle[candidates.column[pair]] - self.diffuse
-        corners = cameras.corners[candidates.camera[pair]]
-        origins = np.moveaxis(cameras.origins[:, corners], 2, 0)
-        own = np.take(self.mirror_corners, triangle, axis=1)
+        origins = [columns(cameras.origins, corner) for corner in cameras.corners[candidates.camera[pair]].T]
+        own = [columns(corners, triangle) for corners in self._corners]
         for side in range(3):
-            beyond = np.take(self._beyond[:, :, side], triangle, axis=1)
-            start, end = own[:, :, (side + 1) % 3], own[:, :, (side + 2) % 3]
+            beyond = columns(self._beyond[:, :, side], triangle)
+            start, end = own[(side + 1) % 3], own[(side + 2) % 3]
             # a corner's place beside the plane through the side and a ray's origin is linear in the origin: three
             # corners of a camera speak for all of it
             planes = [cross(end - start, start - origin) for origin in origins]
             near, far = (np.sign([dot(plane, corner - start) for plane in planes]).sum(axis=0)
-                         for corner in (own[:, :, side], beyond))
+                         for corner in (own[side], beyond))
             inner[side, pair] = near * far == -9.0
         return inner

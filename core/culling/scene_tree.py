@@ -98,7 +98,7 @@ class SceneTree(NodeTree):
             for part in shares(end - begin, 4 * NODES_AT_ONCE) or [slice(0, 0)]:
                 entry, pair = ranges(begin[part], (end - begin)[part])
                 own, triangle = cone[part][pair], self.order[entry]
-                sphere = np.take(self.triangle_spheres, triangle, axis=1)
+                sphere = columns(self.triangle_spheres, triangle)
                 touching = cones.touch(own, sphere[:3], sphere[3])
                 yield own[touching], triangle[touching], visited
                 visited = 0

@@ -1,7 +1,7 @@
 """How much work one reflection may be: what the picture can show of the mirror, and what the memory holds.
 
 All limits are counts, so that the same input gives the same result on any machine. They grow with the picture of the
-mirror and with the meshes; no sample meets one, and Suzanne comes to 0.7 of the limit on work. They are met
+mirror and with the meshes; no sample meets one, and Suzanne comes to a quarter of the limit on work. They are met
 where much lies over one another in few pixels, as in crowds of mirrors. There what is most crowded is shown by rays
 (`crowds`), and the result says so.
 """

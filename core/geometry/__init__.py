@@ -8,10 +8,10 @@ from .canonical_order import TURNS, Order, ordered
 from .scene_frames import SceneFrames, falling
 from .subdivision import doubled_areas, edge_lengths, parent_side, shared_edges, split
 from .triangle_mesh import TriangleMesh, area_normals, has_area
-from .vectors import columns, cross, dot, groups, norm, ranges, rows, shares, solve, unit
+from .vectors import columns, cross, dot, groups, largest, norm, ranges, rows, shares, smallest, solve, unit
 from .view import View
 
 __all__ = ["Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns", "corners_beyond",
-           "cross", "dot", "doubled_areas", "edge_lengths", "falling", "groups", "has_area", "neighbours", "norm",
-           "opposite_corners", "ordered", "parent_side", "ranges", "rows", "shared_edges", "shares", "solve", "split",
-           "unit"]
+           "cross", "dot", "doubled_areas", "edge_lengths", "falling", "groups", "has_area", "largest", "neighbours",
+           "norm", "opposite_corners", "ordered", "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest",
+           "solve", "split", "unit"]

@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from .vectors import cross, dot, norm, rows
+from .vectors import columns, cross, dot, norm, rows
 
 PARALLEL = 2.0 ** -53  # sine: rays that fall less steeply fall by rounding alone
 
@@ -85,5 +85,5 @@ class SceneFrames:
 
     @staticmethod
     def _take(row: np.ndarray, column: np.ndarray, like: np.ndarray) -> np.ndarray:
-        taken = np.take(row, column, axis=1)
+        taken = columns(row, column)
         return taken.reshape(taken.shape[:1] + (1,) * (like.ndim - taken.ndim) + taken.shape[1:])

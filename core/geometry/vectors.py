@@ -30,8 +30,18 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def columns(a: np.ndarray, index: np.ndarray) -> np.ndarray:
-    """a[:, index] (k, m) for valid indices: NumPy gathers twice as fast where it need not say which one is wrong."""
-    return a.take(index, axis=1, mode="wrap")
+    """a[..., index] for valid indices: NumPy gathers twice as fast where it need not say which one is wrong."""
+    return a.take(index, axis=-1, mode="wrap")
+
+
+def largest(a: np.ndarray) -> np.ndarray:
+    """The largest of three rows (3, n): along so short an axis NumPy's own maximum takes several times as long."""
+    return np.maximum(np.maximum(a[0], a[1]), a[2])
+
+
+def smallest(a: np.ndarray) -> np.ndarray:
+    """The smallest of three rows (3, n)."""
+    return np.minimum(np.minimum(a[0], a[1]), a[2])
 
 
 def norm(a: np.ndarray) -> np.ndarray:

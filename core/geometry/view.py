@@ -117,16 +117,16 @@ class View:
         """World position of the eye (for an orthographic one, a point of its plane)."""
         return self.camera_to_world[:3, 3]
 
+    @cached_property
+    def _inverse(self) -> np.ndarray:
+        """(3, 3): from world to eye axes."""
+        return np.linalg.inv(self.camera_to_world[:3, :3])
+
     @property
     def forward(self) -> np.ndarray:
         """Unit world direction in which the eye looks."""
         axis = -self.camera_to_world[:3, 2]
         return axis / np.linalg.norm(axis)
-
-    @cached_property
-    def _turned_back(self) -> np.ndarray:
-        """From the world's axes to the eye's."""
-        return np.linalg.inv(self.camera_to_world[:3, :3])
 
     def directions(self, points: np.ndarray) -> np.ndarray:
         """View directions d of the rays through `points` (n, 3): P - E, not normalised, or the constant forward."""
@@ -139,11 +139,11 @@ class View:
         own axis."""
         axes = self.camera_to_world[:3, :3]
         sheared = np.abs(axes.T @ axes - np.eye(3)).max() > 4.0 * _LOOSE
-        return (points - self.eye) @ (-np.linalg.inv(axes)[2] if sheared else self.forward)
+        return (points - self.eye) @ (-self._inverse[2] if sheared else self.forward)
 
     def clip(self, points: np.ndarray) -> np.ndarray:
         """Homogeneous clip coordinates (n, 4) of `points` (n, 3)."""
-        local = (points - self.eye) @ self._turned_back.T
+        local = (points - self.eye) @ self._inverse.T
         return local @ self.projection[:, :3].T + self.projection[:, 3]
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
@@ -158,7 +158,7 @@ class View:
     def pixel_gradients(self, points: np.ndarray) -> np.ndarray:
         """Pixels (2, 3, n), as [right or up, component], that the pictures of `points` (3, n) move by where the points
         move by a scene unit along an axis, in the first order."""
-        towards = self.projection[:, :3] @ self._turned_back
+        towards = self.projection[:, :3] @ self._inverse
         offset = points - self.eye[:, None]
         right, up, depth = (dot(towards[row], offset) + self.projection[row, 3] for row in (0, 1, 3))
         gradients = np.empty((2, *points.shape))

@@ -49,8 +49,13 @@ class Polygons(ConvexPolygons):
         """The polygons that are left where a function is not negative that is linear in the weights and has the
         `values` (3, q) at the corners of their cameras, a nearer mirror beyond; and which polygon each is left of."""
         rest = self.cut(values, Line.HIDDEN)
-        some = np.flatnonzero((rest.size >= 3) & (rest.areas > SMALLEST))
+        some = rest.real
         return rest.select(some), some
+
+    @property
+    def real(self) -> np.ndarray:
+        """Which polygons (n,) are more than nothing, as cutting may leave some."""
+        return np.flatnonzero((self.size >= 3) & (self.areas > SMALLEST))
 
 
 def clip(candidates: Candidates) -> Polygons:

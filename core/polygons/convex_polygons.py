@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..geometry import cross, dot, ranges
+from ..geometry import columns, cross, dot, ranges
 
 Kind = TypeVar("Kind", bound="ConvexPolygons")
 SMALLEST = 1e-9  # of a camera: smaller parts are nothing
@@ -99,7 +99,7 @@ class ConvexPolygons:
         size = self.size[chosen]
         corner, _ = ranges(self.start[:-1][chosen], size)
         return replace(self, owner=self.owner[chosen], start=np.append(0, np.cumsum(size)),
-                       weights=self.weights[:, corner], after=self.after[corner])
+                       weights=columns(self.weights, corner), after=columns(self.after, corner))
 
     @staticmethod
     def joined(parts: Sequence[Kind]) -> Kind:
@@ -152,7 +152,7 @@ def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_valu
     """
     if not len(polygon):
         return weights, after, polygon
-    values = np.take(corner_values, polygon, axis=1)
+    values = columns(corner_values, polygon)
     values *= weights
     value = values.sum(axis=0)
     inside = value >= 0.0
@@ -164,14 +164,14 @@ def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_valu
     crossing = inside != inside[following]
     stay, part = np.flatnonzero(inside), np.flatnonzero(crossing)
     share = value[part] / (value[part] - value[following[part]])
-    start = np.take(weights, part, axis=1)
+    start = columns(weights, part)
     # each corner that stays is followed by the crossing on the way to the next
     place = np.cumsum(inside.view(np.int8) + crossing, dtype=np.int64)
     new_weights, new_after = np.empty((3, place[-1])), np.empty(place[-1], dtype=np.int8)
     new_polygon = np.empty(place[-1], dtype=np.int64)
     old, new = place[stay] - 1 - crossing[stay], place[part] - 1
-    new_weights[:, old], new_after[old], new_polygon[old] = np.take(weights, stay, axis=1), after[stay], polygon[stay]
-    new_weights[:, new] = start + share * (np.take(weights, following[part], axis=1) - start)
+    new_weights[:, old], new_after[old], new_polygon[old] = columns(weights, stay), after[stay], polygon[stay]
+    new_weights[:, new] = start + share * (columns(weights, following[part]) - start)
     # a leaving polygon goes on along the cut, an entering one along the edge that it was on
     new_after[new] = np.where(inside[part], np.int8(label), after[part])
     new_polygon[new] = polygon[part]

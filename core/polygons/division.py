@@ -1,4 +1,4 @@
-"""Dividing cameras along straight lines, each into the pieces that lines leave."""
+"""Dividing cameras, or what they see, along straight lines, each into the pieces that lines leave."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -7,9 +7,9 @@ import numpy as np
 
 from ..geometry import dot, ranges
 from ..support import breathe
-from .convex_polygons import ConvexPolygons
+from .convex_polygons import ConvexPolygons, Kind
 
-PASSES = 256  # lines that cut one camera
+PASSES = 256  # lines that cut one piece
 SHORTEST = 1e-6  # of a line: what must lie in a part to cut it
 
 
@@ -33,27 +33,23 @@ class Lines:
         return Lines(self.camera[chosen], self.values[:, chosen], self.start[:, chosen], self.stop[:, chosen])
 
 
-def divide(cameras: np.ndarray, lines: Lines, most: int) -> tuple[ConvexPolygons, int]:
-    """The pieces into which the lines cut the cameras, not many more than `most`, owned by their places among them; and
-    how many cameras are not cut along all of their lines."""
-    pieces = ConvexPolygons.whole(len(cameras))
-    line, piece = np.arange(len(lines.camera)), np.searchsorted(cameras, lines.camera)
+def divide(pieces: Kind, lines: Lines, line: np.ndarray, piece: np.ndarray, most: int) -> tuple[Kind, np.ndarray]:
+    """The pieces that are left of polygons, not many more than `most`, when each `piece` (k,) of them is cut along its
+    `line` (k,); and the owners of those that are not cut along all of their lines."""
+    whole: list[Kind] = []
     for number in range(PASSES + 1):
         breathe()
         crossing = _crosses(pieces, lines, line, piece)
         line, piece = line[crossing], piece[crossing]
-        if not len(line) or len(pieces) > most or number == PASSES:
+        if not len(line) or len(pieces) + sum(map(len, whole)) > most or number == PASSES:
             break
         order = np.argsort(piece, kind="stable")
-        line, piece = line[order], piece[order]
-        chosen, first = np.unique(piece, return_index=True)
-        other = np.full(len(pieces), -1)
-        other[chosen] = len(pieces) + np.arange(len(chosen))
-        pieces = pieces.halved(chosen, lines.values[:, line[first]])
-        rest = np.ones(len(line), dtype=bool)
-        rest[first] = False
-        line, piece = np.tile(line[rest], 2), np.concatenate((piece[rest], other[piece[rest]]))
-    return pieces, len(np.unique(pieces.owner[piece]))
+        line, (chosen, first, piece) = line[order], np.unique(piece[order], return_index=True, return_inverse=True)
+        whole.append(pieces.select(np.delete(np.arange(len(pieces)), chosen)))
+        pieces = pieces.select(chosen).halved(np.arange(len(chosen)), lines.values[:, line[first]])
+        line, piece = np.delete(line, first), np.delete(piece, first)
+        line, piece = np.tile(line, 2), np.concatenate((piece, piece + len(chosen)))
+    return pieces.joined([*whole, pieces]), np.unique(pieces.owner[piece])
 
 
 def _crosses(pieces: ConvexPolygons, lines: Lines, line: np.ndarray, piece: np.ndarray) -> np.ndarray:

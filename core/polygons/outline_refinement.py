@@ -10,44 +10,44 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..cameras import beyond_horizon, split_cameras
-from ..culling import Candidates, SceneAndMirrors, overlapping
+from ..cameras import Cameras, beyond_horizon, split_cameras
+from ..culling import Candidates, SceneAndMirrors
 from ..geometry import doubled_areas, edge_lengths, ranges
 from ..support import breathe
-from .clipping import clip
-from .convex_polygons import Line, scene_edges
+from .covering import Overlaps
 
 LEVELS = 10
 SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
-CROWD = 6  # outlines of mirrors that a camera may hold: all that it sees is cut along each
+CROWD = 12  # outlines of mirrors that a camera may hold: all that it sees is cut along those that run through it
+ENDING = 0.4  # of the tolerance: what outlines of mirrors may miss, at which all ends that lies behind
 
 
-def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int,
-                        met: SceneAndMirrors) -> tuple[Candidates, np.ndarray, int]:
+def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, met: SceneAndMirrors,
+                        last: bool) -> tuple[Candidates, np.ndarray, int]:
     """Candidates of cameras split until no outline in them misses the true one by more than `tolerance` pixels, or
-    until there are `maximum` candidates.
+    until there are `maximum` candidates; at the `last` bounce mirrors only hide.
 
     Returns
     -------
     candidates : Candidates
-        The pairs that may really overlap.
+        The pairs that may really overlap, and that no mirror hides from the whole of their camera.
     open_ : (n,) bool
         Cameras too small to be split in which some outline still does.
     limited : int
         Edges of cameras that the bound on depth or count left unsplit.
     """
     cameras, frames = candidates.cameras, candidates.frames
-    settled, open_ = candidates.select(np.zeros(0, dtype=np.int64)), np.zeros(len(cameras), dtype=bool)
+    parts, open_ = [], np.zeros(len(cameras), dtype=bool)
+    camera, column = np.zeros((2, 0), dtype=np.int64)
     for level in range(LEVELS + 1):
         breathe()
-        candidates, lines = _really_overlapping(candidates)
-        lines &= ~met.inner_sides(candidates)
-        bent, long = _bent_edges(candidates, lines, tolerance)
-        bent &= ~beyond_horizon(cameras)[:, None]
-        crowded = _crowded(candidates, lines & met.are_mirrors(candidates))
-        split = (bent | crowded[:, None]) & long
-        settled = Candidates.joined((settled, candidates))
-        if level == LEVELS or not split.any() or len(settled) > maximum:
+        parts.append(candidates)
+        # of each pair so far, the camera's number now, -1 where it has been split
+        camera, column = np.append(camera, candidates.camera), np.append(column, candidates.column)
+        mirror = met.are_mirrors(candidates)
+        bent, long = _bent_edges(candidates, tolerance * np.where(mirror, ENDING, 1.0))
+        split = (bent | _crowded(candidates, mirror)[:, None]) & long
+        if level == LEVELS or not split.any() or (camera >= 0).sum() > maximum:
             break
         open_ |= (bent & ~long).any(axis=1)
         before = len(cameras)
@@ -55,53 +55,56 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int,
         now = np.full(before, -1)
         now[parent[~new]] = np.flatnonzero(~new)
         open_ = open_[parent] & ~new
-        candidates = overlapping(cameras, frames, *_children(settled, parent, new, before, len(frames.triangle)))
-        settled = settled.on(cameras, now)
+        pairs = _children(camera, column, parent, new, before)
+        candidates = Overlaps.of(cameras, frames, pairs, met).in_sight(last)
+        camera = np.where(camera >= 0, now[camera], -1)
+    settled = replace(Candidates.joined(parts), cameras=cameras, camera=camera).select(np.flatnonzero(camera >= 0))
     return settled, open_ | (bent.any(axis=1) & ~long.any(axis=1)), int((bent & long).sum())
 
 
-def _children(candidates: Candidates, parent: np.ndarray, new: np.ndarray, before: int,
-              columns: int) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of the new cameras with the candidates of their parents, each once: a camera across a triangle's plane
-    stands twice among the candidates."""
-    order = np.argsort(candidates.camera, kind="stable")
-    start = np.searchsorted(candidates.camera[order], np.arange(before + 1))
+def _children(camera: np.ndarray, column: np.ndarray, parent: np.ndarray, new: np.ndarray,
+              before: int) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of the new cameras with the columns of their parents, each once: a camera across a triangle's plane stands
+    twice among the pairs."""
+    splitting = np.zeros(before, dtype=bool)
+    splitting[parent[new]] = True
+    own = np.flatnonzero((camera >= 0) & splitting[camera])
+    own = own[np.argsort(camera[own], kind="stable")]
+    start = np.searchsorted(camera[own], np.arange(before + 1))
     child = np.flatnonzero(new)
     entry, run = ranges(start[parent[child]], start[parent[child] + 1] - start[parent[child]])
-    pairs = np.unique(child[run] * columns + candidates.column[order][entry])
-    return pairs // columns, pairs % columns
+    count = int(column.max(initial=-1)) + 1
+    pairs = np.unique(child[run] * count + column[own[entry]])
+    return pairs // max(count, 1), pairs % max(count, 1)
 
 
-def _really_overlapping(candidates: Candidates) -> tuple[Candidates, np.ndarray]:
-    """Candidates that overlap when each side moves out by all that its quadratic part may add; and (3, p), which of the
-    triangle's sides then still bound the overlap."""
-    wide = replace(candidates, sides=candidates.sides + candidates.room[:, None])
-    polygons = clip(wide)
-    scene = scene_edges(polygons.after)
-    lines = np.zeros((3, len(polygons)), dtype=bool)
-    lines[polygons.after[scene] - Line.SCENE_EDGE, polygons.polygon[scene]] = True
-    return candidates.select(polygons.pair), lines
+def _crowded(candidates: Candidates, mirror: np.ndarray) -> np.ndarray:
+    """Which cameras (n,) hold too many outlines of mirrors, which are those (p,) of the candidates."""
+    outlines = np.where(mirror, candidates.outlines.sum(axis=0), 0)
+    return np.bincount(candidates.camera, outlines, minlength=len(candidates.cameras)) > CROWD
 
 
-def _crowded(candidates: Candidates, outlines: np.ndarray) -> np.ndarray:
-    """Which cameras (n,) hold too many `outlines` (3, p) of mirrors."""
-    return np.bincount(candidates.camera, outlines.sum(axis=0), minlength=len(candidates.cameras)) > CROWD
-
-
-def _bent_edges(candidates: Candidates, lines: np.ndarray, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses too much; and those
-    that are long enough to be split."""
-    cameras = candidates.cameras
-    view = cameras.view
-    pixels = view.pixels(cameras.places.T)[cameras.corners]
+def _bent_edges(candidates: Candidates, tolerance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses more than the
+    `tolerance` (p,) of its candidate, in pixels; and those that are long enough to be split."""
+    cameras, some = candidates.cameras, np.flatnonzero(candidates.outlines.any(axis=0))
+    pixels = cameras.view.pixels(cameras.places.T)[cameras.corners]
     across, up = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
     area = np.abs(doubled_areas(pixels))
-    camera = candidates.camera
-    rise, climb = candidates.sides[:, 1] - candidates.sides[:, 0], candidates.sides[:, 2] - candidates.sides[:, 0]
+    camera, sides = candidates.camera[some], candidates.sides[:, :, some]
+    rise, climb = sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]
     steepness = np.hypot(rise * up[camera, 1] - climb * across[camera, 1],
                          climb * across[camera, 0] - rise * up[camera, 0])
-    misses = (np.abs(candidates.bend) * area[camera] > tolerance * steepness[:, None]) & lines[:, None]
-    edge, pair = np.nonzero(misses.any(axis=0))
+    misses = np.abs(candidates.bend[:, :, some]) * area[camera] > tolerance[some] * steepness[:, None]
+    edge, pair = np.nonzero((misses & candidates.outlines[:, None, some]).any(axis=0))
     bent = np.zeros((len(cameras), 3), dtype=bool)
     bent[camera[pair], edge] = True
-    return bent, edge_lengths(pixels) > SHORTEST_EDGE
+    return bent & _worth_refining(cameras, bent), edge_lengths(pixels) > SHORTEST_EDGE
+
+
+def _worth_refining(cameras: Cameras, bent: np.ndarray) -> np.ndarray:
+    """(n, 1): which cameras with edges that are `bent` (n, 3) do not lie beyond the horizon."""
+    asked = bent.any(axis=1)
+    worth = asked.copy()
+    worth[asked] = ~beyond_horizon(cameras.select(asked))
+    return worth[:, None]

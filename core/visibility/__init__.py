@@ -8,7 +8,7 @@ from .mirror_occlusion import cut_behind_mirrors
 from .mirror_visibility import without_hidden
 from .scene_contacts import drop_behind_contacts
 from .self_occlusion import without_occluded
-from .touching_mirrors import without_touching
+from .touching_mirrors import plainly_seen
 
-__all__ = ["cut_before_eye", "cut_behind_mirrors", "drop_behind_contacts", "without_hidden", "without_occluded",
-           "without_touching"]
+__all__ = ["cut_before_eye", "cut_behind_mirrors", "drop_behind_contacts", "plainly_seen", "without_hidden",
+           "without_occluded"]

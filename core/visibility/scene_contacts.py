@@ -7,11 +7,13 @@ linear in the camera's weights, so the camera without it falls into convex piece
 """
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..cameras import Cameras, picture_areas, with_pieces
-from ..culling import Candidates, overlapping
-from ..geometry import SceneFrames, cross, dot, ranges, rows
+from ..culling import Candidates
+from ..geometry import SceneFrames, cross, dot, largest, ranges, rows, smallest
 from ..polygons import ConvexPolygons, Line
 from ..support import breathe, crowded
 
@@ -21,15 +23,30 @@ SHORTEST_CONTACT = 1e-6  # of the line across the camera
 SMALLEST = 1e-12  # of a camera: smaller pieces are nothing
 
 
-def drop_behind_contacts(candidates: Candidates, maximum: int) -> tuple[Candidates, np.ndarray, int, int]:
+def drop_behind_contacts(candidates: Candidates, maximum: int,
+                         again: Callable[[Cameras, tuple[np.ndarray, np.ndarray]], Candidates]
+                         ) -> tuple[Candidates, np.ndarray, int, int]:
     """Candidates of cameras without the parts right behind triangles that cut through them, or at least those that
-    `maximum` cameras allow; which cameras are too crowded for these to be looked at again; how many were cut, and how
-    many were not cut by all that cut through them."""
+    `maximum` cameras allow.
+
+    Parameters
+    ----------
+    again : callable
+        The candidates among pairs of a camera and a column, asked for the pieces of cameras that were cut.
+
+    Returns
+    -------
+    candidates : Candidates
+    crowd : (n,) bool
+        Cameras too crowded to be looked at again.
+    count, left : int
+        How many were cut, and how many were not cut by all that cut through them.
+    """
     cameras, frames = candidates.cameras, candidates.frames
-    across = (candidates.ahead < 0.0).any(axis=0) & (candidates.ahead > 0.0).any(axis=0)
+    across = (smallest(candidates.ahead) < 0.0) & (largest(candidates.ahead) > 0.0)
     pairs = np.unique(candidates.camera[across] * len(frames.triangle) + candidates.column[across])
     camera, column = pairs // len(frames.triangle), pairs % len(frames.triangle)
-    origin, count = np.arange(len(cameras)), 0
+    origin, cut, count = np.arange(len(cameras)), np.zeros(len(cameras), dtype=bool), 0
     for number in range(PASSES + 1):
         breathe()
         sides, solid = hidden_sides(cameras, frames, camera, column)
@@ -40,6 +57,7 @@ def drop_behind_contacts(candidates: Candidates, maximum: int) -> tuple[Candidat
         chosen, first = np.unique(camera, return_index=True)
         parent, weights = _pieces(sides[:, :, first])
         count += len(chosen)
+        cut[origin[chosen]] = True
         whole = np.ones(len(cameras), dtype=bool)
         whole[chosen] = False
         # what else cuts a camera is asked of its pieces
@@ -55,13 +73,18 @@ def drop_behind_contacts(candidates: Candidates, maximum: int) -> tuple[Candidat
     left = len(np.unique(camera))
     if not count:
         return candidates, np.zeros(len(cameras), dtype=bool), 0, left
-    order = np.argsort(candidates.camera, kind="stable")
-    start, stop = (np.searchsorted(candidates.camera[order], origin, side=side) for side in ("left", "right"))
-    crowd = crowded(stop - start, picture_areas(cameras), AGAIN * maximum)
-    entry, camera = ranges(start, np.where(crowd, 0, stop - start))
-    pairs = np.unique(camera * len(frames.triangle) + candidates.column[order][entry])
-    again = overlapping(cameras, frames, pairs // len(frames.triangle), pairs % len(frames.triangle))
-    return again, crowd, count, left
+    piece = np.flatnonzero(cut[origin])
+    now = np.full(len(cut), -1)
+    now[np.delete(origin, piece)] = np.delete(np.arange(len(cameras)), piece)
+    asked = np.flatnonzero(cut[candidates.camera])
+    asked = asked[np.argsort(candidates.camera[asked], kind="stable")]
+    start, stop = (np.searchsorted(candidates.camera[asked], origin[piece], side=side) for side in ("left", "right"))
+    crowd = np.zeros(len(cameras), dtype=bool)
+    crowd[piece] = crowded(stop - start, picture_areas(cameras.select(piece)), AGAIN * maximum)
+    entry, run = ranges(start, np.where(crowd[piece], 0, stop - start))
+    pairs = np.unique(piece[run] * len(frames.triangle) + candidates.column[asked[entry]])
+    of_pieces = again(cameras, (pairs // len(frames.triangle), pairs % len(frames.triangle)))
+    return Candidates.joined((candidates.on(cameras, now), of_pieces)), crowd, count, left
 
 
 def hidden_sides(cameras: Cameras, frames: SceneFrames, camera: np.ndarray,

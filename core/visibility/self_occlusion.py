@@ -62,10 +62,11 @@ def _cut(cameras: Cameras, shown: np.ndarray, lines: Lines, camera: np.ndarray,
     if not len(camera):
         return cameras.select(shown), 0
     cut_cameras, whole = np.unique(camera), shown.copy()
-    pieces, left = divide(cut_cameras, lines, MOST_PIECES)
+    pieces, left = divide(ConvexPolygons.whole(len(cut_cameras)), lines, np.arange(len(lines.camera)),
+                          np.searchsorted(cut_cameras, lines.camera), MOST_PIECES)
     parent, triangles = _seen_pieces(cut_cameras, pieces, camera, sides)
     whole[cut_cameras] = False
-    return with_pieces(cameras, whole, parent, triangles)[0], left
+    return with_pieces(cameras, whole, parent, triangles)[0], len(left)
 
 
 def _joined(parts: list, kept: np.ndarray):

@@ -14,15 +14,14 @@ PROBED_AT_ONCE = 16384  # pairs of a camera and a triangle of a mirror
 _PROBES = np.array([(i, j, 4 - i - j) for i in range(5) for j in range(5 - i)]).T / 4.0
 
 
-def without_touching(met: SceneAndMirrors, candidates: Candidates) -> Candidates:
-    """Candidates without the mirrors' triangles that only touch the camera's own triangle in a corner or a side;
-    those neighbours stay, as across a groove, that one of the camera's `_PROBES` sees, or the ray in the middle of
-    what the neighbour covers."""
-    pair = np.flatnonzero(met.are_mirrors(candidates))
+def plainly_seen(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
+    """Which candidates (p,), all triangles of mirrors, do not only touch the camera's own triangle in a corner or a
+    side; those neighbours count, as across a groove, that one of the camera's `_PROBES` sees, or the ray in the middle
+    of what the neighbour covers."""
     kept = np.ones(len(candidates), dtype=bool)
-    for start in range(0, len(pair), PROBED_AT_ONCE):
+    for start in range(0, len(candidates), PROBED_AT_ONCE):
         breathe()
-        part = pair[start:start + PROBED_AT_ONCE]
+        part = np.arange(start, min(start + PROBED_AT_ONCE, len(candidates)))
         part = part[_touching(met, candidates.select(part))]
         asked = candidates.select(part)
         kept[part] = _probed(met, asked, np.repeat(_PROBES[:, :, None], len(part), axis=2))
@@ -30,7 +29,7 @@ def without_touching(met: SceneAndMirrors, candidates: Candidates) -> Candidates
         asked = asked.select(doubtful)
         covered = clip(asked)
         kept[part[doubtful[covered.pair]]] = _probed(met, asked.select(covered.pair), covered.middles[:, None])
-    return candidates.select(kept) if len(pair) else candidates
+    return kept
 
 
 def _touching(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:

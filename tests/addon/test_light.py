@@ -144,7 +144,8 @@ def psnr(one: np.ndarray, other: np.ndarray) -> float:
     return float(-10.0 * np.log10(((one - other)[inside, inside]**2).mean()))
 
 
-SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Glass", "Alpha", "Backfacing")
+SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Glass", "Alpha",
+           "Backfacing")
 MIRRORS = ("Tint", "Textured tint", "Rough", "Fresnel", "Layer weight")
 
 
@@ -182,7 +183,8 @@ def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
 def lit_state() -> dict:
     """As `parts.state`, and what a light changes of a result."""
     results = {obj.name: ([(slot.link, slot.material and slot.material.name) for slot in obj.material_slots],
-                          sorted(obj.data.attributes.keys()), obj.reflection_mesh.light, obj.reflection_mesh.light_stale)
+                          sorted(obj.data.attributes.keys()), obj.reflection_mesh.light,
+                          obj.reflection_mesh.light_stale)
                for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"}
     cycles = bpy.context.scene.cycles
     return {**parts.state(), "results": results, "lights": sorted(bpy.data.lights.keys()),

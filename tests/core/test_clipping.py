@@ -16,7 +16,8 @@ from tests.oracles.true_map import case_of
 def random_candidates(rng, count, contact):
     sides = rng.normal(size=(3, 3, count)) + 0.4
     ahead = rng.normal(size=(3, count)) if contact else rng.uniform(0.1, 1.0, (3, count))
-    return Candidates(None, None, np.arange(count), np.arange(count), sides, ahead, np.zeros((3, 3, count)))
+    return Candidates(None, None, np.arange(count), np.arange(count), sides, ahead, np.zeros((3, 3, count)),
+                      np.ones((3, count), dtype=bool))
 
 
 def inside_polygon(corners, points):
@@ -74,7 +75,7 @@ def test_each_corner_lies_on_the_two_lines_that_it_names(contact):
 
 def test_a_camera_that_sees_only_the_inside_of_a_triangle_stays_whole():
     candidates = Candidates(None, None, np.array([0]), np.array([0]), np.full((3, 3, 1), 0.3), np.ones((3, 1)),
-                            np.zeros((3, 3, 1)))
+                            np.zeros((3, 3, 1)), np.ones((3, 1), dtype=bool))
     polygons = clip(candidates)
     np.testing.assert_array_equal(polygons.weights.T, np.eye(3))
     assert (polygons.before < Line.SCENE_EDGE).all() and (polygons.after < Line.SCENE_EDGE).all()
@@ -83,10 +84,11 @@ def test_a_camera_that_sees_only_the_inside_of_a_triangle_stays_whole():
 def test_nothing_is_left_where_a_side_is_negative_everywhere():
     sides = np.full((3, 3, 2), 0.3)
     sides[1, :, 1] = -0.1
-    candidates = Candidates(None, None, np.arange(2), np.arange(2), sides, np.ones((3, 2)), np.zeros((3, 3, 2)))
+    candidates = Candidates(None, None, np.arange(2), np.arange(2), sides, np.ones((3, 2)), np.zeros((3, 3, 2)),
+                            np.ones((3, 2), dtype=bool))
     polygons = clip(candidates)
     np.testing.assert_array_equal(polygons.pair, [0])
-    empty = clip(candidates.select([1]))
+    empty = clip(candidates.select(np.array([1])))
     assert len(empty.pair) == 0 and empty.weights.shape == (3, 0)
 
 

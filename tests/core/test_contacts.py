@@ -35,7 +35,8 @@ def cameras_before_and_after(view, mirror, scene):
     met, column = np.unique(triangle, return_inverse=True)
     frames = SceneFrames.of(tree.mesh, met)
     candidates = overlapping(cameras, frames, camera, column)
-    return cameras, *drop_behind_contacts(candidates, 100_000)[:3]
+    return cameras, *drop_behind_contacts(
+        candidates, 100_000, lambda pieces, pairs: overlapping(pieces, frames, *pairs))[:3]
 
 
 def hidden(view, places, scene):

@@ -18,7 +18,7 @@ from core.cameras import Cameras
 from core.culling import Magnification
 from core.filling import Crowds
 from core.points.beams import Beams
-from core.polygons import FaceRefinement
+from core.polygons import FaceRefinement, Overlaps
 from core.visibility.mirror_visibility import DepthGrid
 from tests.inputs import shapes
 from tests.oracles.judge import judge
@@ -81,12 +81,14 @@ PARTS = {
     "the mirror's own body": Part(REFLECTION, "without_occluded", lambda mirror, cameras, grid: (cameras, 0, 0),
                                   "torus", "spill", 10.0),
     "hidden cameras": Part(REFLECTION, "without_hidden", nobody_hidden, "torus", "self_occluded", 1.5),
-    "contacts": Part(BOUNCE, "drop_behind_contacts", lambda candidates, _: (
+    "contacts": Part(BOUNCE, "drop_behind_contacts", lambda candidates, *_: (
         candidates, np.zeros(len(candidates.cameras), dtype=bool), 0, 0), (VIEW, FLOOR, BOXES), "uncovered", above=0.1),
     "mirrors before the scene": Part(BOUNCE, "cut_behind_mirrors", lambda met, polygons: (polygons, 0, 0),
                                      (VIEW, BALLS, ROOM), "spill", 10.0),
-    "neighbours that only touch": Part(BOUNCE, "without_touching", lambda met, candidates: candidates, "torus",
-                                       "candidates", 1.05),
+    "neighbours that only touch": Part(BOUNCE, "plainly_seen", lambda met, candidates: np.ones(
+        len(candidates), dtype=bool), "torus", "candidates", 1.05),
+    "what mirrors hide from whole cameras": Part(Overlaps, "in_sight", lambda self, last: self.candidates, "torus",
+                                                 "candidates", 1.05),
     "the eye's plane": Part(REFLECTION, "cut_before_eye", lambda cameras: cameras, (LOW, WIDE_FLOOR, ROOM), "faces"),
     "filling by rays": Part(Crowds, "filled", lambda self, candidates: (candidates, 0, 0), "sphere", "uncovered", 10.0,
                             settings={"maximum_memory": 1e-4}),

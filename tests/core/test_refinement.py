@@ -7,10 +7,10 @@ from core.cameras.camera_splitting import in_picture, split_cameras
 from core.cameras.mirror_map import MirrorMap
 from core.cameras.mirror_refinement import refine_mirror
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
-from core.culling.candidates import overlapping
 from core.culling.cones import Cones
 from core.culling.scene_and_mirrors import SceneAndMirrors
 from core.geometry.scene_frames import SceneFrames
+from core.polygons.covering import Overlaps
 from core.polygons.outline_refinement import refine_for_outlines
 from tests.oracles.judge import compare
 from tests.oracles.true_map import case_of, mesh_of, true_rays, truth_of, view_rays
@@ -146,9 +146,9 @@ def test_the_bound_on_candidates_is_kept_and_told():
     camera, triangle, _ = tree.trace(Cones.around(cameras))
     seen, column = np.unique(triangle, return_inverse=True)
     frames, met = SceneFrames.of(tree.mesh, seen), SceneAndMirrors(tree, case.mirror)
-    candidates = overlapping(cameras, frames, camera, column)
-    *_, free = refine_for_outlines(candidates, 0.25, 1_000_000, met)
-    bounded, _, limited = refine_for_outlines(candidates, 0.25, 1000, met)
+    candidates = Overlaps.of(cameras, frames, (camera, column), met).in_sight(last=True)
+    whole, _, free = refine_for_outlines(candidates, 0.25, 1_000_000, met, last=True)
+    bounded, _, limited = refine_for_outlines(candidates, 0.25, 1000, met, last=True)
     assert free < limited
     assert limited > 20
-    assert len(bounded) < len(candidates)
+    assert len(bounded) < len(whole)
