@@ -20,6 +20,7 @@ from .lighting import (
     pixel_kernel,
     show_light,
     texels_of,
+    white_of,
 )
 
 SAMPLES = 64
@@ -66,7 +67,8 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES) 
         coverage = scene.coverage()
     yield 0.95, "Writing"
     cycles = context.scene.cycles
-    texels = texels_of(light, coverage, pixel_kernel(cycles.pixel_filter_type, cycles.filter_width))
+    kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
+    texels = texels_of(light, coverage, kernel, white_of(context.scene))
     with AllOrNothing() as whole:
         image = new_image(NAME, texels)
         whole.undo(bpy.data.images.remove, image)

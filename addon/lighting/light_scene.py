@@ -13,7 +13,8 @@ from ..faults import still_there
 from ..rendering import rendered, with_cycles
 
 MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
-COVERAGE_SAMPLES = 32
+COVERAGE_SAMPLES = 64
+PLAIN_WHITE, ROLLED_OFF_WHITE = 1.0, 8.0
 
 
 @dataclass(frozen=True)
@@ -98,6 +99,12 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
                 back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
                 mirror.visible_camera = True
         yield LightScene(scene, results)
+
+
+def white_of(scene: bpy.types.Scene) -> float:
+    """The linear light from which on a scene's pictures are white; where a view rolls highlights off, nearly."""
+    view = scene.view_settings
+    return (PLAIN_WHITE if view.view_transform in {"Standard", "Raw"} else ROLLED_OFF_WHITE) / 2.0 ** view.exposure
 
 
 def _prepare(scene: bpy.types.Scene, layer: str, window: Window) -> None:

@@ -12,7 +12,8 @@ KINDS = (bpy.types.Object, bpy.types.Material, bpy.types.World, bpy.types.Light,
 @persistent
 def _mark(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Mark the lit results of a scene in which something has changed."""
-    if bpy.app.is_job_running("RENDER"):
+    # in the depsgraph of a render all is new
+    if depsgraph.mode != "VIEWPORT":
         return
     lit = [obj for obj in scene.objects
            if obj.reflection_mesh.light_material is not None and not obj.reflection_mesh.light_stale]

@@ -14,12 +14,13 @@ UNSEEN = 0.002
 REACH = 3           # texels around the covered ones that filters and interpolation may ask for
 FINE = 512          # places across a pixel at which its filter is summed
 DARKEST = 0.1       # of a pixel, its texel at first, where the exact one would be below zero
-ROUNDS = 6          # of bringing texels nearer
+ROUNDS = 12         # of bringing texels nearer
 LEAST_WEIGHT = 1e-5
+LAMP_RIM = 2        # texels
 LEAST_RESPONSE = 0.2  # of a wave that a wide filter hardly lets through no more is brought back
 
 
-def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray) -> np.ndarray:
+def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float = np.inf) -> np.ndarray:
     """The texels whose picture is `light` where results cover it.
 
     Parameters
@@ -30,6 +31,8 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray) -> np
         The part of each pixel that results cover, by the same filter.
     kernel : (k,) float64
         As `pixel_kernel` gives it.
+    white : float
+        From which on light looks white. Around brighter lamps texels would have to be below zero.
 
     Returns
     -------
@@ -37,7 +40,11 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray) -> np
     """
     needed = _grown(coverage > 0.0, REACH)
     filled = _filled(*_without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64)), needed)
-    sharp = _brightened(np.maximum(_unfiltered(filled, kernel), DARKEST * filled), filled, kernel)
+    capped = np.minimum(filled, white)
+    sharp = _brightened(np.maximum(_unfiltered(capped, kernel), DARKEST * capped), capped, kernel)
+    # inside a lamp, from where it does not reach what is beside, it is as bright as it is
+    lamp = ~_grown((filled < white).any(axis=2), LAMP_RIM)
+    sharp = np.where(lamp[..., None], filled, sharp)
     return np.where(needed[..., None], sharp, 0.0).astype(np.float32)
 
 
@@ -69,7 +76,7 @@ def pixel_kernel(kind: str, width: float) -> np.ndarray:
 def _without_what_lies_beside(light: np.ndarray, coverage: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """What results show in pixels that they cover in part, where the light beside them, continued, tells; and which
     pixels (height, width) are known so."""
-    border = (coverage > SEEN_PARTLY) & (coverage < SEEN_WHOLE)
+    border = (coverage > UNSEEN) & (coverage < SEEN_WHOLE)
     beside = _filled(light, coverage <= UNSEEN, border)
     share = np.maximum(coverage, SEEN_PARTLY)[..., None]
     alone = np.maximum((light - (1.0 - share) * beside) / share, 0.0)
