@@ -100,6 +100,7 @@ def _judged(context: bpy.types.Context, chosen: Participants, results: list, fol
         picture = yield from part(in_steps(lambda: picture_errors(pictures.reference, pictures.result, masks)), done,
                                   JUDGING, "Comparing the pictures")
         done += JUDGING
+        noise = pictures.again is not None and picture_errors(pictures.reference, pictures.again, masks)
         report = {
             "blender": bpy.app.version_string,
             "resolution": [mirror.shape[1], mirror.shape[0]],
@@ -107,7 +108,7 @@ def _judged(context: bpy.types.Context, chosen: Participants, results: list, fol
             "results": [obj.name for obj in results],
             **measurement.numbers,
             "without_packed_normals": exact,
-            "picture": {**picture, "samples": samples},
+            "picture": {**picture, "samples": samples, "noise": noise or None},
             "generate_seconds": sum(obj.reflection_mesh.seconds for obj in results),
             "render_seconds": pictures.seconds,
             "seconds": time.perf_counter() - started,

@@ -42,6 +42,10 @@ def summary(report: dict) -> tuple[str, ...]:
              f"{seconds['result']:.1f} s with the reflection mesh" + quality)
     wrong = round(coverage["all"] * report["judged_pixels"] / 100.0)
     flip = number(report, "picture.mirror.flip")
+    lit, noise = (number(report, f"picture.{name}psnr_displayed") for name in ("mirror.", "noise.mirror."))
+    if lit is not None and noise is not None:
+        times += (f" As displayed, the lit mesh equals the mirror to {lit:.1f} dB, where Cycles equals itself to "
+                  f"{noise:.1f} dB with other noise.")
     return (close + made + times,
             f"Holes, spill and wrong layers together are {wrong} of {report['judged_pixels']} pixels." + (
                 "" if flip is None else f" To the eye the pictures differ by a FLIP of {flip:.3f}, from 0 for equal to "
@@ -59,12 +63,16 @@ def facts(report: dict) -> dict:
     coverage = report["coverage_percent"]
     shown["hole, spill, wrong layer (%)"] = ", ".join(f"{coverage[name]:.4f}"
                                                       for name in ("hole", "spill", "wrong_layer"))
-    for where, label in (("mirror", "over the mirror"), ("all", "over the picture")):
-        errors = report["picture"][where]
+    picture = report["picture"]
+    told = [(picture["mirror"], "over the mirror"), (picture["all"], "over the picture")]
+    if picture.get("noise"):
+        told.append((picture["noise"]["mirror"], "Cycles against itself with other noise, over the mirror"))
+    for errors, label in told:
         if errors["rmse"] is not None:
-            psnr = "none (equal)" if errors["psnr"] is None else f"{errors['psnr']:.2f} dB"
-            shown[label] = (f"RMSE {errors['rmse']:.5f}, PSNR {psnr}, relative MSE {errors['relative_mse']:.6f}, "
-                            f"SSIM {errors['ssim']:.5f}, FLIP {errors['flip']:.5f}")
+            psnr, displayed = ("none (equal)" if errors[name] is None else f"{errors[name]:.2f} dB"
+                               for name in ("psnr", "psnr_displayed"))
+            shown[label] = (f"RMSE {errors['rmse']:.5f}, PSNR {psnr}, on sRGB values {displayed}, relative MSE "
+                            f"{errors['relative_mse']:.6f}, SSIM {errors['ssim']:.5f}, FLIP {errors['flip']:.5f}")
     return shown
 
 

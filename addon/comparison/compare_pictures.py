@@ -42,11 +42,14 @@ class Pictures:
         lowest row up.
     seconds : dict
         Time that Cycles took for the two, by their names.
+    again : (height, width, 3) float32 or None
+        Where the mesh shows light: `reference` with other noise, which is as near as a picture can come.
     """
 
     reference: np.ndarray
     result: np.ndarray
     seconds: dict
+    again: np.ndarray | None = None
 
 
 class Renders(NamedTuple):
@@ -75,7 +78,7 @@ def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: 
                       samples: int) -> Steps[Renders]:
     """Render the copied scene in codes and in its own materials, a step for each render; `samples` as in `comparison`.
     """
-    count = RENDERS + 2 * compat.packs_normals()
+    count = RENDERS + 2 * compat.packs_normals() + lit(results)
     renders = _renders(context, copied, diffuse, results, samples)
     try:
         for number in itertools.count():
@@ -96,8 +99,14 @@ def _renders(context: bpy.types.Context, copied: CopiedScene, diffuse: list, res
     coded = yield from _coded_pictures(copied, codes, depth)
     for slot, material in own:
         slot.material = material
-    dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)], codes.plain_mirror())
-    return Renders(*coded, (yield from render_pictures(copied, context.scene, samples)))
+    if not lit(results):
+        dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)], codes.plain_mirror())
+    return Renders(*coded, (yield from render_pictures(copied, context.scene, samples, lit(results))))
+
+
+def lit(results: list) -> bool:
+    """Whether some of the results show light, so that a mirror must look as it is."""
+    return any(result.reflection_mesh.light_material is not None for result in results)
 
 
 def _code_results(copied: CopiedScene, results: list, diffuse: list, polygons: list) -> None:
@@ -148,8 +157,9 @@ def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> G
     return seen, bent, reflected, shown, exact
 
 
-def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) -> Generator[str, None, Pictures]:
-    """Render both pictures; yields the name of each before it."""
+def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int,
+                    light: bool = False) -> Generator[str, None, Pictures]:
+    """Render both pictures, where there is `light` the first one twice; yields the name of each before it."""
     scene = copied.scene
     scene.world = user.world
     visible = [(copy, copy.visible_camera, copy.visible_glossy) for copy in copied.everything]
@@ -157,7 +167,13 @@ def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) ->
         copy.visible_camera = True
     show(copied.results, False)
     yield "the picture with the mirror"
+    if light:
+        cycles_render.take_settings(scene, user)
     reference, first = _timed(scene, samples, user)
+    again = None
+    if light:
+        yield "the picture with the mirror once more"
+        again = cycles_render.render_picture(scene, samples, user, other_noise=True)
     for copy, camera, glossy in visible:
         copy.visible_camera, copy.visible_glossy = camera, glossy
     for copy, _ in copied.diffuse:
@@ -165,7 +181,7 @@ def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) ->
     show(copied.results, True)
     yield "the picture with the mesh"
     result, second = _timed(scene, samples, user)
-    return Pictures(reference, result, {"reference": first, "result": second})
+    return Pictures(reference, result, {"reference": first, "result": second}, again)
 
 
 def _timed(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> tuple[np.ndarray, float]:

@@ -6,10 +6,11 @@ import numpy as np
 
 from ..rendering import rendered, with_cycles
 
-OWN_SETTINGS = ("samples", "use_adaptive_sampling", "adaptive_threshold", "adaptive_min_samples", "use_denoising",
-                "denoiser", "sample_clamp_direct", "sample_clamp_indirect", "blur_glossy", "film_exposure",
-                "pixel_filter_type", "filter_width", "caustics_reflective", "caustics_refractive", "max_bounces",
-                "diffuse_bounces", "glossy_bounces", "transmission_bounces", "transparent_max_bounces", "seed")
+SAMPLING = ("samples", "use_adaptive_sampling", "adaptive_threshold", "adaptive_min_samples", "use_denoising",
+            "denoiser")
+LIGHT = ("sample_clamp_direct", "sample_clamp_indirect", "blur_glossy", "film_exposure", "pixel_filter_type",
+         "filter_width", "caustics_reflective", "caustics_refractive", "max_bounces", "diffuse_bounces",
+         "glossy_bounces", "transmission_bounces", "transparent_max_bounces", "seed")
 
 
 def prepare(scene: bpy.types.Scene, depth: int) -> None:
@@ -42,7 +43,8 @@ def render_codes(scene: bpy.types.Scene) -> np.ndarray:
     return rendered(scene)[..., :3]
 
 
-def render_picture(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> np.ndarray:
+def render_picture(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene,
+                   other_noise: bool = False) -> np.ndarray:
     """The picture in linear light, (height, width, 3) float32 from the lowest row up.
 
     With 0 samples, sampling, denoising, clamping, filter and bounces are those of the scene `user`.
@@ -51,7 +53,17 @@ def render_picture(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) 
     if samples:
         cycles.samples, cycles.pixel_filter_type, cycles.filter_width = samples, "BLACKMAN_HARRIS", 1.5
     else:
-        for name in OWN_SETTINGS:
-            if hasattr(user.cycles, name):
-                setattr(cycles, name, getattr(user.cycles, name))
-    return rendered(scene)[..., :3]
+        take_settings(scene, user, (*SAMPLING, *LIGHT))
+    seed = cycles.seed
+    cycles.seed = seed + other_noise
+    try:
+        return rendered(scene)[..., :3]
+    finally:
+        cycles.seed = seed
+
+
+def take_settings(scene: bpy.types.Scene, user: bpy.types.Scene, names: tuple[str, ...] = LIGHT) -> None:
+    """Let a temporary scene follow light as that of the user does."""
+    for name in names:
+        if hasattr(user.cycles, name):
+            setattr(scene.cycles, name, getattr(user.cycles, name))

@@ -11,7 +11,7 @@ from .picture_flip import flip_map, reach
 RELATIVE_EPSILON = 0.01
 SSIM_SIGMA, SSIM_RADIUS = 1.5, 5        # the window of 11 x 11 pixels of the paper
 SSIM_CONSTANTS = (0.01, 0.03)           # K1 and K2 of the paper, for a range of 1
-NAMES = ("rmse", "psnr", "relative_mse", "ssim", "flip")
+NAMES = ("rmse", "psnr", "psnr_displayed", "relative_mse", "ssim", "flip")
 
 
 def srgb(linear: np.ndarray) -> np.ndarray:
@@ -33,13 +33,15 @@ def picture_errors(reference: np.ndarray, result: np.ndarray, masks: dict) -> di
     Returns
     -------
     errors : dict of dict
-        For each set `rmse`, `psnr` (dB, for a peak of 1), `relative_mse` (mean of difference^2 / (reference^2 + 0.01)),
-        `ssim` (Wang et al. 2004, mean over the three channels) and `flip` (LDR-FLIP, Andersson et al. 2020, mean);
-        the last two on sRGB values at exposure 0. None where a set is empty, and for the PSNR of equal pictures.
+        For each set `rmse`, `psnr` (dB, for a peak of 1), `psnr_displayed`, `relative_mse` (mean of difference^2 /
+        (reference^2 + 0.01)), `ssim` (Wang et al. 2004, mean over the three channels) and `flip` (LDR-FLIP, Andersson
+        et al. 2020, mean); PSNR as displayed, SSIM and FLIP on sRGB values at exposure 0. None where a set is empty,
+        and for the PSNR of equal pictures.
     """
     reference, result = (np.asarray(picture, dtype=np.float64) for picture in (reference, result))
     squared = (reference - result) ** 2
     relative = squared / (reference ** 2 + RELATIVE_EPSILON)
+    displayed = (srgb(reference) - srgb(result)) ** 2
     structure, perceived = displayed_maps(reference, result)
     errors = {}
     for name, pixels in masks.items():
@@ -47,10 +49,16 @@ def picture_errors(reference: np.ndarray, result: np.ndarray, masks: dict) -> di
             errors[name] = dict.fromkeys(NAMES)
             continue
         rmse = float(np.sqrt(squared[pixels].mean()))
-        errors[name] = {"rmse": rmse, "psnr": float(-20.0 * np.log10(rmse)) if rmse > 0.0 else None,
+        errors[name] = {"rmse": rmse, "psnr": _decibels(rmse ** 2),
+                        "psnr_displayed": _decibels(float(displayed[pixels].mean())),
                         "relative_mse": float(relative[pixels].mean()), "ssim": float(structure[pixels].mean()),
                         "flip": float(perceived[pixels].mean())}
     return errors
+
+
+def _decibels(squared: float) -> float | None:
+    """The PSNR of a mean squared error, for a peak of 1."""
+    return float(-10.0 * np.log10(squared)) if squared > 0.0 else None
 
 
 def picture_error(reference: np.ndarray, result: np.ndarray, pixels: np.ndarray) -> dict:

@@ -2,6 +2,8 @@
 changed."""
 from __future__ import annotations
 
+import json
+
 import bpy
 import numpy as np
 import parts
@@ -184,6 +186,18 @@ def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
     around = slice(rows.min() - 8, rows.max() + 9), slice(columns.min() - 8, columns.max() + 9)
     assert np.median((reference - lit)[around][~white[around]]) < 0.02
     assert (np.abs(lit - reference)[around].max(axis=2) > 0.08).sum() < 2 * white.sum()
+
+
+def test_compare_tells_how_lit_pictures_differ(blank, tmp_path):
+    """Against the mirror as it is, tint and all, beside what Cycles differs from itself by."""
+    scene_of(blank, "UV", "Fresnel")
+    parts.generate()
+    bpy.ops.reflection_mesh.light()
+    assert bpy.ops.reflection_mesh.compare(filepath=str(tmp_path), samples=32) == {"FINISHED"}
+    report = json.loads((tmp_path / "report.json").read_text())
+    lit, noise = report["picture"]["mirror"], report["picture"]["noise"]["mirror"]
+    assert lit["psnr_displayed"] > min(38.0, noise["psnr_displayed"] - 1.5)
+    assert "where Cycles equals itself to" in (tmp_path / "report.html").read_text()
 
 
 def lit_state() -> dict:
