@@ -12,6 +12,13 @@ def uses_nodes(material: bpy.types.Material) -> bool:
     return material.use_nodes and material.node_tree is not None
 
 
+def use_nodes(material: bpy.types.Material) -> bpy.types.NodeTree:
+    """The node tree of a material that was made just now."""
+    if bpy.app.version < (5, 0, 0):
+        material.use_nodes = True
+    return material.node_tree
+
+
 def packs_normals() -> bool:
     """Whether Cycles rounds shading normals to 2 x 16 bits, which moves what curved mirrors show; from 5.0 on."""
     return bpy.app.version >= (5, 0, 0)

@@ -4,6 +4,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from ..blender_data import compat
+
 UV_MAP = "Reflection Light"
 POSITION = "picture_position"
 
@@ -23,8 +25,7 @@ def new_material(name: str, image: bpy.types.Image) -> bpy.types.Material:
     """A material that emits the image at `POSITION`, homogeneous coordinates in it, which are linear on a face where
     places in a picture are not."""
     material = bpy.data.materials.new(name)
-    material.use_nodes = True
-    tree = material.node_tree
+    tree = compat.use_nodes(material)
     tree.nodes.clear()
 
     def add(kind: str, **settings) -> bpy.types.Node:

@@ -42,10 +42,8 @@ def _preview_of(source: bpy.types.Material | None, tint: tuple) -> bpy.types.Mat
         made.name = name
     else:
         made = bpy.data.materials.new(name)
-        if bpy.app.version < (5, 0, 0):
-            made.use_nodes = True
         colour = source.diffuse_color if source else (0.8, 0.8, 0.8, 1.0)
-        made.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = colour
+        compat.use_nodes(made).nodes["Principled BSDF"].inputs["Base Color"].default_value = colour
     made.reflection_mesh.preview = True
     tree = made.node_tree
     for node in [node for node in tree.nodes if node.outputs and node.outputs[0].type == "SHADER"]:

@@ -14,9 +14,11 @@ UNSEEN = 0.002
 REACH = 3           # texels around the covered ones that filters and interpolation may ask for
 FINE = 512          # places across a pixel at which its filter is summed
 DARKEST = 0.1       # of a pixel, its texel at first, where the exact one would be below zero
-ROUNDS = 12         # of bringing texels nearer
+ROUNDS = 24         # of bringing texels nearer
 LEAST_WEIGHT = 1e-5
-LAMP_RIM = 2        # texels
+AROUND = 8          # texels that one that is brought nearer reaches
+LAMP_RIM = 3        # texels from which on the inside of a lamp is as bright as it is
+INSIDE_LAMPS = 8.0  # times white, nearer their rims
 LEAST_RESPONSE = 0.2  # of a wave that a wide filter hardly lets through no more is brought back
 
 
@@ -40,8 +42,7 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white
     """
     needed = _grown(coverage > 0.0, REACH)
     filled = _filled(*_without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64)), needed)
-    capped = np.minimum(filled, white)
-    sharp = _brightened(np.maximum(_unfiltered(capped, kernel), DARKEST * capped), capped, kernel)
+    sharp = _sharpened(filled, kernel, white)
     # inside a lamp, from where it does not reach what is beside, it is as bright as it is
     lamp = ~_grown((filled < white).any(axis=2), LAMP_RIM)
     sharp = np.where(lamp[..., None], filled, sharp)
@@ -93,15 +94,35 @@ def _unfiltered(picture: np.ndarray, kernel: np.ndarray) -> np.ndarray:
     return np.fft.irfft2(waves, s=(rows, columns), axes=(0, 1))[2 * REACH:, 2 * REACH:][:height, :width]
 
 
-def _brightened(texels: np.ndarray, picture: np.ndarray, kernel: np.ndarray) -> np.ndarray:
-    """Texels that show the picture more nearly without going below zero, as they would have to around lamps.
+def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndarray:
+    """Texels, none below zero, that show the picture, and something white where that is brighter than white."""
+    capped = np.minimum(picture, white)
+    exact = _unfiltered(capped, kernel)
+    first, bright = np.maximum(exact, DARKEST * capped), picture >= white
+    doubtful = np.flatnonzero((bright | (exact < first)).any(axis=2))
+    if not len(doubtful):
+        return exact
+    row, column = np.divmod(doubtful, picture.shape[1])
+    part = tuple(slice(max(side.min() - AROUND, 0), side.max() + AROUND + 1) for side in (row, column))
+    # what is brighter inside lets lamps' borders be darker, and fall off as fast as they should
+    inside = ~_grown(~bright.all(axis=2), 1)[..., None]
+    first = np.where(bright, np.where(inside, np.minimum(picture, INSIDE_LAMPS * white), np.maximum(first, white)),
+                     first)
+    first[part] = _brightened(first[part], capped[part], kernel, white)
+    return first
+
+
+def _brightened(texels: np.ndarray, picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndarray:
+    """Texels that show the picture more nearly without going below zero, as they would have to around lamps; what is
+    to be white may be whiter.
 
     W. H. Richardson, "Bayesian-Based Iterative Method of Image Restoration", JOSA 1972; L. B. Lucy, "An iterative
     technique for the rectification of observed distributions", AJ 1974.
     """
     for _ in range(ROUNDS):
         shown = np.maximum(_filtered(texels, kernel), 1e-30)
-        texels = texels * _filtered(picture / shown, kernel)
+        wanted = np.where(picture < white, picture, np.maximum(shown, white))
+        texels = texels * _filtered(wanted / shown, kernel)
     return texels
 
 
