@@ -161,7 +161,7 @@ def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int,
                     light: bool = False) -> Generator[str, None, Pictures]:
     """Render both pictures, where there is `light` the first one twice; yields the name of each before it."""
     scene = copied.scene
-    scene.world = user.world
+    copied.light_up(user.world)
     visible = [(copy, copy.visible_camera, copy.visible_glossy) for copy in copied.everything]
     for copy, _ in copied.mirrors:
         copy.visible_camera = True

@@ -23,6 +23,8 @@ class CopiedScene:
     scene : bpy.types.Scene
     mirrors, diffuse, results, bystanders : list of (copy, index)
         Copied objects; index is that of the mirror, diffuse object or result that a copy belongs to.
+    lights : list of bpy.types.Object
+        The user's own, which are lit in pictures alone: codes show nothing but faces.
     owned : list of bpy.types.ID
         What is deleted in the end; whoever adds data to the scene adds it here.
     """
@@ -32,7 +34,14 @@ class CopiedScene:
     diffuse: list = field(default_factory=list)
     results: list = field(default_factory=list)
     bystanders: list = field(default_factory=list)
+    lights: list = field(default_factory=list)
     owned: list = field(default_factory=list)
+
+    def light_up(self, world: bpy.types.World | None) -> None:
+        """Bring in what shines."""
+        self.scene.world = world
+        for light in set(still_there(self.lights)) - set(self.scene.collection.objects):
+            self.scene.collection.objects.link(light)
 
     @property
     def everything(self) -> list:
@@ -86,7 +95,7 @@ def _copy_objects(context: bpy.types.Context, copied: CopiedScene, mirrors: list
         if owner not in seen or owner in old_results or original.hide_render or not instance.show_self:
             continue
         if original.type == "LIGHT" and not instance.is_instance:
-            copied.scene.collection.objects.link(original)
+            copied.lights.append(original)
         if evaluated.type not in SURFACES:
             continue
         part, index = part_of.get(owner, (copied.bystanders, -1))

@@ -181,7 +181,7 @@ def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
     lit, white = picture(room), reference.min(axis=2) > 0.99
     assert white.sum() > 10
     # four hundred times brighter than white, its border is a step that texels cannot show without being negative
-    assert psnr(lit, reference) > 32.0 and (lit.min(axis=2) > 0.99).sum() <= white.sum()
+    assert psnr(lit, reference) > 31.0 and (lit.min(axis=2) > 0.99).sum() <= white.sum()
     rows, columns = np.nonzero(white)
     around = slice(rows.min() - 8, rows.max() + 9), slice(columns.min() - 8, columns.max() + 9)
     assert np.median((reference - lit)[around][~white[around]]) < 0.02
