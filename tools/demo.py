@@ -68,6 +68,8 @@ def demonstrate(options: argparse.Namespace, folder: Path, stage: Stages) -> tup
     import bpy
     stage(f"Opening {sample}", lambda: bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / sample)))
     _, seconds = stage("Generating the reflection", bpy.ops.reflection_mesh.generate)
+    # at once where the sample emits what it shows
+    stage("Lighting it", bpy.ops.reflection_mesh.light)
     stage(f"Saving {sample} with its reflection",
           lambda: bpy.ops.wm.save_as_mainfile(filepath=str(folder / sample), copy=True))
     stage("Comparing with Cycles", lambda: bpy.ops.reflection_mesh.compare(filepath=str(folder),

@@ -3,8 +3,9 @@
     python tools/pictures.py [folder]
 
 Leaves `sphere.jpg` (Cycles, the reflection mesh before a mirror that reflects the sky alone, the mesh's edges),
-`samples.jpg` (the reflection mesh in each sample) and `mirrors.jpg` (mirrors in mirrors, by Cycles and to a depth of
-1, 2 and 3) in the folder, docs/ by default.
+`samples.jpg` (the reflection mesh in each sample that emits what it shows), `mirrors.jpg` (mirrors in mirrors, by
+Cycles and to a depth of 1, 2 and 3) and `lit.jpg` (each lit sample by Cycles, as generated, and lit) in the folder,
+docs/ by default.
 """
 from __future__ import annotations
 
@@ -16,7 +17,9 @@ import extension_zip
 import numpy as np
 from PIL import Image
 
+SAMPLES = extension_zip.ROOT / "sample_blends"
 PANEL, GAP = 480, 6
+LIT = ("room", "bathroom", "pond")
 
 
 def main(folder: Path) -> None:
@@ -25,19 +28,41 @@ def main(folder: Path) -> None:
         scratch = Path(name)
         extension_zip.use_throw_away_preferences(scratch / "preferences")
         extension_zip.install(extension_zip.build(scratch))
-        samples = sorted((extension_zip.ROOT / "sample_blends").glob("*.blend"))
+        samples = sorted(path for path in SAMPLES.glob("*.blend") if path.stem not in LIT)
         for path in samples:
             _compare(path, scratch / path.stem)
         _save(folder / "samples.jpg", [scratch / path.stem / "result.png" for path in samples], columns=4)
-        edges = _edges(scratch / "sphere", extension_zip.ROOT / "sample_blends" / "sphere.blend")
+        edges = _edges(scratch / "sphere", SAMPLES / "sphere.blend")
         _save(folder / "sphere.jpg", [scratch / "sphere" / "reference.png", scratch / "sphere" / "result.png", edges],
               columns=3, crop=(212, 183, 772, 743))
-        mirrors = extension_zip.ROOT / "sample_blends" / "mirrors.blend"
+        mirrors = SAMPLES / "mirrors.blend"
         for depth in (1, 2, 3):
             _compare(mirrors, scratch / f"mirrors{depth}", depth)
         _save(folder / "mirrors.jpg", [scratch / "mirrors3" / "reference.png", *(
             scratch / f"mirrors{depth}" / "result.png" for depth in (1, 2, 3))], columns=2, crop=(100, 200, 924, 1024))
+        light(folder / "lit.jpg", scratch)
         extension_zip.switch_off()
+
+
+def light(path: Path, scratch: Path) -> None:
+    """The picture of the lit samples: by Cycles, as they are generated, and lit."""
+    for name in LIT:
+        _lit(SAMPLES / f"{name}.blend", scratch / name)
+    _save(path, [scratch / name / f"{kind}.png" for name in LIT for kind in ("reference", "generated", "result")],
+          columns=3, crop=(40, 100, 472, 472))
+
+
+def _lit(path: Path, folder: Path) -> None:
+    import bpy
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    scene = bpy.context.scene
+    scene.render.resolution_percentage = 50
+    bpy.ops.reflection_mesh.generate()
+    scene.cycles.samples, scene.cycles.use_denoising = 64, False
+    scene.render.filepath = str(folder / "generated.png")
+    bpy.ops.render.render(write_still=True)
+    bpy.ops.reflection_mesh.light()
+    bpy.ops.reflection_mesh.compare(filepath=str(folder), samples=64)
 
 
 def _compare(path: Path, folder: Path, depth: int = 1) -> None:
@@ -83,14 +108,16 @@ def _draw_edges(tree) -> None:
 
 def _save(path: Path, pictures: list[Path], columns: int, crop: tuple | None = None) -> None:
     """Set pictures, or the boxes (left, top, right, bottom) of them, side by side on white."""
-    panels = [np.asarray(Image.open(picture).convert("RGB").resize((PANEL, PANEL), Image.Resampling.LANCZOS, crop))
+    left, top, right, bottom = crop or (0, 0, 1, 1)
+    height = round(PANEL * (bottom - top) / (right - left))
+    panels = [np.asarray(Image.open(picture).convert("RGB").resize((PANEL, height), Image.Resampling.LANCZOS, crop))
               for picture in pictures]
     rows = -(-len(panels) // columns)
-    step = PANEL + GAP
-    sheet = np.full((rows * step - GAP, columns * step - GAP, 3), 255, dtype=np.uint8)
+    down, across = height + GAP, PANEL + GAP
+    sheet = np.full((rows * down - GAP, columns * across - GAP, 3), 255, dtype=np.uint8)
     for index, panel in enumerate(panels):
-        top, left = index // columns * step, index % columns * step
-        sheet[top:top + PANEL, left:left + PANEL] = panel
+        low, beside = index // columns * down, index % columns * across
+        sheet[low:low + height, beside:beside + PANEL] = panel
     Image.fromarray(sheet).save(path, quality=90, optimize=True)
 
 
