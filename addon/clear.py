@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from .blender_data import disc_nodes, forget_nodes, forget_previews, results_of, show_to_camera
+from .blender_data import disc_nodes, forget_nodes, results_of, show_to_camera
 from .faults import in_one_sentence
 from .lighting import forget_light
 
@@ -24,7 +24,6 @@ def clear(context: bpy.types.Context, results: list) -> None:
     mirror = active.reflection_mesh.mirror if active in results else None
     meshes = {obj.data for obj in results if isinstance(obj.data, bpy.types.Mesh)}
     nodes = {disc_nodes(obj) for obj in results}
-    previews = {slot.material for obj in results for slot in obj.material_slots if slot.link == "OBJECT"} - {None}
     lights = {obj.reflection_mesh.light_material for obj in results} - {None}
     # from here on nothing can fail, so that results go all or none
     if mirror is not None and mirror.name in layer.objects:
@@ -36,7 +35,6 @@ def clear(context: bpy.types.Context, results: list) -> None:
             bpy.data.meshes.remove(mesh)
     for group in nodes:
         forget_nodes(group)
-    forget_previews(previews - lights)
     for material in lights:
         forget_light(material)
     for obj in context.scene.objects:

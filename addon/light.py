@@ -72,7 +72,7 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES) 
     with AllOrNothing() as whole:
         image = new_image(NAME, texels)
         whole.undo(bpy.data.images.remove, image)
-        material = new_material(NAME, image)
+        material = new_material(NAME, image, texels)
         whole.undo(bpy.data.materials.remove, material)
         for result in lit:
             show_light(result, view, window, material, whole)

@@ -123,32 +123,24 @@ class ReflectionObject(bpy.types.PropertyGroup):
                                 description="This mirror is a window to its virtual image, until that is cleared")
 
 
-class ReflectionMaterial(bpy.types.PropertyGroup):
-    """`Material.reflection_mesh`."""
-
-    preview: BoolProperty(name="Preview", description="Shows a reflection until it is lit, and goes then")
-
-
 class ReflectionScene(SettingsProperties, bpy.types.PropertyGroup):
     """`Scene.reflection_mesh`: what the panel hands to the operators."""
 
     comparison: StringProperty(name="Comparison", description="Numbers of the last comparison with Cycles, as JSON")
 
 
-CLASSES = (ReflectionSource, ReflectionObject, ReflectionMaterial, ReflectionScene)
+CLASSES = (ReflectionSource, ReflectionObject, ReflectionScene)
 
 
 def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.Object.reflection_mesh = PointerProperty(name="Reflection Mesh", type=ReflectionObject)
-    bpy.types.Material.reflection_mesh = PointerProperty(name="Reflection Mesh", type=ReflectionMaterial)
     bpy.types.Scene.reflection_mesh = PointerProperty(name="Reflection Mesh", type=ReflectionScene)
 
 
 def unregister() -> None:
     del bpy.types.Scene.reflection_mesh
-    del bpy.types.Material.reflection_mesh
     del bpy.types.Object.reflection_mesh
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -49,20 +49,22 @@ def light(path: Path, scratch: Path) -> None:
     for name in LIT:
         _lit(SAMPLES / f"{name}.blend", scratch / name)
     _save(path, [scratch / name / f"{kind}.png" for name in LIT for kind in ("reference", "generated", "result")],
-          columns=3, crop=(40, 100, 472, 472))
+          columns=3, crop=(32, 80, 378, 378))
 
 
 def _lit(path: Path, folder: Path) -> None:
+    """Three renders of a sample: without a reflection, with one, and with the same one lit."""
     import bpy
     bpy.ops.wm.open_mainfile(filepath=str(path))
     scene = bpy.context.scene
-    scene.render.resolution_percentage = 50
-    bpy.ops.reflection_mesh.generate()
+    scene.render.resolution_percentage = 40
     scene.cycles.samples, scene.cycles.use_denoising = 64, False
-    scene.render.filepath = str(folder / "generated.png")
-    bpy.ops.render.render(write_still=True)
-    bpy.ops.reflection_mesh.light()
-    bpy.ops.reflection_mesh.compare(filepath=str(folder), samples=64)
+    for name, work in (("reference", None), ("generated", bpy.ops.reflection_mesh.generate),
+                       ("result", bpy.ops.reflection_mesh.light)):
+        if work is not None:
+            work()
+        scene.render.filepath = str(folder / f"{name}.png")
+        bpy.ops.render.render(write_still=True)
 
 
 def _compare(path: Path, folder: Path, depth: int = 1) -> None:

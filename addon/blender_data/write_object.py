@@ -8,7 +8,7 @@ import bpy
 from mathutils import Matrix
 
 from ...core import ReflectionMesh
-from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object, still_there
+from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from .disc_nodes import hide_discs, show_discs
 from .mesh_arrays import MeshArrays
 from .roles import results_of
@@ -56,7 +56,7 @@ def write_object(context: bpy.types.Context, made: Reflection, placement: str,
     else:
         obj = _new_object(context, mirror, whole)
     keep_mirror(mirror, whole)
-    whole.after(forget_previews, show_own_materials(obj))
+    show_own_materials(obj)
     write_mesh(obj.data, made.arrays)
     if made.result.discs is None:
         whole.after(hide_discs, obj)
@@ -121,20 +121,10 @@ def show_to_camera(mirror: bpy.types.Object) -> None:
         mirror.reflection_mesh.camera_hidden = False
 
 
-def show_own_materials(obj: bpy.types.Object) -> set:
-    """Let an object show the materials of its mesh; returns those of its own that it has shown."""
-    shown = set()
+def show_own_materials(obj: bpy.types.Object) -> None:
+    """Let an object show the materials of its mesh, and none of its own."""
     for slot in obj.material_slots:
         if slot.link == "OBJECT":
-            shown.add(slot.material)
             # first, since a slot that goes keeps what it held counted as used
             slot.material = None
             slot.link = "DATA"
-    return shown - {None}
-
-
-def forget_previews(materials: set) -> None:
-    """Remove those of the materials that were made to be shown until a result is lit, where nothing uses them."""
-    for material in still_there(list(materials)):
-        if material.reflection_mesh.preview and material.users == 0 and material.library is None:
-            bpy.data.materials.remove(material)

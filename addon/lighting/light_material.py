@@ -21,7 +21,7 @@ def new_image(name: str, texels: np.ndarray) -> bpy.types.Image:
     return image
 
 
-def new_material(name: str, image: bpy.types.Image) -> bpy.types.Material:
+def new_material(name: str, image: bpy.types.Image, texels: np.ndarray) -> bpy.types.Material:
     """A material that emits the image at `POSITION`, homogeneous coordinates in it, which are linear on a face where
     places in a picture are not."""
     material = bpy.data.materials.new(name)
@@ -50,7 +50,11 @@ def new_material(name: str, image: bpy.types.Image) -> bpy.types.Material:
     join(spot.outputs[0], look.inputs["Vector"])
     join(look.outputs["Color"], glow.inputs["Color"])
     join(glow.outputs[0], output.inputs["Surface"])
+    # what solid view shows, by texture or by one colour
     tree.nodes.active = look
+    shown = texels[(texels > 0.0).any(axis=2)]
+    if len(shown):
+        material.diffuse_color = (*np.minimum(shown, 1.0).mean(axis=0), 1.0)
     return material
 
 

@@ -8,12 +8,11 @@ import bpy
 import numpy as np
 
 from ...core import View
-from ..blender_data import LONGEST_RECORD, forget_previews, show_own_materials
+from ..blender_data import LONGEST_RECORD, show_own_materials
 from ..faults import AllOrNothing, keep_data, keep_object, still_there
 from .light_material import POSITION, UV_MAP, image_of
 from .light_scene import Window
 from .needs_light import needs_light
-from .preview import show_preview
 
 
 def show_light(result: bpy.types.Object, view: View, window: Window, material: bpy.types.Material,
@@ -24,7 +23,7 @@ def show_light(result: bpy.types.Object, view: View, window: Window, material: b
     keep_data(result, whole)
     earlier = record.light_material
     _lay_out(result, view, window)
-    whole.after(forget_previews, show_own_materials(result))
+    show_own_materials(result)
     _put_on(result, material)
     record.light = json.dumps({"view": _fingerprint(view), "window": [window.column, window.row, window.width,
                                                                       window.height]})
@@ -33,15 +32,14 @@ def show_light(result: bpy.types.Object, view: View, window: Window, material: b
         whole.after(forget_light, earlier)
 
 
-def keep_light(result: bpy.types.Object, view: View, whole: AllOrNothing) -> None:
+def keep_light(result: bpy.types.Object, view: View) -> None:
     """After a result's mesh was written anew: it goes on showing its light where that was made for the same view and
-    nothing has changed since; else the light counts as stale, and it shows a preview."""
+    nothing has changed since, else the light counts as stale."""
     record = result.reflection_mesh
     material = record.light_material
     window = None if record.light_stale or material is None else _window(record.light, view)
     if window is None:
         record.light_stale = bool(record.light)
-        show_preview(result, whole)
     else:
         _lay_out(result, view, window)
         _put_on(result, material)

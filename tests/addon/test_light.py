@@ -312,27 +312,6 @@ def test_light_that_was_kept_shows_the_same(blank, room):
     assert psnr(picture(room), first) > 45.0
 
 
-@pytest.mark.parametrize("mirror", ["", "Tint"])
-def test_before_it_is_lit_no_lamp_touches_it(blank, room, mirror):
-    """The preview is each source's own colour times the mirror's, whatever lamps there are."""
-    scene_of(blank, "", mirror)
-    result = parts.generate()
-    assert [material.name for material in result.data.materials] == ["Source", "Floor"]
-    tint = (0.95, 0.7, 0.35) if mirror else (1.0, 1.0, 1.0)
-    shown = picture(room)
-    for colour in ((0.9, 0.3, 0.1), (0.5, 0.5, 0.6)):
-        linear = np.array(colour) * tint
-        wanted = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear**(1 / 2.4) - 0.055)
-        assert (np.abs(shown - wanted).max(axis=2) < 2e-3).sum() > 20
-    next(iter(bpy.data.lights)).energy *= 3.0
-    inside = (np.abs(shown - wanted).max(axis=2) < 2e-3)
-    # but for pixels on a border, which show what is beside too
-    assert (np.abs(picture(room) - shown)[inside].max(axis=1) < 2e-3).mean() > 0.9
-    count = len(bpy.data.materials)
-    parts.generate(tolerance=1.0)
-    assert len(bpy.data.materials) == count == 5
-
-
 def test_clear_takes_the_light_away(blank):
     scene_of(blank)
     before = parts.state()
