@@ -312,6 +312,18 @@ def test_light_that_was_kept_shows_the_same(blank, room):
     assert psnr(picture(room), first) > 45.0
 
 
+def test_the_panel_tells_what_there_is_to_do(blank, room):
+    scene_of(blank)
+    lines = room("addon.lighting").light_lines
+    result = parts.generate()
+    assert lines(result) == ["Its light is still to come:", "press Light Reflection."]
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert lines(result) == ["Lit."]
+    bpy.data.objects["Box"].location.x += 0.1
+    blank.view_layer.update()
+    assert lines(result) == ["The scene has changed since it was lit:", "press Light Reflection again."]
+
+
 def test_clear_takes_the_light_away(blank):
     scene_of(blank)
     before = parts.state()
