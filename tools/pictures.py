@@ -4,8 +4,8 @@
 
 Leaves `sphere.jpg` (Cycles, the reflection mesh before a mirror that reflects the sky alone, the mesh's edges),
 `samples.jpg` (the reflection mesh in each sample that emits what it shows), `mirrors.jpg` (mirrors in mirrors, by
-Cycles and to a depth of 1, 2 and 3) and `lit.jpg` (each lit sample by Cycles, as generated, and lit) in the folder,
-docs/ by default.
+Cycles and to a depth of 1, 2 and 3), `lit.jpg` (each lit sample by Cycles, as generated, and lit) and `eevee.jpg`
+(the room by Cycles, by EEVEE's own ray tracing, and by EEVEE with the lit reflection) in the folder, docs/ by default.
 """
 from __future__ import annotations
 
@@ -41,6 +41,7 @@ def main(folder: Path) -> None:
         _save(folder / "mirrors.jpg", [scratch / "mirrors3" / "reference.png", *(
             scratch / f"mirrors{depth}" / "result.png" for depth in (1, 2, 3))], columns=2, crop=(100, 200, 924, 1024))
         light(folder / "lit.jpg", scratch)
+        eevee(folder / "eevee.jpg", scratch)
         extension_zip.switch_off()
 
 
@@ -65,6 +66,26 @@ def _lit(path: Path, folder: Path) -> None:
             work()
         scene.render.filepath = str(folder / f"{name}.png")
         bpy.ops.render.render(write_still=True)
+
+
+def eevee(path: Path, scratch: Path) -> None:
+    """The picture of the room in EEVEE."""
+    import bpy
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "room.blend"))
+    scene = bpy.context.scene
+    scene.render.resolution_percentage = 40
+    scene.cycles.samples, scene.eevee.taa_render_samples, scene.eevee.use_raytracing = 128, 32, True
+    own = "BLENDER_EEVEE_NEXT" if bpy.app.version < (5, 0, 0) else "BLENDER_EEVEE"
+    pictures = []
+    for name, engine in (("cycles", "CYCLES"), ("own", own), ("lit", own)):
+        if name == "lit":
+            bpy.ops.reflection_mesh.generate()
+            bpy.ops.reflection_mesh.light()
+        scene.render.engine = engine
+        pictures.append(scratch / f"eevee_{name}.png")
+        scene.render.filepath = str(pictures[-1])
+        bpy.ops.render.render(write_still=True)
+    _save(path, pictures, columns=3, crop=(88, 80, 318, 310))
 
 
 def _compare(path: Path, folder: Path, depth: int = 1) -> None:
