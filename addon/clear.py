@@ -5,7 +5,7 @@ import bpy
 
 from .blender_data import disc_nodes, forget_nodes, results_of, show_to_camera
 from .faults import in_one_sentence
-from .lighting import forget_light
+from .lighting import forget_light, forget_map
 
 
 def chosen_results(context: bpy.types.Context) -> list:
@@ -25,6 +25,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
     meshes = {obj.data for obj in results if isinstance(obj.data, bpy.types.Mesh)}
     nodes = {disc_nodes(obj) for obj in results}
     lights = {obj.reflection_mesh.light_material for obj in results} - {None}
+    maps = {obj.reflection_mesh.light_map for obj in results} - {None}
     # from here on nothing can fail, so that results go all or none
     if mirror is not None and mirror.name in layer.objects:
         layer.objects.active = mirror
@@ -37,6 +38,8 @@ def clear(context: bpy.types.Context, results: list) -> None:
         forget_nodes(group)
     for material in lights:
         forget_light(material)
+    for mesh in maps:
+        forget_map(mesh)
     for obj in context.scene.objects:
         if obj.reflection_mesh.camera_hidden and not results_of(context, obj):
             show_to_camera(obj)

@@ -19,7 +19,7 @@ from .files import check_place, save_blend, staged
 from .generate import generation
 from .light import SAMPLES, lighting
 from .light import summary as lighting_summary
-from .properties import METHODS, PLACEMENTS, settings_of
+from .properties import LIGHTS, METHODS, PLACEMENTS, settings_of
 
 COMMAND = "reflection_mesh"
 _commands = []
@@ -55,10 +55,12 @@ def _parser() -> argparse.ArgumentParser:
     generate.add_argument("--diffuse", nargs="+", default=[], metavar="NAME", help="diffuse objects")
     generate.add_argument("--light", type=int, nargs="?", const=SAMPLES, default=0, metavar="N",
                           help=f"light them too, with N samples per pixel ({SAMPLES})")
+    _add_light(generate, "--light-kind")
     _add_output(generate)
     generate.set_defaults(work=_generate)
     light = verbs.add_parser("light", help="let the reflections look as the mirrors do, and save the file")
     light.add_argument("--samples", type=int, default=SAMPLES, metavar="N", help=f"samples per pixel ({SAMPLES})")
+    _add_light(light, "--kind")
     _add_output(light)
     light.set_defaults(work=_light)
     compare = verbs.add_parser("compare", help="compare with a Cycles render of the same view")
@@ -101,6 +103,11 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--hidden-faces", action="store_true", help="also the faces that nearer ones hide whole")
 
 
+def _add_light(parser: argparse.ArgumentParser, option: str) -> None:
+    parser.add_argument(option, dest="kind", choices=[item[0] for item in LIGHTS], default="AUTO",
+                        help="light of the picture, or light that stays with the objects (what moves decides)")
+
+
 def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
     if options.light < 0:
@@ -111,7 +118,7 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     if options.light:
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
-        told.append(_lit(context, [obj for obj, _ in outcome.results], options.light))
+        told.append(_lit(context, [obj for obj, _ in outcome.results], options.light, options.kind))
     save_blend(path)
     print(*told, sep="\n")
 
@@ -120,14 +127,14 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
     if options.samples < 1:
         raise core.ReflectionError("Light takes at least one sample: raise --samples.")
-    told = _lit(context, chosen_results(context), options.samples)
+    told = _lit(context, chosen_results(context), options.samples, options.kind)
     save_blend(path)
     print(told)
 
 
-def _lit(context: bpy.types.Context, results: list, samples: int) -> str:
+def _lit(context: bpy.types.Context, results: list, samples: int, kind: str) -> str:
     started = time.perf_counter()
-    lit = _announced(lighting(context, results, samples))
+    lit = _announced(lighting(context, results, samples, kind))
     return lighting_summary(lit, time.perf_counter() - started)
 
 

@@ -97,7 +97,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     with AllOrNothing() as whole:
         results = [(write_object(context, made, settings.placement, whole), made.result) for made in prepared]
         for obj, _ in results:
-            keep_light(obj, view)
+            keep_light(obj, view, scene)
             obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
     return Outcome(results, remarks + refused)
 

@@ -6,37 +6,44 @@ import time
 import bpy
 import numpy as np
 
-from ..core import ReflectionError
-from .blender_data import read_view
+from ..core import ReflectionError, View
+from .baking import baked, can_be_baked, kept_map, new_object_material, vectors
+from .blender_data import is_mirror, is_opaque, read_scene, read_view
 from .clear import chosen_results
-from .faults import AllOrNothing, SteppedOperator, Steps, Undivided
+from .faults import AllOrNothing, SteppedOperator, Steps, Undivided, part
 from .lighting import (
     Window,
+    is_plain,
     light_scene,
-    mirror_positions,
+    moves,
     needs_light,
     new_image,
     new_material,
     pixel_kernel,
     show_light,
+    show_object_light,
     texels_of,
     white_of,
 )
+from .properties import LIGHTS
 
 SAMPLES = 64
 NAME = "Reflection Light"
 
 
-def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES) -> Steps[list]:
-    """Let `results` show the light that their mirrors show: Cycles renders the mirrors as they are, once, and each
-    result shows that picture where the camera sees it.
+def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, kind: str = "AUTO") -> Steps[list]:
+    """Let `results` show the light that their mirrors show.
+
+    In the picture, Cycles renders the mirrors as they are, once, and each result shows that where the camera sees it;
+    on the objects, Cycles bakes these, and each result shows them by what its mirror is.
 
     Yields (fraction, stage), before each render an `Undivided` one; closed at any step it leaves no trace.
 
     Parameters
     ----------
     samples : int
-        Per pixel.
+        Per pixel, or texel.
+    kind : {'AUTO', 'PICTURE', 'OBJECTS'}
 
     Returns
     -------
@@ -57,7 +64,14 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES) 
     lit = [result for result in results if needs_light(result)]
     if not lit:
         return lit
-    window = Window.around(view, np.concatenate([mirror_positions(result) for result in lit]))
+    with_objects = kind == "OBJECTS" or (kind == "AUTO" and any(map(moves, [
+        context.scene.camera, *(result.reflection_mesh.mirror for result in lit)])) and can_be_baked(lit))
+    yield from (_on_objects if with_objects else _in_picture)(context, lit, view, samples)
+    return lit
+
+
+def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int) -> Steps[None]:
+    window = Window.around(view, np.concatenate([vectors(result.data, "mirror_position") for result in lit]))
     if window is None:
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
     with light_scene(context, lit, window) as scene:
@@ -75,8 +89,34 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES) 
         material = new_material(NAME, image, texels)
         whole.undo(bpy.data.materials.remove, material)
         for result in lit:
-            show_light(result, view, window, material, whole)
-    return lit
+            show_light(result, material, view, window, whole)
+
+
+def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int) -> Steps[None]:
+    if not can_be_baked(lit):
+        raise ReflectionError("A reflection of points, or of objects that have been deleted, has no light on objects: "
+                              "light it in the picture.")
+    sources = list(dict.fromkeys(entry.object for result in lit for entry in result.reflection_mesh.sources))
+    scene = read_scene(context.evaluated_depsgraph_get(), sources)
+    light = yield from part(baked(context, lit, view, scene, samples), 0.02, 0.93)
+    yield 0.95, "Writing"
+    opaque = all(map(is_opaque, scene.materials))
+    with AllOrNothing() as whole:
+        image = new_image(NAME, light.texels)
+        whole.undo(bpy.data.images.remove, image)
+        light_map = kept_map(NAME, light.uv)
+        whole.undo(bpy.data.meshes.remove, light_map)
+        for result in lit:
+            material = new_object_material(NAME, image, _mirror_material(result), opaque)
+            whole.undo(bpy.data.materials.remove, material)
+            show_object_light(result, material, view, scene, light_map, light.sheets, whole)
+
+
+def _mirror_material(result: bpy.types.Object) -> bpy.types.Material | None:
+    """The material of a result's mirror that reflects; None where all of the light is shown."""
+    slots = [slot.material for slot in result.reflection_mesh.mirror.material_slots if slot.material is not None]
+    reflecting = next(iter([material for material in slots if is_mirror(material)] + slots), None)
+    return None if reflecting is None or is_plain(reflecting) else reflecting
 
 
 def summary(lit: list, seconds: float) -> str:
@@ -94,11 +134,13 @@ class REFLECTION_MESH_OT_light(SteppedOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     samples: bpy.props.IntProperty(name="Samples", default=SAMPLES, min=1, soft_max=4096,
-                                   description="Light paths for each pixel of the mirrors; the picture is denoised")
+                                   description="Light paths for each pixel of the mirrors, which are denoised, or for "
+                                   "each texel of the objects")
+    kind: bpy.props.EnumProperty(name="Light", items=LIGHTS, default="AUTO", description="Where the light is kept")
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        lit = yield from lighting(context, chosen_results(context), self.samples)
+        lit = yield from lighting(context, chosen_results(context), self.samples, self.kind)
         self.report({"INFO"}, summary(lit, time.perf_counter() - started))
 
 

@@ -32,6 +32,14 @@ METHODS = (
 )
 
 
+LIGHTS = (
+    ("AUTO", "Automatic", "On the objects where the camera or a mirror is animated, else in the picture"),
+    ("PICTURE", "Picture", "As the mirrors show it from here: everything that Cycles knows, for this view alone"),
+    ("OBJECTS", "Objects", "Baked once and kept with the reflected objects, so that camera and mirrors may move; gloss "
+     "stays as it is seen from here"),
+)
+
+
 def tolerance_property() -> FloatProperty:
     return FloatProperty(name="Tolerance", description="Allowed displacement of the reflection, in pixels",
                          default=0.5, min=0.01, soft_max=8.0, max=1000.0, precision=2, options=set())
@@ -118,6 +126,9 @@ class ReflectionObject(bpy.types.PropertyGroup):
                           "where it has none")
     light_material: PointerProperty(name="Light Material", description="What shows this reflection its light",
                                     type=bpy.types.Material)
+    light_map: PointerProperty(name="Light Map", description="Where the triangles of the objects lie in light that "
+                               "stays with them; none where this reflection shows light of a picture",
+                               type=bpy.types.Mesh)
     light_stale: BoolProperty(name="Stale Light", description="The scene has changed since this light was made")
     camera_hidden: BoolProperty(name="Hidden from the Camera",
                                 description="This mirror is a window to its virtual image, until that is cleared")

@@ -60,7 +60,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
     ReflectionError
         Where they have no faces, or a coordinate is not a finite number.
     """
-    placed = read_meshes(depsgraph, objects, normals=False)
+    placed = read_meshes(depsgraph, objects, normals=False, layers=True)
     if not placed:
         raise ReflectionError(f"'{objects[0].name}' has no faces to reflect: choose diffuse objects with faces.")
     positions, triangles, corners, owners, faces, material, materials = _join(placed, len(objects))
@@ -82,7 +82,7 @@ def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> Mirror
     ReflectionError
         Where the mirror has no faces, or a coordinate or a normal is not a finite number.
     """
-    placed = read_meshes(depsgraph, [obj], normals=True)
+    placed = read_meshes(depsgraph, [obj], normals=True, layers=False)
     if not placed:
         raise ReflectionError(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
     positions, triangles, _, _, faces, material, materials = _join(placed, 1)

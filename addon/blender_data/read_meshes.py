@@ -36,6 +36,8 @@ class LocalMesh:
         Colour attributes on face corners, in linear colour; type is FLOAT_COLOR or BYTE_COLOR.
     active_uv, active_colour : str
         What a material without a name of its own shows; empty where there is none.
+    texture_space : (2, 3) float32
+        Middle and half size of the box in which Generated coordinates are counted.
     """
 
     positions: np.ndarray
@@ -49,21 +51,25 @@ class LocalMesh:
     colours: dict
     active_uv: str
     active_colour: str
+    texture_space: np.ndarray
 
 
 @dataclass(frozen=True)
 class Placed:
-    """A mesh and where it stands: `owners` (k,) are indices of participants, `matrices` (k, 4, 4) float64 to world."""
+    """A mesh and where it stands: `owners` (k,) are indices of participants, `matrices` (k, 4, 4) float64 to world;
+    `instances` (k,) tells where it is not the participant's own."""
 
     mesh: LocalMesh
     owners: np.ndarray
     matrices: np.ndarray
+    instances: np.ndarray
 
 
-def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, normals: bool) -> list[Placed]:
+def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, normals: bool, layers: bool) -> list[Placed]:
     """Each distinct mesh of `objects`, modifiers applied, with every place where it or an instance of it stands.
 
-    Instances count as their instancer: an object that instances others owns them. `normals` asks for corner normals.
+    Instances count as their instancer: an object that instances others owns them. `normals` asks for corner normals,
+    `layers` for UV maps and colours.
 
     Raises
     ------
@@ -71,7 +77,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, normals: bool) ->
         Where a coordinate, a normal or a transform is not a finite number, or too large for Blender.
     """
     owner_of = {obj: index for index, obj in enumerate(objects)}
-    meshes, owners, matrices = {}, {}, {}
+    meshes, owners, matrices, instances = {}, {}, {}, {}
     for instance in depsgraph.object_instances:
         evaluated = instance.object
         original = evaluated.original
@@ -83,9 +89,10 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, normals: bool) ->
         materials = tuple(slot.material.original if slot.material else None for slot in evaluated.material_slots)
         key = (evaluated.data.as_pointer(), materials) if evaluated.type == "MESH" else (original, materials)
         if key not in meshes:
-            meshes[key] = _read(evaluated, materials, normals)
-            owners[key], matrices[key] = [], []
+            meshes[key] = _read(evaluated, materials, normals, layers)
+            owners[key], matrices[key], instances[key] = [], [], []
         owners[key].append(owner)
+        instances[key].append(instance.is_instance)
         matrices[key].append(np.array(instance.matrix_world, dtype=np.float64))
     placed = []
     for key, mesh in meshes.items():
@@ -99,7 +106,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, normals: bool) ->
         if (np.abs(matrix[:, :3, :3]) @ reach + np.abs(matrix[:, :3, 3])).max() > FARTHEST:
             raise ReflectionError(f"'{objects[owners[key][0]].name}' reaches further than 1e17 units from the origin, "
                                   "where Blender's numbers end: make it smaller or move it nearer.")
-        placed.append(Placed(mesh, np.array(owners[key]), matrix))
+        placed.append(Placed(mesh, np.array(owners[key]), matrix, np.array(instances[key])))
     return placed
 
 
@@ -107,7 +114,7 @@ def _may_be_reflected(obj: bpy.types.Object) -> bool:
     return not obj.hide_render and obj.reflection_mesh.role not in {"IGNORE", "REFLECTION"}
 
 
-def _read(obj: bpy.types.Object, materials: tuple, normals: bool) -> LocalMesh | None:
+def _read(obj: bpy.types.Object, materials: tuple, normals: bool, layers: bool) -> LocalMesh | None:
     """The mesh of an evaluated object; None where it has no faces."""
     mesh = obj.to_mesh()
     if mesh is None:
@@ -125,7 +132,8 @@ def _read(obj: bpy.types.Object, materials: tuple, normals: bool) -> LocalMesh |
     local = LocalMesh(
         positions, corner_vertex[corners], corners, len(mesh.loops), _face_materials(mesh)[face],
         materials or tuple(mesh.materials), _corner_normals(obj, mesh, corners) if normals else None,
-        {} if normals else _uv_maps(mesh), {} if normals else _colours(mesh, corner_vertex), *_active_names(mesh))
+        _uv_maps(mesh) if layers else {}, _colours(mesh, corner_vertex) if layers else {}, *_active_names(mesh),
+        np.array((mesh.texspace_location, mesh.texspace_size), dtype=np.float32))
     obj.to_mesh_clear()
     return local
 

@@ -7,7 +7,7 @@ from .all_or_nothing import AllOrNothing
 
 PLACE = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
 RECORD = ("role", "mirror", "estimated_error", "seconds", "counts", "resolution", "faces", "points", "light",
-          "light_material", "light_stale")
+          "light_material", "light_map", "light_stale")
 
 
 def still_there(items: list) -> list:

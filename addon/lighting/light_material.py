@@ -6,16 +6,18 @@ import numpy as np
 
 from ..blender_data import compat
 
-UV_MAP = "Reflection Light"
 POSITION = "picture_position"
 
 
 def new_image(name: str, texels: np.ndarray) -> bpy.types.Image:
-    """An image of linear light (height, width, 3), packed into the file."""
-    height, width = texels.shape[:2]
-    image = bpy.data.images.new(name, width, height, float_buffer=True, is_data=True)
+    """An image of linear light (height, width, 3), or with an opacity of its own (height, width, 4), packed into the
+    file."""
+    height, width, channels = texels.shape
+    image = bpy.data.images.new(name, width, height, float_buffer=True, is_data=True, alpha=channels == 4)
+    # light is not darker where less of it is seen
+    image.alpha_mode = "CHANNEL_PACKED"
     rgba = np.ones((height, width, 4), dtype=np.float32)
-    rgba[..., :3] = texels
+    rgba[..., :channels] = texels
     image.pixels.foreach_set(rgba.ravel())
     image.pack()
     return image

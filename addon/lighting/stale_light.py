@@ -7,6 +7,8 @@ from bpy.app.handlers import persistent
 # what may change light; all else, such as pictures that are only looked at, does not
 KINDS = (bpy.types.Object, bpy.types.Material, bpy.types.World, bpy.types.Light, bpy.types.Mesh, bpy.types.Curve,
          bpy.types.MetaBall, bpy.types.Camera, bpy.types.NodeTree)
+# objects that neither send light nor stop it
+UNSEEN = {"CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER"}
 
 
 @persistent
@@ -20,8 +22,11 @@ def _mark(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if not lit:
         return
     own = _own(scene)
-    if any(_tells(update, own) for update in depsgraph.updates):
-        for obj in lit:
+    told = [update.id.original for update in depsgraph.updates if _tells(update, own)]
+    # light that stays with the objects is the same from everywhere
+    lasting = [changed for changed in told if not _only_moves_the_view(changed, lit)]
+    for obj in lit:
+        if told if obj.reflection_mesh.light_map is None else lasting:
             obj.reflection_mesh.light_stale = True
 
 
@@ -30,6 +35,14 @@ def _own(scene: bpy.types.Scene) -> set:
     results = {obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
     materials = {obj.reflection_mesh.light_material for obj in results} - {None}
     return results | materials | {obj.data for obj in results} | {material.node_tree for material in materials}
+
+
+def _only_moves_the_view(changed: bpy.types.ID, lit: list) -> bool:
+    """Whether a change of it leaves the light on the objects: it is a camera, one of the mirrors, or nothing that is
+    seen."""
+    if isinstance(changed, bpy.types.Object):
+        return changed.type in UNSEEN or any(obj.reflection_mesh.mirror == changed for obj in lit)
+    return isinstance(changed, bpy.types.Camera)
 
 
 def _tells(update: bpy.types.DepsgraphUpdate, own: set) -> bool:

@@ -2,6 +2,8 @@
 from .discs import Discs
 from .given_order import in_given_order
 from .placement import DEPTH, GAP, place
+from .reflecting_normals import reflecting_normals
 from .reflection_mesh import ReflectionMesh
 
-__all__ = ["DEPTH", "Discs", "GAP", "ReflectionMesh", "in_given_order", "place"]
+__all__ = ["DEPTH", "Discs", "GAP", "ReflectionMesh", "in_given_order", "place",
+           "reflecting_normals"]

@@ -1,0 +1,135 @@
+"""Room for every triangle of an object in a square picture, and for the pictures of several objects in one."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+RIM = 0.49         # texels between a triangle and the border of its cell: the outermost have their middles inside
+DIAGONAL = 2.0     # texels along either leg to the triangle that shares its cell
+NARROW = 1.0       # the same in the smallest cells
+SMALLEST = 2       # a cell's side is at least 2 to this power
+
+
+@dataclass(frozen=True)
+class Atlas:
+    """Where the corners of triangles lie in a picture.
+
+    Attributes
+    ----------
+    size : int
+        Of the picture, in texels along a side, a power of two.
+    uv : (n, 3, 2) float32
+        Of the triangles' corners, from 0 to 1 across the picture.
+    """
+
+    size: int
+    uv: np.ndarray
+
+
+def arranged(sizes: np.ndarray) -> tuple[np.ndarray, int]:
+    """Where square pictures with sides of powers of two lie in one, (n, 2) int64 columns and rows, and its side."""
+    order = np.argsort(-sizes, kind="stable")
+    area = sizes[order] ** 2
+    at = np.empty((len(sizes), 2), dtype=np.int64)
+    at[order] = _along_z_curve(np.concatenate(([0], np.cumsum(area)))[:-1])
+    return at, _side(int(area.sum()))
+
+
+def packed(corners: np.ndarray, density: float) -> Atlas:
+    """Pack triangles into a picture, two and two into rectangles with sides of powers of two.
+
+    Rectangles of one shape are stacked to squares, and squares, from large to small along a Z curve, lie without a gap
+    (the order of G. M. Morton, "A Computer Oriented Geodetic Data Base", 1966).
+
+    Parameters
+    ----------
+    corners : (n, 3, 3) float64
+        In space.
+    density : float
+        Texels per unit of length.
+    """
+    legs, first = _legs(corners)
+    exponents = _exponents(legs * density)
+    size = _side(int((4 ** _squares(exponents)[2]).sum()))
+    return Atlas(size, _placed(exponents, first, size))
+
+
+def _legs(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Lengths (n, 2) of the two shorter sides of triangles, the longer of them first, and the corners (n, 3) between
+    them, at the end of the first and at the end of the second."""
+    sides = np.linalg.norm(corners[:, (1, 2, 0)] - corners, axis=2)
+    longest = sides.argmax(axis=1)
+    # side k goes from corner k to k + 1; the corner k + 2 lies opposite
+    apex = (longest + 2) % 3
+    ends = np.stack(((apex + 1) % 3, (apex + 2) % 3), axis=1)
+    rows = np.arange(len(corners))
+    lengths = np.stack((sides[rows, apex], sides[rows, ends[:, 1]]), axis=1)
+    order = np.argsort(-lengths, axis=1, kind="stable")
+    return (np.take_along_axis(lengths, order, axis=1),
+            np.column_stack((apex, np.take_along_axis(ends, order, axis=1))))
+
+
+def _exponents(texels: np.ndarray) -> np.ndarray:
+    """Sides (n, 2), as powers of two, of the cells in which legs of so many texels have room."""
+    around = texels + 2.0 * RIM + np.where(texels < 2.0 ** SMALLEST - 2.0 * RIM - NARROW, NARROW, DIAGONAL)
+    return np.maximum(np.ceil(np.log2(around)), SMALLEST).astype(np.int64)
+
+
+def _side(area: int) -> int:
+    """The least power of two whose square holds so many texels."""
+    side = 1
+    while side * side < area:
+        side *= 2
+    return side
+
+
+def _squares(exponents: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The square (n,) in which each triangle's cell lies, its place (n,) in it, two a rectangle, and the squares' sides
+    as powers of two, from large to small."""
+    # the longer leg comes first, and so does the longer side
+    order = np.lexsort((-exponents[:, 1], -exponents[:, 0]))
+    ranked = exponents[order]
+    new = np.r_[True, (ranked[1:] != ranked[:-1]).any(axis=1)] if len(ranked) else np.zeros(0, bool)
+    group = np.cumsum(new) - 1
+    shapes = ranked[new]
+    counts = np.bincount(group, minlength=len(shapes))
+    starts = np.concatenate(([0], np.cumsum(counts)))[:-1]
+    held = 2 * 2 ** (shapes[:, 0] - shapes[:, 1])
+    squares = -(-counts // held)
+    before = np.concatenate(([0], np.cumsum(squares)))[:-1]
+    index = np.arange(len(ranked)) - starts[group]
+    square, place = np.empty(len(ranked), np.int64), np.empty(len(ranked), np.int64)
+    square[order] = before[group] + index // held[group]
+    place[order] = index % held[group]
+    return square, place, np.repeat(shapes[:, 0], squares)
+
+
+def _placed(exponents: np.ndarray, first: np.ndarray, size: int) -> np.ndarray:
+    """Coordinates (n, 3, 2) of the triangles' corners."""
+    square, place, sides = _squares(exponents)
+    area = 4 ** sides
+    # each square starts where the curve has gone over the larger ones
+    at = _along_z_curve(np.concatenate(([0], np.cumsum(area)))[:-1])[square].astype(np.float64)
+    cell = 2.0 ** exponents
+    at[:, 1] += (place // 2) * cell[:, 1]
+    low = np.full((len(cell), 2), RIM)
+    across, up = low.copy(), low.copy()
+    gap = np.where(exponents == SMALLEST, NARROW, DIAGONAL)
+    across[:, 0] = cell[:, 0] - RIM - gap[:, 0]
+    up[:, 1] = cell[:, 1] - RIM - gap[:, 1]
+    spots = np.stack((low, across, up), axis=1)
+    turned = (place % 2 == 1)[:, None, None]
+    spots = np.where(turned, cell[:, None] - spots, spots) + at[:, None]
+    uv = np.empty_like(spots)
+    np.put_along_axis(uv, first[:, :, None], spots, axis=1)
+    return (uv / size).astype(np.float32)
+
+
+def _along_z_curve(index: np.ndarray) -> np.ndarray:
+    """Column and row (n, 2) of the places that a Z curve reaches after so many steps: every other bit is one's."""
+    place = np.stack((index, index >> 1), axis=1)
+    for shift, mask in ((0, 0x5555555555555555), (1, 0x3333333333333333), (2, 0x0F0F0F0F0F0F0F0F),
+                        (4, 0x00FF00FF00FF00FF), (8, 0x0000FFFF0000FFFF), (16, 0x00000000FFFFFFFF)):
+        place = (place | (place >> shift)) & mask if shift else place & mask
+    return place

@@ -1,0 +1,184 @@
+"""What a mirror makes of the light that it shows: its own shader, with light in place of what is glossy in it."""
+from __future__ import annotations
+
+import bpy
+
+from ..blender_data import compat
+from ..blender_data.mirror_materials import surface_shader
+
+UV_MAP = "Reflection Light"
+NORMAL = "mirror_normal"
+GLOSSY = {"BSDF_GLOSSY", "BSDF_METALLIC"}
+
+
+def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Material | None,
+                        opaque: bool) -> bpy.types.Material:
+    """A material that shows light that stays with objects as `mirror` would: tinted, by Fresnel, mixed with what else
+    it is; `None` shows all of the light.
+
+    Tints go by the true angle at the mirror, which the attribute `NORMAL` tells.
+    """
+    if mirror is None or not compat.uses_nodes(mirror):
+        material = bpy.data.materials.new(name)
+        tree = compat.use_nodes(material)
+        tree.nodes.clear()
+        tree.nodes.new("ShaderNodeOutputMaterial")
+        build = _Builder(tree, image)
+        shown = build.glow(build.light.outputs["Color"])
+    else:
+        material = mirror.copy()
+        material.name = name
+        tree = material.node_tree
+        build = _Builder(tree, image)
+        shader = surface_shader(tree)
+        shown = None if shader is None else build.shown(shader)
+        build.bend_normals()
+    output = tree.get_output_node("ALL")
+    if shown is not None:
+        if not opaque:
+            clear = build.add("ShaderNodeBsdfTransparent").outputs[0]
+            shown = build.mixed(build.light.outputs["Alpha"], clear, shown)
+        tree.links.new(shown, output.inputs["Surface"])
+    for name_ in ("Displacement", "Volume"):
+        for link in list(output.inputs[name_].links):
+            tree.links.remove(link)
+    for node in tree.nodes:
+        node.select = node == build.light
+    tree.nodes.active = build.light
+    return material
+
+
+class _Builder:
+    """Adds nodes to a tree; `light` is the picture of the light."""
+
+    def __init__(self, tree: bpy.types.NodeTree, image: bpy.types.Image) -> None:
+        self.tree = tree
+        where = self.add("ShaderNodeUVMap", uv_map=UV_MAP)
+        self.light = self.add("ShaderNodeTexImage", image=image, interpolation="Linear", extension="EXTEND")
+        tree.links.new(where.outputs[0], self.light.inputs["Vector"])
+
+    def add(self, kind: str, **settings) -> bpy.types.Node:
+        node = self.tree.nodes.new(kind)
+        for key, value in settings.items():
+            setattr(node, key, value)
+        return node
+
+    def feed(self, value, socket: bpy.types.NodeSocket) -> None:
+        """A socket's value, a number or a colour into a socket."""
+        if isinstance(value, bpy.types.NodeSocket):
+            self.tree.links.new(value, socket)
+        elif socket.type == "RGBA":
+            socket.default_value = (value,) * 3 + (1.0,) if isinstance(value, float) else value
+        else:
+            socket.default_value = value
+
+    def glow(self, colour) -> bpy.types.NodeSocket:
+        node = self.add("ShaderNodeEmission")
+        self.feed(colour, node.inputs["Color"])
+        return node.outputs[0]
+
+    def mixed(self, factor, first, second) -> bpy.types.NodeSocket:
+        node = self.add("ShaderNodeMixShader")
+        for value, socket in zip((factor, first, second), node.inputs, strict=True):
+            if value is not None:
+                self.feed(value, socket)
+        return node.outputs[0]
+
+    def blended(self, how: str, factor, first, second) -> bpy.types.NodeSocket:
+        """Colours mixed or multiplied."""
+        node = self.add("ShaderNodeMix", data_type="RGBA", blend_type=how)
+        for value, socket in ((factor, node.inputs[0]), (first, node.inputs[6]), (second, node.inputs[7])):
+            self.feed(value, socket)
+        return node.outputs[2]
+
+    def shown(self, shader: bpy.types.Node) -> bpy.types.NodeSocket | None:
+        """What a shader node becomes: light where it is glossy, itself where it is not."""
+        light = self.light.outputs["Color"]
+        if shader.type in GLOSSY:
+            tint = given(shader.inputs.get("Color") or shader.inputs["Base Color"])
+            if shader.type == "BSDF_METALLIC":
+                tint = self.at_grazing(tint)
+            return self.glow(self.blended("MULTIPLY", 1.0, tint, light))
+        if shader.type == "BSDF_PRINCIPLED":
+            return self.principled(shader)
+        if shader.type in {"MIX_SHADER", "ADD_SHADER"}:
+            for socket in shader.inputs:
+                behind = node_behind(socket) if socket.type == "SHADER" else None
+                part = self.shown(behind) if behind is not None else None
+                if part is not None:
+                    self.tree.links.new(part, socket)
+        return shader.outputs[0]
+
+    def principled(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+        """Light by the reflection of a Principled BSDF, over what else it is."""
+        metallic = given(shader.inputs["Metallic"])
+        light = self.light.outputs["Color"]
+        metal = None if metallic == 0.0 else self.at_grazing(given(shader.inputs["Base Color"]))
+        if metallic == 1.0:
+            return self.glow(self.blended("MULTIPLY", 1.0, metal, light))
+        glass = self.dielectric(shader)
+        coat = self.blended("MULTIPLY", 1.0, given(shader.inputs["Specular Tint"]), glass)
+        reflected = coat if metal is None else self.blended("MIX", metallic, coat, metal)
+        cut(self.tree, shader.inputs["Specular IOR Level"], 0.0)
+        cut(self.tree, shader.inputs["Metallic"], 0.0)
+        rest = self.mixed(glass, shader.outputs[0], None)
+        rest = rest if metal is None else self.mixed(metallic, rest, None)
+        both = self.add("ShaderNodeAddShader")
+        self.feed(self.glow(self.blended("MULTIPLY", 1.0, reflected, light)), both.inputs[0])
+        self.feed(rest, both.inputs[1])
+        return both.outputs[0]
+
+    def at_grazing(self, tint) -> bpy.types.NodeSocket:
+        """The colour of a metal by the angle.
+
+        C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994, as the Principled BSDF has it with
+        a white edge tint.
+        """
+        facing = self.add("ShaderNodeLayerWeight")
+        facing.inputs["Blend"].default_value = 0.5
+        fifth = self.add("ShaderNodeMath", operation="POWER")
+        fifth.inputs[1].default_value = 5.0
+        self.feed(facing.outputs["Facing"], fifth.inputs[0])
+        return self.blended("MIX", fifth.outputs[0], tint, (1.0, 1.0, 1.0, 1.0))
+
+    def dielectric(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+        """How much a Principled BSDF that is no metal reflects, by the angle."""
+        level, index = shader.inputs["Specular IOR Level"], shader.inputs["IOR"]
+        fresnel = self.add("ShaderNodeFresnel")
+        if level.is_linked or index.is_linked:
+            self.feed(given(index), fresnel.inputs["IOR"])
+        else:
+            straight = ((index.default_value - 1.0) / (index.default_value + 1.0)) ** 2
+            root = min(2.0 * level.default_value * straight, 0.99) ** 0.5
+            fresnel.inputs["IOR"].default_value = (1.0 + root) / (1.0 - root)
+        return fresnel.outputs[0]
+
+    def bend_normals(self) -> None:
+        """Let nodes that go by the surface's normal take the mirror's."""
+        normal = self.add("ShaderNodeAttribute", attribute_name=NORMAL)
+        for node in list(self.tree.nodes):
+            socket = node.inputs.get("Normal")
+            if socket is not None and not socket.is_linked:
+                self.feed(normal.outputs["Vector"], socket)
+
+
+def given(socket: bpy.types.NodeSocket):
+    """What a socket is given: another socket, or its own value."""
+    if socket.is_linked:
+        return socket.links[0].from_socket
+    value = socket.default_value
+    return float(value) if isinstance(value, (int, float)) else tuple(value)
+
+
+def cut(tree: bpy.types.NodeTree, socket: bpy.types.NodeSocket, value: float) -> None:
+    """Give a socket a value of its own."""
+    for link in list(socket.links):
+        tree.links.remove(link)
+    socket.default_value = value
+
+
+def node_behind(socket: bpy.types.NodeSocket) -> bpy.types.Node | None:
+    """The node that feeds a socket, past reroutes."""
+    while socket.is_linked and socket.links[0].from_node.type == "REROUTE":
+        socket = socket.links[0].from_node.inputs[0]
+    return socket.links[0].from_node if socket.is_linked else None

@@ -1,0 +1,76 @@
+"""Which part of a picture of objects' light each corner of a result shows; kept with the file."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...core import ReflectionError, View, reflecting_normals
+from ..blender_data import DiffuseScene
+from .mirror_part import NORMAL, UV_MAP
+from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, vectors
+
+
+def kept_map(name: str, uv: np.ndarray) -> bpy.types.Mesh:
+    """A mesh that keeps, as its points, where in a map of light the corners of triangles lie: it is saved with the
+    file, and appended with a result."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(3 * len(uv))
+    points = np.zeros((3 * len(uv), 3), dtype=np.float32)
+    points[:, :2] = uv.reshape(-1, 2)
+    mesh.attributes["position"].data.foreach_set("vector", points.reshape(-1))
+    return mesh
+
+
+def map_of(mesh: bpy.types.Mesh) -> np.ndarray:
+    """What `kept_map` keeps, (m, 3, 2) float32."""
+    points = np.empty((len(mesh.vertices), 3), dtype=np.float32)
+    mesh.attributes["position"].data.foreach_get("vector", points.reshape(-1))
+    return points[:len(points) // 3 * 3, :2].reshape(-1, 3, 2)
+
+
+def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, uv: np.ndarray, sheets: list) -> None:
+    """Tell each corner of a result where in the map the point lies that it shows, and each point how the mirror stands
+    there; `uv` and `sheets` as `ObjectLight` has them."""
+    mesh = result.data
+    normals = reflecting_normals(view, vectors(mesh, "mirror_position"), vectors(mesh, "reflected_position"))
+    attribute = mesh.attributes.get(NORMAL) or mesh.attributes.new(NORMAL, "FLOAT_VECTOR", "POINT")
+    attribute.data.foreach_set("vector", normals.astype(np.float32).reshape(-1))
+    triangle = triangle_of(result, scene)
+    shown, at = (vectors(mesh, name)[corner_vertices(mesh)] for name in ("reflected_position", "mirror_position"))
+    front = fronts_seen(scene, triangle, (at - shown).mean(axis=1))
+    fronts, backs = _rows(scene, sheets)
+    row = np.where(front, fronts[triangle], backs[triangle])
+    weights = _weights(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)
+    spots = np.matmul(weights, uv[row].astype(np.float64)).astype(np.float32)
+    layer = mesh.uv_layers.get(UV_MAP) or mesh.uv_layers.new(name=UV_MAP, do_init=False)
+    if layer is None:
+        raise ReflectionError("The reflected objects have eight UV maps, and their light needs one more: remove one of "
+                              "them.")
+    layer.uv.foreach_set("vector", spots.reshape(-1))
+    layer.active = True
+
+
+def _rows(scene: DiffuseScene, sheets: list) -> tuple[np.ndarray, np.ndarray]:
+    """Which triangle of the map is the front of each triangle of the scene, and which its back: the same where the map
+    has but one of them."""
+    rows = {False: np.full(len(scene.source_object), -1), True: np.full(len(scene.source_object), -1)}
+    parts, start = triangles_by_source(scene), 0
+    for number, back in sheets:
+        rows[back][parts[number]] = start + np.arange(len(parts[number]))
+        start += len(parts[number])
+    return tuple(np.where(rows[back] < 0, rows[not back], rows[back]) for back in (False, True))
+
+
+def _weights(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates (n, k, 3), none negative, in triangles (n, 3, 3) of the points (n, k, 3) nearest."""
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    offset = points - corners[:, :1]
+    aa, ab, bb = (np.einsum("ni,ni->n", x, y)[:, None] for x, y in ((a, a), (a, b), (b, b)))
+    pa, pb = (np.einsum("nki,ni->nk", offset, side) for side in (a, b))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        first = (bb * pa - ab * pb) / (aa * bb - ab * ab)
+        second = (aa * pb - ab * pa) / (aa * bb - ab * ab)
+    weights = np.nan_to_num(np.stack((1.0 - first - second, first, second), axis=2), nan=1.0 / 3.0, posinf=0.0,
+                            neginf=0.0)
+    weights = np.maximum(weights, 0.0)
+    return weights / np.maximum(weights.sum(axis=2, keepdims=True), 1e-12)

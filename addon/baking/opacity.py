@@ -1,0 +1,58 @@
+"""How opaque materials are, as nodes: what a bake of light cannot tell, since it ends at the first surface."""
+from __future__ import annotations
+
+import bpy
+
+from ..blender_data.mirror_materials import surface_shader
+from .mirror_part import cut, given, node_behind
+
+OPEN = {"BSDF_TRANSPARENT", "HOLDOUT"}
+
+
+def without_openings(tree: bpy.types.NodeTree) -> None:
+    """Let a material be opaque all over: its light is baked as if nothing of what lies behind came through."""
+    for node in tree.nodes:
+        if node.type == "BSDF_PRINCIPLED":
+            cut(tree, node.inputs["Alpha"], 1.0)
+        elif node.type == "MIX_SHADER":
+            through = [_shader_behind(socket) in OPEN for socket in node.inputs[1:3]]
+            if through[0] != through[1]:
+                cut(tree, node.inputs[0], float(through[0]))
+
+
+def show_opacity(tree: bpy.types.NodeTree) -> None:
+    """Let a material emit how opaque it is, from 0 to 1."""
+    output = tree.get_output_node("ALL")
+    if output is None:
+        return
+    shader = surface_shader(tree)
+    glow = tree.nodes.new("ShaderNodeEmission")
+    _feed(tree, opacity_of(tree, shader), glow.inputs["Color"])
+    tree.links.new(glow.outputs[0], output.inputs["Surface"])
+
+
+def opacity_of(tree: bpy.types.NodeTree, shader: bpy.types.Node | None):
+    """A socket or a number: how opaque what a shader node makes is."""
+    if shader is None or shader.type in OPEN:
+        return 0.0
+    if shader.type == "BSDF_PRINCIPLED":
+        return given(shader.inputs["Alpha"])
+    if shader.type == "MIX_SHADER":
+        mixed = tree.nodes.new("ShaderNodeMix")
+        _feed(tree, given(shader.inputs[0]), mixed.inputs[0])
+        for place, socket in zip((2, 3), shader.inputs[1:3], strict=True):
+            _feed(tree, opacity_of(tree, node_behind(socket)), mixed.inputs[place])
+        return mixed.outputs[0]
+    return 1.0
+
+
+def _feed(tree: bpy.types.NodeTree, value, socket: bpy.types.NodeSocket) -> None:
+    if isinstance(value, float):
+        socket.default_value = (value,) * 3 + (1.0,) if socket.type == "RGBA" else value
+    else:
+        tree.links.new(value, socket)
+
+
+def _shader_behind(socket: bpy.types.NodeSocket) -> str:
+    node = node_behind(socket)
+    return "" if node is None else node.type

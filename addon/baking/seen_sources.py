@@ -1,0 +1,144 @@
+"""What results tell of the objects that they show: how large, from where and from which side they are seen."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ...core import View
+from ..blender_data import DiffuseScene
+
+ONE_EYE = 0.1   # of the way to what is seen, from which on the eye's mirror images are not one
+SHARPEST = 0.9  # quantile of the pixels of an object that have no more than one texel
+SOLID = 0.1     # of an object's picture: where fronts are more of it they hide the backs
+UNSEEN = 0.5    # of the others' middle density, where nothing of an object is seen
+
+
+@dataclass(frozen=True)
+class SeenSources:
+    """By source of a joined scene, and by its triangles.
+
+    Attributes
+    ----------
+    density : (k,) float64
+        Pixels per unit of length at which a source is seen.
+    seen_from : (k, 3) float64
+        Where the eye's mirror images are, in the mean; the eye itself for what is not seen.
+    one_eye : (k,) bool
+        Whether that is one place, as flat mirrors have it, and not spread about.
+    backs : (k,) bool
+        Of which sources only backs are seen. Those of others lie behind their fronts, but for a hair of them that looks
+        out at outlines.
+    """
+
+    density: np.ndarray
+    seen_from: np.ndarray
+    one_eye: np.ndarray
+    backs: np.ndarray
+
+
+def seen_sources(results: list, view: View, scene: DiffuseScene) -> SeenSources:
+    """What `results`, which show `scene` to `view`, tell of its sources."""
+    faces = [_faces(result, view, scene) for result in results]
+    triangle, area, density, eye, shown, facing = (np.concatenate(part) for part in zip(*faces, strict=True))
+    count = len(scene.sources)
+    owner = scene.source_object[triangle]
+    fronts = np.bincount(owner, weights=area * facing, minlength=count)
+    whole = np.bincount(owner, weights=area, minlength=count)
+    seen = whole > 0.0
+    middle = np.stack([np.bincount(owner, weights=area * eye[:, axis], minlength=count) for axis in range(3)], axis=1)
+    seen_from = np.where(seen[:, None], middle / np.where(seen, whole, 1.0)[:, None], view.eye)
+    strays = np.bincount(owner, weights=area * np.linalg.norm(eye - seen_from[owner], axis=1), minlength=count)
+    far = np.bincount(owner, weights=area * np.linalg.norm(eye - shown, axis=1), minlength=count)
+    return SeenSources(_densities(owner, density, area, count), seen_from, strays <= ONE_EYE * far,
+                       fronts < SOLID * whole)
+
+
+def fronts_seen(scene: DiffuseScene, triangle: np.ndarray, towards: np.ndarray) -> np.ndarray:
+    """Whether what looks along -`towards` (n, 3) at triangles of the scene (n,) sees their fronts, (n,) bool."""
+    corners = scene.mesh.positions[scene.mesh.triangles[triangle]]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return np.einsum("ni,ni->n", normal, towards) > 0.0
+
+
+def can_be_baked(results: list) -> bool:
+    """Whether all of `results` have faces, and the sources that these show."""
+    return all(len(result.data.polygons) and result.reflection_mesh.mirror is not None
+               and all(entry.object is not None for entry in result.reflection_mesh.sources) for result in results)
+
+
+def triangle_of(result: bpy.types.Object, scene: DiffuseScene) -> np.ndarray:
+    """The triangle of the scene that each face of a result shows, (n,) int64; sources are found by the pointers that
+    the result keeps."""
+    mesh = result.data
+    index = {source: number for number, source in enumerate(scene.sources)}
+    table = np.array([index[entry.object] for entry in result.reflection_mesh.sources], dtype=np.int64)
+    owner = table[_values(mesh, "source_object", len(mesh.polygons))]
+    face = _values(mesh, "source_face", len(mesh.polygons))
+    parts = triangles_by_source(scene)
+    starts = np.concatenate(([0], np.cumsum([len(part) for part in parts])))[:-1]
+    return np.concatenate(parts)[starts[owner] + face]
+
+
+def triangles_by_source(scene: DiffuseScene) -> list:
+    """The triangles of each source of a scene, in their own order, as indices (n,) into the scene's."""
+    order = np.lexsort((scene.source_face, scene.source_object))
+    return np.split(order, np.searchsorted(scene.source_object[order], np.arange(1, len(scene.sources))))
+
+
+def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
+    """The vertices (n, 3) of a mesh of triangles."""
+    return _values(mesh, ".corner_vert", len(mesh.loops)).reshape(-1, 3)
+
+
+def vectors(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
+    """An attribute of the points, (n, 3) float64."""
+    values = np.empty((len(mesh.vertices), 3), dtype=np.float32)
+    mesh.attributes[name].data.foreach_get("vector", values.reshape(-1))
+    return values.astype(np.float64)
+
+
+def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple:
+    """Triangle of the scene, area in pixels, pixels per unit, mirrored eye, middle and side of each face of a result
+    that one mirror shows."""
+    mesh = result.data
+    once = _values(mesh, "bounces", len(mesh.polygons)) == 1
+    corners, triangle = corner_vertices(mesh)[once], triangle_of(result, scene)[once]
+    shown, mirror = vectors(mesh, "reflected_position"), vectors(mesh, "mirror_position")
+    spots = view.pixels(mirror)[corners]
+    sides = spots[:, (1, 2, 0)] - spots
+    area = 0.5 * np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
+    points, at = shown[corners], mirror[corners].mean(axis=1)
+    lengths = np.linalg.norm(points[:, (1, 2, 0)] - points, axis=2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        density = np.nan_to_num(np.linalg.norm(sides, axis=2).max(axis=1) / lengths.max(axis=1), posinf=0.0)
+    middle = points.mean(axis=1)
+    towards = at - middle
+    path = np.linalg.norm(towards, axis=1, keepdims=True)
+    far = path + np.linalg.norm(at - view.eye, axis=1, keepdims=True)
+    eye = middle + towards * (far / np.maximum(path, 1e-12))
+    facing = fronts_seen(scene, triangle, towards)
+    usable = np.isfinite(area) & np.isfinite(density)
+    return triangle, np.where(usable, area, 0.0), density, eye, middle, facing
+
+
+def _densities(owner: np.ndarray, density: np.ndarray, area: np.ndarray, count: int) -> np.ndarray:
+    """The quantile `SHARPEST` of each source's density, pixel by pixel."""
+    found = np.zeros(count)
+    order = np.lexsort((density, owner))
+    ranked, weight = owner[order], area[order]
+    starts = np.searchsorted(ranked, np.arange(count + 1))
+    for number in range(count):
+        part = slice(starts[number], starts[number + 1])
+        summed = np.cumsum(weight[part])
+        if len(summed) and summed[-1] > 0.0:
+            found[number] = density[order][part][np.searchsorted(summed, SHARPEST * summed[-1])]
+    seen = found > 0.0
+    return np.where(seen, found, UNSEEN * np.median(found[seen]) if seen.any() else 1.0)
+
+
+def _values(mesh: bpy.types.Mesh, name: str, count: int) -> np.ndarray:
+    values = np.empty(count, dtype=np.int32)
+    mesh.attributes[name].data.foreach_get("value", values)
+    return values

@@ -1,0 +1,179 @@
+"""Light that stays with the objects: as near to Cycles as light of the picture, and as right after the camera or the
+mirror have moved."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from scipy import ndimage
+from test_light import lit_state, picture, psnr, scene_of
+
+# gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
+SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Alpha")
+MIRRORS = ("Tint", "Fresnel", "Layer weight")
+
+
+def light(samples: int = 64) -> None:
+    assert bpy.ops.reflection_mesh.light(samples=samples, kind="OBJECTS") == {"FINISHED"}
+
+
+@pytest.mark.parametrize(("source", "mirror"), [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)])
+def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
+    scene_of(blank, source, mirror)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    before = psnr(picture(room), reference)
+    light(128)
+    lit, noise = psnr(picture(room), reference), psnr(other, reference)
+    print("PSNR", source, mirror, before, lit, noise)
+    assert lit > min(38.0, noise - 1.5)
+    assert lit > before + 6.0
+
+
+def test_it_is_right_from_elsewhere_too(blank, room):
+    wall = scene_of(blank, "UV", "Fresnel")
+    result = parts.generate()
+    light(128)
+    shown = result.reflection_mesh.light_material
+    camera = blank.scene.camera
+    camera.location.x += 0.6
+    camera.location.z += 0.4
+    wall.rotation_euler.z += 0.05
+    blank.view_layer.update()
+    assert not result.reflection_mesh.light_stale
+    reference, other = picture(room), picture(room, seed=7)
+    parts.select(result)
+    parts.generate()
+    assert {slot.material for slot in result.material_slots} == {shown} and not result.reflection_mesh.light_stale
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # but not where what is reflected changes
+    bpy.data.objects["Box"].location.x += 0.2
+    blank.view_layer.update()
+    assert result.reflection_mesh.light_stale
+
+
+def test_another_mesh_does_not_show_it(blank):
+    scene_of(blank)
+    result = parts.generate(tolerance=4.0)
+    light(1)
+    bpy.data.objects["Box"].modifiers.new("Finer", "SUBSURF").levels = 1
+    parts.select(result)
+    parts.generate(tolerance=4.0)
+    assert result.reflection_mesh.light_stale
+    assert all(slot.link == "DATA" for slot in result.material_slots)
+
+
+@pytest.mark.parametrize("stop", [1, 2, 3, 4, 5])
+def test_stopped_after_any_step_it_leaves_no_trace(blank, room, stop):
+    scene_of(blank, "Alpha")
+    result = parts.generate()
+    before = lit_state()
+    steps = room("addon.light").lighting(blank, [result], 1, "OBJECTS")
+    for _ in range(stop):
+        next(steps)
+    steps.close()
+    assert lit_state() == before
+
+
+@pytest.mark.parametrize("failing", ["kept_map", "new_object_material", "show_object_light"])
+def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
+    scene_of(blank)
+    parts.generate()
+    before = lit_state()
+
+    def fails(*arguments):
+        raise room("core").ReflectionError("It failed: try again.")
+    monkeypatch.setattr(room("addon.light"), failing, fails)
+    with pytest.raises(RuntimeError, match="It failed: try again."):
+        light(1)
+    assert lit_state() == before
+
+
+def test_clear_takes_it_away(blank):
+    scene_of(blank, "Alpha", "Tint")
+    before = parts.state()
+    parts.generate()
+    light(1)
+    # one kind of light takes the other's place
+    bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
+    assert "Reflection Light" not in bpy.data.meshes
+    light(1)
+    assert len(bpy.data.images) == 1 and "Reflection Light" in bpy.data.meshes
+    bpy.ops.reflection_mesh.clear()
+    assert parts.state()["data"] == before["data"]
+
+
+def test_what_moves_is_lit_on_the_objects(blank):
+    scene_of(blank)
+    result = parts.generate(tolerance=4.0)
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert result.reflection_mesh.light_map is None
+    blank.scene.camera.keyframe_insert("location", frame=1)
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert result.reflection_mesh.light_map is not None
+
+
+def test_it_is_saved_with_the_file(blank, tmp_path):
+    scene_of(blank)
+    parts.generate(tolerance=4.0)
+    light(1)
+    size = len(bpy.data.meshes["Reflection Light"].vertices)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "lit.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "lit.blend"))
+    result = bpy.data.objects["Mirror Reflection"]
+    assert len(result.reflection_mesh.light_map.vertices) == size
+    shown = result.reflection_mesh.light_material
+    parts.select(result)
+    parts.generate(tolerance=4.0)
+    assert {slot.material for slot in result.material_slots} == {shown}
+
+
+def test_points_are_not_lit_so(blank):
+    scene_of(blank)
+    parts.generate(method="POINTS")
+    with pytest.raises(RuntimeError, match="light it in the picture"):
+        light(1)
+
+
+def covered(corners: np.ndarray, size: int) -> np.ndarray:
+    """Texels (size, size) whose middles lie in a triangle (3, 2)."""
+    rows, columns = np.mgrid[:size, :size] + 0.5
+    sides = []
+    for start, end in zip(corners, np.roll(corners, -1, axis=0)):
+        sides.append((end[0] - start[0]) * (rows - start[1]) - (end[1] - start[1]) * (columns - start[0]))
+    return (np.array(sides) >= 0.0).all(axis=0) | (np.array(sides) <= 0.0).all(axis=0)
+
+
+def test_triangles_have_room_of_their_own(room):
+    """Against every texel: none is of two triangles, those of different ones do not touch, and none is without."""
+    atlas = room("addon.baking.atlas")
+    rng = np.random.default_rng(3)
+    corners = rng.normal(size=(160, 1, 3)) + rng.normal(size=(160, 3, 3)) * np.exp(rng.normal(size=(160, 1, 1)))
+    corners[:6, 2] = corners[:6, 0] + 1e-4 * rng.normal(size=(6, 3))
+    packed = atlas.packed(corners, 12.0)
+    owner = np.full((packed.size, packed.size), -1)
+    spots = packed.uv.astype(np.float64) * packed.size
+    assert spots.min() > 0.0 and spots.max() < packed.size
+    for number, triangle in enumerate(spots):
+        inside = covered(triangle, packed.size)
+        assert inside.sum() >= 3 and (owner[inside] == -1).all()
+        owner[inside] = number
+    near = ndimage.maximum_filter(owner, 2)
+    far = -ndimage.maximum_filter(np.where(owner < 0, -10**6, -owner), 2)
+    assert (near[owner >= 0] == owner[owner >= 0]).mean() > 0.99 and far.max() < 10**6 + 1
+    # as many texels as were asked for, along every side
+    lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+    texels = np.linalg.norm(np.roll(spots, -1, axis=1) - spots, axis=2)
+    legs = np.sort(lengths, axis=1)[:, :2].max(axis=1)
+    assert (np.sort(texels, axis=1)[:, :2].max(axis=1) >= 0.99 * 12.0 * legs).all()
+
+
+def test_pictures_of_objects_lie_beside_one_another(room):
+    arranged = room("addon.baking.atlas").arranged
+    sizes = np.array([4, 64, 16, 16, 64, 4, 128, 32])
+    at, side = arranged(sizes)
+    taken = np.zeros((side, side), dtype=int)
+    for (column, row), size in zip(at, sizes):
+        taken[row:row + size, column:column + size] += 1
+    assert taken.max() == 1 and taken.sum() == (sizes ** 2).sum()
