@@ -100,6 +100,8 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int)
     scene = read_scene(context.evaluated_depsgraph_get(), sources)
     light = yield from part(baked(context, lit, view, scene, samples), 0.02, 0.93)
     yield 0.95, "Writing"
+    # what was hidden for a while counts as changed only now
+    context.view_layer.update()
     opaque = all(map(is_opaque, scene.materials))
     with AllOrNothing() as whole:
         image = new_image(NAME, light.texels)

@@ -4,20 +4,21 @@ from __future__ import annotations
 import bpy
 
 from ..blender_data.mirror_materials import surface_shader
-from .mirror_part import cut, given, node_behind
+from .mirror_part import given, node_behind
 
 OPEN = {"BSDF_TRANSPARENT", "HOLDOUT"}
 
 
 def without_openings(tree: bpy.types.NodeTree) -> None:
-    """Let a material be opaque all over: its light is baked as if nothing of what lies behind came through."""
-    for node in tree.nodes:
+    """Let a material be opaque where it is baked, as if nothing of what lies behind came through; for light that falls
+    on it or through it, it is what it was."""
+    for node in list(tree.nodes):
         if node.type == "BSDF_PRINCIPLED":
-            cut(tree, node.inputs["Alpha"], 1.0)
+            _unless_baked(tree, node.inputs["Alpha"], 1.0)
         elif node.type == "MIX_SHADER":
             through = [_shader_behind(socket) in OPEN for socket in node.inputs[1:3]]
             if through[0] != through[1]:
-                cut(tree, node.inputs[0], float(through[0]))
+                _unless_baked(tree, node.inputs[0], float(through[0]))
 
 
 def show_opacity(tree: bpy.types.NodeTree) -> None:
@@ -44,6 +45,15 @@ def opacity_of(tree: bpy.types.NodeTree, shader: bpy.types.Node | None):
             _feed(tree, opacity_of(tree, node_behind(socket)), mixed.inputs[place])
         return mixed.outputs[0]
     return 1.0
+
+
+def _unless_baked(tree: bpy.types.NodeTree, socket: bpy.types.NodeSocket, value: float) -> None:
+    """Give a socket a value for the first of a light path's rays, which are those that are baked."""
+    mixed, path = tree.nodes.new("ShaderNodeMix"), tree.nodes.new("ShaderNodeLightPath")
+    tree.links.new(path.outputs["Is Camera Ray"], mixed.inputs[0])
+    _feed(tree, given(socket), mixed.inputs[2])
+    mixed.inputs[3].default_value = value
+    tree.links.new(mixed.outputs[0], socket)
 
 
 def _feed(tree: bpy.types.NodeTree, value, socket: bpy.types.NodeSocket) -> None:
