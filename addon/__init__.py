@@ -1,6 +1,9 @@
 """What Blender sees of the extension: roles, operators, a panel and a command; the optics are in `core`."""
 from . import clear, command_line, compare, generate, light, panel, properties
+from .gltf_attributes import AttributesOfResults
 from .lighting import stale_light
+
+__all__ = ["AttributesOfResults", "register", "unregister"]
 
 MODULES = (properties, stale_light, generate, light, compare, clear, panel, command_line)
 

@@ -253,8 +253,8 @@ def test_what_is_lit_is_the_result_alone(blank):
     assert {(slot.link, slot.material) for slot in result.material_slots} == {
         ("OBJECT", result.reflection_mesh.light_material)}
     new = {kind: set(names) - set(before["data"][kind]) for kind, names in after["data"].items()}
-    assert {kind: names for kind, names in new.items() if names} == {"materials": {"Reflection Light"},
-                                                                     "images": {"Reflection Light"}}
+    assert {kind: names for kind, names in new.items() if names} == {
+        "materials": {"Reflection Light"}, "images": {"Reflection Light", "Reflection Light Export"}}
     assert {**after, "data": 0} == {**before, "data": 0}
     image = bpy.data.images["Reflection Light"]
     assert image.packed_file is not None and image.size[0] <= SIZE
