@@ -163,7 +163,10 @@ def test_glTF_carries_what_points_know_where_attributes_are_asked_for(blank, tmp
 
 def test_solid_view_shows_the_light(blank):
     """By texture the active image of each material, by attribute the active colours."""
-    result = floor_mirror(blank, checks(), lamp=True)
+    floor_mirror(blank, checks(), lamp=True)
+    bpy.data.objects["Board"].data.color_attributes.new("Paint", "FLOAT_COLOR", "CORNER")
+    result = floor_again()
+    assert result.data.color_attributes.active_color.name == "Paint"
     bpy.ops.reflection_mesh.light(samples=4)
     material, mesh = result.material_slots[0].material, result.data
     assert material.node_tree.nodes.active.image == bpy.data.images["Reflection Light Export"]
