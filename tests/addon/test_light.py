@@ -61,10 +61,10 @@ def source_material(kind: str, box: bpy.types.Object) -> bpy.types.Material:
         link(tree, tree.nodes.new("ShaderNodeObjectInfo").outputs["Random"], ramp.inputs[1])
         link(tree, ramp.outputs[0], shader.inputs["Base Color"])
     elif kind == "Attribute":
-        heat = box.data.attributes.new("heat", "FLOAT", "POINT")
+        heat = box.data.attributes.new("warmth", "FLOAT", "POINT")
         heat.data.foreach_set("value", np.linspace(0.0, 1.0, len(heat.data), dtype=np.float32))
         read = tree.nodes.new("ShaderNodeAttribute")
-        read.attribute_name = "heat"
+        read.attribute_name = "warmth"
         link(tree, read.outputs["Fac"], shader.inputs["Base Color"])
     elif kind == "Alpha":
         checks = tree.nodes.new("ShaderNodeTexChecker")
