@@ -17,6 +17,7 @@ from .blender_data import (
     read_mirror,
     read_scene,
     read_view,
+    what_is_in_the_way,
     write_object,
 )
 from .faults import AllOrNothing, SteppedOperator, Steps, part
@@ -26,6 +27,8 @@ from .shortcomings import shortcomings
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
+# share of a virtual image behind other objects from which on its mirror is no window
+HIDDEN = 0.5
 
 
 @dataclass(frozen=True)
@@ -87,6 +90,15 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             refused.append(f"{mirror.name}: The camera sees none of the diffuse objects in this mirror; move the "
                            "camera, the mirror or the objects.")
             continue
+        if settings.placement == "VIRTUAL":
+            hider, hidden = what_is_in_the_way(context, result, chosen.mirrors)
+            if hidden > HIDDEN:
+                refused.append(f"{mirror.name}: '{hider}' stands before the virtual image behind this mirror and would "
+                               "hide it; choose the placement Layered, or hide that object from the camera.")
+                continue
+            if hidden > 0.0:
+                remarks.append(f"{mirror.name}: '{hider}' hides a part of the virtual image behind this mirror; the "
+                               "placement Layered shows all of it.")
         remarks += shortcomings(mirror.name, result)
         faces = result.discs is None
         arrays = mesh_arrays(result, scene, surface) if faces else point_arrays(result, scene, surface, view)

@@ -9,7 +9,8 @@ import numpy as np
 from .material_nodes import asked_attributes
 
 # attributes that Blender itself makes something of, and only where they have the type that it expects
-BLENDERS_OWN = {"position", "material_index", "sharp_face", "sharp_edge", "custom_normal"}
+BLENDERS_OWN = {"position", "material_index", "sharp_face", "sharp_edge", "custom_normal", "freestyle_edge",
+                "freestyle_face", "crease_edge", "crease_vert", "bevel_weight_edge", "bevel_weight_vert"}
 # where the values of an attribute lie and how many numbers they are, by its type
 FIELDS = {"FLOAT": ("value", 1, np.float32), "INT": ("value", 1, np.int32), "INT8": ("value", 1, np.int8),
           "BOOLEAN": ("value", 1, bool), "FLOAT2": ("vector", 2, np.float32), "FLOAT_VECTOR": ("vector", 3, np.float32),
