@@ -27,8 +27,8 @@ from .shortcomings import shortcomings
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
-# share of a virtual image behind other objects from which on its mirror is no window
-HIDDEN = 0.5
+# shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
+PARTLY_HIDDEN, HIDDEN = 0.01, 0.5
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
                 refused.append(f"{mirror.name}: '{hider}' stands before the virtual image behind this mirror and would "
                                "hide it; choose the placement Layered, or hide that object from the camera.")
                 continue
-            if hidden > 0.0:
+            if hidden > PARTLY_HIDDEN:
                 remarks.append(f"{mirror.name}: '{hider}' hides a part of the virtual image behind this mirror; the "
                                "placement Layered shows all of it.")
         remarks += shortcomings(mirror.name, result)

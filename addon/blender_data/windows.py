@@ -88,21 +88,16 @@ def _after_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> No
 
 
 @persistent
-def _before_use(*_) -> None:
+def _after_opening(*_) -> None:
+    # results may have been deleted where the extension was not
     close_abandoned_windows()
-
-
-# changes by scripts are not told of until something asks for them: a render, a file that is saved or opened
-BEFORE_USE = ("render_init", "save_pre", "load_post", "undo_post", "redo_post")
 
 
 def register() -> None:
     bpy.app.handlers.depsgraph_update_post.append(_after_change)
-    for name in BEFORE_USE:
-        getattr(bpy.app.handlers, name).append(_before_use)
+    bpy.app.handlers.load_post.append(_after_opening)
 
 
 def unregister() -> None:
-    for name in BEFORE_USE:
-        getattr(bpy.app.handlers, name).remove(_before_use)
+    bpy.app.handlers.load_post.remove(_after_opening)
     bpy.app.handlers.depsgraph_update_post.remove(_after_change)

@@ -64,25 +64,35 @@ def test_a_mirror_is_seen_again_when_its_result_is_gone(scene, delete):
     assert (mirror.visible_camera, mirror.reflection_mesh.camera_hidden) == before == (True, False)
 
 
-def test_a_render_shows_it_though_nothing_has_asked_for_the_change_before(scene):
+def test_a_render_shows_it_though_nothing_has_asked_for_the_change_before(scene, room):
     """Between deleting by a script and rendering there may be no update."""
-    mirror, _ = scene
-    bpy.context.scene.render.engine = "CYCLES"
-    bpy.context.scene.cycles.samples = 1
-    bpy.data.objects.remove(parts.generate(placement="VIRTUAL"))
-    bpy.ops.render.render()
-    assert mirror.visible_camera
+    rendering, here = room("addon.rendering"), bpy.context.scene
+    rendering.with_cycles(here)
+    here.cycles.samples, here.render.film_transparent = 1, True
+    covered = rendering.rendered(here)[..., 3]
+    result = parts.generate(placement="VIRTUAL")
+    assert (rendering.rendered(here)[..., 3] < covered).mean() > 0.1
+    bpy.data.objects.remove(result)
+    assert (rendering.rendered(here)[..., 3] == covered).all()
 
 
-def test_a_file_never_holds_an_abandoned_window(scene, room, tmp_path):
-    mirror, _ = scene
+def test_a_file_that_is_saved_right_after_holds_no_abandoned_window(scene, room, tmp_path):
     windows, path = room("addon.blender_data.windows"), str(tmp_path / "file.blend")
     bpy.data.objects.remove(parts.generate(placement="VIRTUAL"))
-    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
-    assert mirror.visible_camera
-    parts.select(scene[1], mirror)
-    result = parts.generate(placement="VIRTUAL")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
     # as without the extension
+    windows.unregister()
+    try:
+        bpy.ops.wm.open_mainfile(filepath=path)
+        assert bpy.data.objects["Mirror"].visible_camera
+    finally:
+        windows.register()
+
+
+def test_a_window_that_was_abandoned_without_the_extension_is_found_when_the_file_is_opened(scene, room, tmp_path):
+    mirror, _ = scene
+    windows, path = room("addon.blender_data.windows"), str(tmp_path / "file.blend")
+    result = parts.generate(placement="VIRTUAL")
     windows.unregister()
     try:
         bpy.data.objects.remove(result)
