@@ -17,18 +17,15 @@ from .blender_data import (
     read_mirror,
     read_scene,
     read_view,
-    what_is_in_the_way,
     write_object,
 )
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .lighting import keep_light
 from .properties import SettingsProperties, settings_of
-from .shortcomings import shortcomings
+from .shortcomings import shortcomings, window_shortcomings
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
-# shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
-PARTLY_HIDDEN, HIDDEN = 0.01, 0.5
 
 
 @dataclass(frozen=True)
@@ -83,6 +80,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         steps = core.reflection_steps(view, surface.mesh, tree, settings, mirrors)
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
+            if settings.placement == "VIRTUAL":
+                remarks += window_shortcomings(context, mirror, result, chosen.mirrors)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             continue
@@ -90,15 +89,6 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             refused.append(f"{mirror.name}: The camera sees none of the diffuse objects in this mirror; move the "
                            "camera, the mirror or the objects.")
             continue
-        if settings.placement == "VIRTUAL":
-            hider, hidden = what_is_in_the_way(context, result, chosen.mirrors)
-            if hidden > HIDDEN:
-                refused.append(f"{mirror.name}: '{hider}' stands before the virtual image behind this mirror and would "
-                               "hide it; choose the placement Layered, or hide that object from the camera.")
-                continue
-            if hidden > PARTLY_HIDDEN:
-                remarks.append(f"{mirror.name}: '{hider}' hides a part of the virtual image behind this mirror; the "
-                               "placement Layered shows all of it.")
         remarks += shortcomings(mirror.name, result)
         faces = result.discs is None
         arrays = mesh_arrays(result, scene, surface) if faces else point_arrays(result, scene, surface, view)

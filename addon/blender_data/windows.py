@@ -40,6 +40,8 @@ def what_is_in_the_way(context: bpy.types.Context, result: ReflectionMesh, mirro
     mirrors : list of bpy.types.Object
         All that are to be windows.
     """
+    if not len(result.positions):
+        return "", 0.0
     depsgraph = context.evaluated_depsgraph_get()
     some = np.unique(np.linspace(0, len(result.positions) - 1, RAYS).astype(np.int64))
     found: Counter = Counter()
