@@ -188,6 +188,27 @@ def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
     assert (np.abs(lit - reference)[around].max(axis=2) > 0.08).sum() < 2 * white.sum()
 
 
+@pytest.mark.parametrize("kind", ["Alpha", "Tint"])
+def test_what_is_transparent_before_the_mirror_is_seen_once(blank, room, kind):
+    """A pane between the eye and one half of the mirror, which the mirror shows as well."""
+    scene_of(blank)
+    pane = parts.add("plane", "Pane", size=3.0, location=(-1.2, -2.5, 1.0), rotation=(np.pi / 2, 0.0, 0.0))
+    made = principled("Film", (0.2, 0.7, 0.3), Alpha=0.4)
+    if kind == "Tint":
+        tree = made.node_tree
+        tint = tree.nodes.new("ShaderNodeBsdfTransparent")
+        tint.inputs["Color"].default_value = (0.3, 0.6, 0.5, 1.0)
+        link(tree, tint.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
+    pane.data.materials.append(made)
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    blank.view_layer.update()
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert pane.visible_camera
+
+
 def test_compare_tells_how_lit_pictures_differ(blank, tmp_path):
     """Against the mirror as it is, tint and all, beside what Cycles differs from itself by."""
     scene_of(blank, "UV", "Fresnel")
