@@ -186,6 +186,18 @@ def test_solid_view_shows_the_light(blank):
     assert np.min(near, axis=0).max() < 1e-6
 
 
+def test_cycles_and_eevee_show_light_in_full_and_exporters_begin_at_what_they_can_say(blank):
+    floor_mirror(blank, checks(), lamp=True)
+    bpy.ops.reflection_mesh.light(samples=1)
+    tree = bpy.data.materials["Reflection Light"].node_tree
+    shown = {engine: tree.get_output_node(engine).inputs["Surface"].links[0].from_node.image.name
+             for engine in ("CYCLES", "EEVEE", "ALL")}
+    assert shown == {"CYCLES": "Reflection Light", "EEVEE": "Reflection Light", "ALL": "Reflection Light Export"}
+    begun, = [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL" and node.is_active_output]
+    assert begun == tree.get_output_node("ALL")
+    assert bpy.data.images["Reflection Light"].is_float and not bpy.data.images["Reflection Light Export"].is_float
+
+
 def test_the_picture_lies_where_the_camera_sees_it_inside_faces_too(blank, room):
     """Its UV map, linear on each face, against the projection of places inside; and only where it was wrong are faces
     cut."""
