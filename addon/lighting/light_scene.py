@@ -99,17 +99,18 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
             if mirror is not None and mirror.reflection_mesh.camera_hidden:
                 back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
                 mirror.visible_camera = True
-        for obj in _seen_through(context, {result.reflection_mesh.mirror for result in results}):
+        for obj in _seen_through(context, {*results, *(result.reflection_mesh.mirror for result in results)}):
             back.callback(setattr, obj, "visible_camera", True)
             obj.visible_camera = False
         yield LightScene(scene, results)
 
 
-def _seen_through(context: bpy.types.Context, mirrors: set) -> list:
-    """Objects that let light through, which the camera sees before a result as before its mirror: were they in the
-    picture of light too, they would be seen twice. Mirrors show them as ever."""
+def _seen_through(context: bpy.types.Context, lit: set) -> list:
+    """Objects that let light through, but for results and mirrors that are `lit`: the camera sees them before a result
+    as before its mirror, and were they in the picture of light too, they would be seen twice. Mirrors show them as
+    ever."""
     shown = {instance.object.original for instance in context.evaluated_depsgraph_get().object_instances}
-    return [obj for obj in shown - mirrors if obj.library is None and obj.visible_camera
+    return [obj for obj in shown - lit if obj.library is None and obj.visible_camera
             and not all(is_opaque(slot.material) for slot in obj.material_slots)]
 
 
