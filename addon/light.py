@@ -15,6 +15,7 @@ from .lighting import (
     light_scene,
     mirror_positions,
     needs_light,
+    new_export_image,
     new_image,
     new_material,
     pixel_kernel,
@@ -27,7 +28,7 @@ SAMPLES = 64
 NAME = "Reflection Light"
 
 
-def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES) -> Steps[list]:
+def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, every: bool = False) -> Steps[list]:
     """Let `results` show the light that their mirrors show: Cycles renders the mirrors as they are, once, and each
     result shows that picture where the camera sees it.
 
@@ -37,11 +38,13 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES) 
     ----------
     samples : int
         Per pixel.
+    every : bool
+        Also those that look right as they are.
 
     Returns
     -------
     lit : list of bpy.types.Object
-        Those of the results that did not look right as they were.
+        Those of the results that did not look right as they were, or every one.
 
     Raises
     ------
@@ -54,7 +57,7 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES) 
         raise ReflectionError("The scene has no reflection to light: generate one first.")
     yield 0.0, "Reading the scene"
     view = read_view(context)
-    lit = [result for result in results if needs_light(result)]
+    lit = [result for result in results if every or needs_light(result)]
     if not lit:
         return lit
     window = Window.around(view, np.concatenate([mirror_positions(result) for result in lit]))
@@ -72,7 +75,9 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES) 
     with AllOrNothing() as whole:
         image = new_image(NAME, texels)
         whole.undo(bpy.data.images.remove, image)
-        material = new_material(NAME, image, texels)
+        export_image = new_export_image(f"{NAME} Export", texels)
+        whole.undo(bpy.data.images.remove, export_image)
+        material = new_material(NAME, image, export_image, texels)
         whole.undo(bpy.data.materials.remove, material)
         for result in lit:
             show_light(result, view, window, material, whole)
@@ -95,10 +100,13 @@ class REFLECTION_MESH_OT_light(SteppedOperator, bpy.types.Operator):
 
     samples: bpy.props.IntProperty(name="Samples", default=SAMPLES, min=1, soft_max=4096,
                                    description="Light paths for each pixel of the mirrors; the picture is denoised")
+    every: bpy.props.BoolProperty(name="Every", default=False, options=set(),
+                                  description="Also reflections that look right as they are: for files that carry "
+                                  "pictures but not all materials, as glTF and USD")
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        lit = yield from lighting(context, chosen_results(context), self.samples)
+        lit = yield from lighting(context, chosen_results(context), self.samples, self.every)
         self.report({"INFO"}, summary(lit, time.perf_counter() - started))
 
 
