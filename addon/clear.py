@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from .blender_data import disc_nodes, forget_nodes, results_of, show_to_camera
+from .blender_data import close_abandoned_windows, disc_nodes, forget_nodes
 from .faults import in_one_sentence
 from .lighting import forget_light, forget_map
 
@@ -40,9 +40,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
         forget_light(material)
     for mesh in maps:
         forget_map(mesh)
-    for obj in context.scene.objects:
-        if obj.reflection_mesh.camera_hidden and not results_of(context, obj):
-            show_to_camera(obj)
+    close_abandoned_windows()
 
 
 class REFLECTION_MESH_OT_clear(bpy.types.Operator):

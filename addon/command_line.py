@@ -61,6 +61,7 @@ def _parser() -> argparse.ArgumentParser:
     light = verbs.add_parser("light", help="let the reflections look as the mirrors do, and save the file")
     light.add_argument("--samples", type=int, default=SAMPLES, metavar="N", help=f"samples per pixel ({SAMPLES})")
     _add_light(light, "--kind")
+    light.add_argument("--every", action="store_true", help="also those that look right as they are, for glTF and USD")
     _add_output(light)
     light.set_defaults(work=_light)
     compare = verbs.add_parser("compare", help="compare with a Cycles render of the same view")
@@ -127,14 +128,14 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
     if options.samples < 1:
         raise core.ReflectionError("Light takes at least one sample: raise --samples.")
-    told = _lit(context, chosen_results(context), options.samples, options.kind)
+    told = _lit(context, chosen_results(context), options.samples, options.kind, options.every)
     save_blend(path)
     print(told)
 
 
-def _lit(context: bpy.types.Context, results: list, samples: int, kind: str) -> str:
+def _lit(context: bpy.types.Context, results: list, samples: int, kind: str, every: bool = False) -> str:
     started = time.perf_counter()
-    lit = _announced(lighting(context, results, samples, kind))
+    lit = _announced(lighting(context, results, samples, kind, every))
     return lighting_summary(lit, time.perf_counter() - started)
 
 

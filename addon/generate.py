@@ -22,7 +22,7 @@ from .blender_data import (
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .lighting import keep_light
 from .properties import SettingsProperties, settings_of
-from .shortcomings import shortcomings
+from .shortcomings import shortcomings, window_shortcomings
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
@@ -80,6 +80,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         steps = core.reflection_steps(view, surface.mesh, tree, settings, mirrors)
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
+            if settings.placement == "VIRTUAL":
+                remarks += window_shortcomings(context, mirror, result, chosen.mirrors)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             continue

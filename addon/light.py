@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ..core import ReflectionError, View
-from .baking import baked, can_be_baked, kept_map, new_object_material, vectors
+from .baking import KeptMap, baked, can_be_baked, kept_map, new_object_material, vectors
 from .blender_data import is_mirror, is_opaque, read_scene, read_view
 from .clear import chosen_results
 from .faults import AllOrNothing, SteppedOperator, Steps, Undivided, part
@@ -17,6 +17,7 @@ from .lighting import (
     light_scene,
     moves,
     needs_light,
+    new_export_image,
     new_image,
     new_material,
     pixel_kernel,
@@ -31,7 +32,8 @@ SAMPLES = 64
 NAME = "Reflection Light"
 
 
-def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, kind: str = "AUTO") -> Steps[list]:
+def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, kind: str = "AUTO",
+             every: bool = False) -> Steps[list]:
     """Let `results` show the light that their mirrors show.
 
     In the picture, Cycles renders the mirrors as they are, once, and each result shows that where the camera sees it;
@@ -44,11 +46,13 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, 
     samples : int
         Per pixel, or texel.
     kind : {'AUTO', 'PICTURE', 'OBJECTS'}
+    every : bool
+        Also those that look right as they are.
 
     Returns
     -------
     lit : list of bpy.types.Object
-        Those of the results that did not look right as they were.
+        Those of the results that did not look right as they were, or every one.
 
     Raises
     ------
@@ -61,7 +65,7 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, 
         raise ReflectionError("The scene has no reflection to light: generate one first.")
     yield 0.0, "Reading the scene"
     view = read_view(context)
-    lit = [result for result in results if needs_light(result)]
+    lit = [result for result in results if every or needs_light(result)]
     if not lit:
         return lit
     with_objects = kind == "OBJECTS" or (kind == "AUTO" and any(map(moves, [
@@ -86,7 +90,9 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int)
     with AllOrNothing() as whole:
         image = new_image(NAME, texels)
         whole.undo(bpy.data.images.remove, image)
-        material = new_material(NAME, image, texels)
+        export_image = new_export_image(f"{NAME} Export", texels)
+        whole.undo(bpy.data.images.remove, export_image)
+        material = new_material(NAME, image, export_image, texels)
         whole.undo(bpy.data.materials.remove, material)
         for result in lit:
             show_light(result, material, view, window, whole)
@@ -111,7 +117,7 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int)
         for result in lit:
             material = new_object_material(NAME, image, _mirror_material(result), opaque)
             whole.undo(bpy.data.materials.remove, material)
-            show_object_light(result, material, view, scene, light_map, light.sheets, whole)
+            show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets), whole)
 
 
 def _mirror_material(result: bpy.types.Object) -> bpy.types.Material | None:
@@ -139,10 +145,14 @@ class REFLECTION_MESH_OT_light(SteppedOperator, bpy.types.Operator):
                                    description="Light paths for each pixel of the mirrors, which are denoised, or for "
                                    "each texel of the objects")
     kind: bpy.props.EnumProperty(name="Light", items=LIGHTS, default="AUTO", description="Where the light is kept")
+    every: bpy.props.BoolProperty(name="Every", default=False, options=set(),
+                                  description="Also reflections that look right as they are: for files that carry "
+                                  "pictures but not all materials, as glTF and USD")
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        lit = yield from lighting(context, chosen_results(context), self.samples, self.kind)
+        lit = yield from lighting(context, chosen_results(context), self.samples, self.kind,
+                                  self.every)
         self.report({"INFO"}, summary(lit, time.perf_counter() - started))
 
 

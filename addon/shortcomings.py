@@ -1,8 +1,13 @@
 """What a reflection lacks, in sentences for the user: the bounds that it has hit, and what its probes have missed."""
 from __future__ import annotations
 
-from ..core import ReflectionMesh
+import bpy
 
+from ..core import ReflectionError, ReflectionMesh
+from .blender_data import what_is_in_the_way
+
+# shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
+PARTLY_HIDDEN, HIDDEN = 0.01, 0.5
 MISSING = 3.0  # per cent of what the mirror shows
 MISSED = 3  # probes: fewer may lie on an outline
 # what is said where the result counts it
@@ -40,3 +45,22 @@ def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
     told += [sentence.format(count=counts[what], points=len(result.positions)) for what, sentence in SENTENCES.items()
              if counts.get(what)]
     return [f"{name}: {sentence}" for sentence in told]
+
+
+def window_shortcomings(context: bpy.types.Context, mirror: bpy.types.Object, result: ReflectionMesh,
+                        mirrors: list) -> list[str]:
+    """Sentences on the window that `mirror` is to be, beside the others in `mirrors`.
+
+    Raises
+    ------
+    ReflectionError
+        Where something hides most of what would be seen through it.
+    """
+    hider, hidden = what_is_in_the_way(context, result, mirrors)
+    if hidden > HIDDEN:
+        raise ReflectionError(f"'{hider}' stands before the virtual image behind this mirror and would hide it; choose "
+                              "the placement Layered, or hide that object from the camera.")
+    if hidden > PARTLY_HIDDEN:
+        return [f"{mirror.name}: '{hider}' hides a part of the virtual image behind this mirror; the placement Layered "
+                "shows all of it."]
+    return []

@@ -3,10 +3,9 @@ from __future__ import annotations
 
 import bpy
 
-from ..blender_data import compat
+from ..blender_data import UV_MAP, compat
 from ..blender_data.mirror_materials import surface_shader
 
-UV_MAP = "Reflection Light"
 NORMAL = "mirror_normal"
 GLOSSY = {"BSDF_GLOSSY", "BSDF_METALLIC"}
 

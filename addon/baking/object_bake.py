@@ -11,8 +11,9 @@ from ..blender_data import DiffuseScene, is_opaque
 from ..blender_data.read_meshes import read_meshes
 from ..faults import Steps, Undivided
 from .atlas import arranged, packed
-from .bake_scene import UNTOUCHED, bake_scene, stand_ins
+from .bake_scene import UNTOUCHED, bake_scene
 from .seen_sources import seen_sources, triangles_by_source
+from .stand_ins import stand_ins
 
 LARGEST = 4096  # texels along a side of all maps together
 FINER = 1.5     # texels a pixel along a line: interpolation and the picture's filter blur them
@@ -60,7 +61,8 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
              for sheet, (column, row) in zip(sheets, at.tolist(), strict=True)}
     uv = {number: atlas.uv for number, atlas in atlases.items()}
     # opacity is the same from both sides
-    work = [(False, sheet) for sheet in sheets] + [(True, sheet) for sheet in sheets if open_[sheet[0]] and not sheet[1]]
+    work = [(False, sheet) for sheet in sheets]
+    work += [(True, sheet) for sheet in sheets if open_[sheet[0]] and not sheet[1]]
     done, whole = 0.0, float(sum(areas[sheet].size for _, sheet in work))
     for opacity, back in sorted({(opacity, sheet[1]) for opacity, sheet in work}):
         chosen = [sheet for asked, sheet in work if asked == opacity and sheet[1] == back]

@@ -1,18 +1,35 @@
 """Which part of a picture of objects' light each corner of a result shows; kept with the file."""
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import bpy
 import numpy as np
 
-from ...core import ReflectionError, View, reflecting_normals
-from ..blender_data import DiffuseScene
-from .mirror_part import NORMAL, UV_MAP
+from ...core import View, reflecting_normals
+from ..blender_data import DiffuseScene, light_layer
+from .mirror_part import NORMAL
 from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, vectors
 
 
+@dataclass(frozen=True)
+class KeptMap:
+    """Where light lies in a picture, as `ObjectLight` has it: a mesh whose points are the corners of triangles keeps
+    it, and is saved with the file, and appended with a result."""
+
+    mesh: bpy.types.Mesh
+    sheets: list
+
+    @property
+    def uv(self) -> np.ndarray:
+        """(m, 3, 2) float32."""
+        points = np.empty((len(self.mesh.vertices), 3), dtype=np.float32)
+        self.mesh.attributes["position"].data.foreach_get("vector", points.reshape(-1))
+        return points[:, :2].reshape(-1, 3, 2)
+
+
 def kept_map(name: str, uv: np.ndarray) -> bpy.types.Mesh:
-    """A mesh that keeps, as its points, where in a map of light the corners of triangles lie: it is saved with the
-    file, and appended with a result."""
+    """A mesh for `KeptMap`."""
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(3 * len(uv))
     points = np.zeros((3 * len(uv), 3), dtype=np.float32)
@@ -21,16 +38,9 @@ def kept_map(name: str, uv: np.ndarray) -> bpy.types.Mesh:
     return mesh
 
 
-def map_of(mesh: bpy.types.Mesh) -> np.ndarray:
-    """What `kept_map` keeps, (m, 3, 2) float32."""
-    points = np.empty((len(mesh.vertices), 3), dtype=np.float32)
-    mesh.attributes["position"].data.foreach_get("vector", points.reshape(-1))
-    return points[:len(points) // 3 * 3, :2].reshape(-1, 3, 2)
-
-
-def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, uv: np.ndarray, sheets: list) -> None:
+def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: KeptMap) -> None:
     """Tell each corner of a result where in the map the point lies that it shows, and each point how the mirror stands
-    there; `uv` and `sheets` as `ObjectLight` has them."""
+    there."""
     mesh = result.data
     normals = reflecting_normals(view, vectors(mesh, "mirror_position"), vectors(mesh, "reflected_position"))
     attribute = mesh.attributes.get(NORMAL) or mesh.attributes.new(NORMAL, "FLOAT_VECTOR", "POINT")
@@ -38,16 +48,13 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, uv: np.nd
     triangle = triangle_of(result, scene)
     shown, at = (vectors(mesh, name)[corner_vertices(mesh)] for name in ("reflected_position", "mirror_position"))
     front = fronts_seen(scene, triangle, (at - shown).mean(axis=1))
-    fronts, backs = _rows(scene, sheets)
+    fronts, backs = _rows(scene, kept.sheets)
     row = np.where(front, fronts[triangle], backs[triangle])
     weights = _weights(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)
-    spots = np.matmul(weights, uv[row].astype(np.float64)).astype(np.float32)
-    layer = mesh.uv_layers.get(UV_MAP) or mesh.uv_layers.new(name=UV_MAP, do_init=False)
-    if layer is None:
-        raise ReflectionError("The reflected objects have eight UV maps, and their light needs one more: remove one of "
-                              "them.")
+    spots = np.matmul(weights, kept.uv[row].astype(np.float64)).astype(np.float32)
+    layer = light_layer(mesh)
     layer.uv.foreach_set("vector", spots.reshape(-1))
-    layer.active = True
+    layer.active = layer.active_render = True
 
 
 def _rows(scene: DiffuseScene, sheets: list) -> tuple[np.ndarray, np.ndarray]:

@@ -29,6 +29,8 @@ class DiffuseScene:
         Distinct materials; None where faces have no material.
     uv_maps : dict of str to (m, 3, 2) float32
     colours : dict of str to (type, (m, 3, 4) float32)
+    numbers : dict of str to (type, (m, 3, c) float32)
+        Other attributes that materials ask for; type is FLOAT or FLOAT_VECTOR.
     active_uv, active_colour : str
     """
 
@@ -40,6 +42,7 @@ class DiffuseScene:
     materials: list
     uv_maps: dict
     colours: dict
+    numbers: dict
     active_uv: str
     active_colour: str
 
@@ -68,8 +71,9 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
     active_colour = next((item.mesh.active_colour for item in placed if item.mesh.active_colour), "")
     uv_maps = {name: _uv_map(placed, corners, name, name == active_uv) for name in _names(placed, "uv_maps")}
     colours = {name: _colour(placed, corners, name, name == active_colour) for name in _names(placed, "colours")}
+    numbers = {name: _numbers(placed, corners, name) for name in _names(placed, "numbers")}
     return DiffuseScene(_triangle_mesh(objects, positions, triangles), list(objects), owners, faces, material,
-                        materials, uv_maps, colours, active_uv, active_colour)
+                        materials, uv_maps, colours, numbers, active_uv, active_colour)
 
 
 def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> MirrorSurface:
@@ -180,3 +184,14 @@ def _colour(placed: list[Placed], corners: np.ndarray, name: str, active: bool) 
         parts.append(np.tile(entry[1], (len(item.owners), 1)))
     kind = "BYTE_COLOR" if types <= {"BYTE_COLOR", None} else "FLOAT_COLOR"
     return kind, np.concatenate(parts)[corners]
+
+
+def _numbers(placed: list[Placed], corners: np.ndarray, name: str) -> tuple:
+    """Type and values (m, 3, c), zeros where a mesh has none, as engines have it; where meshes differ in type as
+    vectors, of which a single number is each component."""
+    entries = [item.mesh.numbers.get(name) for item in placed]
+    kind = "FLOAT" if all(entry is None or entry[0] == "FLOAT" for entry in entries) else "FLOAT_VECTOR"
+    width = 1 if kind == "FLOAT" else 3
+    parts = [np.zeros((item.mesh.corner_count, width), np.float32) if entry is None
+             else np.broadcast_to(entry[1], (item.mesh.corner_count, width)) for item, entry in zip(placed, entries)]
+    return kind, np.concatenate([np.tile(part, (len(item.owners), 1)) for item, part in zip(placed, parts)])[corners]

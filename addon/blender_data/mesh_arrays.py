@@ -97,7 +97,7 @@ def point_attributes(result: ReflectionMesh) -> tuple[Attribute, ...]:
 
 def shown_layers(scene: DiffuseScene, own: tuple[Attribute, ...], domain: str,
                  at: Callable[[np.ndarray], np.ndarray]) -> tuple[Attribute, ...]:
-    """UV maps and colours of what is shown, but for those with the name of an attribute of the result's own.
+    """UV maps, colours and other attributes of what is shown, but for those with the name of one of the result's own.
 
     Parameters
     ----------
@@ -106,13 +106,15 @@ def shown_layers(scene: DiffuseScene, own: tuple[Attribute, ...], domain: str,
     """
     taken = {attribute.name for attribute in own}
     # the active ones must not fall to Blender's limit
-    uv_maps = [entry for entry in _first(scene.uv_maps, scene.active_uv) if entry[0] not in taken][:MOST_UV_MAPS]
+    uv_maps = [entry for entry in in_order(scene.uv_maps, scene.active_uv) if entry[0] not in taken][:MOST_UV_MAPS]
     taken.update(name for name, _ in uv_maps)
+    colours = [entry for entry in in_order(scene.colours, scene.active_colour) if entry[0] not in taken]
+    taken.update(name for name, _ in colours)
+    numbers = [entry for entry in scene.numbers.items() if entry[0] not in taken]
     return (*(Attribute(name, "FLOAT2", domain, at(values)) for name, values in uv_maps),
-            *(Attribute(name, kind, domain, at(values))
-              for name, (kind, values) in _first(scene.colours, scene.active_colour) if name not in taken))
+            *(Attribute(name, kind, domain, at(values)) for name, (kind, values) in colours + numbers))
 
 
-def _first(entries: dict, name: str) -> list:
+def in_order(entries: dict, name: str) -> list:
     """The entries as pairs, the one of that name first."""
     return sorted(entries.items(), key=lambda entry: entry[0] != name)

@@ -1,11 +1,10 @@
 """Which materials let no light through: what lies behind them whole is not seen, in Cycles as in any engine."""
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import bpy
 
 from . import compat
+from .material_nodes import all_nodes
 
 OPEN_SHADERS = {"BSDF_TRANSPARENT", "BSDF_GLASS", "BSDF_REFRACTION", "HOLDOUT"}
 # sockets of a Principled BSDF, and the value at which each lets nothing through
@@ -16,18 +15,7 @@ def is_opaque(material: bpy.types.Material | None) -> bool:
     """Whether no light goes through `material`, as far as its nodes tell, whether they reach its output or not."""
     if material is None or not compat.uses_nodes(material):
         return True
-    return not any(_lets_through(node) for node in _nodes(material.node_tree, set()))
-
-
-def _nodes(tree: bpy.types.NodeTree | None, seen: set) -> Iterator[bpy.types.Node]:
-    """The nodes of a tree and of all groups in it."""
-    if tree is None or tree.as_pointer() in seen:
-        return
-    seen.add(tree.as_pointer())
-    for node in tree.nodes:
-        yield node
-        if node.type == "GROUP":
-            yield from _nodes(node.node_tree, seen)
+    return not any(_lets_through(node) for node in all_nodes(material.node_tree))
 
 
 def _lets_through(node: bpy.types.Node) -> bool:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...core import ReflectionError
 from . import compat
+from .read_layers import NO_LAYERS, read_layers
 
 FARTHEST = 1e17  # units: squares of what lies somewhat further must still be numbers of single precision
 # what evaluated objects can be turned into a mesh
@@ -32,10 +33,9 @@ class LocalMesh:
     normals : (m, 3, 3) float32 or None
         Shading normals of the corners: smooth, flat or custom, as Blender shades.
     uv_maps : dict of str to (corners, 2) float32
-    colours : dict of str to (type, (corners, 4) float32)
-        Colour attributes on face corners, in linear colour; type is FLOAT_COLOR or BYTE_COLOR.
+    colours, numbers : dict of str to (type, (corners, c) float32)
     active_uv, active_colour : str
-        What a material without a name of its own shows; empty where there is none.
+        As `read_layers` gives them; empty of a mirror.
     texture_space : (2, 3) float32
         Middle and half size of the box in which Generated coordinates are counted.
     """
@@ -49,6 +49,7 @@ class LocalMesh:
     normals: np.ndarray | None
     uv_maps: dict
     colours: dict
+    numbers: dict
     active_uv: str
     active_colour: str
     texture_space: np.ndarray
@@ -129,10 +130,11 @@ def _read(obj: bpy.types.Object, materials: tuple, normals: bool, layers: bool) 
                               "it.")
     corners, face = _triangulation(mesh)
     corner_vertex = _values(mesh.attributes[".corner_vert"].data, "value", len(mesh.loops), np.int32)
+    materials = materials or tuple(mesh.materials)
     local = LocalMesh(
-        positions, corner_vertex[corners], corners, len(mesh.loops), _face_materials(mesh)[face],
-        materials or tuple(mesh.materials), _corner_normals(obj, mesh, corners) if normals else None,
-        _uv_maps(mesh) if layers else {}, _colours(mesh, corner_vertex) if layers else {}, *_active_names(mesh),
+        positions, corner_vertex[corners], corners, len(mesh.loops), _face_materials(mesh)[face], materials,
+        _corner_normals(obj, mesh, corners) if normals else None,
+        *(read_layers(mesh, materials) if layers else NO_LAYERS),
         np.array((mesh.texspace_location, mesh.texspace_size), dtype=np.float32))
     obj.to_mesh_clear()
     return local
@@ -176,31 +178,3 @@ def _corner_normals(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.nda
         obj.to_mesh_clear()
         raise ReflectionError(f"'{obj.name}' has a normal that is not a finite number: recalculate its normals.")
     return normals[corners]
-
-
-def _uv_maps(mesh: bpy.types.Mesh) -> dict:
-    return {layer.name: _finite(_values(layer.uv, "vector", (len(mesh.loops), 2), np.float32))
-            for layer in mesh.uv_layers}
-
-
-def _colours(mesh: bpy.types.Mesh, corner_vertex: np.ndarray) -> dict:
-    colours = {}
-    for attribute in mesh.color_attributes:
-        if attribute.domain not in {"POINT", "CORNER"}:
-            continue
-        values = _finite(_values(attribute.data, "color", (len(attribute.data), 4), np.float32))
-        values = values if attribute.domain == "CORNER" else values[corner_vertex]
-        colours[attribute.name] = (attribute.data_type, values)
-    return colours
-
-
-def _finite(values: np.ndarray) -> np.ndarray:
-    """The same array, zero where a value is no finite number, which would spoil all that is interpolated from it."""
-    values[~np.isfinite(values)] = 0.0
-    return values
-
-
-def _active_names(mesh: bpy.types.Mesh) -> tuple[str, str]:
-    uv = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
-    index = mesh.color_attributes.render_color_index
-    return uv, mesh.color_attributes[index].name if 0 <= index < len(mesh.color_attributes) else ""

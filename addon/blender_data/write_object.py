@@ -12,6 +12,7 @@ from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from .disc_nodes import hide_discs, show_discs
 from .mesh_arrays import MeshArrays
 from .roles import results_of
+from .windows import close_window, open_window
 from .write_mesh import write_mesh
 
 RAYS = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter", "visible_shadow")
@@ -65,9 +66,9 @@ def write_object(context: bpy.types.Context, made: Reflection, placement: str,
     obj.matrix_world = Matrix.Translation(made.arrays.origin)
     _remember(obj, made)
     if placement == "VIRTUAL":
-        _hide_from_camera(mirror)
+        open_window(mirror)
     else:
-        show_to_camera(mirror)
+        close_window(mirror)
     return obj
 
 
@@ -105,20 +106,6 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     record.resolution = made.resolution
     record.faces = len(obj.data.polygons)
     record.points = 0 if result.discs is None else len(result.positions)
-
-
-def _hide_from_camera(mirror: bpy.types.Object) -> None:
-    """Make a window of the mirror: the camera must see the virtual image behind it."""
-    if mirror.visible_camera and mirror.library is None:
-        mirror.visible_camera = False
-        mirror.reflection_mesh.camera_hidden = True
-
-
-def show_to_camera(mirror: bpy.types.Object) -> None:
-    """Undo `_hide_from_camera`; a mirror that the user hid stays hidden."""
-    if mirror.reflection_mesh.camera_hidden and mirror.library is None:
-        mirror.visible_camera = True
-        mirror.reflection_mesh.camera_hidden = False
 
 
 def show_own_materials(obj: bpy.types.Object) -> None:

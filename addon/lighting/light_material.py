@@ -1,66 +1,89 @@
-"""The material that shows a picture of light where the camera saw it, and the image that it shows."""
+"""The material that shows a picture of light where the camera saw it, and the images that it shows."""
 from __future__ import annotations
 
 import bpy
 import numpy as np
 
-from ..blender_data import compat
-
-POSITION = "picture_position"
+from ..blender_data import UV_MAP, compat
 
 
 def new_image(name: str, texels: np.ndarray) -> bpy.types.Image:
     """An image of linear light (height, width, 3), or with an opacity of its own (height, width, 4), packed into the
     file."""
-    height, width, channels = texels.shape
-    image = bpy.data.images.new(name, width, height, float_buffer=True, is_data=True, alpha=channels == 4)
+    return _packed(name, texels, float_buffer=True, is_data=True)
+
+
+def new_export_image(name: str, texels: np.ndarray) -> bpy.types.Image:
+    """The same for files that know no more than eight bits: sRGB, and nothing brighter than white."""
+    light = np.clip(texels, 0.0, 1.0)
+    # IEC 61966-2-1
+    shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 0.0031308)**(1.0 / 2.4) - 0.055)
+    return _packed(name, shown)
+
+
+def _packed(name: str, values: np.ndarray, **options) -> bpy.types.Image:
+    height, width, channels = values.shape
+    image = bpy.data.images.new(name, width, height, alpha=channels == 4, **options)
     # light is not darker where less of it is seen
     image.alpha_mode = "CHANNEL_PACKED"
     rgba = np.ones((height, width, 4), dtype=np.float32)
-    rgba[..., :channels] = texels
+    rgba[..., :channels] = values
     image.pixels.foreach_set(rgba.ravel())
     image.pack()
     return image
 
 
-def new_material(name: str, image: bpy.types.Image, texels: np.ndarray) -> bpy.types.Material:
-    """A material that emits the image at `POSITION`, homogeneous coordinates in it, which are linear on a face where
-    places in a picture are not."""
+def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Image,
+                 texels: np.ndarray) -> bpy.types.Material:
+    """A material that emits an image where the map `UV_MAP` says: Cycles and EEVEE show `image`, what follows the
+    output for all engines shows `export_image`, in nodes that exporters read.
+
+    That of glTF makes an unlit material of a colour which is the surface itself; that of USD takes what it knows of
+    the first Principled BSDF that it finds, be it connected or not.
+    """
     material = bpy.data.materials.new(name)
     tree = compat.use_nodes(material)
     tree.nodes.clear()
 
-    def add(kind: str, **settings) -> bpy.types.Node:
+    def add(kind: str, place: tuple[float, float], **settings) -> bpy.types.Node:
         node = tree.nodes.new(kind)
-        node.location = (200.0 * len(tree.nodes), 0.0)
+        node.location = place
         for key, value in settings.items():
             setattr(node, key, value)
         return node
-    place = add("ShaderNodeAttribute", attribute_name=POSITION)
-    split = add("ShaderNodeSeparateXYZ")
-    across, up = (add("ShaderNodeMath", operation="DIVIDE") for _ in range(2))
-    spot = add("ShaderNodeCombineXYZ")
-    look = add("ShaderNodeTexImage", image=image, interpolation="Linear", extension="EXTEND")
-    glow = add("ShaderNodeEmission")
-    output = add("ShaderNodeOutputMaterial")
-    join = tree.links.new
-    join(place.outputs["Vector"], split.inputs[0])
-    for axis, divided in enumerate((across, up)):
-        join(split.outputs[axis], divided.inputs[0])
-        join(split.outputs[2], divided.inputs[1])
-        join(divided.outputs[0], spot.inputs[axis])
-    join(spot.outputs[0], look.inputs["Vector"])
-    join(look.outputs["Color"], glow.inputs["Color"])
-    join(glow.outputs[0], output.inputs["Surface"])
-    # what solid view shows, by texture or by one colour
-    tree.nodes.active = look
-    shown = texels[(texels > 0.0).any(axis=2)]
-    if len(shown):
-        material.diffuse_color = (*np.minimum(shown, 1.0).mean(axis=0), 1.0)
+    spot = add("ShaderNodeAttribute", (-600.0, 0.0), attribute_name=UV_MAP)
+    for shown, row, engines in ((image, 200.0, ("CYCLES", "EEVEE")), (export_image, -200.0, ("ALL",))):
+        look = add("ShaderNodeTexImage", (-350.0, row), image=shown, interpolation="Linear", extension="EXTEND")
+        tree.links.new(spot.outputs["Vector"], look.inputs["Vector"])
+        for column, engine in enumerate(engines):
+            output = add("ShaderNodeOutputMaterial", (200.0 * column, row), target=engine)
+            tree.links.new(look.outputs["Color"], output.inputs["Surface"])
+    # the last of both: what exporters begin at, and what solid view shows by texture
+    output.is_active_output, tree.nodes.active = True, look
+    told = add("ShaderNodeBsdfPrincipled", (200.0, -200.0), label="For USD")
+    told.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+    told.inputs["Roughness"].default_value = told.inputs["IOR"].default_value = 1.0
+    told.inputs["Emission Strength"].default_value = 1.0
+    tree.links.new(look.outputs["Color"], told.inputs["Emission Color"])
+    # what solid view shows by material
+    seen = texels[(texels > 0.0).any(axis=2)]
+    if len(seen):
+        material.diffuse_color = (*np.minimum(seen, 1.0).mean(axis=0), 1.0)
     return material
 
 
-def image_of(material: bpy.types.Material) -> bpy.types.Image | None:
-    """The image that a material of light shows; None where somebody has changed that."""
+def images_of(material: bpy.types.Material) -> list[bpy.types.Image]:
+    """The images that a material of light shows, the exact one first; fewer where somebody has changed that."""
     nodes = material.node_tree.nodes if material.node_tree else ()
-    return next((node.image for node in nodes if node.type == "TEX_IMAGE"), None)
+    return [node.image for node in nodes if node.type == "TEX_IMAGE" and node.image is not None]
+
+
+def texels_shown(material: bpy.types.Material) -> np.ndarray | None:
+    """What a material of light shows, (height, width, 3) float32; None where somebody has changed that."""
+    image = next(iter(images_of(material)), None)
+    if image is None or image.channels < 3 or not all(image.size):
+        return None
+    width, height = image.size
+    pixels = np.empty(width * height * image.channels, dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(height, width, -1)[..., :3]

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ...core import View
+from ..blender_data import is_opaque
 from ..faults import still_there
 from ..rendering import rendered, with_cycles
 
@@ -98,7 +99,19 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
             if mirror is not None and mirror.reflection_mesh.camera_hidden:
                 back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
                 mirror.visible_camera = True
+        for obj in _seen_through(context, {*results, *(result.reflection_mesh.mirror for result in results)}):
+            back.callback(setattr, obj, "visible_camera", True)
+            obj.visible_camera = False
         yield LightScene(scene, results)
+
+
+def _seen_through(context: bpy.types.Context, lit: set) -> list:
+    """Objects that let light through, but for results and mirrors that are `lit`: the camera sees them before a result
+    as before its mirror, and were they in the picture of light too, they would be seen twice. Mirrors show them as
+    ever."""
+    shown = {instance.object.original for instance in context.evaluated_depsgraph_get().object_instances}
+    return [obj for obj in shown - lit if obj.library is None and obj.visible_camera
+            and not all(is_opaque(slot.material) for slot in obj.material_slots)]
 
 
 def white_of(scene: bpy.types.Scene) -> float:

@@ -8,26 +8,28 @@ import bpy
 import numpy as np
 
 from ...core import View
-from ..baking import lay_out, map_of
+from ..baking import KeptMap, lay_out
 from ..blender_data import LONGEST_RECORD, DiffuseScene, show_own_materials
 from ..faults import AllOrNothing, keep_data, keep_object, still_there
-from .light_material import image_of
+from .light_material import images_of, texels_shown
 from .light_scene import Window
 from .needs_light import needs_light
-from .picture_light import lay_out_picture, record_of, window_of
+from .picture_layout import lay_out as lay_out_picture
+from .picture_light import record_of, window_of
 
 
 def show_light(result: bpy.types.Object, material: bpy.types.Material, view: View, window: Window,
                whole: AllOrNothing) -> None:
     """Let a result show the light in a window of the picture; its mesh keeps the materials of what it shows."""
-    _show(result, material, record_of(view, window), None, lambda: lay_out_picture(result, view, window), whole)
+    _show(result, material, record_of(view, window), None,
+          lambda: lay_out_picture(result, view, window, texels_shown(material)), whole)
 
 
 def show_object_light(result: bpy.types.Object, material: bpy.types.Material, view: View, scene: DiffuseScene,
-                      light_map: bpy.types.Mesh, sheets: list, whole: AllOrNothing) -> None:
+                      light_map: KeptMap, whole: AllOrNothing) -> None:
     """Let a result show light that stays with the objects of `scene`."""
-    told = json.dumps({"kind": "OBJECTS", **_identity(scene), "sheets": sheets})
-    _show(result, material, told, light_map, lambda: lay_out(result, view, scene, map_of(light_map), sheets), whole)
+    told = json.dumps({"kind": "OBJECTS", **_identity(scene), "sheets": light_map.sheets})
+    _show(result, material, told, light_map.mesh, lambda: lay_out(result, view, scene, light_map), whole)
 
 
 def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> None:
@@ -36,10 +38,9 @@ def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> Non
     record = result.reflection_mesh
     material, light_map = record.light_material, record.light_map
     if light_map is not None:
-        uv = map_of(light_map)
-        sheets = _sheets(record.light, scene, uv)
-        if material is not None and len(result.data.polygons) and sheets:
-            lay_out(result, view, scene, uv, sheets)
+        kept = _kept_map(record, scene)
+        if material is not None and len(result.data.polygons) and kept is not None:
+            lay_out(result, view, scene, kept)
             _put_on(result, material)
         else:
             record.light_stale = True
@@ -48,18 +49,19 @@ def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> Non
     if window is None:
         record.light_stale = bool(record.light)
     else:
-        lay_out_picture(result, view, window)
+        lay_out_picture(result, view, window, texels_shown(material))
         _put_on(result, material)
 
 
 def forget_light(material: bpy.types.Material) -> None:
-    """Remove a material of light and its image, where nothing else uses them."""
+    """Remove a material of light and its images, where nothing else uses them."""
     if not still_there([material]) or material.users or material.library is not None:
         return
-    image = image_of(material)
+    images = set(images_of(material))
     bpy.data.materials.remove(material)
-    if image is not None and image.users == 0 and image.library is None:
-        bpy.data.images.remove(image)
+    for image in images:
+        if image.users == 0 and image.library is None:
+            bpy.data.images.remove(image)
 
 
 def forget_map(mesh: bpy.types.Mesh) -> None:
@@ -101,17 +103,17 @@ def _identity(scene: DiffuseScene) -> dict:
             "triangles": np.bincount(scene.source_object, minlength=len(scene.sources)).tolist()}
 
 
-def _sheets(record: str, scene: DiffuseScene, uv: np.ndarray) -> list:
-    """Which sheets a map of light has; none where it is not of this scene."""
+def _kept_map(record: bpy.types.PropertyGroup, scene: DiffuseScene) -> KeptMap | None:
+    """The map of light that a result keeps; None where it is not of this scene."""
     try:
-        known, own = json.loads(record[:LONGEST_RECORD]), _identity(scene)
-        sheets = [(int(number), bool(back)) for number, back in known["sheets"]]
-        counts = [own["triangles"][number] for number, _ in sheets]
+        known, own = json.loads(record.light[:LONGEST_RECORD]), _identity(scene)
+        kept = KeptMap(record.light_map, [(int(number), bool(back)) for number, back in known["sheets"]])
+        count = sum(own["triangles"][number] for number, _ in kept.sheets)
         same = all(known[name] == value for name, value in own.items())
     except (ValueError, TypeError, KeyError, IndexError, RecursionError):
-        return []
-    return sheets if same and {number for number, _ in sheets} == set(range(len(scene.sources))) and (
-        sum(counts) == len(uv)) else []
+        return None
+    whole = {number for number, _ in kept.sheets} == set(range(len(scene.sources)))
+    return kept if same and whole and 3 * count == len(kept.mesh.vertices) else None
 
 
 def _put_on(result: bpy.types.Object, material: bpy.types.Material) -> None:

@@ -61,10 +61,10 @@ def source_material(kind: str, box: bpy.types.Object) -> bpy.types.Material:
         link(tree, tree.nodes.new("ShaderNodeObjectInfo").outputs["Random"], ramp.inputs[1])
         link(tree, ramp.outputs[0], shader.inputs["Base Color"])
     elif kind == "Attribute":
-        heat = box.data.attributes.new("heat", "FLOAT", "POINT")
+        heat = box.data.attributes.new("warmth", "FLOAT", "POINT")
         heat.data.foreach_set("value", np.linspace(0.0, 1.0, len(heat.data), dtype=np.float32))
         read = tree.nodes.new("ShaderNodeAttribute")
-        read.attribute_name = "heat"
+        read.attribute_name = "warmth"
         link(tree, read.outputs["Fac"], shader.inputs["Base Color"])
     elif kind == "Alpha":
         checks = tree.nodes.new("ShaderNodeTexChecker")
@@ -188,6 +188,27 @@ def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
     assert (np.abs(lit - reference)[around].max(axis=2) > 0.08).sum() < 2 * white.sum()
 
 
+@pytest.mark.parametrize("kind", ["Alpha", "Tint"])
+def test_what_is_transparent_before_the_mirror_is_seen_once(blank, room, kind):
+    """A pane between the eye and one half of the mirror, which the mirror shows as well."""
+    scene_of(blank)
+    pane = parts.add("plane", "Pane", size=3.0, location=(-1.2, -2.5, 1.0), rotation=(np.pi / 2, 0.0, 0.0))
+    made = principled("Film", (0.2, 0.7, 0.3), Alpha=0.4)
+    if kind == "Tint":
+        tree = made.node_tree
+        tint = tree.nodes.new("ShaderNodeBsdfTransparent")
+        tint.inputs["Color"].default_value = (0.3, 0.6, 0.5, 1.0)
+        link(tree, tint.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
+    pane.data.materials.append(made)
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    blank.view_layer.update()
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert pane.visible_camera
+
+
 def test_compare_tells_how_lit_pictures_differ(blank, tmp_path):
     """Against the mirror as it is, tint and all, beside what Cycles differs from itself by."""
     scene_of(blank, "UV", "Fresnel")
@@ -253,8 +274,8 @@ def test_what_is_lit_is_the_result_alone(blank):
     assert {(slot.link, slot.material) for slot in result.material_slots} == {
         ("OBJECT", result.reflection_mesh.light_material)}
     new = {kind: set(names) - set(before["data"][kind]) for kind, names in after["data"].items()}
-    assert {kind: names for kind, names in new.items() if names} == {"materials": {"Reflection Light"},
-                                                                     "images": {"Reflection Light"}}
+    assert {kind: names for kind, names in new.items() if names} == {
+        "materials": {"Reflection Light"}, "images": {"Reflection Light", "Reflection Light Export"}}
     assert {**after, "data": 0} == {**before, "data": 0}
     image = bpy.data.images["Reflection Light"]
     assert image.packed_file is not None and image.size[0] <= SIZE

@@ -1,0 +1,105 @@
+"""Stand-ins for objects that are baked: the same to look at, but every triangle has room of its own in a picture."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ..blender_data import UV_MAP, write_mesh
+from ..blender_data.mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
+from ..blender_data.read_meshes import LocalMesh, Placed
+
+
+@dataclass(frozen=True)
+class StandIn:
+    """One place of a mesh: whose it is, where, and what of the map is its own.
+
+    Attributes
+    ----------
+    owner : int
+        Index of the participant.
+    mesh : LocalMesh
+    matrix : (4, 4) float64
+    uv : (m, 3, 2) float32
+        Of the corners of its triangles.
+    turned : bool
+        Whether its back is asked for: a bake shades the front.
+    own : bool
+        Whether it is the participant itself, and not an instance.
+    """
+
+    owner: int
+    mesh: LocalMesh
+    matrix: np.ndarray
+    uv: np.ndarray
+    turned: bool
+    own: bool
+
+
+def stand_ins(placed: list[Placed], uv: dict, turned: set) -> list[StandIn]:
+    """Every place of every mesh; `uv` by owner, in the order in which a joined scene counts triangles, and the owners
+    that are `turned`."""
+    counted, made = dict.fromkeys(uv, 0), []
+    for item in placed:
+        count = len(item.mesh.triangles)
+        for owner, matrix, instance in zip(item.owners.tolist(), item.matrices, item.instances.tolist(), strict=True):
+            part = slice(counted[owner], counted[owner] + count)
+            counted[owner] += count
+            made.append(StandIn(owner, item.mesh, matrix, uv[owner][part], owner in turned, not instance))
+    return made
+
+
+def new_object(source: bpy.types.Object, stand: StandIn, mesh: bpy.types.Mesh) -> bpy.types.Object:
+    """The object with that mesh, standing where the source stands and told from others as it is."""
+    if stand.own and source.type == "MESH":
+        obj = source.copy()
+        obj.animation_data_clear()
+        obj.modifiers.clear()
+        obj.constraints.clear()
+        obj.parent = None
+        obj.data = mesh
+        for slot in obj.material_slots:
+            slot.link = "DATA"
+        obj.instance_type = "NONE"
+        obj.hide_render = False
+    else:
+        obj = bpy.data.objects.new(UV_MAP, mesh)
+        obj.pass_index, obj.color = source.pass_index, source.color
+    obj.matrix_world = Matrix(stand.matrix.tolist())
+    return obj
+
+
+def swap_names(one: bpy.types.Object, other: bpy.types.Object) -> None:
+    """What is random by an object goes by its name."""
+    first, second = one.name, other.name
+    one.name = f"{UV_MAP} {second}"
+    other.name, one.name = first, second
+
+
+def new_mesh(stand: StandIn) -> bpy.types.Mesh:
+    """The mesh as triangles, each with room of its own in the picture."""
+    local = stand.mesh
+    # a transform that turns space inside out turns triangles over, in Blender as in the joined scene
+    inside_out = np.linalg.det(stand.matrix[:3, :3]) < 0.0
+    uv = stand.uv[:, (0, 2, 1)] if inside_out else stand.uv
+    order = (0, 2, 1) if stand.turned else (0, 1, 2)
+    triangles, corners = local.triangles[:, order], local.corners[:, order]
+    uv_maps = [entry for entry in in_order(local.uv_maps, local.active_uv) if entry[0] != UV_MAP]
+    layers = [*((name, "FLOAT2", values) for name, values in uv_maps[:MOST_UV_MAPS - 1]), (UV_MAP, "FLOAT2", None),
+              *((name, kind, values) for name, (kind, values) in in_order(local.colours, local.active_colour)),
+              *((name, kind, values) for name, (kind, values) in local.numbers.items())]
+    mesh = bpy.data.meshes.new(UV_MAP)
+    write_mesh(mesh, MeshArrays(
+        np.zeros(3), local.positions, triangles.astype(np.int32),
+        (Attribute("material_index", "INT", "FACE", local.material_index),
+         *(Attribute(name, kind, "CORNER", uv[:, order] if values is None else values[corners])
+           for name, kind, values in layers)), list(local.materials or (None,))))
+    mesh.uv_layers[UV_MAP].active = True
+    mesh.polygons.foreach_set("use_smooth", np.ones(len(triangles), dtype=bool))
+    normals = -local.normals[:, order] if stand.turned else local.normals
+    mesh.normals_split_custom_set(normals.reshape(-1, 3))
+    mesh.use_auto_texspace = False
+    mesh.texspace_location, mesh.texspace_size = local.texture_space
+    return mesh

@@ -1,0 +1,105 @@
+"""Mirrors that are windows to the virtual image behind them: hidden from the camera while there is one to be seen.
+
+Blender has no way to hide an object as long as another exists: handlers look after whatever may have deleted a result.
+"""
+from __future__ import annotations
+
+from collections import Counter
+
+import bpy
+import numpy as np
+from bpy.app.handlers import persistent
+from mathutils import Vector
+
+from ...core import ReflectionMesh
+
+RAYS = 200          # by which the view through a window is tried
+NEARLY = 1e-4       # of a ray's length: what lies in the image itself fights with it
+MOST_THROUGH = 100  # objects that a ray goes on through
+
+
+def open_window(mirror: bpy.types.Object) -> None:
+    """Make a window of the mirror: the camera must see the virtual image behind it."""
+    if mirror.visible_camera and mirror.library is None:
+        mirror.visible_camera = False
+        mirror.reflection_mesh.camera_hidden = True
+
+
+def close_window(mirror: bpy.types.Object) -> None:
+    """Undo `open_window`; a mirror that the user hid stays hidden."""
+    if mirror.reflection_mesh.camera_hidden and mirror.library is None:
+        mirror.visible_camera = True
+        mirror.reflection_mesh.camera_hidden = False
+
+
+def what_is_in_the_way(context: bpy.types.Context, result: ReflectionMesh, mirrors: list) -> tuple[str, float]:
+    """Which object hides most of a virtual image, behind its mirror, and the share of it that anything hides.
+
+    Parameters
+    ----------
+    mirrors : list of bpy.types.Object
+        All that are to be windows.
+    """
+    if not len(result.positions):
+        return "", 0.0
+    depsgraph = context.evaluated_depsgraph_get()
+    some = np.unique(np.linspace(0, len(result.positions) - 1, RAYS).astype(np.int64))
+    found: Counter = Counter()
+    for start, end in zip(result.mirror_position[some].tolist(), result.positions[some].tolist()):
+        found[_first_seen(context.scene, depsgraph, Vector(start), Vector(end), mirrors)] += 1
+    clear = found.pop("", 0)
+    return (found.most_common(1)[0][0], 1.0 - clear / len(some)) if found else ("", 0.0)
+
+
+def _first_seen(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, start: Vector, end: Vector,
+                mirrors: list) -> str:
+    """The name of the first object that the camera sees between two places; empty where there is none."""
+    way = end - start
+    direction, step = way.normalized(), NEARLY * way.length
+    at, end = start - step * direction, end + step * direction
+    for _ in range(MOST_THROUGH):
+        hit, place, _, _, obj, _ = scene.ray_cast(depsgraph, at, direction, distance=(end - at).dot(direction))
+        if not hit:
+            return ""
+        original = obj.original
+        if (original not in mirrors and original.visible_camera and not original.hide_render
+                and original.reflection_mesh.role != "REFLECTION"):
+            return original.name
+        at = place + step * direction
+    return ""
+
+
+def close_abandoned_windows() -> None:
+    """Show every mirror again whose results have all been deleted, by whatever means."""
+    hidden = [obj for obj in bpy.data.objects if obj.reflection_mesh.camera_hidden]
+    if not hidden:
+        return
+    # what is deleted may live on where something still points to it, but in no scene
+    shown = {obj.reflection_mesh.mirror for scene in bpy.data.scenes for obj in scene.objects
+             if obj.reflection_mesh.role == "REFLECTION"}
+    for obj in hidden:
+        if obj not in shown:
+            close_window(obj)
+
+
+@persistent
+def _after_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    # a render's depsgraph tells of nothing that has happened in the file
+    if depsgraph.mode == "VIEWPORT":
+        close_abandoned_windows()
+
+
+@persistent
+def _after_opening(*_) -> None:
+    # results may have been deleted where the extension was not
+    close_abandoned_windows()
+
+
+def register() -> None:
+    bpy.app.handlers.depsgraph_update_post.append(_after_change)
+    bpy.app.handlers.load_post.append(_after_opening)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_post.remove(_after_opening)
+    bpy.app.handlers.depsgraph_update_post.remove(_after_change)

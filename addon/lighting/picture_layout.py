@@ -1,0 +1,106 @@
+"""Where on a result the picture of light lies: a UV map, on faces small enough for it, and the colours of its points.
+
+A place in a picture is not linear on a face that is seen at an angle, a UV map is: such faces are cut. Homogeneous
+coordinates would need no cut, but exporters and solid view know UV maps only.
+"""
+from __future__ import annotations
+
+import bpy
+import bmesh
+import numpy as np
+
+from ...core import View
+from ..blender_data import UV_MAP, light_layer
+from .light_scene import Window
+
+COLOUR = "Reflection Light Colour"
+STRAYING = 0.1  # pixels that a UV map may be wrong by
+ROUNDS = 12     # of halving edges: an error falls to a quarter by each
+
+
+def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.ndarray | None) -> None:
+    """Tell each point of a result where in the window the view sees it, and what colour it has there.
+
+    Parameters
+    ----------
+    texels : (height, width, 3) float32 or None
+        What the window shows, where that is known.
+    """
+    mesh = result.data
+    matrix = np.array(result.matrix_world, dtype=np.float64)
+    _cut(mesh, view, matrix)
+    spots = _in_window(_clip(mesh, view, matrix), view, window)
+    _write_spots(mesh, spots)
+    if texels is not None:
+        _write_colours(mesh, spots, texels)
+
+
+def _cut(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray) -> None:
+    """Halve edges until the picture is linear on every face, all but a tenth of a pixel."""
+    for _ in range(ROUNDS):
+        edges = _edges_that_stray(mesh, _clip(mesh, view, matrix), view.resolution)
+        if not len(edges):
+            return
+        cut = bmesh.new()
+        try:
+            cut.from_mesh(mesh)
+            cut.edges.ensure_lookup_table()
+            bmesh.ops.subdivide_edges(cut, edges=[cut.edges[edge] for edge in edges.tolist()], cuts=1)
+            bmesh.ops.triangulate(cut, faces=[face for face in cut.faces if len(face.verts) > 3])
+            cut.to_mesh(mesh)
+        finally:
+            cut.free()
+
+
+def _edges_that_stray(mesh: bpy.types.Mesh, clip: np.ndarray, resolution: tuple[int, int]) -> np.ndarray:
+    """The edges whose middle the picture shows farther than `STRAYING` from the middle of their ends."""
+    if not len(mesh.polygons):
+        return np.empty(0, dtype=np.int64)
+    ends = np.empty((len(mesh.edges), 2), dtype=np.int32)
+    mesh.edges.foreach_get("vertices", ends.reshape(-1))
+    depth = clip[:, 3][ends]
+    ahead = (depth > 0.0).all(axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        spots = (0.5 * clip[:, :2] / clip[:, 3:] * resolution)[ends]
+        length = np.linalg.norm(spots[:, 1] - spots[:, 0], axis=1)
+        straying = 0.5 * np.abs(depth[:, 1] - depth[:, 0]) / depth.sum(axis=1) * length
+    return np.flatnonzero(ahead & (straying > STRAYING))
+
+
+def _clip(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray) -> np.ndarray:
+    """Homogeneous places (n, 4) of a mesh's points in the view's picture."""
+    places = np.empty((len(mesh.vertices), 3), dtype=np.float32)
+    mesh.attributes["position"].data.foreach_get("vector", places.reshape(-1))
+    return view.clip(places.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3])
+
+
+def _in_window(clip: np.ndarray, view: View, window: Window) -> np.ndarray:
+    """Places (n, 2) in the window, from 0 to 1."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        pixels = 0.5 * (clip[:, :2] / clip[:, 3:] + 1.0) * view.resolution
+    return np.nan_to_num((pixels - (window.column, window.row)) / (window.width, window.height))
+
+
+def _write_spots(mesh: bpy.types.Mesh, spots: np.ndarray) -> None:
+    """As a UV map; loose points, which have none, know them by themselves."""
+    if len(mesh.loops):
+        layer = light_layer(mesh)
+        corners = np.empty(len(mesh.loops), dtype=np.int32)
+        mesh.attributes[".corner_vert"].data.foreach_get("value", corners)
+        layer.uv.foreach_set("vector", spots[corners].astype(np.float32).reshape(-1))
+        layer.active = layer.active_render = True
+    else:
+        known = mesh.attributes.get(UV_MAP) or mesh.attributes.new(UV_MAP, "FLOAT2", "POINT")
+        known.data.foreach_set("vector", spots.astype(np.float32).reshape(-1))
+
+
+def _write_colours(mesh: bpy.types.Mesh, spots: np.ndarray, texels: np.ndarray) -> None:
+    """The nearest texels, as what solid view shows by attribute."""
+    height, width = texels.shape[:2]
+    column, row = np.clip(spots * (width, height), 0, (width - 1, height - 1)).astype(np.int64).T
+    colours = np.ones((len(spots), 4), dtype=np.float32)
+    colours[:, :3] = texels[row, column]
+    known = mesh.color_attributes.get(COLOUR) or mesh.color_attributes.new(COLOUR, "FLOAT_COLOR", "POINT")
+    known.data.foreach_set("color", colours.reshape(-1))
+    mesh.color_attributes.active_color = known
+    mesh.color_attributes.render_color_index = mesh.color_attributes.active_color_index
