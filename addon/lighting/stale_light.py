@@ -34,7 +34,8 @@ def _own(scene: bpy.types.Scene) -> set:
     """Results, and what makes them."""
     results = {obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
     materials = {obj.reflection_mesh.light_material for obj in results} - {None}
-    return results | materials | {obj.data for obj in results} | {material.node_tree for material in materials}
+    meshes = {obj.data for obj in results} | {obj.reflection_mesh.light_map for obj in results}
+    return results | materials | meshes | {material.node_tree for material in materials}
 
 
 def _only_moves_the_view(changed: bpy.types.ID, lit: list) -> bool:
