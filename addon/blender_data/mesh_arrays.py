@@ -7,10 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import ReflectionMesh, TriangleMesh
+from . import compat
 from .join_meshes import DiffuseScene, MirrorSurface
 
 # a Blender mesh holds no more
 MOST_UV_MAPS = 8
+UP = np.array((0.0, 0.0, 1.0))  # the normal of what has none
 
 
 @dataclass(frozen=True)
@@ -21,6 +23,15 @@ class Attribute:
     kind: str
     domain: str
     values: np.ndarray
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Vertices (e, 2) of edges that are sharp, and of those marked for Freestyle; faces (m,) marked for Freestyle."""
+
+    sharp_edges: np.ndarray
+    marked_edges: np.ndarray
+    marked_faces: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -38,6 +49,8 @@ class MeshArrays:
     attributes : tuple of Attribute
         UV maps and colours among them, the active ones first.
     materials : list of bpy.types.Material or None
+    lines : Lines or None
+        None of loose points.
     """
 
     origin: np.ndarray
@@ -45,6 +58,7 @@ class MeshArrays:
     triangles: np.ndarray
     attributes: tuple[Attribute, ...]
     materials: list
+    lines: Lines | None = None
 
     @property
     def uv_maps(self) -> list[str]:
@@ -74,11 +88,33 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
         Attribute("bounces", "INT", "FACE", result.bounces.astype(np.int32)),
         Attribute("mirror_face", "INT", "FACE",
                   np.where(spans, -1, surface.triangle[np.where(spans, 0, mirror_face)]).astype(np.int32)),
+        Attribute("sharp_face", "BOOLEAN", "FACE", scene.sharp_face[source]),
+        *_normals(result, scene),
     )
     # corners of the result's faces are interpolated in their source triangles
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
     return MeshArrays(origin, (result.positions - origin).astype(np.float32), result.triangles.astype(np.int32),
-                      own + shown, scene.materials)
+                      own + shown, scene.materials, _lines(result, scene))
+
+
+def _normals(result: ReflectionMesh, scene: DiffuseScene) -> tuple[Attribute, ...]:
+    """The shading normals of the sources as the mirrors show them."""
+    if not compat.has_free_normals():
+        return ()
+    normals = result.image_normals(scene.normals)
+    normals = np.where((normals != 0.0).any(axis=2, keepdims=True), normals, UP)
+    return (Attribute("custom_normal", "FLOAT_VECTOR", "CORNER", normals.astype(np.float32)),)
+
+
+def _lines(result: ReflectionMesh, scene: DiffuseScene) -> Lines:
+    """What are images of lines. Sharp edges are marked for Freestyle too, which knows none, and finds no crease between
+    faces that both lie on the mirror."""
+    side, triangles = result.source_sides, result.triangles
+    face, corner = np.nonzero(side >= 0)
+    shown = result.source_face[face], side[face, corner]
+    edges = np.stack((triangles[face, corner], triangles[face, (corner + 1) % 3]), axis=1).astype(np.int32)
+    sharp = scene.sharp_side[shown]
+    return Lines(edges[sharp], edges[sharp | scene.marked_side[shown]], scene.marked_face[result.source_face])
 
 
 def origin_of(mirror: TriangleMesh) -> np.ndarray:
