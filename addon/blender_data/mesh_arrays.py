@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import ReflectionMesh, TriangleMesh
+from ...core import ReflectionMesh, TriangleMesh, View
 from . import compat
 from .join_meshes import DiffuseScene, MirrorSurface
+from .single_precision import in_single_precision
 
 # a Blender mesh holds no more
 MOST_UV_MAPS = 8
@@ -66,7 +67,7 @@ class MeshArrays:
         return [attribute.name for attribute in self.attributes if attribute.kind == "FLOAT2"]
 
 
-def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface) -> MeshArrays:
+def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: View) -> MeshArrays:
     """The arrays of a result with faces.
 
     Parameters
@@ -75,11 +76,14 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
         What was reflected.
     surface : MirrorSurface
         What it was reflected in.
+    view : View
+        Who sees it.
     """
+    origin = origin_of(surface.mesh)
+    result = in_single_precision(result, origin, view)
     source, mirror_face = result.source_face, result.mirror_face
     spans = mirror_face < 0
     weights = result.source_weights.astype(np.float32)
-    origin = origin_of(surface.mesh)
     own = (
         Attribute("material_index", "INT", "FACE", scene.material[source].astype(np.int32)),
         *point_attributes(result),
