@@ -144,10 +144,14 @@ def _join(placed: list[Placed], count: int) -> tuple:
             np.concatenate(material).astype(np.int32), materials)
 
 
+def _turned_over(matrices: np.ndarray) -> np.ndarray:
+    """Which transforms (k,) turn space inside out."""
+    return np.linalg.det(matrices[:, :3, :3]) < 0.0
+
+
 def _corner_order(matrices: np.ndarray) -> np.ndarray:
     """Order (k, 3) of a triangle's corners: a transform that turns space inside out turns its faces over."""
-    turned = np.linalg.det(matrices[:, :3, :3]) < 0.0
-    return np.where(turned[:, None], (0, 2, 1), (0, 1, 2))
+    return np.where(_turned_over(matrices)[:, None], (0, 2, 1), (0, 1, 2))
 
 
 def _repeated(indices: np.ndarray, order: np.ndarray, stride: int, start: int) -> np.ndarray:
@@ -160,31 +164,34 @@ def _cofactors(matrices: np.ndarray) -> np.ndarray:
     """What takes normals to world space, (k, 3, 3): also where a scale is zero."""
     linear = matrices[:, :3, :3]
     cofactors = np.stack([np.cross(linear[:, (i + 1) % 3], linear[:, (i + 2) % 3]) for i in range(3)], axis=1)
-    return cofactors * np.where(np.linalg.det(linear) < 0.0, -1.0, 1.0)[:, None, None]
+    return cofactors * np.where(_turned_over(matrices), -1.0, 1.0)[:, None, None]
 
 
 def _all_normals(placed: list[Placed]) -> np.ndarray:
     """Corner normals (m, 3, 3) in world space."""
     parts = []
     for item in placed:
-        normals = np.einsum("kij,mcj->kmci", _cofactors(item.matrices), item.mesh.normals.astype(np.float64))
-        order = _corner_order(item.matrices)[:, None, :, None]
-        parts.append(np.take_along_axis(normals, order, axis=2).reshape(-1, 3, 3))
+        local = item.mesh.normals.reshape(-1, 3).astype(np.float64)
+        normals = np.matmul(local, _cofactors(item.matrices).swapaxes(1, 2)).reshape(-1, *item.mesh.normals.shape)
+        over = _turned_over(item.matrices)
+        normals[over] = normals[over][:, :, [0, 2, 1]]
+        parts.append(normals.reshape(-1, 3, 3))
     return np.concatenate(parts)
 
 
 def _lines(placed: list[Placed]) -> tuple[np.ndarray, ...]:
     """Faces that are sharp (m,), those that are marked, sides that are sharp (m, 3), those that are marked."""
-    faces, sides = [], []
+    parts = []
     for item in placed:
         lines, places = item.mesh.lines, len(item.owners)
-        faces.append([np.tile(flags[lines.face], places) for flags in (lines.sharp_faces, lines.marked_faces)])
-        # side k leads to the next corner: of a triangle turned over, from the last corner to the one before
-        order = _corner_order(item.matrices)
-        order = np.where(order[:, 1:2] == 2, (2, 1, 0), (0, 1, 2))[:, None, :]
-        sides.append([np.take_along_axis(flags, order, axis=2).reshape(-1, 3)
-                      for flags in lines.lines(_cofactors(item.matrices))])
-    return (*map(np.concatenate, zip(*faces)), *map(np.concatenate, zip(*sides)))
+        sides = lines.lines(_cofactors(item.matrices))
+        over = _turned_over(item.matrices)
+        for flags in sides:
+            # side k leads to the next corner: of a triangle turned over, from the last corner to the one before
+            flags[over] = flags[over][:, :, ::-1]
+        parts.append([*(np.tile(flags[lines.face], places) for flags in (lines.sharp_faces, lines.marked_faces)),
+                      *(flags.reshape(-1, 3) for flags in sides)])
+    return tuple(map(np.concatenate, zip(*parts)))
 
 
 def _names(placed: list[Placed], kind: str) -> list:

@@ -14,22 +14,26 @@ from ...core import ReflectionMesh, View
 
 SPACING = 2.0 ** -22  # of a coordinate: numbers that differ by less are next to each other, or next but one
 SLIVER = 8.0 * SPACING  # of a coordinate: what is no wider has been a line
+THIN = np.float32(64.0 * SPACING)  # of a coordinate: what is wider keeps its side
 
 
 def in_single_precision(result: ReflectionMesh, origin: np.ndarray, view: View) -> ReflectionMesh:
     """A result with faces whose places will be rounded relative to `origin` (3,), as the `view` is to see it."""
     exact = result.positions - origin
     rounded = exact.astype(np.float32)
-    ahead = view.directions(result.positions)
-    away = _away(exact, ahead, result.triangles)
     vertex = _together(rounded, result.triangles)
-    face = _with_area(vertex[result.triangles], vertex, rounded)
+    triangles = result.triangles if vertex is None else vertex[result.triangles]
+    face = np.arange(len(triangles)) if vertex is None else _with_area(triangles, vertex, rounded)
     if not len(face):
         return result
-    triangles = vertex[result.triangles[face]]
-    order = np.where((_away(rounded, ahead, triangles) != away[face])[:, None], (0, 2, 1), (0, 1, 2))
-    kept, corners = np.unique(np.take_along_axis(triangles, order, axis=1), return_inverse=True)
-    weights = np.take_along_axis(result.source_weights[face], order[:, :, None], axis=1)
+    triangles, weights = triangles[face], result.source_weights[face]
+    thin = _thin(rounded, triangles)
+    ahead = view.directions(result.positions)
+    turned = thin[_away(rounded, ahead, triangles[thin]) != _away(exact, ahead, result.triangles[face[thin]])]
+    triangles[turned], weights[turned] = triangles[turned][:, [0, 2, 1]], weights[turned][:, [0, 2, 1]]
+    if vertex is None:
+        return replace(result, triangles=triangles, source_weights=weights)
+    kept, corners = np.unique(triangles, return_inverse=True)
     of_faces = {name: getattr(result, name)[face] for name in ("source_face", "mirror_face", "bounces")}
     of_vertices = {name: getattr(result, name)[kept] for name in (
         "positions", "reflected_position", "mirror_position", "path_length", "image_parity", "mirror_normals")}
@@ -42,12 +46,26 @@ def _away(places: np.ndarray, ahead: np.ndarray, triangles: np.ndarray) -> np.nd
     return (np.cross(a - b, b - c) * ahead[triangles].sum(axis=1)).sum(axis=1) > 0.0
 
 
-def _together(places: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Of each vertex (n,) at `places` (n, 3), the one that stands for it and for all that lie too near to it."""
+def _thin(places: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Triangles, in order, so thin that rounding may turn them over."""
+    a, b, c = (places[corner] for corner in triangles.T)
+    one, other = (b - a).T, (c - a).T
+    normal = np.stack([one[i - 2] * other[i - 1] - one[i - 1] * other[i - 2] for i in range(3)])
+    length = np.maximum(np.abs(one).max(axis=0), np.abs(other).max(axis=0))
+    return np.flatnonzero(np.abs(normal).max(axis=0) < THIN * length * np.abs(a).max(axis=1, initial=0.0))
+
+
+def _together(places: np.ndarray, triangles: np.ndarray) -> np.ndarray | None:
+    """Of each vertex (n,) at `places` (n, 3), the one that stands for it and for all that lie too near to it; None
+    where all stand for themselves."""
     room = np.float32(SPACING) * np.abs(places).max(axis=1, initial=0.0)
-    one, other = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    short = np.abs(places[one] - places[other]).max(axis=1) <= np.maximum(room[one], room[other])
-    one, other = one[short], other[short]
+    pairs = []
+    for one, other in zip(triangles.T, np.roll(triangles, -1, axis=1).T):
+        short = np.abs(places[one] - places[other]).max(axis=1) <= np.maximum(room[one], room[other])
+        pairs.append((one[short], other[short]))
+    one, other = np.concatenate(pairs, axis=1)
+    if not len(one):
+        return None
     vertex = np.arange(len(places))
     while (vertex[one] != vertex[other]).any():
         low = np.minimum(vertex[one], vertex[other])

@@ -69,14 +69,18 @@ class SourceLines:
         """Which sides are sharp or creased, and which are marked, (k, m, 3) bool each, where the mesh stands in k
         places, with the `cofactors` (k, 3, 3) that take its normals there."""
         metric = np.matmul(cofactors.swapaxes(1, 2), cofactors)
-        one, other = self.normals[self.meeting].astype(np.float64)
+        one, other = self.normals.astype(np.float64)[self.meeting]
         turned = np.matmul(one, metric)
-        length = (turned * one).sum(axis=2) * (np.matmul(other, metric) * other).sum(axis=2)
+        length = _dot(turned, one) * _dot(np.matmul(other, metric), other)
         sharp = np.repeat(self.sharp_edges[None], len(cofactors), axis=0)
-        sharp[:, self.meeting_edge] |= (turned * other).sum(axis=2) < CREASE * np.sqrt(length)
+        sharp[:, self.meeting_edge] |= _dot(turned, other) < CREASE * np.sqrt(length)
         real = self.side >= 0
         marked = self.marked_edges[self.side] & real
-        return sharp[:, self.side] & real, np.broadcast_to(marked, (len(sharp), *marked.shape))
+        return sharp[:, self.side] & real, np.repeat(marked[None], len(sharp), axis=0)
+
+
+def _dot(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    return np.einsum("...i,...i->...", one, other)
 
 
 def _flags(mesh: bpy.types.Mesh, name: str, domain: str, count: int) -> np.ndarray:

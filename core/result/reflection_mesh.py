@@ -115,8 +115,8 @@ class ReflectionMesh:
         shown = np.matmul(self.source_weights, normals[self.source_face])
         for mirror in np.moveaxis(self.mirror_normals, 1, 0)[::-1]:
             across = mirror[self.triangles]
-            shown -= 2.0 * (shown * across).sum(axis=2, keepdims=True) * across
-        length = np.linalg.norm(shown, axis=2, keepdims=True)
+            shown -= 2.0 * np.einsum("fci,fci->fc", shown, across)[:, :, None] * across
+        length = np.sqrt(np.einsum("fci,fci->fc", shown, shown))[:, :, None]
         return np.divide(shown, length, out=np.zeros_like(shown), where=length > 0.0)
 
     @property
