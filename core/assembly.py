@@ -73,7 +73,7 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
     return {
         "triangles": vertex_of[nodes], "reflected_position": point.T, "mirror_position": place.T,
         "path_length": norm(point - place), "image_parity": np.ones(len(new), dtype=np.int8),
-        "mirror_normals": _mirror_normals(mirror_map, [place], point - place),
+        "mirror_normals": _mirror_normals(mirror_map, place, [point - place]),
         "source_face": whole.source, "source_weights": weights, "mirror_face": whole.mirror_face,
         "bounces": np.ones(len(nodes), dtype=np.int8)}
 
@@ -116,7 +116,7 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     return {
         "triangles": triangles, "reflected_position": point.T, "mirror_position": seen.T, "path_length": path,
         "image_parity": np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8),
-        "mirror_normals": _mirror_normals(first_map, mirrors, mirror_map.leave(owner, uv)[1]),
+        "mirror_normals": _mirror_normals(first_map, seen, mirror_map.leaving(owner, uv)),
         "source_face": frames.triangle[faces.column],
         "source_weights": weights, "mirror_face": mirror_map.first(face)}, used
 
@@ -138,11 +138,10 @@ def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np
     return away != (height < 0.0)
 
 
-def _mirror_normals(mirror_map: MirrorMap, mirrors: list[np.ndarray], leaving: np.ndarray) -> np.ndarray:
-    """Unit normals (n, b, 3) halfway between the ways to and from each of b mirrors, met at (3, n) places each; the
-    last of them is left along `leaving` (3, n), which is known where its way has no length."""
-    ways = [mirror_map.view.directions(mirrors[0].T).T,
-            *(unit(end - start) for start, end in zip(mirrors, mirrors[1:])), unit(leaving)]
+def _mirror_normals(mirror_map: MirrorMap, seen: np.ndarray, leaving: list[np.ndarray]) -> np.ndarray:
+    """Unit normals (n, b, 3) of b mirrors, halfway between the ways of light to and from each: it is seen at (3, n)
+    places of the first and goes on along `leaving`, (3, n) each."""
+    ways = [unit(way) for way in (mirror_map.view.directions(seen.T).T, *leaving)]
     return np.stack([unit(after - before).T for before, after in zip(ways, ways[1:])], axis=1)
 
 
