@@ -111,14 +111,27 @@ def _normals(result: ReflectionMesh, scene: DiffuseScene) -> tuple[Attribute, ..
 
 
 def _lines(result: ReflectionMesh, scene: DiffuseScene) -> Lines:
-    """What are images of lines. Sharp edges are marked for Freestyle too, which knows none, and finds no crease between
-    faces that both lie on the mirror."""
+    """What are images of lines. Freestyle has more of them marked: sharp edges, since it knows none and finds no crease
+    between faces that both lie on the mirror, and where the surface ends, since it takes gaps for such borders too
+    where it leaves out slivers."""
     side, triangles = result.source_sides, result.triangles
-    face, corner = np.nonzero(side >= 0)
-    shown = result.source_face[face], side[face, corner]
-    edges = np.stack((triangles[face, corner], triangles[face, (corner + 1) % 3]), axis=1).astype(np.int32)
+    edges = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).astype(np.int32)
+    ends = _once(edges.reshape(-1, 2)).reshape(side.shape)
+    on_side = side >= 0
+    edges, ends, shown = edges[on_side], ends[on_side], (result.source_face[np.nonzero(on_side)[0]], side[on_side])
     sharp = scene.sharp_side[shown]
-    return Lines(edges[sharp], edges[sharp | scene.marked_side[shown]], scene.marked_face[result.source_face])
+    marked = sharp | scene.marked_side[shown] | ends
+    return Lines(edges[sharp], edges[marked], scene.marked_face[result.source_face])
+
+
+def _once(edges: np.ndarray) -> np.ndarray:
+    """Which edges (e, 2) are there once."""
+    key = np.sort(edges, axis=1).astype(np.int64) @ (2 ** 32, 1)
+    order = np.argsort(key)
+    new = np.append(np.diff(key[order], prepend=-1) != 0, True)
+    once = np.empty(len(key), dtype=bool)
+    once[order] = new[:-1] & new[1:]
+    return once
 
 
 def origin_of(mirror: TriangleMesh) -> np.ndarray:

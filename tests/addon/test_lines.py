@@ -198,14 +198,18 @@ def test_marked_edges_are_drawn_and_no_others(blank):
 
 @pytest.mark.parametrize("chosen", [INNER, -1])
 def test_marks_lie_on_the_marked_edge(blank, room, chosen):
-    """Be it the last one, whose number stands for sides that are no edges too."""
+    """Be it the last one, whose number stands for sides that are no edges too; and on the sheet's outline."""
     result, ends = grid(chosen)
     marks = room("addon.blender_data.compat").freestyle_marks(result.data, "EDGE")
     vertices = np.array([edge.vertices[:] for edge in result.data.edges])
     points = parts.attribute(result, "reflected_position")
     share = ((points - ends[0]) @ (ends[1] - ends[0])) / ((ends[1] - ends[0]) @ (ends[1] - ends[0]))
     away = np.linalg.norm(points - ends[0] - np.clip(share, 0.0, 1.0)[:, None] * (ends[1] - ends[0]), axis=1)
-    assert marks.any() and (marks == (away[vertices].max(axis=1) < 1e-5)).all()
+    sheet = result.reflection_mesh.sources[0].object
+    local = np.column_stack((points, np.ones(len(points)))) @ np.array(sheet.matrix_world.inverted()).T
+    outer = [(np.abs(local[vertices][:, :, axis] - side) < 1e-5).all(axis=1) for axis in (0, 1) for side in (-0.8, 0.8)]
+    expected = (away[vertices].max(axis=1) < 1e-5) | np.any(outer, axis=0)
+    assert (marks == expected).all() and 0 < np.any(outer, axis=0).sum() < len(marks)
 
 
 def test_line_art_takes_creases_from_sharp_edges(cube):
