@@ -90,8 +90,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
                            "camera, the mirror or the objects.")
             continue
         remarks += shortcomings(mirror.name, result)
-        faces = result.discs is None
-        arrays = mesh_arrays(result, scene, surface) if faces else point_arrays(result, scene, surface, view)
+        arrays = (mesh_arrays if result.discs is None else point_arrays)(result, scene, surface, view)
         prepared.append(Reflection(mirror, chosen.diffuse, result, arrays, view.resolution))
     if not prepared:
         raise core.ReflectionError(refused[0])

@@ -1,4 +1,8 @@
-"""Assembly: nodes and faces of all bounces as the plain arrays of the result."""
+"""Assembly: nodes and faces of all bounces as the plain arrays of the result.
+
+A face shows the front of its source where the light left from there, and is turned towards the eye then: which sides
+are fronts is told as in the scene, though what a mirror shows is turned over.
+"""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -8,7 +12,7 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import MirrorMap, brought_back, distance_from
 from .culling import SceneAndMirrors
-from .geometry import SceneFrames, doubled_areas, groups, norm, rows
+from .geometry import SceneFrames, area_normals, dot, doubled_areas, groups, norm, rows, unit
 from .polygons import Faces
 from .result import ReflectionMesh, place
 from .whole_faces import Seamed
@@ -20,7 +24,7 @@ ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the c
 
 def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors, placement: str,
              reach: float = 0.0, whole: Seamed | None = None) -> ReflectionMesh:
-    """The faces as arrays, no two on the same nodes, without unused nodes, all turned to the eye."""
+    """The faces as arrays, no two on the same nodes, without unused nodes."""
     parts, start = [], 0
     for number, bounce in enumerate(bounces, 1):
         part, node = _arrays(mirror_map, bounce, met)
@@ -31,6 +35,10 @@ def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors,
         if whole is not None and number == 1:
             parts.append(_whole_arrays(mirror_map, whole, bounce, node, met))
             start += len(parts[-1]["path_length"])
+    most = max(part["mirror_normals"].shape[1] for part in parts)
+    for part in parts:
+        normals = part["mirror_normals"]
+        part["mirror_normals"] = np.pad(normals, ((0, 0), (0, most - normals.shape[1]), (0, 0)))
     arrays = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     arrays["positions"] = place(mirror_map.view, arrays["mirror_position"].T, arrays["path_length"], placement, reach).T
     return ReflectionMesh(**arrays)
@@ -42,7 +50,8 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
     count = len(whole.same)
     places, points = (np.concatenate(both, axis=1) for both in ((whole.place, bounce.nodes.place),
                                                                 (whole.point, bounce.nodes.point)))
-    turned = doubled_areas(mirror_map.view.pixels(places.T)[whole.nodes]) < 0.0
+    corners = rows(met.positions[met.triangles[whole.source]].swapaxes(0, 1))
+    turned = _turned(mirror_map, whole.nodes, places, places, corners)
     nodes = np.where(turned[:, None], whole.nodes[:, [0, 2, 1]], whole.nodes)
     # vertices that the faces of cameras have already
     vertex_of = np.full(places.shape[1], -1)
@@ -64,6 +73,7 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
     return {
         "triangles": vertex_of[nodes], "reflected_position": point.T, "mirror_position": place.T,
         "path_length": norm(point - place), "image_parity": np.ones(len(new), dtype=np.int8),
+        "mirror_normals": _mirror_normals(mirror_map, place, [point - place]),
         "source_face": whole.source, "source_weights": weights, "mirror_face": whole.mirror_face,
         "bounces": np.ones(len(nodes), dtype=np.int8)}
 
@@ -92,20 +102,47 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     owner = np.zeros(len(used), dtype=np.int64)
     owner[triangles.ravel()] = np.repeat(face, 3)
     seen = _on_mirror(first_map, mirror_map.first(face), triangles, seen)
-    pixels = first_map.view.pixels(seen.T)[triangles]
-    order = np.where((doubled_areas(pixels) < 0.0)[:, None], (0, 2, 1), (0, 1, 2))
-    triangles = np.take_along_axis(triangles, order, axis=1)
-    weights = np.take_along_axis(weights.T.reshape(-1, 3, 3), order[:, :, None], axis=1)
     uv = mirror_map.coordinates(owner, seen)
     turned = mirror_map.turned(owner, uv, nodes.distance[used])
     # a corner that was brought back to its triangle or to the mirror has left its ray by a little
-    stops = [seen, *mirror_map.met_later(owner, uv), point]
+    mirrors = [seen, *mirror_map.met_later(owner, uv)]
+    stops = [*mirrors, point]
+    corners = rows(met.positions[frames.vertices[:, faces.column]])
+    swapped = _turned(first_map, triangles, seen, mirrors[-1], corners)
+    order = np.where(swapped[:, None], (0, 2, 1), (0, 1, 2))
+    triangles = np.take_along_axis(triangles, order, axis=1)
+    weights = np.take_along_axis(weights.T.reshape(-1, 3, 3), order[:, :, None], axis=1)
     path = np.maximum(sum(norm(end - start) for start, end in zip(stops, stops[1:])), norm(point - seen))
     return {
         "triangles": triangles, "reflected_position": point.T, "mirror_position": seen.T, "path_length": path,
         "image_parity": np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8),
+        "mirror_normals": _mirror_normals(first_map, seen, mirror_map.leaving(owner, uv)),
         "source_face": frames.triangle[faces.column],
         "source_weights": weights, "mirror_face": mirror_map.first(face)}, used
+
+
+def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np.ndarray,
+            corners: np.ndarray) -> np.ndarray:
+    """Which faces (f, 3) are turned wrongly: to the eye where the back of their source is seen, or away where its front
+    is.
+
+    Parameters
+    ----------
+    seen, last : (3, n) float64
+        Where the eye sees the nodes, and where the light met the last mirror on its way to them.
+    corners : (3, 3, f) float64
+        Of the sources' triangles, component and corner first.
+    """
+    away = doubled_areas(mirror_map.view.pixels(seen.T)[nodes]) < 0.0
+    height = dot(area_normals(corners)[:, None], last[:, nodes.T] - corners).sum(axis=0)
+    return away != (height < 0.0)
+
+
+def _mirror_normals(mirror_map: MirrorMap, seen: np.ndarray, leaving: list[np.ndarray]) -> np.ndarray:
+    """Unit normals (n, b, 3) of b mirrors, halfway between the ways of light to and from each: it is seen at (3, n)
+    places of the first and goes on along `leaving`, (3, n) each."""
+    ways = [unit(way) for way in (mirror_map.view.directions(seen.T).T, *leaving)]
+    return np.stack([unit(after - before).T for before, after in zip(ways, ways[1:])], axis=1)
 
 
 def _on_whole_triangles(frames: SceneFrames, faces: Faces, met: SceneAndMirrors) -> tuple[SceneFrames, Faces]:

@@ -32,6 +32,7 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
         shader = surface_shader(tree)
         shown = None if shader is None else build.shown(shader)
         build.bend_normals()
+        build.reflect_outside()
     output = tree.get_output_node("ALL")
     if shown is not None:
         if not opaque:
@@ -159,6 +160,34 @@ class _Builder:
             socket = node.inputs.get("Normal")
             if socket is not None and not socket.is_linked:
                 self.feed(normal.outputs["Vector"], socket)
+
+
+    def reflect_outside(self) -> None:
+        """Let Fresnel be that of the mirror's outside on faces which show the back of what is reflected: there Cycles
+        takes the eye to be inside."""
+        inside = self.add("ShaderNodeNewGeometry").outputs["Backfacing"]
+        for node in list(self.tree.nodes):
+            if node.type == "LAYER_WEIGHT" and node.outputs["Fresnel"].is_linked:
+                fresnel = self.add("ShaderNodeFresnel")
+                rest = self.calculated("SUBTRACT", 1.0, given(node.inputs["Blend"]))
+                self.feed(self.calculated("DIVIDE", 1.0, rest), fresnel.inputs["IOR"])
+                self.feed(given(node.inputs["Normal"]), fresnel.inputs["Normal"])
+                for link in list(node.outputs["Fresnel"].links):
+                    self.feed(fresnel.outputs[0], link.to_socket)
+        for node in [node for node in self.tree.nodes if node.type == "FRESNEL"]:
+            index = given(node.inputs["IOR"])
+            choice = self.add("ShaderNodeMix")
+            for value, socket in ((inside, choice.inputs[0]), (index, choice.inputs[2]),
+                                  (self.calculated("DIVIDE", 1.0, index), choice.inputs[3])):
+                self.feed(value, socket)
+            self.feed(choice.outputs[0], node.inputs["IOR"])
+
+    def calculated(self, how: str, first, second) -> bpy.types.NodeSocket:
+        """A number from two."""
+        node = self.add("ShaderNodeMath", operation=how)
+        self.feed(first, node.inputs[0])
+        self.feed(second, node.inputs[1])
+        return node.outputs[0]
 
 
 def given(socket: bpy.types.NodeSocket):

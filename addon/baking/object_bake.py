@@ -55,7 +55,7 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
     sheets = [(number, back) for number in range(len(parts)) for back in (False, True)
               if open_[number] or back == bool(seen.backs[number])]
     atlases, at, side = _packed(scene, parts, sheets, FINER * seen.density)
-    placed = read_meshes(context.evaluated_depsgraph_get(), scene.sources, normals=True, layers=True)
+    placed = read_meshes(context.evaluated_depsgraph_get(), scene.sources, mirror=False)
     texels = np.zeros((side, side, 4), dtype=np.float32)
     areas = {sheet: texels[row:row + atlases[sheet[0]].size, column:column + atlases[sheet[0]].size]
              for sheet, (column, row) in zip(sheets, at.tolist(), strict=True)}

@@ -45,6 +45,10 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     normals = reflecting_normals(view, vectors(mesh, "mirror_position"), vectors(mesh, "reflected_position"))
     attribute = mesh.attributes.get(NORMAL) or mesh.attributes.new(NORMAL, "FLOAT_VECTOR", "POINT")
     attribute.data.foreach_set("vector", normals.astype(np.float32).reshape(-1))
+    # engines darken what is shaded by one normal and stands by another, and here the mirror is what is shaded
+    own = mesh.attributes.get("custom_normal")
+    if own is not None:
+        mesh.attributes.remove(own)
     triangle = triangle_of(result, scene)
     shown, at = (vectors(mesh, name)[corner_vertices(mesh)] for name in ("reflected_position", "mirror_position"))
     front = fronts_seen(scene, triangle, (at - shown).mean(axis=1))

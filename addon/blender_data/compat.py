@@ -38,3 +38,32 @@ def smooth_faces_take_vertex_normals(mesh: bpy.types.Mesh) -> bool:
     sharp = np.empty(len(edges.data), dtype=bool)
     edges.data.foreach_get("value", sharp)
     return not sharp.any()
+
+
+def has_free_normals() -> bool:
+    """Whether a mesh takes any vectors as its corners' normals, by an attribute `custom_normal`; from 4.5 on. Before,
+    normals of its own make edges of a mesh sharp."""
+    return bpy.app.version >= (4, 5, 0)
+
+
+def freestyle_marks(mesh: bpy.types.Mesh, domain: str) -> np.ndarray:
+    """Which edges or faces, by `domain` EDGE or FACE, are marked for Freestyle; from 5.0 on attributes tell."""
+    elements = mesh.edges if domain == "EDGE" else mesh.polygons
+    marks = np.zeros(len(elements), dtype=bool)
+    if bpy.app.version < (5, 0, 0):
+        elements.foreach_get("use_freestyle_mark", marks)
+    else:
+        attribute = mesh.attributes.get(f"freestyle_{domain.lower()}")
+        if attribute is not None and attribute.data_type == "BOOLEAN" and attribute.domain == domain:
+            attribute.data.foreach_get("value", marks)
+    return marks
+
+
+def mark_for_freestyle(mesh: bpy.types.Mesh, domain: str, marks: np.ndarray) -> None:
+    """Mark edges or faces (n,) for Freestyle, by `domain` EDGE or FACE."""
+    if bpy.app.version < (5, 0, 0):
+        (mesh.edges if domain == "EDGE" else mesh.polygons).foreach_set("use_freestyle_mark", marks)
+    else:
+        name = f"freestyle_{domain.lower()}"
+        attribute = mesh.attributes.get(name) or mesh.attributes.new(name, "BOOLEAN", domain)
+        attribute.data.foreach_set("value", marks)

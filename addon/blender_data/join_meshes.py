@@ -27,6 +27,13 @@ class DiffuseScene:
         Index into `materials`.
     materials : list
         Distinct materials; None where faces have no material.
+    normals : (m, 3, 3) float64
+        Of the corners, not of unit length.
+    sharp_face, marked_face : (m,) bool
+        Of faces that are flat, and of those marked for Freestyle.
+    sharp_side, marked_side : (m, 3) bool
+        Sides of the triangles, from corner k to the next, that are sharp edges or creases, and those marked for
+        Freestyle.
     uv_maps : dict of str to (m, 3, 2) float32
     colours : dict of str to (type, (m, 3, 4) float32)
     numbers : dict of str to (type, (m, 3, c) float32)
@@ -40,6 +47,11 @@ class DiffuseScene:
     source_face: np.ndarray
     material: np.ndarray
     materials: list
+    normals: np.ndarray
+    sharp_face: np.ndarray
+    marked_face: np.ndarray
+    sharp_side: np.ndarray
+    marked_side: np.ndarray
     uv_maps: dict
     colours: dict
     numbers: dict
@@ -63,7 +75,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
     ReflectionError
         Where they have no faces, or a coordinate is not a finite number.
     """
-    placed = read_meshes(depsgraph, objects, normals=False, layers=True)
+    placed = read_meshes(depsgraph, objects, mirror=False)
     if not placed:
         raise ReflectionError(f"'{objects[0].name}' has no faces to reflect: choose diffuse objects with faces.")
     positions, triangles, corners, owners, faces, material, materials = _join(placed, len(objects))
@@ -73,7 +85,8 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
     colours = {name: _colour(placed, corners, name, name == active_colour) for name in _names(placed, "colours")}
     numbers = {name: _numbers(placed, corners, name) for name in _names(placed, "numbers")}
     return DiffuseScene(_triangle_mesh(objects, positions, triangles), list(objects), owners, faces, material,
-                        materials, uv_maps, colours, numbers, active_uv, active_colour)
+                        materials, _all_normals(placed), *_lines(placed), uv_maps, colours, numbers, active_uv,
+                        active_colour)
 
 
 def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> MirrorSurface:
@@ -86,11 +99,11 @@ def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> Mirror
     ReflectionError
         Where the mirror has no faces, or a coordinate or a normal is not a finite number.
     """
-    placed = read_meshes(depsgraph, [obj], normals=True, layers=False)
+    placed = read_meshes(depsgraph, [obj], mirror=True)
     if not placed:
         raise ReflectionError(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
     positions, triangles, _, _, faces, material, materials = _join(placed, 1)
-    normals = np.concatenate([_world_normals(item).reshape(-1, 3, 3) for item in placed])
+    normals = _all_normals(placed)
     reflects = np.array([is_mirror(entry) for entry in materials])[material]
     kept = np.flatnonzero(reflects) if reflects.any() else np.arange(len(triangles))
     return MirrorSurface(_triangle_mesh([obj], positions, triangles[kept], normals[kept]), faces[kept])
@@ -136,10 +149,14 @@ def _join(placed: list[Placed], count: int) -> tuple:
             np.concatenate(material).astype(np.int32), materials)
 
 
+def _turned_over(matrices: np.ndarray) -> np.ndarray:
+    """Which transforms (k,) turn space inside out."""
+    return np.linalg.det(matrices[:, :3, :3]) < 0.0
+
+
 def _corner_order(matrices: np.ndarray) -> np.ndarray:
     """Order (k, 3) of a triangle's corners: a transform that turns space inside out turns its faces over."""
-    turned = np.linalg.det(matrices[:, :3, :3]) < 0.0
-    return np.where(turned[:, None], (0, 2, 1), (0, 1, 2))
+    return np.where(_turned_over(matrices)[:, None], (0, 2, 1), (0, 1, 2))
 
 
 def _repeated(indices: np.ndarray, order: np.ndarray, stride: int, start: int) -> np.ndarray:
@@ -148,13 +165,38 @@ def _repeated(indices: np.ndarray, order: np.ndarray, stride: int, start: int) -
     return (np.moveaxis(indices[:, order], 1, 0) + shift[:, None, None]).reshape(-1, 3)
 
 
-def _world_normals(item: Placed) -> np.ndarray:
-    """Corner normals (k, m, 3, 3) in world space, through the cofactors, which exist for a scale of zero too."""
-    linear = item.matrices[:, :3, :3]
+def _cofactors(matrices: np.ndarray) -> np.ndarray:
+    """What takes normals to world space, (k, 3, 3): also where a scale is zero."""
+    linear = matrices[:, :3, :3]
     cofactors = np.stack([np.cross(linear[:, (i + 1) % 3], linear[:, (i + 2) % 3]) for i in range(3)], axis=1)
-    cofactors *= np.where(np.linalg.det(linear) < 0.0, -1.0, 1.0)[:, None, None]
-    normals = np.einsum("kij,mcj->kmci", cofactors, item.mesh.normals.astype(np.float64))
-    return np.take_along_axis(normals, _corner_order(item.matrices)[:, None, :, None], axis=2)
+    return cofactors * np.where(_turned_over(matrices), -1.0, 1.0)[:, None, None]
+
+
+def _all_normals(placed: list[Placed]) -> np.ndarray:
+    """Corner normals (m, 3, 3) in world space."""
+    parts = []
+    for item in placed:
+        local = item.mesh.normals.reshape(-1, 3).astype(np.float64)
+        normals = np.matmul(local, _cofactors(item.matrices).swapaxes(1, 2)).reshape(-1, *item.mesh.normals.shape)
+        over = _turned_over(item.matrices)
+        normals[over] = normals[over][:, :, [0, 2, 1]]
+        parts.append(normals.reshape(-1, 3, 3))
+    return np.concatenate(parts)
+
+
+def _lines(placed: list[Placed]) -> tuple[np.ndarray, ...]:
+    """Faces that are sharp (m,), those that are marked, sides that are sharp (m, 3), those that are marked."""
+    parts = []
+    for item in placed:
+        lines, places = item.mesh.lines, len(item.owners)
+        sides = lines.lines(_cofactors(item.matrices))
+        over = _turned_over(item.matrices)
+        for flags in sides:
+            # side k leads to the next corner: of a triangle turned over, from the last corner to the one before
+            flags[over] = flags[over][:, :, ::-1]
+        parts.append([*(np.tile(flags[lines.face], places) for flags in (lines.sharp_faces, lines.marked_faces)),
+                      *(flags.reshape(-1, 3) for flags in sides)])
+    return tuple(map(np.concatenate, zip(*parts)))
 
 
 def _names(placed: list[Placed], kind: str) -> list:

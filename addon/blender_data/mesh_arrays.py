@@ -6,11 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import ReflectionMesh, TriangleMesh
+from ...core import ReflectionMesh, TriangleMesh, View
+from . import compat
 from .join_meshes import DiffuseScene, MirrorSurface
+from .single_precision import in_single_precision
 
 # a Blender mesh holds no more
 MOST_UV_MAPS = 8
+UP = np.array((0.0, 0.0, 1.0))  # the normal of what has none
 
 
 @dataclass(frozen=True)
@@ -21,6 +24,15 @@ class Attribute:
     kind: str
     domain: str
     values: np.ndarray
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Vertices (e, 2) of edges that are sharp, and of those marked for Freestyle; faces (m,) marked for Freestyle."""
+
+    sharp_edges: np.ndarray
+    marked_edges: np.ndarray
+    marked_faces: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -38,6 +50,8 @@ class MeshArrays:
     attributes : tuple of Attribute
         UV maps and colours among them, the active ones first.
     materials : list of bpy.types.Material or None
+    lines : Lines or None
+        None of loose points.
     """
 
     origin: np.ndarray
@@ -45,6 +59,7 @@ class MeshArrays:
     triangles: np.ndarray
     attributes: tuple[Attribute, ...]
     materials: list
+    lines: Lines | None = None
 
     @property
     def uv_maps(self) -> list[str]:
@@ -52,7 +67,7 @@ class MeshArrays:
         return [attribute.name for attribute in self.attributes if attribute.kind == "FLOAT2"]
 
 
-def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface) -> MeshArrays:
+def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: View) -> MeshArrays:
     """The arrays of a result with faces.
 
     Parameters
@@ -61,11 +76,14 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
         What was reflected.
     surface : MirrorSurface
         What it was reflected in.
+    view : View
+        Who sees it.
     """
+    origin = origin_of(surface.mesh)
+    result = in_single_precision(result, origin, view)
     source, mirror_face = result.source_face, result.mirror_face
     spans = mirror_face < 0
     weights = result.source_weights.astype(np.float32)
-    origin = origin_of(surface.mesh)
     own = (
         Attribute("material_index", "INT", "FACE", scene.material[source].astype(np.int32)),
         *point_attributes(result),
@@ -74,11 +92,46 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
         Attribute("bounces", "INT", "FACE", result.bounces.astype(np.int32)),
         Attribute("mirror_face", "INT", "FACE",
                   np.where(spans, -1, surface.triangle[np.where(spans, 0, mirror_face)]).astype(np.int32)),
+        Attribute("sharp_face", "BOOLEAN", "FACE", scene.sharp_face[source]),
+        *_normals(result, scene),
     )
     # corners of the result's faces are interpolated in their source triangles
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
     return MeshArrays(origin, (result.positions - origin).astype(np.float32), result.triangles.astype(np.int32),
-                      own + shown, scene.materials)
+                      own + shown, scene.materials, _lines(result, scene))
+
+
+def _normals(result: ReflectionMesh, scene: DiffuseScene) -> tuple[Attribute, ...]:
+    """The shading normals of the sources as the mirrors show them."""
+    if not compat.has_free_normals():
+        return ()
+    normals = result.image_normals(scene.normals)
+    normals = np.where((normals != 0.0).any(axis=2, keepdims=True), normals, UP)
+    return (Attribute("custom_normal", "FLOAT_VECTOR", "CORNER", normals.astype(np.float32)),)
+
+
+def _lines(result: ReflectionMesh, scene: DiffuseScene) -> Lines:
+    """What are images of lines. Freestyle has more of them marked: sharp edges, since it knows none and finds no crease
+    between faces that both lie on the mirror, and where the surface ends, since it takes gaps for such borders too
+    where it leaves out slivers."""
+    side, triangles = result.source_sides, result.triangles
+    edges = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).astype(np.int32)
+    ends = _once(edges.reshape(-1, 2)).reshape(side.shape)
+    on_side = side >= 0
+    edges, ends, shown = edges[on_side], ends[on_side], (result.source_face[np.nonzero(on_side)[0]], side[on_side])
+    sharp = scene.sharp_side[shown]
+    marked = sharp | scene.marked_side[shown] | ends
+    return Lines(edges[sharp], edges[marked], scene.marked_face[result.source_face])
+
+
+def _once(edges: np.ndarray) -> np.ndarray:
+    """Which edges (e, 2) are there once."""
+    key = np.sort(edges, axis=1).astype(np.int64) @ (2 ** 32, 1)
+    order = np.argsort(key)
+    new = np.append(np.diff(key[order], prepend=-1) != 0, True)
+    once = np.empty(len(key), dtype=bool)
+    once[order] = new[:-1] & new[1:]
+    return once
 
 
 def origin_of(mirror: TriangleMesh) -> np.ndarray:

@@ -9,6 +9,7 @@ import numpy as np
 from ...core import ReflectionError
 from . import compat
 from .read_layers import NO_LAYERS, read_layers
+from .source_lines import SourceLines
 
 FARTHEST = 1e17  # units: squares of what lies somewhat further must still be numbers of single precision
 # what evaluated objects can be turned into a mesh
@@ -30,8 +31,10 @@ class LocalMesh:
     material_index : (m,) int32
     materials : tuple
         The object's materials by index; None where a slot is empty.
-    normals : (m, 3, 3) float32 or None
+    normals : (m, 3, 3) float32
         Shading normals of the corners: smooth, flat or custom, as Blender shades.
+    lines : SourceLines or None
+        None of a mirror.
     uv_maps : dict of str to (corners, 2) float32
     colours, numbers : dict of str to (type, (corners, c) float32)
     active_uv, active_colour : str
@@ -46,7 +49,8 @@ class LocalMesh:
     corner_count: int
     material_index: np.ndarray
     materials: tuple
-    normals: np.ndarray | None
+    normals: np.ndarray
+    lines: SourceLines | None
     uv_maps: dict
     colours: dict
     numbers: dict
@@ -66,11 +70,11 @@ class Placed:
     instances: np.ndarray
 
 
-def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, normals: bool, layers: bool) -> list[Placed]:
+def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool) -> list[Placed]:
     """Each distinct mesh of `objects`, modifiers applied, with every place where it or an instance of it stands.
 
-    Instances count as their instancer: an object that instances others owns them. `normals` asks for corner normals,
-    `layers` for UV maps and colours.
+    Instances count as their instancer: an object that instances others owns them. Of a `mirror`
+    only its shape is read, and its normals must be numbers.
 
     Raises
     ------
@@ -90,7 +94,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, normals: bool, la
         materials = tuple(slot.material.original if slot.material else None for slot in evaluated.material_slots)
         key = (evaluated.data.as_pointer(), materials) if evaluated.type == "MESH" else (original, materials)
         if key not in meshes:
-            meshes[key] = _read(evaluated, materials, normals, layers)
+            meshes[key] = _read(evaluated, materials, mirror)
             owners[key], matrices[key], instances[key] = [], [], []
         owners[key].append(owner)
         instances[key].append(instance.is_instance)
@@ -115,7 +119,7 @@ def _may_be_reflected(obj: bpy.types.Object) -> bool:
     return not obj.hide_render and obj.reflection_mesh.role not in {"IGNORE", "REFLECTION"}
 
 
-def _read(obj: bpy.types.Object, materials: tuple, normals: bool, layers: bool) -> LocalMesh | None:
+def _read(obj: bpy.types.Object, materials: tuple, mirror: bool) -> LocalMesh | None:
     """The mesh of an evaluated object; None where it has no faces."""
     mesh = obj.to_mesh()
     if mesh is None:
@@ -131,10 +135,15 @@ def _read(obj: bpy.types.Object, materials: tuple, normals: bool, layers: bool) 
     corners, face = _triangulation(mesh)
     corner_vertex = _values(mesh.attributes[".corner_vert"].data, "value", len(mesh.loops), np.int32)
     materials = materials or tuple(mesh.materials)
+    normals = _corner_normals(mesh)
+    if mirror and not np.isfinite(normals).all():
+        obj.to_mesh_clear()
+        raise ReflectionError(f"'{obj.name}' has a normal that is not a finite number: recalculate its normals.")
+    normals[~np.isfinite(normals)] = 0.0
     local = LocalMesh(
         positions, corner_vertex[corners], corners, len(mesh.loops), _face_materials(mesh)[face], materials,
-        _corner_normals(obj, mesh, corners) if normals else None,
-        *(read_layers(mesh, materials) if layers else NO_LAYERS),
+        normals[corners], None if mirror else SourceLines.of(mesh, corners, face),
+        *(NO_LAYERS if mirror else read_layers(mesh, materials)),
         np.array((mesh.texspace_location, mesh.texspace_size), dtype=np.float32))
     obj.to_mesh_clear()
     return local
@@ -166,7 +175,7 @@ def _face_materials(mesh: bpy.types.Mesh) -> np.ndarray:
     return _values(attribute.data, "value", len(mesh.polygons), np.int32)
 
 
-def _corner_normals(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.ndarray) -> np.ndarray:
+def _corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
     normals = _values(mesh.corner_normals, "vector", (len(mesh.loops), 3), np.float32)
     if compat.smooth_faces_take_vertex_normals(mesh):
         smooth = np.repeat(_values(mesh.polygons, "use_smooth", len(mesh.polygons), bool),
@@ -174,7 +183,4 @@ def _corner_normals(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.nda
         of_vertices = _values(mesh.vertex_normals, "vector", (len(mesh.vertices), 3), np.float32)
         vertex = _values(mesh.attributes[".corner_vert"].data, "value", len(mesh.loops), np.int32)
         normals[smooth] = of_vertices[vertex[smooth]]
-    if not np.isfinite(normals).all():
-        obj.to_mesh_clear()
-        raise ReflectionError(f"'{obj.name}' has a normal that is not a finite number: recalculate its normals.")
-    return normals[corners]
+    return normals

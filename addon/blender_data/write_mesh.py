@@ -4,7 +4,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from .mesh_arrays import MeshArrays
+from . import compat
+from .mesh_arrays import Lines, MeshArrays
 
 # where the values of an attribute lie, by its type; all others call it "value"
 FIELDS = {"FLOAT_VECTOR": "vector", "FLOAT2": "vector", "FLOAT_COLOR": "color", "BYTE_COLOR": "color"}
@@ -28,6 +29,8 @@ def write_mesh(mesh: bpy.types.Mesh, arrays: MeshArrays) -> None:
     if len(mesh.color_attributes):
         mesh.color_attributes.active_color_index = mesh.color_attributes.render_color_index = 0
     mesh.update(calc_edges=len(arrays.triangles) > 0)
+    if arrays.lines is not None:
+        _write_lines(mesh, arrays.lines)
 
 
 def _write_faces(mesh: bpy.types.Mesh, triangles: np.ndarray) -> None:
@@ -35,3 +38,21 @@ def _write_faces(mesh: bpy.types.Mesh, triangles: np.ndarray) -> None:
     mesh.polygons.add(len(triangles))
     mesh.attributes[".corner_vert"].data.foreach_set("value", triangles.reshape(-1))
     mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
+
+
+def _write_lines(mesh: bpy.types.Mesh, lines: Lines) -> None:
+    if len(lines.sharp_edges):
+        sharp = mesh.attributes.get("sharp_edge") or mesh.attributes.new("sharp_edge", "BOOLEAN", "EDGE")
+        sharp.data.foreach_set("value", _among(mesh, lines.sharp_edges))
+    if len(lines.marked_edges):
+        compat.mark_for_freestyle(mesh, "EDGE", _among(mesh, lines.marked_edges))
+    if lines.marked_faces.any():
+        compat.mark_for_freestyle(mesh, "FACE", lines.marked_faces)
+
+
+def _among(mesh: bpy.types.Mesh, pairs: np.ndarray) -> np.ndarray:
+    """Which edges of a mesh (e,) join one of the `pairs` (n, 2) of vertices."""
+    edges = np.empty((len(mesh.edges), 2), dtype=np.int32)
+    mesh.edges.foreach_get("vertices", edges.reshape(-1))
+    own, chosen = (np.sort(ends, axis=1).astype(np.int64) @ (len(mesh.vertices), 1) for ends in (edges, pairs))
+    return np.isin(own, chosen)

@@ -82,6 +82,9 @@ def _new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: All
     _link_beside(context, obj, mirror)
     for rays in RAYS:
         setattr(obj, rays, False)
+    # Line Art takes creases from the sharp edges alone, and no lines where layers that touch sink into each other
+    obj.lineart.use_crease_override, obj.lineart.crease_threshold = True, 0.0
+    obj.lineart.usage = "NO_INTERSECTION"
     return obj
 
 

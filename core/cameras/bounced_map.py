@@ -86,6 +86,9 @@ class BouncedMap(ReflectionMap):
         on = drawn_in(self.surface.coordinates(triangle, self._arriving(face, uv)[0]))
         return [*self.before.met_later(self.face_before[face], uv), self.surface.places(triangle, on)]
 
+    def leaving(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+        return [*self.before.leaving(self.face_before[face], uv), self.rays(face, uv)]
+
     def turned_before(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
         return self.before.turned(self.face_before[face], uv, self._arriving(face, uv)[2])
 

@@ -83,6 +83,9 @@ class MirrorMap(ReflectionMap):
     def met_later(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
         return []
 
+    def leaving(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+        return [self.rays(face, uv)]
+
     def turned_before(self, face: np.ndarray, uv: np.ndarray) -> float:
         return 1.0
 

@@ -78,6 +78,10 @@ class ReflectionMap(ABC):
         """Places (3, n) on each mirror that the ray from Q meets later, the last of them O. None after one bounce."""
 
     @abstractmethod
+    def leaving(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
+        """Directions (3, n) in which the ray leaves each mirror that it meets, the nearest to the eye first; R last."""
+
+    @abstractmethod
     def lifted(self, face: np.ndarray, uv: np.ndarray, slack: float = 0.0) -> np.ndarray:
         """Whether the rays (n,) would enter their flat faces and are turned until they clear them, or, by `slack` of
         their rise, all but are."""

@@ -7,6 +7,8 @@ import numpy as np
 
 from .discs import Discs
 
+ON_SIDE = 1e-6  # of a triangle: what lies nearer to its side lies on it
+
 
 @dataclass(frozen=True)
 class ReflectionMesh:
@@ -17,7 +19,7 @@ class ReflectionMesh:
     positions : (n, 3) float64
         Vertices where the placement puts them.
     triangles : (m, 3) int64
-        Faces, all turned towards the eye.
+        Faces, turned towards the eye where they show the front of their source, away from it where its back.
     reflected_position : (n, 3) float64
         The diffuse point whose image the vertex is.
     mirror_position : (n, 3) float64
@@ -49,6 +51,9 @@ class ReflectionMesh:
         For the method POINTS, where there are no faces: radius, source vertex and more of each point.
     bounces : (m,) int8
         How many mirrors the light of each face met: 1 for what is seen in the mirror itself, the default.
+    mirror_normals : (n, b, 3) float64 or None
+        Unit normal of each mirror that the eye sees a vertex by, the nearest to the eye first, zero for those that it
+        is not seen by. None of points.
 
     Examples
     --------
@@ -76,10 +81,43 @@ class ReflectionMesh:
     estimated_error: float = 0.0
     discs: Discs | None = None
     bounces: np.ndarray | None = None
+    mirror_normals: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         if self.bounces is None:
             object.__setattr__(self, "bounces", np.ones(len(self.triangles), dtype=np.int8))
+
+    @property
+    def source_sides(self) -> np.ndarray:
+        """(m, 3) int8: the side of the source triangle, from corner k to the next, whose image each side of each face
+        is a part of; -1 for sides that only cut the image, along a mirror's triangle or what hides it."""
+        beside = self.source_weights < ON_SIDE
+        opposite = beside & np.roll(beside, -1, axis=1)
+        # side k lies opposite to corner k + 2
+        side = np.roll(opposite, -2, axis=2)
+        return np.where(side.any(axis=2), side.argmax(axis=2), -1).astype(np.int8)
+
+    def image_normals(self, normals: np.ndarray) -> np.ndarray:
+        """Normals as the mirrors show them, (m, 3, 3) at the corners of the faces.
+
+        Parameters
+        ----------
+        normals : (s, 3, 3) float64
+            At the corners of the source triangles.
+
+        Returns
+        -------
+        (m, 3, 3) float64
+            Unit normals; zero where those of the source cancel, or where the result has no `mirror_normals`.
+        """
+        if self.mirror_normals is None:
+            return np.zeros(self.triangles.shape + (3,))
+        shown = np.matmul(self.source_weights, normals[self.source_face])
+        for mirror in np.moveaxis(self.mirror_normals, 1, 0)[::-1]:
+            across = mirror[self.triangles]
+            shown -= 2.0 * np.einsum("fci,fci->fc", shown, across)[:, :, None] * across
+        length = np.sqrt(np.einsum("fci,fci->fc", shown, shown))[:, :, None]
+        return np.divide(shown, length, out=np.zeros_like(shown), where=length > 0.0)
 
     @property
     def missing_share(self) -> float:

@@ -24,7 +24,7 @@ def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
     reference, other = picture(room), picture(room, seed=7)
     parts.generate()
     before = psnr(picture(room), reference)
-    light(128)
+    light(64)
     lit, noise = psnr(picture(room), reference), psnr(other, reference)
     assert lit > min(38.0, noise - 1.5)
     assert lit > before + 6.0
@@ -33,7 +33,7 @@ def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
 def test_it_is_right_from_elsewhere_too(blank, room):
     wall = scene_of(blank, "UV", "Fresnel")
     result = parts.generate()
-    light(128)
+    light(64)
     shown = result.reflection_mesh.light_material
     camera = blank.scene.camera
     camera.location.x += 0.6

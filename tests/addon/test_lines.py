@@ -1,0 +1,410 @@
+"""Lines of reflections: what Line Art and Freestyle draw, against where edges must be seen; sides and normals."""
+import bpy
+import numpy as np
+import parts
+import pytest
+
+BESIDE = (2.0, -2.5, 1.0)  # its image is seen in the mirrors, itself not
+INNER = -2
+EDGES = [(0, 1), (2, 3), (4, 5), (6, 7), (0, 2), (1, 3), (4, 6), (5, 7), (0, 4), (1, 5), (2, 6), (3, 7)]
+
+
+def line_art(source: bpy.types.Object, *kinds: str) -> list:
+    """The strokes that Line Art draws of an object in the render's pixels, (n, 2) each; by its defaults, or those
+    `kinds` alone."""
+    if bpy.app.version < (4, 3, 0):
+        bpy.ops.object.gpencil_add(type="LINEART_OBJECT")
+    else:
+        bpy.ops.object.grease_pencil_add(type="LINEART_OBJECT")
+    drawn = bpy.context.object
+    modifier = (drawn.grease_pencil_modifiers if bpy.app.version < (4, 3, 0) else drawn.modifiers)[0]
+    modifier.source_type, modifier.source_object = "OBJECT", source
+    for kind in ("contour", "crease", "material", "edge_mark", "intersection", "loose") if kinds else ():
+        setattr(modifier, f"use_{kind}", kind in kinds)
+    evaluated = drawn.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    frames = [frame for layer in evaluated.data.layers for frame in layer.frames]
+    if bpy.app.version < (4, 3, 0):
+        strokes = [[point.co[:] for point in stroke.points] for frame in frames for stroke in frame.strokes]
+    else:
+        strokes = [[point.position[:] for point in stroke.points] for frame in frames
+                   for stroke in frame.drawing.strokes]
+    bpy.data.objects.remove(drawn)
+    return [pixels(np.array(stroke)) for stroke in strokes]
+
+
+def pixels(places: np.ndarray) -> np.ndarray:
+    """Where the render shows places (n, 3) that lie before the camera, in pixels from the lower left corner."""
+    scene, graph = bpy.context.scene, bpy.context.evaluated_depsgraph_get()
+    size = np.array((scene.render.resolution_x, scene.render.resolution_y))
+    matrix = scene.camera.calc_matrix_camera(graph, x=size[0], y=size[1]) @ scene.camera.matrix_world.inverted()
+    clip = np.column_stack((places, np.ones(len(places)))) @ np.array(matrix).T
+    return 0.5 * (clip[:, :2] / clip[:, 3:] + 1.0) * size
+
+
+def off_lines(points: np.ndarray, lines: list) -> np.ndarray:
+    """How far points (n, 2) are from the nearest of several polylines (m, 2)."""
+    start, end = (np.concatenate([line[part] for line in lines]) for part in (slice(None, -1), slice(1, None)))
+    along = end - start
+    share = ((points[:, None] - start) * along).sum(axis=2) / np.maximum((along * along).sum(axis=1), 1e-12)
+    foot = start + np.clip(share, 0.0, 1.0)[:, :, None] * along
+    return np.linalg.norm(points[:, None] - foot, axis=2).min(axis=1)
+
+
+def dense(lines: list) -> np.ndarray:
+    """Points (n, 2) on polylines, twenty to each of their sides."""
+    share = np.linspace(0.0, 1.0, 20)[:, None, None]
+    return np.concatenate([(line[:-1] * (1.0 - share) + line[1:] * share).reshape(-1, 2) for line in lines])
+
+
+def smooth(obj: bpy.types.Object) -> None:
+    obj.data.polygons.foreach_set("use_smooth", np.ones(len(obj.data.polygons), dtype=bool))
+    obj.data.update()
+
+
+def add_mirror(kind: str) -> bpy.types.Object:
+    """The wall, or a ball that is round to a thousandth."""
+    if kind == "wall":
+        return parts.add_wall_mirror()
+    ball = parts.add("uv_sphere", "Mirror", radius=2.0, segments=256, ring_count=128, location=(0.0, 3.0, 1.0))
+    smooth(ball)
+    return ball
+
+
+def seen_at(kind: str, points: np.ndarray) -> np.ndarray:
+    """Where on the mirror the camera sees points (n, 3): the wall's plane, or the round ball, by bisection."""
+    eye = np.array(bpy.context.scene.camera.location)
+    if kind == "wall":
+        mirrored = points * (1.0, -1.0, 1.0) + (0.0, 2.0, 0.0)
+        return eye + (mirrored - eye) * ((1.0 - eye[1]) / (mirrored[:, 1:2] - eye[1]))
+    centre = np.array((0.0, 3.0, 1.0))
+    one = (eye - centre) / np.linalg.norm(eye - centre)
+    across = points - centre - ((points - centre) @ one)[:, None] * one
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    low, high = np.zeros(len(points)), np.arctan2(((points - centre) * across).sum(axis=1), (points - centre) @ one)
+    for _ in range(60):
+        angle = 0.5 * (low + high)
+        normal = np.cos(angle)[:, None] * one + np.sin(angle)[:, None] * across
+        place = centre + 2.0 * normal
+        back, on = (way / np.linalg.norm(way, axis=1, keepdims=True) for way in (eye - place, points - place))
+        late = (back * normal).sum(axis=1) < (on * normal).sum(axis=1)
+        low, high = np.where(late, low, angle), np.where(late, angle, high)
+    return place
+
+
+def cube_edges(box: bpy.types.Object, kind: str) -> tuple[list, list]:
+    """The visible edges of a unit cube as the mirror shows them, in pixels, and which of the twelve they are."""
+    corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    matrix = np.array(box.matrix_world)
+    share = np.linspace(0.0, 1.0, 60)[:, None]
+    lines, seen = [], []
+    for number, (first, second) in enumerate(EDGES):
+        local = corners[first] * (1.0 - share) + corners[second] * share
+        places = seen_at(kind, local @ matrix[:3, :3].T + matrix[:3, 3])
+        from_mirror = (places - matrix[:3, 3]) @ matrix[:3, :3]  # in the cube's own space
+        faces = [axis for axis in range(3) if corners[first][axis] == corners[second][axis]]
+        fronts = [from_mirror[:, axis] * np.sign(corners[first][axis]) > 0.5 for axis in faces]
+        if np.any(fronts):
+            assert np.any(fronts, axis=0).all()
+            lines.append(pixels(places))
+            seen.append(number)
+    return lines, seen
+
+
+@pytest.fixture
+def cube(blank):
+    """A cube whose image the mirrors show beside it, in a picture of 512 x 384."""
+    blank.scene.render.resolution_x, blank.scene.render.resolution_y = 512, 384
+    box = parts.add("cube", "Box", size=1.0, location=BESIDE, rotation=(0.3, 0.2, 0.9))
+    box.data.materials.append(parts.material("Plain"))
+    return box
+
+
+@pytest.mark.parametrize("kind, placement", [("wall", "LAYERED"), ("wall", "VIRTUAL"), ("ball", "LAYERED")])
+def test_line_art_draws_the_visible_edges_of_a_cube_and_nothing_else(cube, kind, placement):
+    mirror = add_mirror(kind)
+    parts.select(cube, mirror)
+    result = parts.generate(placement=placement)
+    if placement == "VIRTUAL":
+        mirror.lineart.usage = "EXCLUDE"  # Line Art asks no camera what it sees
+    strokes = line_art(result)
+    expected, seen = cube_edges(cube, kind)
+    assert len(seen) in (7, 9)
+    assert off_lines(np.concatenate(expected), strokes).max() < 1.5
+    assert off_lines(dense(strokes), expected).max() < 1.5
+
+
+def test_a_floor_has_no_lines_but_its_outline(blank):
+    """Straight before the camera the rows of a ball's triangles and the floor's middle agree to the last digits, and
+    leave slivers, which rounding to single precision turns over or flattens."""
+    camera = blank.scene.camera
+    camera.location, camera.rotation_euler, camera.data.lens = (0.0, -7.5, 2.6), (1.36, 0.0, 0.0), 42.0
+    blank.scene.render.resolution_x = blank.scene.render.resolution_y = 900
+    floor = parts.add("plane", "Floor", size=14.0, location=(0.0, 0.0, 0.0))
+    ball = parts.add("uv_sphere", "Mirror", radius=1.6, segments=96, ring_count=48, location=(0.0, 0.0, 1.6))
+    ring = parts.add("torus", "Ring", major_radius=0.6, minor_radius=0.2, major_segments=96, minor_segments=48,
+                     location=(0.6, -3.0, 0.22))
+    smooth(ball)
+    smooth(ring)
+    parts.select(floor, ring, ball)
+    result = parts.generate()
+    places = parts.attribute(result, "position")[parts.corners(result)][parts.attribute(result, "source_object") == 0]
+    a, b, c = np.moveaxis(places, 1, 0)
+    eye = np.array(blank.scene.camera.location) - np.array(result.location)
+    assert len(places) > 3000
+    assert ((np.cross(a - b, b - c) * (eye - a)).sum(axis=1) > 0.0).all()
+    assert line_art(result, "crease", "intersection", "edge_mark") == []
+
+
+def test_line_art_draws_the_silhouette_of_a_ball(blank):
+    ball = parts.add("uv_sphere", "Ball", radius=0.6, segments=96, ring_count=48, location=(2.0, -2.5, 1.2))
+    smooth(ball)
+    parts.select(ball, parts.add_wall_mirror())
+    strokes = line_art(parts.generate())
+    eye, middle = np.array(blank.scene.camera.location), np.array((2.0, 4.5, 1.2))
+    away = middle - eye
+    distance = np.linalg.norm(away)
+    across = np.linalg.svd(away[None])[2][1:]
+    turn = np.linspace(0.0, 2.0 * np.pi, 200)[:, None]
+    # the circle where rays from the eye touch the mirrored ball
+    rim = (middle - 0.6**2 / distance**2 * away
+           + 0.6 * np.sqrt(1.0 - 0.6**2 / distance**2) * (np.cos(turn) * across[0] + np.sin(turn) * across[1]))
+    assert off_lines(pixels(rim), strokes).max() < 1.0
+    assert off_lines(dense(strokes), [pixels(rim)]).max() < 1.0
+
+
+def grid(chosen: int | None) -> tuple:
+    """A sheet of 2 x 2 faces in a wall, with the `chosen` edge marked for Freestyle, `INNER` for one that its
+    middle ends: the result, and the edge's ends."""
+    sheet = parts.add("grid", "Sheet", x_subdivisions=2, y_subdivisions=2, size=1.6, location=BESIDE,
+                      rotation=(1.2, 0.1, 0.9))
+    inner = [edge.index for edge in sheet.data.edges if any(
+        np.allclose(sheet.data.vertices[vertex].co, 0.0) for vertex in edge.vertices)]
+    edge = sheet.data.edges[inner[0] if chosen in (None, INNER) else chosen]
+    if chosen is not None and bpy.app.version < (5, 0, 0):
+        edge.use_freestyle_mark = True
+    elif chosen is not None:
+        sheet.data.attributes.new("freestyle_edge", "BOOLEAN", "EDGE").data[edge.index].value = True
+    parts.select(sheet, parts.add_wall_mirror())
+    return parts.generate(), np.array([sheet.matrix_world @ sheet.data.vertices[vertex].co for vertex in edge.vertices])
+
+
+def test_marked_edges_are_drawn_and_no_others(blank):
+    result, ends = grid(INNER)
+    line, strokes = pixels(seen_at("wall", ends)), line_art(result, "edge_mark")
+    assert off_lines(dense([line]), strokes).max() < 1.0 and off_lines(dense(strokes), [line]).max() < 1.0
+    result, _ = grid(None)
+    assert line_art(result, "edge_mark", "crease") == []
+
+
+@pytest.mark.parametrize("chosen", [INNER, -1])
+def test_marks_lie_on_the_marked_edge(blank, room, chosen):
+    """Be it the last one, whose number stands for sides that are no edges too; and on the sheet's outline."""
+    result, ends = grid(chosen)
+    marks = room("addon.blender_data.compat").freestyle_marks(result.data, "EDGE")
+    vertices = np.array([edge.vertices[:] for edge in result.data.edges])
+    points = parts.attribute(result, "reflected_position")
+    share = ((points - ends[0]) @ (ends[1] - ends[0])) / ((ends[1] - ends[0]) @ (ends[1] - ends[0]))
+    away = np.linalg.norm(points - ends[0] - np.clip(share, 0.0, 1.0)[:, None] * (ends[1] - ends[0]), axis=1)
+    sheet = result.reflection_mesh.sources[0].object
+    local = np.column_stack((points, np.ones(len(points)))) @ np.array(sheet.matrix_world.inverted()).T
+    outer = [(np.abs(local[vertices][:, :, axis] - side) < 1e-5).all(axis=1) for axis in (0, 1) for side in (-0.8, 0.8)]
+    expected = (away[vertices].max(axis=1) < 1e-5) | np.any(outer, axis=0)
+    assert (marks == expected).all() and 0 < np.any(outer, axis=0).sum() < len(marks)
+
+
+def test_line_art_takes_creases_from_sharp_edges(cube):
+    """The three edges round the corner of a cube that is nearest; where its surface turns over, contours come first."""
+    parts.select(cube, add_mirror("ball"))
+    strokes = line_art(parts.generate(), "crease")
+    expected, _ = cube_edges(cube, "ball")
+    assert len(strokes) and off_lines(dense(strokes), expected).max() < 1.5
+    assert off_lines(np.concatenate(expected), strokes).max() < 1.5
+
+
+@pytest.mark.parametrize("angle, sharp", [(30.0, False), (50.0, True)])
+def test_an_edge_is_a_crease_from_forty_degrees_on(blank, angle, sharp):
+    """Of a roof, also where a scale bends it; an edge marked as sharp always is."""
+    rise = np.tan(np.radians(0.5 * angle))
+    roof = bpy.data.meshes.new("Roof")
+    roof.from_pydata([(-1, -1, 0), (0, -1, 1), (1, -1, 0), (-1, 1, 0), (0, 1, 1), (1, 1, 0)], [],
+                     [(0, 1, 4, 3), (1, 2, 5, 4)])
+    obj = bpy.data.objects.new("Roof", roof)
+    obj.location, obj.scale, obj.rotation_euler = BESIDE, (0.6, 0.6, 0.6 * rise), (-1.2, 0.3, 0.4)
+    blank.scene.collection.objects.link(obj)
+    blank.view_layer.update()
+    mirror = parts.add_wall_mirror()
+    parts.select(obj, mirror)
+    assert bool(line_art(parts.generate(), "crease")) == sharp
+    edges = roof.attributes.new("sharp_edge", "BOOLEAN", "EDGE")
+    edges.data.foreach_set("value", np.ones(len(roof.edges), dtype=bool))
+    roof.update()
+    parts.select(obj, mirror)
+    assert line_art(parts.generate(), "crease")
+
+
+def freestyle(result: bpy.types.Object, tmp_path) -> np.ndarray:
+    """Where Freestyle draws marked edges of the result alone, in a render: places (n, 2) in pixels."""
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    for obj in scene.objects:
+        obj.hide_render = obj.type == "MESH" and obj != result
+    scene.render.engine, scene.cycles.samples, scene.render.film_transparent = "CYCLES", 1, True
+    scene.render.use_freestyle = layer.use_freestyle = True
+    lines = layer.freestyle_settings.linesets.new("Lines")
+    for name in ("silhouette", "border", "crease"):
+        setattr(lines, f"select_{name}", False)
+    lines.select_edge_mark = True
+    lines.linestyle = lines.linestyle or bpy.data.linestyles.new("Lines")
+    lines.linestyle.color, lines.linestyle.thickness = (1.0, 0.0, 0.0), 2.0
+    scene.view_settings.view_transform = "Standard"
+    scene.render.filepath = str(tmp_path / "lines.png")
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(scene.render.filepath)
+    shown = np.array(image.pixels[:]).reshape(image.size[1], image.size[0], 4)
+    row, column = np.nonzero((shown[..., 0] > 0.6) & (shown[..., 1] < 0.4) & (shown[..., 3] > 0.6))
+    return np.column_stack((column, row)) + 0.5
+
+
+def test_freestyle_draws_the_edges_of_a_cube(cube, tmp_path):
+    parts.select(cube, add_mirror("ball"))
+    drawn = freestyle(parts.generate(), tmp_path)
+    expected, _ = cube_edges(cube, "ball")
+    assert off_lines(drawn, expected).max() < 3.0
+    lit = np.linalg.norm(np.concatenate(expected)[:, None] - drawn, axis=2).min(axis=1)
+    assert (lit < 3.0).mean() > 0.98
+
+
+def two_sided() -> bpy.types.Material:
+    """Red light from fronts, blue from backs."""
+    made = parts.material("Sides")
+    tree = made.node_tree
+    emission = next(node for node in tree.nodes if node.type == "EMISSION")
+    side, mixed = tree.nodes.new("ShaderNodeNewGeometry"), tree.nodes.new("ShaderNodeMix")
+    mixed.data_type = "RGBA"
+    mixed.inputs[6].default_value, mixed.inputs[7].default_value = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0)
+    tree.links.new(side.outputs["Backfacing"], mixed.inputs[0])
+    tree.links.new(mixed.outputs[2], emission.inputs[0])
+    return made
+
+
+def rendered(tmp_path) -> np.ndarray:
+    scene = bpy.context.scene
+    scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 16, False
+    scene.view_settings.view_transform = "Raw"
+    scene.render.filepath = str(tmp_path / "picture.png")
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(scene.render.filepath)
+    shown = np.array(image.pixels[:]).reshape(-1, 4)
+    bpy.data.images.remove(image)
+    return shown
+
+
+@pytest.mark.parametrize("kind, depth, placement", [
+    ("wall", 1, "LAYERED"), ("wall", 1, "VIRTUAL"), ("ball", 1, "LAYERED"), ("wall", 2, "LAYERED"),
+    ("wall", 2, "VIRTUAL")])
+def test_fronts_and_backs_are_those_that_cycles_sees_in_the_mirror(blank, tmp_path, kind, depth, placement):
+    """An open tube, turned inside out by a negative scale."""
+    blank.scene.render.resolution_x, blank.scene.render.resolution_y = 512, 384
+    tube = parts.add("cylinder", "Tube", radius=0.6, depth=1.0, end_fill_type="NOTHING", location=BESIDE,
+                     rotation=(0.9, 0.4, 0.3), scale=(1.0, 1.0, -1.2))
+    tube.data.materials.append(two_sided())
+    mirrors = [add_mirror(kind)]
+    if depth == 2:
+        mirrors[0].scale.x = 2.0
+        mirrors.append(parts.add("plane", "Side", size=4.0, location=(3.6, -1.0, 1.0), rotation=(np.pi / 2, 0.0, -1.4)))
+        blank.scene.cycles.max_bounces = 8
+    for mirror in mirrors:
+        mirror.data.materials.append(parts.material("Silver", "GLOSSY"))
+        next(node for node in mirror.data.materials[0].node_tree.nodes if node.type == "BSDF_GLOSSY").inputs[
+            "Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    blank.view_layer.update()
+    truth = rendered(tmp_path)
+    parts.select(tube, *mirrors)
+    parts.generate(depth=depth, placement=placement)
+    tube.visible_glossy = False  # what is seen is the result
+    shown = rendered(tmp_path)
+    red, blue = (truth[:, channel] > 0.99 for channel in (0, 2))
+    assert red.sum() > 50 and blue.sum() > 50
+    wrong = (red & (shown[:, 2] > 0.5)) | (blue & (shown[:, 0] > 0.5))
+    right = (red & (shown[:, 0] > 0.5)) | (blue & (shown[:, 2] > 0.5))
+    assert wrong.sum() <= 0.005 * right.sum() and right.sum() > 0.98 * (red | blue).sum()
+
+
+@pytest.mark.skipif(bpy.app.version < (4, 5, 0), reason="meshes know no free normals yet")
+def test_normals_are_those_of_the_sources_mirrored(blank):
+    ball = parts.add("uv_sphere", "Ball", radius=0.6, segments=24, ring_count=12, location=BESIDE,
+                     scale=(1.0, 0.5, 1.0))
+    smooth(ball)
+    box = parts.add("cube", "Box", size=0.6, location=(1.6, -2.0, 1.4), rotation=(0.3, 0.2, 0.5))
+    parts.select(ball, box, parts.add_wall_mirror())
+    result = parts.generate()
+    mesh = result.data
+    shown = np.empty((len(mesh.loops), 3), dtype=np.float32)
+    mesh.corner_normals.foreach_get("vector", shown.reshape(-1))
+    points, owner = parts.attribute(result, "reflected_position")[parts.corners(result)], parts.attribute(
+        result, "source_object")
+    shown = shown.reshape(-1, 3, 3)
+    # Blender's own vertex normals of the ball at its vertices, the box's flat ones everywhere
+    for number, source in enumerate((ball, box)):
+        matrix = np.array(source.matrix_world)
+        turn = np.linalg.inv(matrix[:3, :3])
+        positions = np.array([vertex.co[:] for vertex in source.data.vertices]) @ matrix[:3, :3].T + matrix[:3, 3]
+        assert (owner == number).sum() > 12
+        if source == ball:
+            normals = np.array([vertex.normal[:] for vertex in source.data.vertices]) @ turn
+            near = np.linalg.norm(points[owner == 0][:, :, None] - positions, axis=3)
+            corner = near.min(axis=2) < 1e-5
+            expected = normals[near.argmin(axis=2)][corner]
+            given = shown[owner == 0][corner]
+            assert corner.sum() > 100
+        else:
+            local = (points[owner == 1].mean(axis=1) - matrix[:3, 3]) @ turn.T
+            axis = np.abs(local).argmax(axis=1)
+            normals = np.zeros((len(axis), 3))
+            normals[np.arange(len(axis)), axis] = np.sign(local[np.arange(len(axis)), axis])
+            expected, given = np.repeat(normals @ turn, 3, axis=0), shown[owner == 1].reshape(-1, 3)
+        expected = expected / np.linalg.norm(expected, axis=1, keepdims=True) * (1.0, -1.0, 1.0)
+        assert np.abs(given - expected).max() < 1e-4
+
+
+def test_smooth_and_sharp_faces_stay_so(blank):
+    ball = parts.add("uv_sphere", "Ball", radius=0.6, segments=24, ring_count=12, location=BESIDE)
+    smooth(ball)
+    box = parts.add("cube", "Box", size=0.6, location=(1.6, -2.0, 1.4))
+    parts.select(ball, box, parts.add_wall_mirror())
+    result = parts.generate()
+    shown = np.empty(len(result.data.polygons), dtype=bool)
+    result.data.polygons.foreach_get("use_smooth", shown)
+    assert (shown == (parts.attribute(result, "source_object") == 0)).all() and 0 < shown.sum() < len(shown)
+
+
+def apart(strokes: list, others: list) -> float:
+    """The farthest that a point of strokes lies from the segments of others; light may cut faces, and lines with
+    them."""
+    starts, ends = (np.concatenate([stroke[part] for stroke in others]) for part in (slice(None, -1), slice(1, None)))
+    points = np.concatenate(strokes)
+    along = ends - starts
+    part = np.einsum("pks,ks->pk", points[:, None] - starts, along) / np.maximum((along ** 2).sum(axis=1), 1e-12)
+    nearest = starts + np.clip(part, 0.0, 1.0)[..., None] * along
+    return float(np.linalg.norm(points[:, None] - nearest, axis=2).min(axis=1).max())
+
+
+def test_light_leaves_the_lines(cube):
+    mirror = add_mirror("wall")
+    mirror.data.materials.append(parts.material("Silver", "PRINCIPLED"))
+    bpy.ops.object.light_add(type="POINT", location=(0.0, -3.0, 3.0))
+    parts.select(cube, mirror)
+    result = parts.generate()
+    before = line_art(result)
+    parts.select(result)
+    assert bpy.ops.reflection_mesh.light("EXEC_DEFAULT", samples=1) == {"FINISHED"}
+    assert result.reflection_mesh.light_material is not None
+    after = line_art(result)
+    assert sum(map(len, before)) > 9
+    assert apart(before, after) < 1e-3 and apart(after, before) < 1e-3
+
+
+def test_what_the_user_sets_for_line_art_is_kept(cube):
+    parts.select(cube, add_mirror("wall"))
+    result = parts.generate()
+    result.lineart.usage = "EXCLUDE"
+    assert parts.generate() == result and result.lineart.usage == "EXCLUDE"
