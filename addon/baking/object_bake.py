@@ -71,7 +71,7 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
             for number, _ in chosen:
                 yield done / whole, Undivided(f"Cycles bakes the light on '{scene.sources[number].name}'")
                 # as many samples for each pixel, not for each texel
-                picture = _spread(stage.bake(number, atlases[number].size, seen.seen_from[number],
+                picture = spread(stage.bake(number, atlases[number].size, seen.seen_from[number],
                                              bool(seen.one_eye[number]), max(round(samples / FINER ** 2), 1)))
                 for sheet in [(number, False), (number, True)] if opacity else [(number, back)]:
                     if opacity:
@@ -97,7 +97,7 @@ def _packed(scene: DiffuseScene, parts: list, sheets: list, density: np.ndarray)
         density = density * COARSER
 
 
-def _spread(picture: np.ndarray) -> np.ndarray:
+def spread(picture: np.ndarray) -> np.ndarray:
     """The picture with the texels around what was baked as their neighbours in the mean, two rings of them."""
     known = picture[..., 3] != UNTOUCHED
     values = np.where(known[..., None], picture, 0.0)

@@ -146,12 +146,12 @@ def covered(corners: np.ndarray, size: int) -> np.ndarray:
 
 
 def test_triangles_have_room_of_their_own(room):
-    """Against every texel: none is of two triangles, those of different ones do not touch, and none is without."""
+    """Against every texel: none is of two triangles, and none is without."""
     atlas = room("addon.baking.atlas")
     rng = np.random.default_rng(3)
-    corners = rng.normal(size=(160, 1, 3)) + rng.normal(size=(160, 3, 3)) * np.exp(rng.normal(size=(160, 1, 1)))
+    corners = rng.normal(size=(90, 1, 3)) + rng.normal(size=(90, 3, 3)) * np.exp(0.7 * rng.normal(size=(90, 1, 1)))
     corners[:6, 2] = corners[:6, 0] + 1e-4 * rng.normal(size=(6, 3))
-    packed = atlas.packed(corners, 12.0)
+    packed = atlas.packed(corners, 5.0)
     owner = np.full((packed.size, packed.size), -1)
     spots = packed.uv.astype(np.float64) * packed.size
     assert spots.min() > 0.0 and spots.max() < packed.size
@@ -159,14 +159,21 @@ def test_triangles_have_room_of_their_own(room):
         inside = covered(triangle, packed.size)
         assert inside.sum() >= 3 and (owner[inside] == -1).all()
         owner[inside] = number
-    near = ndimage.maximum_filter(owner, 2)
-    far = -ndimage.maximum_filter(np.where(owner < 0, -10**6, -owner), 2)
-    assert (near[owner >= 0] == owner[owner >= 0]).mean() > 0.99 and far.max() < 10**6 + 1
+    # what one shows, its neighbours in the picture hardly change
+    shade = rng.random(len(spots))
+    picture = np.full((packed.size, packed.size, 4), -1.0, dtype=np.float32)
+    picture[owner >= 0] = shade[owner[owner >= 0], None]
+    picture = room("addon.baking.object_bake").spread(picture)[..., 0]
+    weights = rng.dirichlet((1.0, 1.0, 1.0), size=(len(spots), 40))
+    at = np.matmul(weights, spots)
+    seen = ndimage.map_coordinates(picture, (at[..., 1] - 0.5, at[..., 0] - 0.5), order=1, mode="nearest")
+    wrong = np.abs(seen - shade[:, None])
+    assert wrong.mean() < 0.01 and wrong[weights.min(axis=2) > 0.25].max() < 0.02
     # as many texels as were asked for, along every side
     lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
     texels = np.linalg.norm(np.roll(spots, -1, axis=1) - spots, axis=2)
     legs = np.sort(lengths, axis=1)[:, :2].max(axis=1)
-    assert (np.sort(texels, axis=1)[:, :2].max(axis=1) >= 0.99 * 12.0 * legs).all()
+    assert (np.sort(texels, axis=1)[:, :2].max(axis=1) >= 0.99 * 5.0 * legs).all()
 
 
 def test_pictures_of_objects_lie_beside_one_another(room):
