@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ...core import View
-from ..blender_data import is_opaque
+from ..blender_data import compat, is_opaque
 from ..faults import still_there
 from ..rendering import rendered, with_cycles
 
@@ -60,6 +60,9 @@ class LightScene:
         scene, layer = self.scene, self.scene.view_layers[0]
         stage, others = (bpy.data.collections.new(name) for name in ("Reflection Light", "Reflection Light Others"))
         opaque = bpy.data.materials.new("Reflection Light Opaque")
+        # no more than whether something is there is asked: no texture, no lamp, no sky
+        compat.use_nodes(opaque).nodes.clear()
+        layer.material_override, scene.world = opaque, None
         made: list = [opaque]
         try:
             for obj in list(scene.collection.objects):
