@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, TriangleMesh
+from .join_layers import join_layers
 from .mirror_materials import is_mirror
 from .read_meshes import Placed, read_meshes
 
@@ -79,14 +80,8 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
     if not placed:
         raise ReflectionError(f"'{objects[0].name}' has no faces to reflect: choose diffuse objects with faces.")
     positions, triangles, corners, owners, faces, material, materials = _join(placed, len(objects))
-    active_uv = next((item.mesh.active_uv for item in placed if item.mesh.active_uv), "")
-    active_colour = next((item.mesh.active_colour for item in placed if item.mesh.active_colour), "")
-    uv_maps = {name: _uv_map(placed, corners, name, name == active_uv) for name in _names(placed, "uv_maps")}
-    colours = {name: _colour(placed, corners, name, name == active_colour) for name in _names(placed, "colours")}
-    numbers = {name: _numbers(placed, corners, name) for name in _names(placed, "numbers")}
     return DiffuseScene(_triangle_mesh(objects, positions, triangles), list(objects), owners, faces, material,
-                        materials, _all_normals(placed), *_lines(placed), uv_maps, colours, numbers, active_uv,
-                        active_colour)
+                        materials, _all_normals(placed), *_lines(placed), *join_layers(placed, corners))
 
 
 def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> MirrorSurface:
@@ -197,43 +192,3 @@ def _lines(placed: list[Placed]) -> tuple[np.ndarray, ...]:
         parts.append([*(np.tile(flags[lines.face], places) for flags in (lines.sharp_faces, lines.marked_faces)),
                       *(flags.reshape(-1, 3) for flags in sides)])
     return tuple(map(np.concatenate, zip(*parts)))
-
-
-def _names(placed: list[Placed], kind: str) -> list:
-    return list(dict.fromkeys(name for item in placed for name in getattr(item.mesh, kind)))
-
-
-def _uv_map(placed: list[Placed], corners: np.ndarray, name: str, active: bool) -> np.ndarray:
-    """Values (m, 3, 2); a mesh without the active map shows its own active one, one without any other map zeros."""
-    parts = []
-    for item in placed:
-        mesh = item.mesh
-        values = mesh.uv_maps.get(name, mesh.uv_maps.get(mesh.active_uv) if active else None)
-        values = np.zeros((mesh.corner_count, 2), np.float32) if values is None else values
-        parts.append(np.tile(values, (len(item.owners), 1)))
-    return np.concatenate(parts)[corners]
-
-
-def _colour(placed: list[Placed], corners: np.ndarray, name: str, active: bool) -> tuple:
-    """Type and values (m, 3, 4), as `_uv_map`; where meshes differ in type the colours are kept as floats."""
-    parts, types = [], set()
-    for item in placed:
-        mesh = item.mesh
-        entry = mesh.colours.get(name, mesh.colours.get(mesh.active_colour) if active else None)
-        if entry is None:
-            entry = (None, np.zeros((mesh.corner_count, 4), np.float32))
-        types.add(entry[0])
-        parts.append(np.tile(entry[1], (len(item.owners), 1)))
-    kind = "BYTE_COLOR" if types <= {"BYTE_COLOR", None} else "FLOAT_COLOR"
-    return kind, np.concatenate(parts)[corners]
-
-
-def _numbers(placed: list[Placed], corners: np.ndarray, name: str) -> tuple:
-    """Type and values (m, 3, c), zeros where a mesh has none, as engines have it; where meshes differ in type as
-    vectors, of which a single number is each component."""
-    entries = [item.mesh.numbers.get(name) for item in placed]
-    kind = "FLOAT" if all(entry is None or entry[0] == "FLOAT" for entry in entries) else "FLOAT_VECTOR"
-    width = 1 if kind == "FLOAT" else 3
-    parts = [np.zeros((item.mesh.corner_count, width), np.float32) if entry is None
-             else np.broadcast_to(entry[1], (item.mesh.corner_count, width)) for item, entry in zip(placed, entries)]
-    return kind, np.concatenate([np.tile(part, (len(item.owners), 1)) for item, part in zip(placed, parts)])[corners]
