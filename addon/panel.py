@@ -32,8 +32,9 @@ class REFLECTION_MESH_PT_main(bpy.types.Panel):
         column = layout.column(align=True)
         generate = column.operator("reflection_mesh.generate", icon="MOD_MIRROR")
         column.operator("reflection_mesh.light", icon="LIGHT")
+        bake = column.operator("reflection_mesh.bake", icon="FILE_CACHE")
         compare = column.operator("reflection_mesh.compare", icon="IMAGE_DATA")
-        for operator in (generate, compare):
+        for operator in (generate, bake, compare):
             for name in SETTINGS:
                 setattr(operator, name, getattr(settings, name))
         column.operator("reflection_mesh.clear", icon="TRASH")

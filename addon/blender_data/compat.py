@@ -4,6 +4,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+# what paths that may begin with "//" say of themselves from 4.5 on
+RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
+
 
 def uses_nodes(material: bpy.types.Material) -> bool:
     """Whether a node tree makes the material; from Blender 5.0 on one always does, and the switch is deprecated."""
@@ -38,3 +41,12 @@ def smooth_faces_take_vertex_normals(mesh: bpy.types.Mesh) -> bool:
     sharp = np.empty(len(edges.data), dtype=bool)
     edges.data.foreach_get("value", sharp)
     return not sharp.any()
+
+
+def curves_of(data: bpy.types.ID) -> list:
+    """The animation curves of what has its own action; layers came with Blender 4.4, and are the only way from 5.0 on."""
+    action = data.animation_data.action
+    if bpy.app.version < (4, 4, 0):
+        return list(action.fcurves)
+    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags
+            for curve in bag.fcurves]
