@@ -19,9 +19,11 @@ from .baking import (
     is_done,
     light_of,
     play,
+    player_of,
     read_record,
     record_path,
     set_aside,
+    show_by_camera,
     write_image,
     write_record,
     write_result,
@@ -202,10 +204,14 @@ def _clear(context: bpy.types.Context, results: list) -> None:
 
 def playing(context: bpy.types.Context, sequences: list[Sequence]) -> list:
     """Let the results of the file play sequences: all or none of them; returns the objects."""
-    mirrors, _ = candidates(context)
+    mirrors, diffuse = candidates(context)
     with AllOrNothing() as whole:
-        return [play(context, mirror, sequence, light, whole)
-                for sequence in sequences for light in [light_of(sequence, whole)] for mirror in mirrors]
+        players = [player_of(sequence, mirror, light, whole)
+                   for sequence in sequences for light in [light_of(sequence, whole)] for mirror in mirrors]
+        shown = [(play(context, player, diffuse, whole), player.sequence.name) for player in players]
+        if len(sequences) > 1:
+            show_by_camera(context.scene, shown)
+    return [obj for obj, _ in shown]
 
 
 def blur_remarks(scene: bpy.types.Scene, cameras: tuple) -> list[str]:

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import bpy
 
+from .baking import stop_playing
 from .blender_data import close_abandoned_windows, disc_nodes, forget_nodes
 from .faults import in_one_sentence
 from .lighting import forget_light
@@ -29,6 +30,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
     if mirror is not None and mirror.name in layer.objects:
         layer.objects.active = mirror
     for obj in results:
+        stop_playing(obj)
         bpy.data.objects.remove(obj)
     for mesh in meshes:
         if mesh.users == 0:

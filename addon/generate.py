@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import bpy
 
 from .. import core
+from .baking import stop_playing
 from .blender_data import (
     NothingSeen,
     Participants,
@@ -102,6 +103,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         results = [(write_object(context, made, settings.placement, whole), made.result) for made in prepared]
         for obj, _ in results:
             keep_light(obj, view)
+            whole.after(stop_playing, obj)
             obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
     return Outcome(results, remarks + refused)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ..core.result.reflection_mesh import filled_share
+from .baking import plays
 from .blender_data import records
 from .comparison import show_comparison
 from .lighting import light_lines
@@ -51,6 +52,9 @@ def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     mirror = record.mirror.name if record.mirror else "removed"
     count = len(record.sources)
     box.label(text=f"Mirror: {mirror}", translate=False)
+    if plays(obj):
+        box.label(text=f"{count} source{'' if count == 1 else 's'}, plays baked frames")
+        return
     size = f"{record.points} points" if record.points else f"{record.faces} faces"
     box.label(text=f"{count} source{'' if count == 1 else 's'}, {size}")
     counts = records.counts(obj)

@@ -7,7 +7,17 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..blender_data import compat, forget_nodes, hide_discs, new_object, open_window, results_of, show_own_materials
+from ..blender_data import (
+    close_window,
+    compat,
+    forget_nodes,
+    hide_discs,
+    new_object,
+    open_window,
+    render_size,
+    results_of,
+    show_own_materials,
+)
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from ..lighting import forget_light, new_material
 from .frame_records import FrameRecord
@@ -38,9 +48,30 @@ class Sequence:
     placement: str
 
 
-def play(context: bpy.types.Context, mirror: bpy.types.Object, sequence: Sequence, light: bpy.types.Material | None,
-         whole: AllOrNothing) -> bpy.types.Object:
-    """Let the result of a mirror play a sequence: the one that it has, or a new one.
+@dataclass(frozen=True)
+class Player:
+    """What lets one object play the result of one mirror; all that can fail has been done.
+
+    Attributes
+    ----------
+    cache : bpy.types.CacheFile
+    nodes : bpy.types.NodeTree
+    materials : list of (name, library)
+        Of the object's slots.
+    light : bpy.types.Material or None
+    """
+
+    mirror: bpy.types.Object
+    sequence: Sequence
+    cache: bpy.types.CacheFile
+    nodes: bpy.types.NodeTree
+    materials: list
+    light: bpy.types.Material | None
+
+
+def player_of(sequence: Sequence, mirror: bpy.types.Object, light: bpy.types.Material | None,
+              whole: AllOrNothing) -> Player:
+    """Read the files of one mirror; nothing that the user has is changed.
 
     Parameters
     ----------
@@ -48,31 +79,57 @@ def play(context: bpy.types.Context, mirror: bpy.types.Object, sequence: Sequenc
         What shows the sequence's light, from `light_of`.
     """
     known = [record.results[mirror.name] for record in sequence.records]
-    obj = _object(context, mirror, sequence.name, whole)
+    materials = sorted({entry for result in known for entry in result.materials})
+    nodes = unpacking_nodes(sorted({entry for result in known for entry in result.attributes}), materials)
+    whole.undo(_remove, nodes)
+    cache = _cache(sequence, [result.file for result in known], whole)
+    return Player(mirror, sequence, cache, nodes, materials, light if any(result.lit for result in known) else None)
+
+
+def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOrNothing) -> bpy.types.Object:
+    """Let the result of a mirror play: the one that it has, or a new one."""
+    mirror = player.mirror
+    obj = _object(context, mirror, player.sequence.name, whole)
+    keep_mirror(mirror, whole)
     show_own_materials(obj)
     mesh = obj.data
     mesh.clear_geometry()
     mesh.materials.clear()
-    materials = sorted({entry for result in known for entry in result.materials})
-    for entry in materials or [("", "")]:
+    for entry in player.materials or [("", "")]:
         mesh.materials.append(_material(*entry))
-    attributes = sorted({entry for result in known for entry in result.attributes})
-    cache = _cache(sequence, [result.file for result in known], whole)
-    _add_players(obj, cache, unpacking_nodes(attributes, materials), whole)
+    _add_modifiers(obj, player, whole)
     record = obj.reflection_mesh
     record.role, record.mirror, record.faces, record.points = "REFLECTION", mirror, 0, 0
+    record.resolution = render_size(context.scene)
     record.sources.clear()
+    for source in sources:
+        record.sources.add().object = source
     record.light, record.light_stale = "", False
-    earlier, record.light_material = record.light_material, light if any(result.lit for result in known) else None
+    earlier, record.light_material = record.light_material, player.light
     if earlier is not None:
         whole.after(forget_light, earlier)
-    if record.light_material is not None:
+    if player.light is not None:
         for slot in obj.material_slots:
-            slot.link, slot.material = "OBJECT", light
-    keep_mirror(mirror, whole)
-    if sequence.placement == "VIRTUAL":
-        open_window(mirror)
+            slot.link, slot.material = "OBJECT", player.light
+    (open_window if player.sequence.placement == "VIRTUAL" else close_window)(mirror)
     return obj
+
+
+def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
+    """Of several cameras' players (object, name of the camera) show those of the one that looks: the scene's, or the
+    one that a marker binds."""
+    bound = {marker.frame: marker.camera for marker in scene.timeline_markers if marker.camera}
+    for obj, name in players:
+        for switch in ("hide_render", "hide_viewport"):
+            setattr(obj, switch, scene.camera is None or scene.camera.name != name)
+            if bound:
+                _key(obj, obj, switch, {frame: camera.name != name for frame, camera in bound.items()})
+
+
+def plays(obj: bpy.types.Object) -> bool:
+    """Whether an object plays baked frames."""
+    cache = obj.modifiers.get(NAME)
+    return cache is not None and cache.type == "MESH_SEQUENCE_CACHE"
 
 
 def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | None:
@@ -98,10 +155,9 @@ def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | No
 
 def stop_playing(obj: bpy.types.Object) -> None:
     """Take away what makes an object play, where there is anything, so that it shows its own mesh."""
-    cache = obj.modifiers.get(NAME)
-    if cache is None or cache.type != "MESH_SEQUENCE_CACHE":
+    if not plays(obj):
         return
-    nodes = obj.modifiers.get(UNPACK)
+    cache, nodes = obj.modifiers[NAME], obj.modifiers.get(UNPACK)
     files, group = cache.cache_file, getattr(nodes, "node_group", None)
     for modifier in (cache, nodes):
         if modifier is not None:
@@ -129,7 +185,6 @@ def _object(context: bpy.types.Context, mirror: bpy.types.Object, name: str,
         return obj
     keep_object(earlier[0], whole)
     keep_data(earlier[0], whole)
-    whole.undo(stop_playing, earlier[0])
     hide_discs(earlier[0])
     return earlier[0]
 
@@ -147,27 +202,27 @@ def _cache(sequence: Sequence, files: list[str], whole: AllOrNothing) -> bpy.typ
     bpy.ops.cachefile.open(filepath=os.path.join(sequence.folder, files[0]))
     cache, = set(bpy.data.cache_files) - before
     whole.undo(_remove, cache)
+    # it comes with a user that is none, and would never be forgotten
+    cache.user_clear()
     cache.filepath = _path(sequence, files[0])
     cache.is_sequence = cache.override_frame = True
     _key(cache, cache, "frame", {record.frame: record.frame for record in sequence.records})
     return cache
 
 
-def _add_players(obj: bpy.types.Object, cache: bpy.types.CacheFile, nodes: bpy.types.NodeTree,
-                 whole: AllOrNothing) -> None:
-    """The modifiers, before those that the user has added, and the constraint that put `obj` where each frame was."""
-    whole.undo(_remove, nodes)
+def _add_modifiers(obj: bpy.types.Object, player: Player, whole: AllOrNothing) -> None:
+    """The modifiers, before those that the user has added, and the constraint that puts `obj` where each frame was."""
     earlier = [obj.modifiers.get(name) for name in (NAME, UNPACK)]
     reading = earlier[0] or obj.modifiers.new(NAME, "MESH_SEQUENCE_CACHE")
     unpacking = earlier[1] or obj.modifiers.new(UNPACK, "NODES")
     old_cache, old_nodes = reading.cache_file, unpacking.node_group
-    reading.cache_file, reading.object_path = cache, MESH_PATH
+    reading.cache_file, reading.object_path = player.cache, MESH_PATH
     reading.read_data = {item.identifier for item in reading.bl_rna.properties["read_data"].enum_items}
-    unpacking.node_group = nodes
+    unpacking.node_group = player.nodes
     for index, modifier in enumerate((reading, unpacking)):
         obj.modifiers.move(list(obj.modifiers).index(modifier), index)
     place = obj.constraints.get(NAME) or obj.constraints.new("TRANSFORM_CACHE")
-    place.name, place.cache_file, place.object_path = NAME, cache, OBJECT_PATH
+    place.name, place.cache_file, place.object_path = NAME, player.cache, OBJECT_PATH
     whole.after(forget_nodes, old_nodes)
     if old_cache is not None:
         whole.after(_forget, old_cache)

@@ -44,7 +44,7 @@ def smooth_faces_take_vertex_normals(mesh: bpy.types.Mesh) -> bool:
 
 
 def curves_of(data: bpy.types.ID) -> list:
-    """The animation curves of what has its own action; layers came with Blender 4.4, and are the only way from 5.0 on."""
+    """The animation curves of what has its own action; in layers since Blender 4.4, and from 5.0 on in no other way."""
     action = data.animation_data.action
     if bpy.app.version < (4, 4, 0):
         return list(action.fcurves)

@@ -19,6 +19,9 @@ bpy.ops.wm.open_mainfile(filepath=asked["file"])
 assert not hasattr(bpy.types.Object, "reflection_mesh")
 scene = bpy.context.scene
 told = {}
+for name in asked["names"] if asked["every"] else ():
+    scene.objects[name].animation_data_clear()
+    scene.objects[name].hide_viewport = False
 for frame in asked["frames"]:
     scene.frame_set(frame)
     if asked["picture"]:
@@ -33,7 +36,7 @@ for frame in asked["frames"]:
         image = bpy.data.images.load(scene.render.filepath)
         pixels = np.empty(len(image.pixels), dtype=np.float32)
         image.pixels.foreach_get(pixels)
-        told[f"{frame} picture"] = pixels.reshape(*image.size[::-1], -1)[..., :3]
+        told[f"{frame} picture"] = pixels.reshape(*tuple(image.size)[::-1], -1)[..., :3]
         bpy.data.images.remove(image)
         continue
     depsgraph = bpy.context.evaluated_depsgraph_get()
@@ -63,11 +66,13 @@ np.savez(os.path.join(asked["folder"], "told.npz"), **told)
 """
 
 
-def played(file: Path, frames: list, folder: Path, names=(), picture: int = 0) -> dict:
-    """Arrays by "FRAME NAME WHAT" of objects, or by "FRAME picture", with `picture` samples per pixel."""
+def played(file: Path, frames: list, folder: Path, names=(), picture: int = 0,
+           every: bool = False) -> dict:
+    """Arrays by "FRAME NAME WHAT" of objects, or by "FRAME picture", with `picture` samples per pixel; of every
+    object that is named, hidden ones too."""
     folder.mkdir(exist_ok=True)
     asked = {"file": str(file), "frames": list(frames), "names": list(names), "folder": str(folder),
-             "picture": picture}
+             "picture": picture, "every": every}
     done = subprocess.run([sys.executable, "-c", SCRIPT, json.dumps(asked)], capture_output=True, text=True,
                           check=False, env={**os.environ, "BLENDER_USER_RESOURCES": str(folder)})
     assert (folder / "told.npz").exists(), done.stdout[-2000:] + done.stderr[-2000:]
