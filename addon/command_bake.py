@@ -28,7 +28,7 @@ def add_bake(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--light", type=int, default=SAMPLES, metavar="N",
                         help=f"samples per pixel of what needs light ({SAMPLES}); 0 for none")
     parser.add_argument("--overwrite", action="store_true", help="make again the frames that are there already")
-    parser.add_argument("--frames-only", action="store_true", help="write no file that plays them, as for a part of them")
+    parser.add_argument("--frames-only", action="store_true", help="write no file that plays them")
     parser.add_argument("--progress", choices=("WORDS", "OPENJD"), default="WORDS",
                         help="how progress is told: OPENJD as workers of Open Job Description read it")
     parser.add_argument("--output", metavar="FOLDER", help="where the frames go (else beside the file)")

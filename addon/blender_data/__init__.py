@@ -15,7 +15,7 @@ from .write_mesh import write_mesh
 from .write_object import RAYS, Reflection, new_object, show_own_materials, write_object
 
 __all__ = ["Builder", "DiffuseScene", "LONGEST_RECORD", "MirrorSurface", "NothingSeen", "Participants", "RAYS",
-           "Reflection", "SURFACES", "candidates", "choose", "close_abandoned_windows", "close_window", "disc_nodes", "forget_nodes",
-           "hide_discs", "is_mirror", "is_opaque", "mesh_arrays", "new_object", "open_window", "participants",
-           "point_arrays", "read_mirror", "read_scene", "read_view", "render_size", "results_of", "show_own_materials",
-           "visible", "what_is_in_the_way", "write_mesh", "write_object"]
+           "Reflection", "SURFACES", "candidates", "choose", "close_abandoned_windows", "close_window", "disc_nodes",
+           "forget_nodes", "hide_discs", "is_mirror", "is_opaque", "mesh_arrays", "new_object", "open_window",
+           "participants", "point_arrays", "read_mirror", "read_scene", "read_view", "render_size", "results_of",
+           "show_own_materials", "visible", "what_is_in_the_way", "write_mesh", "write_object"]

@@ -452,3 +452,23 @@ def test_records_that_are_none(room, tmp_path):
         path.write_text(text)
         assert baking.read_record(str(path)) is None
     assert baking.read_record(str(tmp_path / "none.json")) is None
+
+
+def test_points_and_windows_play_too(moving, room, tmp_path):
+    """Discs as the faces that they are drawn as; a window is opened to the image behind it."""
+    out = tmp_path / "points"
+    assert bake(room, "--output", out, "--light", "0", "--frames", "3", "--method", "POINTS") == 0
+    told = played(out / "scene reflections.blend", [3], tmp_path / "played", ["Mirror Reflection"])
+    bpy.ops.wm.open_mainfile(filepath=str(moving))
+    expected(3, method="POINTS")
+    shown = bpy.context.object.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    wanted = generated(shown)
+    assert len(wanted["corners"]) and ": CORNER FLOAT2 UVMap" in wanted
+    assert_same(told, 3, "Mirror Reflection", wanted)
+    bpy.ops.wm.open_mainfile(filepath=str(moving))
+    out = tmp_path / "window"
+    assert bake(room, "--output", out, "--light", "0", "--frames", "3", "--placement", "VIRTUAL") == 0
+    told = played(out / "scene reflections.blend", [3], tmp_path / "played", ["Mirror Reflection"])
+    assert not bpy.data.objects["Mirror"].visible_camera
+    bpy.ops.wm.open_mainfile(filepath=str(moving))
+    assert_same(told, 3, "Mirror Reflection", expected(3, placement="VIRTUAL"))
