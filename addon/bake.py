@@ -240,6 +240,7 @@ class REFLECTION_MESH_OT_bake(BrowsingOperator, SettingsProperties, bpy.types.Op
     bl_idname = "reflection_mesh.bake"
     bl_label = "Bake Reflection Frames"
     bl_options = {"REGISTER", "UNDO"}
+    unchanged = "the frames that are done are kept, the file has not changed"
 
     filepath: bpy.props.StringProperty(name="Folder", description="Folder for the files of the frames", default=FOLDER,
                                        subtype="FILE_PATH", options=compat.RELATIVE_PATH)

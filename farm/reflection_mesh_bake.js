@@ -3,7 +3,7 @@
 // A job type of Flamenco 3: bakes the reflections of an animation in chunks of frames, and then writes the file that
 // plays them. It goes into the folder "scripts" beside Flamenco Manager; the workers' Blender has the extension.
 //
-// The worker shows what it reads in lines as "Saved: '...'".
+// The worker reads which files are done from lines as "Saved: '...'".
 
 const JOB_TYPE = {
     label: "Bake Reflections",
