@@ -30,7 +30,7 @@ from .baking import (
 )
 from .blender_data import NothingSeen, candidates, choose, compat, read_view, render_size, visible
 from .clear import clear
-from .faults import AllOrNothing, BrowsingOperator, Steps, part, still_there
+from .faults import AllOrNothing, BrowsingOperator, Steps, interrupt_held, part, still_there
 from .files import chosen_folder, staged
 from .generate import generation
 from .light import SAMPLES, lighting
@@ -115,7 +115,8 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
                 start = (index * len(plan.frames) + number) * share
                 yield start, f"Frame {frame} {name}".strip()
                 if known[frame] is None:
-                    context.scene.frame_set(frame)
+                    with interrupt_held():
+                        context.scene.frame_set(frame)
                     if camera is not None:
                         context.scene.camera = camera
                     steps = _frame(context, plan, (name, camera), (mirrors, diffuse))
