@@ -5,6 +5,7 @@ import bpy
 
 from .blender_data import close_abandoned_windows, disc_nodes, forget_nodes
 from .faults import in_one_sentence
+from .frames import stop_playing
 from .lighting import forget_light, forget_map
 
 
@@ -30,6 +31,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
     if mirror is not None and mirror.name in layer.objects:
         layer.objects.active = mirror
     for obj in results:
+        stop_playing(obj)
         bpy.data.objects.remove(obj)
     for mesh in meshes:
         if mesh.users == 0:

@@ -1,4 +1,4 @@
-"""`blender -b scene.blend --command reflection_mesh generate|light|compare ...`, and the same for PyPI's bpy."""
+"""`blender -b scene.blend --command reflection_mesh generate|light|bake|compare ...`, and the same for PyPI's bpy."""
 from __future__ import annotations
 
 import argparse
@@ -6,6 +6,7 @@ import os
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import nullcontext
 
 import bpy
 
@@ -13,8 +14,11 @@ from .. import core
 from . import benchmark
 from .blender_data import Participants, choose
 from .clear import chosen_results
+from .command_bake import add_bake
+from .command_place import add_place, placed
+from .command_progress import announced
 from .compare import comparison, summary
-from .faults import STATUS, Steps, finished, sentence
+from .faults import STATUS, sentence
 from .files import check_place, save_blend, staged
 from .generate import generation
 from .light import SAMPLES, lighting
@@ -35,9 +39,10 @@ def run(arguments: list[str], scene: str | None = None) -> int:
     try:
         if scene is not None:
             _open(scene)
-        options.work(bpy.context, options)
+        with placed(bpy.context, options) if options.verb != "benchmark" else nullcontext():
+            options.work(bpy.context, options)
     except KeyboardInterrupt:
-        print("Interrupted: nothing has been saved.", file=sys.stderr)
+        print(getattr(options, "interrupted", "Interrupted: nothing has been saved."), file=sys.stderr)
         return STATUS
     except Exception as error:
         print(f"Error: {sentence(error, repr(options.verb), 'nothing has been saved')}", file=sys.stderr)
@@ -71,6 +76,12 @@ def _parser() -> argparse.ArgumentParser:
                          help="sampling, denoising and bounces of the pictures as the scene is set")
     compare.add_argument("--output", metavar="FOLDER", help="where pictures and numbers go (else beside the file)")
     compare.set_defaults(work=_compare)
+    baked = verbs.add_parser("bake", help="write a range of frames to files, and a file that plays them")
+    _add_settings(baked)
+    add_bake(baked)
+    for verb in (generate, light, compare):
+        add_place(verb)
+    add_place(baked, frame=False)
     _add_benchmark(verbs.add_parser("benchmark", help="every method's error and seconds, judged by Cycles"))
     return parser
 
@@ -87,6 +98,7 @@ def _add_benchmark(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--no-work", action="store_true", help="leave out the counts on the talk's setting")
     verb.add_argument("--scenes", nargs="+", default=[], metavar="FILE",
                       help="one report of these files, opened one after another, instead of the open one")
+    add_place(verb)
     verb.set_defaults(work=_benchmark)
 
 
@@ -114,7 +126,7 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     if options.light < 0:
         raise core.ReflectionError("Light takes at least one sample: raise --light.")
     started = time.perf_counter()
-    outcome = _announced(generation(context, _chosen(context, options), settings_of(options)))
+    outcome = announced(generation(context, _chosen(context, options), settings_of(options)))
     told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
     if options.light:
         # the view layer knows new objects only from its next update on
@@ -135,7 +147,7 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
 
 def _lit(context: bpy.types.Context, results: list, samples: int, kind: str, every: bool = False) -> str:
     started = time.perf_counter()
-    lit = _announced(lighting(context, results, samples, kind, every))
+    lit = announced(lighting(context, results, samples, kind, every))
     return lighting_summary(lit, time.perf_counter() - started)
 
 
@@ -146,19 +158,6 @@ def _path_to_save(options: argparse.Namespace) -> str:
     path = os.path.abspath(options.output or bpy.data.filepath)
     check_place(path)
     return path
-
-
-def _announced(steps: Steps) -> object:
-    """Run steps to their end, printing each stage once; returns what they return."""
-    told = ""
-
-    def tell(progress: tuple[float, str]) -> None:
-        nonlocal told
-        fraction, stage = progress
-        if stage != told:
-            print(f"{100.0 * fraction:3.0f} %  {stage}", flush=True)
-            told = stage
-    return finished(steps, tell)
 
 
 def _chosen(context: bpy.types.Context, options: argparse.Namespace) -> Participants:
@@ -185,7 +184,7 @@ def _compare(context: bpy.types.Context, options: argparse.Namespace) -> None:
         raise core.ReflectionError("A comparison takes at least one sample: raise --samples.")
     folder = os.path.abspath(folder)
     samples = 0 if options.scene_samples else options.samples
-    print(summary(_announced(comparison(context, folder, samples, settings_of(options))), folder))
+    print(summary(announced(comparison(context, folder, samples, settings_of(options))), folder))
 
 
 def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:
@@ -196,8 +195,10 @@ def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:
     chosen = benchmark.Options(tuple(options.methods), options.budget, options.resolution, options.samples,
                                growth=options.growth, work=not options.no_work, tell=_tell)
     with staged(folder) as scratch:
-        scenes = [benchmark.scene_report(bpy.context, name, os.path.join(scratch, inner), chosen)
-                  for name, inner in _opened(options.scenes)]
+        scenes = []
+        for name, inner in _opened(options.scenes):
+            with placed(bpy.context, options):
+                scenes.append(benchmark.scene_report(bpy.context, name, os.path.join(scratch, inner), chosen))
         benchmark.write_benchmark(scratch, scenes, chosen, started)
     for scene in scenes:
         print(f"{scene.name}: {scene.summary[0]}")

@@ -1,18 +1,17 @@
 """The operator that judges a reflection mesh against Cycles."""
 from __future__ import annotations
 
-import os
 import time
 
 import bpy
 import numpy as np
 
 from ..core import ReflectionError, Settings, in_steps
-from .blender_data import Participants, participants, read_view, results_of
+from .blender_data import Participants, compat, participants, read_view, results_of
 from .clear import clear
 from .comparison import load_pictures, remember, render_comparison, show_picture, write_report
 from .faults import AllOrNothing, BrowsingOperator, Steps, part, still_there
-from .files import staged
+from .files import chosen_folder, staged
 from .generate import generation
 from .judge import copied_scene
 from .metrics import measure, picture_errors, without_packing
@@ -20,8 +19,6 @@ from .properties import SettingsProperties, settings_of
 
 # shares of the work: of all of it what generating takes, where something is missing, and of the rest what follows
 GENERATING, COPYING, RENDERING, JUDGING = 0.3, 0.02, 0.88, 0.05
-# Blender 4.5 and newer want to be told that a path may start with "//"; older ones do not know the word
-RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
 
 
 def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
@@ -126,25 +123,17 @@ class REFLECTIONMESH_OT_compare(BrowsingOperator, SettingsProperties, bpy.types.
 
     filepath: bpy.props.StringProperty(name="Folder", description="Folder for the pictures and the report",
                                        default="//reflection comparison", subtype="FILE_PATH",
-                                       options=RELATIVE_PATH)
+                                       options=compat.RELATIVE_PATH)
     samples: bpy.props.IntProperty(name="Samples", default=16, min=0, soft_max=1024,
                                    description="Samples per pixel of the two pictures; 0: as the scene is set")
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
-        folder = self._folder()
+        folder = chosen_folder(self.filepath)
         report = yield from comparison(context, folder, self.samples, settings_of(self))
         remember(context.scene, report, folder)
         if not bpy.app.background:
             show_picture(context.window_manager, load_pictures(folder)[-1])
         self.report({"INFO"}, summary(report, folder))
-
-    def _folder(self) -> str:
-        """The absolute path of the folder that is named."""
-        if self.filepath.startswith("//") and not bpy.data.filepath:
-            raise ReflectionError("The file has not been saved: save it, or choose an absolute folder.")
-        if not self.filepath:
-            raise ReflectionError("No folder is named: choose one for the pictures and the report.")
-        return os.path.abspath(bpy.path.abspath(self.filepath))
 
 
 def summary(report: dict, folder: str) -> str:

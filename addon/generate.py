@@ -8,6 +8,7 @@ import bpy
 
 from .. import core
 from .blender_data import (
+    NothingSeen,
     Participants,
     Reflection,
     choose,
@@ -20,6 +21,7 @@ from .blender_data import (
     write_object,
 )
 from .faults import AllOrNothing, SteppedOperator, Steps, part
+from .frames import stop_playing
 from .lighting import keep_light
 from .properties import SettingsProperties, settings_of
 from .shortcomings import shortcomings, window_shortcomings
@@ -75,7 +77,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     tree = yield from part(core.in_steps(lambda: kind.build(scene.mesh)), 0.5 * READING, 0.5 * READING,
                            "Building the tree")
     mirrors = core.TriangleMesh.joined([surface.mesh for surface in surfaces])
-    prepared, refused, share = [], [], (1.0 - READING) / len(surfaces)
+    prepared, refused, unseen, share = [], [], 0, (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
         steps = core.reflection_steps(view, surface.mesh, tree, settings, mirrors)
         try:
@@ -88,17 +90,19 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         if not len(result.positions):
             refused.append(f"{mirror.name}: The camera sees none of the diffuse objects in this mirror; move the "
                            "camera, the mirror or the objects.")
+            unseen += 1
             continue
         remarks += shortcomings(mirror.name, result)
         arrays = (mesh_arrays if result.discs is None else point_arrays)(result, scene, surface, view)
         prepared.append(Reflection(mirror, chosen.diffuse, result, arrays, view.resolution))
     if not prepared:
-        raise core.ReflectionError(refused[0])
+        raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
     yield 1.0, "Writing"
     with AllOrNothing() as whole:
         results = [(write_object(context, made, settings.placement, whole), made.result) for made in prepared]
         for obj, _ in results:
             keep_light(obj, view, scene)
+            whole.after(stop_playing, obj)
             obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
     return Outcome(results, remarks + refused)
 

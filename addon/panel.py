@@ -6,6 +6,7 @@ import bpy
 from ..core.result.reflection_mesh import filled_share
 from .blender_data import records
 from .comparison import show_comparison
+from .frames import plays
 from .lighting import light_lines
 from .properties import SETTINGS
 
@@ -32,8 +33,9 @@ class REFLECTION_MESH_PT_main(bpy.types.Panel):
         column = layout.column(align=True)
         generate = column.operator("reflection_mesh.generate", icon="MOD_MIRROR")
         column.operator("reflection_mesh.light", icon="LIGHT")
+        bake = column.operator("reflection_mesh.bake", icon="FILE_CACHE")
         compare = column.operator("reflection_mesh.compare", icon="IMAGE_DATA")
-        for operator in (generate, compare):
+        for operator in (generate, bake, compare):
             for name in SETTINGS:
                 setattr(operator, name, getattr(settings, name))
         column.operator("reflection_mesh.clear", icon="TRASH")
@@ -50,6 +52,9 @@ def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     mirror = record.mirror.name if record.mirror else "removed"
     count = len(record.sources)
     box.label(text=f"Mirror: {mirror}", translate=False)
+    if plays(obj):
+        box.label(text=f"{count} source{'' if count == 1 else 's'}, plays baked frames")
+        return
     size = f"{record.points} points" if record.points else f"{record.faces} faces"
     box.label(text=f"{count} source{'' if count == 1 else 's'}, {size}")
     counts = records.counts(obj)

@@ -4,6 +4,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+# what paths that may begin with "//" say of themselves from 4.5 on
+RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
+
 
 def uses_nodes(material: bpy.types.Material) -> bool:
     """Whether a node tree makes the material; from Blender 5.0 on one always does, and the switch is deprecated."""
@@ -67,3 +70,12 @@ def mark_for_freestyle(mesh: bpy.types.Mesh, domain: str, marks: np.ndarray) -> 
         name = f"freestyle_{domain.lower()}"
         attribute = mesh.attributes.get(name) or mesh.attributes.new(name, "BOOLEAN", domain)
         attribute.data.foreach_set("value", marks)
+
+
+def curves_of(data: bpy.types.ID) -> list:
+    """The animation curves of what has its own action; in layers since Blender 4.4, and from 5.0 on in no other way."""
+    action = data.animation_data.action
+    if bpy.app.version < (4, 4, 0):
+        return list(action.fcurves)
+    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags
+            for curve in bag.fcurves]

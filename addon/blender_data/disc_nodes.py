@@ -6,6 +6,7 @@ import math
 import bpy
 
 from ..faults import AllOrNothing
+from .node_builder import Builder
 
 MODIFIER = "Reflection Points"
 SIDES = 6  # of a disc; it is the polygon round the circle, so that discs that touch leave no gap
@@ -58,7 +59,7 @@ def _draw_discs(tree: bpy.types.NodeTree, uv_maps: list) -> None:
     tree.is_modifier = True
     for way in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
-    builder = _Builder(tree)
+    builder = Builder(tree)
     points = builder.add("NodeGroupInput").outputs[0]
     disc = builder.add("GeometryNodeMeshCircle", fill_type="NGON")
     disc.inputs["Vertices"].default_value = SIDES
@@ -86,43 +87,3 @@ def _draw_discs(tree: bpy.types.NodeTree, uv_maps: list) -> None:
     for attribute in uv_maps:
         geometry = builder.moved(geometry, attribute, "FLOAT_VECTOR", "FLOAT2", "CORNER")
     builder.join(geometry, builder.add("NodeGroupOutput").inputs[0])
-
-
-class _Builder:
-    """Adds nodes to a tree from left to right."""
-
-    def __init__(self, tree: bpy.types.NodeTree) -> None:
-        self.tree = tree
-
-    def add(self, kind: str, **settings) -> bpy.types.Node:
-        node = self.tree.nodes.new(kind)
-        node.location = (200.0 * len(self.tree.nodes), 0.0)
-        for name, value in settings.items():
-            setattr(node, name, value)
-        return node
-
-    def join(self, output: bpy.types.NodeSocket, socket: bpy.types.NodeSocket) -> None:
-        self.tree.links.new(output, socket)
-
-    def through(self, kind: str, geometry: bpy.types.NodeSocket, **inputs) -> bpy.types.NodeSocket:
-        """`geometry` through a node of one kind."""
-        node = self.add(kind)
-        for name, value in inputs.items():
-            node.inputs[name].default_value = value
-        self.join(geometry, node.inputs["Geometry"])
-        return node.outputs["Geometry"]
-
-    def read(self, attribute: str, kind: str) -> bpy.types.NodeSocket:
-        node = self.add("GeometryNodeInputNamedAttribute", data_type=kind)
-        node.inputs["Name"].default_value = attribute
-        return next(socket for socket in node.outputs if socket.name == "Attribute" and socket.enabled)
-
-    def moved(self, geometry: bpy.types.NodeSocket, attribute: str, read: str, stored: str,
-              domain: str) -> bpy.types.NodeSocket:
-        """An attribute of the points moved to the faces or corners of their discs."""
-        node = self.add("GeometryNodeStoreNamedAttribute", data_type=stored, domain=domain)
-        node.inputs["Name"].default_value = attribute
-        self.join(geometry, node.inputs["Geometry"])
-        value = next(socket for socket in node.inputs if socket.name == "Value" and socket.enabled)
-        self.join(self.read(attribute, read), value)
-        return node.outputs["Geometry"]

@@ -11,6 +11,10 @@ from .mirror_materials import is_mirror
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
 
+class NothingSeen(ReflectionError):
+    """There is a mirror, and something to reflect, and nothing of it is to be seen at the moment."""
+
+
 @dataclass(frozen=True)
 class Participants:
     """Mirrors and diffuse objects that take part, and those that would, were they not hidden."""
@@ -38,6 +42,11 @@ def choose(context: bpy.types.Context) -> Participants:
     The selection decides by role. Where it gives no mirror or no diffuse object, an active result's own mirror and
     sources take part, else the objects of the view layer whose role is explicit.
     """
+    return visible(context, *candidates(context))
+
+
+def candidates(context: bpy.types.Context) -> tuple[list, list]:
+    """The mirrors and the diffuse objects that `choose` chooses from, hidden ones among them."""
     active = context.view_layer.objects.active
     objects = [obj for obj in context.view_layer.objects if can_take_part(obj)]
     mirrors, diffuse = _by_role([obj for obj in objects if obj.select_get()], active)
@@ -47,7 +56,7 @@ def choose(context: bpy.types.Context) -> Participants:
         else:
             explicit = [obj for obj in objects if obj.reflection_mesh.role in {"MIRROR", "DIFFUSE"}]
             mirrors, diffuse = _by_role(explicit, None)
-    return _visible(context, mirrors, diffuse)
+    return mirrors, diffuse
 
 
 def can_take_part(obj: bpy.types.Object) -> bool:
@@ -75,26 +84,35 @@ def _of_result(result: bpy.types.Object) -> tuple[list, list]:
     return [mirror], diffuse
 
 
-def _visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Participants:
+def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Participants:
+    """Those of the candidates that are seen, in the viewport and in renders.
+
+    Raises
+    ------
+    NothingSeen
+        Where all mirrors or all diffuse objects are hidden.
+    ReflectionError
+        Where there are none.
+    """
     shown = _rendered_collections(context.view_layer.layer_collection)
     in_layer = set(context.view_layer.objects)
 
-    def visible(obj: bpy.types.Object) -> bool:
+    def is_seen(obj: bpy.types.Object) -> bool:
         return (obj in in_layer and obj.visible_get() and not obj.hide_render
                 and any(collection in shown for collection in obj.users_collection))
 
-    hidden = [obj for obj in mirrors + diffuse if not visible(obj)]
+    hidden = [obj for obj in mirrors + diffuse if not is_seen(obj)]
     seen = Participants([obj for obj in mirrors if obj not in hidden], [obj for obj in diffuse if obj not in hidden],
                         hidden)
     if not seen.mirrors:
         if mirrors:
-            raise ReflectionError(f"The mirror '{mirrors[0].name}' is hidden: show it in the viewport and in renders.")
+            raise NothingSeen(f"The mirror '{mirrors[0].name}' is hidden: show it in the viewport and in renders.")
         raise ReflectionError("No mirror: select the objects to reflect and then, as the active object, the mirror, or "
                               "set roles in the Reflection tab.")
     if not seen.diffuse:
         if diffuse:
-            raise ReflectionError(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport and in "
-                                  "renders.")
+            raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport and in "
+                              "renders.")
         raise ReflectionError("Nothing to reflect: select the objects to reflect together with the mirror, or set "
                               "their role to Diffuse in the Reflection tab.")
     return seen

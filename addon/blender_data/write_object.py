@@ -55,7 +55,7 @@ def write_object(context: bpy.types.Context, made: Reflection, placement: str,
         keep_object(obj, whole)
         keep_data(obj, whole)
     else:
-        obj = _new_object(context, mirror, whole)
+        obj = new_object(context, mirror, whole)
     keep_mirror(mirror, whole)
     show_own_materials(obj)
     write_mesh(obj.data, made.arrays)
@@ -72,7 +72,7 @@ def write_object(context: bpy.types.Context, made: Reflection, placement: str,
     return obj
 
 
-def _new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
+def new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
     """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet."""
     name = f"{mirror.name} Reflection"
     mesh = bpy.data.meshes.new(name)

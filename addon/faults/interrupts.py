@@ -1,6 +1,7 @@
-"""Ctrl-C while Blender renders, for PyPI's module `bpy`, which does not listen to it as Blender itself does.
+"""Ctrl-C while Blender renders or changes the frame, for PyPI's module `bpy`, which does not listen to it as Blender
+itself does.
 
-Python's KeyboardInterrupt would be raised inside Cycles, whose caller prints a traceback and goes on.
+Python's KeyboardInterrupt would be raised inside Cycles or a handler, whose caller prints a traceback and goes on.
 """
 from __future__ import annotations
 
@@ -50,5 +51,5 @@ def _listen(reading: int, heard: list[int]) -> None:
         if len(heard) > 1:
             os._exit(STATUS)
         if heard:
-            print("Interrupted: ends with the picture that is being rendered; press again to end at once.",
+            print("Interrupted: ends with the present step; press again to end at once.",
                   file=sys.stderr, flush=True)

@@ -18,6 +18,8 @@ class SteppedOperator:
 
     # no annotation: Blender takes those of an operator for its properties
     _running = None
+    # what is said of what ESC leaves
+    unchanged = "nothing has changed"
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         raise NotImplementedError
@@ -50,7 +52,7 @@ class SteppedOperator:
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
         if event.type == "ESC" and event.value == "PRESS":
             self.cancel(context)
-            self.report({"INFO"}, f"{self.bl_label}: cancelled, nothing has changed.")
+            self.report({"INFO"}, f"{self.bl_label}: cancelled, {self.unchanged}.")
             return {"CANCELLED"}
         # all other events end here: nobody may change the scene between two steps
         if event.type != "TIMER":

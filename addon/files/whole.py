@@ -14,7 +14,7 @@ EXR_HEAD = 1 << 20  # bytes, more than the header of a render and the table of i
 
 
 def is_whole(path: str) -> bool:
-    """Whether the .blend, .exr, .png or .jpg file at `path` is there and nothing is missing at its end."""
+    """Whether the .blend, .exr, .usdc, .png or .jpg file at `path` is there and nothing is missing at its end."""
     kind = os.path.splitext(path)[1]
     try:
         with open(path, "rb") as file:
@@ -22,6 +22,8 @@ def is_whole(path: str) -> bool:
                 return _whole_blend(file)
             if kind == ".exr":
                 return _whole_exr(file)
+            if kind == ".usdc":
+                return _whole_usd(file)
             return _end(file, 12).endswith({".png": b"IEND\xaeB`\x82", ".jpg": b"\xff\xd9"}[kind])
     except OSError:
         return False
@@ -68,3 +70,12 @@ def _whole_exr(file: BinaryIO) -> bool:
     except (IndexError, ValueError, OverflowError, struct.error):
         return False
     return all(chunks) and file.seek(0, os.SEEK_END) == chunks[-1] + 8 + size
+
+
+def _whole_usd(file: BinaryIO) -> bool:
+    """Its head, which is written last, knows where the table of contents lies that ends the file."""
+    start = file.read(24)
+    if len(start) < 24 or not start.startswith(b"PXR-USDC"):
+        return False
+    table, = struct.unpack_from("<q", start, 16)
+    return 24 <= table < file.seek(0, os.SEEK_END)

@@ -17,8 +17,9 @@ def _mark(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     # in the depsgraph of a render all is new
     if depsgraph.mode != "VIEWPORT":
         return
-    lit = [obj for obj in scene.objects
-           if obj.reflection_mesh.light_material is not None and not obj.reflection_mesh.light_stale]
+    # what plays baked frames has light that was made for each of them, and no record of one view
+    lit = [obj for obj in scene.objects if obj.reflection_mesh.light_material is not None
+           and obj.reflection_mesh.light and not obj.reflection_mesh.light_stale]
     if not lit:
         return
     own = _own(scene)

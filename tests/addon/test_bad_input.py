@@ -152,7 +152,7 @@ def test_mirrors_that_show_nothing_are_left_out(scene, room):
     behind = parts.add("plane", "Back", size=4.0, location=(0.0, 9.0, 1.0), rotation=(0.0, np.pi / 2, 0.0))
     chosen = room("addon.blender_data.roles").Participants([high, behind, scene[0]], [scene[1]], [])
     steps = room("addon.generate").generation(bpy.context, chosen, room("core").Settings())
-    outcome = room("addon.command_line")._announced(steps)
+    outcome = room("addon.command_line").announced(steps)
     assert [obj.name for obj, _ in outcome.results] == ["Mirror Reflection"]
     assert [remark.split(":")[0] for remark in outcome.remarks] == ["High", "Back"]
     assert "High Reflection" not in bpy.data.objects and "Back Reflection" not in bpy.data.objects

@@ -285,7 +285,7 @@ def test_summary_tells_the_share_filled_by_rays_and_remarks_the_bounds_hit(spher
     generate, settings = room("addon.generate").generation, room("core").Settings
 
     def outcome(**options):
-        return room("addon.command_line")._announced(generate(bpy.context, chosen, settings(**options)))
+        return room("addon.command_line").announced(generate(bpy.context, chosen, settings(**options)))
 
     free, bounded = outcome(), outcome(tolerance=0.02, maximum_faces=2000)
     assert free.remarks == []

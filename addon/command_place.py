@@ -1,0 +1,67 @@
+"""Where a verb of the command line works: the scene, view layer, camera and frame that its options name."""
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+
+import bpy
+
+from ..core import ReflectionError
+
+
+def add_place(parser: argparse.ArgumentParser, frame: bool = True) -> None:
+    """The options that say where.
+
+    Parameters
+    ----------
+    frame : bool
+        Whether the verb works on one frame, and so by one camera.
+    """
+    parser.add_argument("--scene", metavar="NAME", help="the scene (else the file's own)")
+    parser.add_argument("--view-layer", metavar="NAME", help="whose objects are seen (else the file's own)")
+    if frame:
+        parser.add_argument("--camera", metavar="NAME", help="the camera (else the scene's, by its markers)")
+        parser.add_argument("--frame", type=int, metavar="N", help="the frame (else the file's own)")
+
+
+@contextmanager
+def placed(context: bpy.types.Context, options: argparse.Namespace) -> Iterator[None]:
+    """Within, the context is where the options say; a frame and a camera that they name stay set.
+
+    Raises
+    ------
+    ReflectionError
+        Where there is no such scene, view layer or camera.
+    """
+    scene = context.scene if options.scene is None else named(bpy.data.scenes, options.scene, "scene", "the file")
+    layer = _layer(context, scene, options.view_layer)
+    with ExitStack() as stack:
+        if (scene, layer) != (context.scene, context.view_layer):
+            stack.enter_context(context.temp_override(scene=scene, view_layer=layer))
+        if getattr(options, "frame", None) is not None:
+            scene.frame_set(options.frame)
+        if isinstance(getattr(options, "camera", None), str):
+            scene.camera = camera_of(scene, options.camera)
+        yield
+
+
+def camera_of(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
+    """A scene's camera by its name."""
+    found = named(scene.objects, name, "camera", f"the scene '{scene.name}'")
+    if found.type != "CAMERA":
+        raise ReflectionError(f"'{name}' is no camera: name one with --camera.")
+    return found
+
+
+def named(items, name: str, what: str, where: str):
+    """One of Blender's items by its name."""
+    if name not in items:
+        raise ReflectionError(f"There is no {what} '{name}' in {where}: check its name.")
+    return items[name]
+
+
+def _layer(context: bpy.types.Context, scene: bpy.types.Scene, name: str | None) -> bpy.types.ViewLayer:
+    if name is not None:
+        return named(scene.view_layers, name, "view layer", f"the scene '{scene.name}'")
+    return context.view_layer if scene == context.scene else scene.view_layers[0]

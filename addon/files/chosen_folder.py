@@ -1,0 +1,23 @@
+"""The folder that a user has named for results."""
+from __future__ import annotations
+
+import os
+
+import bpy
+
+from ...core import ReflectionError
+
+
+def chosen_folder(path: str) -> str:
+    """The absolute path of the folder that is named, which may begin with "//", the open file's own.
+
+    Raises
+    ------
+    ReflectionError
+        Where none is named, or the open file has no folder.
+    """
+    if path.startswith("//") and not bpy.data.filepath:
+        raise ReflectionError("The file has not been saved: save it, or choose an absolute folder.")
+    if not path:
+        raise ReflectionError("No folder is named: choose one for the results.")
+    return os.path.abspath(bpy.path.abspath(path))

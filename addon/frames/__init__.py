@@ -1,0 +1,15 @@
+"""Frames of an animation as files: one USD file for each result and frame, and objects that play them without this
+extension.
+
+A file holds positions, faces and colours, which every Blender from 4.2 on reads back bit for bit from a sequence of
+files; what else a mesh knows is packed into the colours, and nodes take it out again.
+"""
+from .aside import set_aside
+from .frame_numbers import frame_numbers, frame_text
+from .frame_records import FrameRecord, ResultRecord, file_name, is_done, read_record, record_path, write_record
+from .play import Sequence, light_of, play, player_of, plays, show_by_camera, stop_playing
+from .write_frame import write_image, write_result
+
+__all__ = ["FrameRecord", "ResultRecord", "Sequence", "file_name", "frame_numbers", "frame_text", "is_done",
+           "light_of", "play", "player_of", "plays", "read_record", "record_path", "set_aside", "show_by_camera",
+           "stop_playing", "write_image", "write_record", "write_result"]

@@ -1,0 +1,40 @@
+"""Results that the file already has, out of the way while frames are made, and as they were afterwards."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+
+from ..faults import still_there
+
+RECORD = ("mirror", "light_stale")
+
+
+@contextmanager
+def set_aside(context: bpy.types.Context, mirrors: list) -> Iterator[None]:
+    """Within, `mirrors` have no results and renders show none; the frame and the camera may change."""
+    scene = context.scene
+    frame, subframe, camera = scene.frame_current, scene.frame_subframe, scene.camera
+    results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION" and obj.library is None
+               and obj.reflection_mesh.mirror in mirrors]
+    known = [(obj, obj.hide_render, {name: getattr(obj.reflection_mesh, name) for name in RECORD}) for obj in results]
+    windows = [(obj, obj.visible_camera, obj.reflection_mesh.camera_hidden) for obj in mirrors if obj.library is None]
+    for obj in results:
+        # first hidden: nothing without a mirror is to be rendered
+        obj.hide_render = True
+        obj.reflection_mesh.mirror = None
+    try:
+        yield
+    finally:
+        scene.frame_set(frame, subframe=subframe)
+        scene.camera = camera
+        # what was marked stale by going through frames is not
+        for obj, hidden, record in known:
+            if still_there([obj]):
+                obj.hide_render = hidden
+                for name, value in record.items():
+                    setattr(obj.reflection_mesh, name, value)
+        for obj, visible, hidden in windows:
+            if still_there([obj]):
+                obj.visible_camera, obj.reflection_mesh.camera_hidden = visible, hidden

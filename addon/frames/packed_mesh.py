@@ -1,0 +1,69 @@
+"""What a mesh knows, packed into colours: those of sequences come back bit for bit in every Blender, other attributes
+do not, and names with blanks in none.
+
+Each attribute has colours of its own, one for three numbers, whose names are worked out from its name alone: frames
+that know different things fit together.
+"""
+from __future__ import annotations
+
+import zlib
+
+import bpy
+import numpy as np
+
+# how many numbers an attribute has, and how they are read
+WIDTHS = {"FLOAT": (1, "value"), "INT": (1, "value"), "BOOLEAN": (1, "value"), "INT8": (1, "value"),
+          "FLOAT2": (2, "vector"), "FLOAT_VECTOR": (3, "vector"), "FLOAT_COLOR": (4, "color"),
+          "BYTE_COLOR": (4, "color")}
+READ_AS = {"INT": np.int32, "INT8": np.int8, "BOOLEAN": np.bool_}
+# of the mesh itself, or worked out anew
+LEFT_OUT = {"position", "material_index", "sharp_edge"}
+MATERIAL = "corner_material"
+
+
+def packable(mesh: bpy.types.Mesh) -> list[tuple[str, str, str]]:
+    """The attributes (name, kind, domain) of a mesh that are packed; those of edges have no place in such files."""
+    return [(entry.name, entry.data_type, entry.domain) for entry in mesh.attributes
+            if entry.data_type in WIDTHS and entry.domain in {"POINT", "FACE", "CORNER"}
+            and not entry.name.startswith(".") and entry.name not in LEFT_OUT]
+
+
+def colour_names(name: str, kind: str, domain: str) -> list[str]:
+    """The colours that hold an attribute; those of faces lie at their corners, for want of others."""
+    place = "point" if domain == "POINT" else "corner"
+    key = zlib.crc32(f"{domain} {kind} {name}".encode())
+    return [f"{place}_{key:08x}_{number}" for number in range((WIDTHS[kind][0] + 2) // 3)]
+
+
+def packed(mesh: bpy.types.Mesh, attributes: list, material: np.ndarray) -> dict[str, tuple[str, np.ndarray]]:
+    """The colours of a mesh as (domain, values (n, 4) float32), by name.
+
+    Parameters
+    ----------
+    material : (faces,) int
+        A number for the material of each face.
+    """
+    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    made = {MATERIAL: ("CORNER", _colour(np.repeat(material, sizes)[:, None]))}
+    for name, kind, domain in attributes:
+        values = _values(mesh.attributes[name], kind)
+        if domain == "FACE":
+            values = np.repeat(values, sizes, axis=0)
+        for number, colour in enumerate(colour_names(name, kind, domain)):
+            made[colour] = ("POINT" if domain == "POINT" else "CORNER", _colour(values[:, 3 * number:3 * number + 3]))
+    return made
+
+
+def _colour(values: np.ndarray) -> np.ndarray:
+    colour = np.zeros((len(values), 4), dtype=np.float32)
+    colour[:, :values.shape[1]] = values
+    colour[:, 3] = 1.0
+    return colour
+
+
+def _values(attribute: bpy.types.Attribute, kind: str) -> np.ndarray:
+    width, field = WIDTHS[kind]
+    values = np.empty(len(attribute.data) * width, dtype=READ_AS.get(kind, np.float32))
+    attribute.data.foreach_get(field, values)
+    return values.reshape(-1, width)

@@ -1,0 +1,258 @@
+"""Objects that play baked frames with what every Blender has: a Mesh Sequence Cache, nodes, a sequence of pictures."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..blender_data import (
+    close_window,
+    compat,
+    forget_nodes,
+    hide_discs,
+    new_object,
+    open_window,
+    render_size,
+    results_of,
+    show_own_materials,
+)
+from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
+from ..lighting import forget_light, new_material
+from .frame_records import FrameRecord
+from .play_nodes import NAME, unpacking_nodes
+from .write_frame import MESH_PATH, OBJECT_PATH
+
+UNPACK = "Reflection Attributes"
+
+
+@dataclass(frozen=True)
+class Sequence:
+    """Baked frames of one folder, at least one.
+
+    Attributes
+    ----------
+    folder : str
+        Absolute path.
+    records : list of FrameRecord
+        In the order of their frames.
+    name : str
+        What tells it from sequences of other cameras; empty where there are none.
+    placement : str
+    """
+
+    folder: str
+    records: list[FrameRecord]
+    name: str
+    placement: str
+
+
+@dataclass(frozen=True)
+class Player:
+    """What lets one object play the result of one mirror; all that can fail has been done.
+
+    Attributes
+    ----------
+    cache : bpy.types.CacheFile
+    nodes : bpy.types.NodeTree
+    materials : list of (name, library)
+        Of the object's slots.
+    light : bpy.types.Material or None
+    """
+
+    mirror: bpy.types.Object
+    sequence: Sequence
+    cache: bpy.types.CacheFile
+    nodes: bpy.types.NodeTree
+    materials: list
+    light: bpy.types.Material | None
+
+
+def player_of(sequence: Sequence, mirror: bpy.types.Object, light: bpy.types.Material | None,
+              whole: AllOrNothing) -> Player:
+    """Read the files of one mirror; nothing that the user has is changed.
+
+    Parameters
+    ----------
+    light : bpy.types.Material or None
+        What shows the sequence's light, from `light_of`.
+    """
+    known = [record.results[mirror.name] for record in sequence.records]
+    materials = sorted({entry for result in known for entry in result.materials})
+    nodes = unpacking_nodes(sorted({entry for result in known for entry in result.attributes}), materials)
+    whole.undo(_remove, nodes)
+    cache = _cache(sequence, [result.file for result in known], whole)
+    return Player(mirror, sequence, cache, nodes, materials, light if any(result.lit for result in known) else None)
+
+
+def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOrNothing) -> bpy.types.Object:
+    """Let the result of a mirror play: the one that it has, or a new one."""
+    mirror = player.mirror
+    obj = _object(context, mirror, player.sequence.name, whole)
+    keep_mirror(mirror, whole)
+    show_own_materials(obj)
+    mesh = obj.data
+    mesh.clear_geometry()
+    mesh.materials.clear()
+    for entry in player.materials or [("", "")]:
+        mesh.materials.append(_material(*entry))
+    _add_modifiers(obj, player, whole)
+    record = obj.reflection_mesh
+    record.role, record.mirror, record.faces, record.points = "REFLECTION", mirror, 0, 0
+    record.resolution = render_size(context.scene)
+    record.sources.clear()
+    for source in sources:
+        record.sources.add().object = source
+    record.light, record.light_stale = "", False
+    earlier, record.light_material = record.light_material, player.light
+    if earlier is not None:
+        whole.after(forget_light, earlier)
+    if player.light is not None:
+        for slot in obj.material_slots:
+            slot.link, slot.material = "OBJECT", player.light
+    (open_window if player.sequence.placement == "VIRTUAL" else close_window)(mirror)
+    return obj
+
+
+def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
+    """Of several cameras' players (object, name of the camera) show those of the one that looks: the scene's, or the
+    one that a marker binds."""
+    bound = {marker.frame: marker.camera for marker in scene.timeline_markers if marker.camera}
+    for obj, name in players:
+        for switch in ("hide_render", "hide_viewport"):
+            setattr(obj, switch, scene.camera is None or scene.camera.name != name)
+            if bound:
+                _key(obj, obj, switch, {frame: camera.name != name for frame, camera in bound.items()})
+
+
+def plays(obj: bpy.types.Object) -> bool:
+    """Whether an object plays baked frames."""
+    cache = obj.modifiers.get(NAME)
+    return cache is not None and cache.type == "MESH_SEQUENCE_CACHE"
+
+
+def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | None:
+    """A material that shows a sequence's pictures of light, each in its frame; None where there are none."""
+    lit = [record for record in sequence.records if record.image]
+    if not lit:
+        return None
+    image = bpy.data.images.load(_path(sequence, lit[0].image))
+    whole.undo(_remove, image)
+    image.source, image.name = "SEQUENCE", f"Reflection Light {sequence.name}".strip()
+    image.colorspace_settings.name = "Non-Color"
+    material = new_material(image.name, image, image, np.zeros((1, 1, 3), dtype=np.float32))
+    whole.undo(_remove, material)
+    tree = material.node_tree
+    for node in tree.nodes:
+        if node.type == "TEX_IMAGE":
+            # of one picture, whose number the keys say: between baked frames the last one stays
+            node.image_user.frame_start = node.image_user.frame_duration = 1
+            node.image_user.use_auto_refresh = True
+            _key(tree, node.image_user, "frame_offset", {record.frame: record.frame - 1 for record in lit})
+    return material
+
+
+def stop_playing(obj: bpy.types.Object) -> None:
+    """Take away what makes an object play, where there is anything, so that it shows its own mesh."""
+    if not plays(obj):
+        return
+    cache, nodes = obj.modifiers[NAME], obj.modifiers.get(UNPACK)
+    files, group = cache.cache_file, getattr(nodes, "node_group", None)
+    for modifier in (cache, nodes):
+        if modifier is not None:
+            obj.modifiers.remove(modifier)
+    place = obj.constraints.get(NAME)
+    if place is not None:
+        obj.constraints.remove(place)
+    forget_nodes(group)
+    if files is not None and not files.users:
+        _remove(files)
+    light, obj.reflection_mesh.light_material = obj.reflection_mesh.light_material, None
+    if light is not None:
+        forget_light(light)
+
+
+def _object(context: bpy.types.Context, mirror: bpy.types.Object, name: str,
+            whole: AllOrNothing) -> bpy.types.Object:
+    """The result that is to play, which is the mirror's own, or with several sequences the one that is called so."""
+    called = f"{mirror.name} Reflection {name}"
+    earlier = [obj for obj in results_of(context, mirror) if not name or obj.name == called]
+    if not earlier:
+        obj = new_object(context, mirror, whole)
+        if name:
+            obj.name = called
+        return obj
+    keep_object(earlier[0], whole)
+    keep_data(earlier[0], whole)
+    hide_discs(earlier[0])
+    return earlier[0]
+
+
+def _material(name: str, library: str) -> bpy.types.Material | None:
+    """A material of the file by its name; None where it is gone."""
+    found = [material for material in bpy.data.materials if material.name == name
+             and (material.library.filepath if material.library else "") == library]
+    return found[0] if found else None
+
+
+def _cache(sequence: Sequence, files: list[str], whole: AllOrNothing) -> bpy.types.CacheFile:
+    """The files of one result as a sequence whose frames are keyed: between baked frames the last one stays."""
+    before = set(bpy.data.cache_files)
+    bpy.ops.cachefile.open(filepath=os.path.join(sequence.folder, files[0]))
+    cache, = set(bpy.data.cache_files) - before
+    whole.undo(_remove, cache)
+    # it comes with a user that is none, and would never be forgotten
+    cache.user_clear()
+    cache.filepath = _path(sequence, files[0])
+    cache.is_sequence = cache.override_frame = True
+    _key(cache, cache, "frame", {record.frame: record.frame for record in sequence.records})
+    return cache
+
+
+def _add_modifiers(obj: bpy.types.Object, player: Player, whole: AllOrNothing) -> None:
+    """The modifiers, before those that the user has added, and the constraint that puts `obj` where each frame was."""
+    earlier = [obj.modifiers.get(name) for name in (NAME, UNPACK)]
+    reading = earlier[0] or obj.modifiers.new(NAME, "MESH_SEQUENCE_CACHE")
+    unpacking = earlier[1] or obj.modifiers.new(UNPACK, "NODES")
+    old_cache, old_nodes = reading.cache_file, unpacking.node_group
+    reading.cache_file, reading.object_path = player.cache, MESH_PATH
+    reading.read_data = {item.identifier for item in reading.bl_rna.properties["read_data"].enum_items}
+    unpacking.node_group = player.nodes
+    for index, modifier in enumerate((reading, unpacking)):
+        obj.modifiers.move(list(obj.modifiers).index(modifier), index)
+    place = obj.constraints.get(NAME) or obj.constraints.new("TRANSFORM_CACHE")
+    place.name, place.cache_file, place.object_path = NAME, player.cache, OBJECT_PATH
+    whole.after(forget_nodes, old_nodes)
+    if old_cache is not None:
+        whole.after(_forget, old_cache)
+
+
+def _key(data: bpy.types.ID, holder, name: str, values: dict) -> None:
+    """Keys of a value that stays as it is until the next one."""
+    for frame, value in values.items():
+        setattr(holder, name, value)
+        holder.keyframe_insert(name, frame=frame)
+    for curve in compat.curves_of(data):
+        for key in curve.keyframe_points:
+            key.interpolation = "CONSTANT"
+
+
+def _path(sequence: Sequence, name: str) -> str:
+    """The path of a sequence's file, relative to the open file where that can be."""
+    path = os.path.join(sequence.folder, name)
+    if not bpy.data.filepath:
+        return path
+    try:
+        return bpy.path.relpath(path)
+    except ValueError:
+        return path     # on another drive
+
+
+def _remove(data: bpy.types.ID) -> None:
+    bpy.data.batch_remove([data])
+
+
+def _forget(cache: bpy.types.CacheFile) -> None:
+    if not cache.users:
+        _remove(cache)

@@ -1,0 +1,86 @@
+"""Geometry Nodes that take out of a file's colours what was packed into them, and no more: they need no extension."""
+from __future__ import annotations
+
+import bpy
+
+from ..blender_data import Builder
+from .packed_mesh import MATERIAL, colour_names
+from .write_frame import material_key
+
+NAME = "Reflection Frames"
+
+
+def unpacking_nodes(attributes: list, materials: list) -> bpy.types.NodeTree:
+    """A node group that gives a mesh its attributes by their names, and its faces the materials of an object's slots.
+
+    Parameters
+    ----------
+    attributes : list of (name, kind, domain)
+        As they were packed.
+    materials : list of (name, library)
+        Those of the slots, in their order.
+    """
+    tree = bpy.data.node_groups.new(NAME, "GeometryNodeTree")
+    tree.is_modifier = True
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    unpack = _Unpack(tree)
+    geometry = unpack.builder.add("NodeGroupInput").outputs[0]
+    for index, entry in enumerate(materials):
+        geometry = unpack.with_material(geometry, index, material_key(*entry))
+    for attribute in attributes:
+        geometry = unpack.stored(geometry, *attribute)
+    for colour in [MATERIAL] + [colour for attribute in attributes for colour in colour_names(*attribute)]:
+        geometry = unpack.builder.through("GeometryNodeRemoveAttribute", geometry, Name=colour)
+    unpack.builder.join(geometry, unpack.builder.add("NodeGroupOutput").inputs[0])
+    return tree
+
+
+class _Unpack:
+    """Nodes that take colours apart, put together what belongs together, and store it."""
+
+    def __init__(self, tree: bpy.types.NodeTree) -> None:
+        self.builder = Builder(tree)
+
+    def with_material(self, geometry: bpy.types.NodeSocket, index: int, key: int) -> bpy.types.NodeSocket:
+        """Faces whose number is `key` show the material of slot `index`."""
+        same = self.builder.add("FunctionNodeCompare", data_type="INT", operation="EQUAL")
+        first, second = (socket for socket in same.inputs if socket.enabled)
+        self.builder.join(self._rounded(self._numbers(MATERIAL)[0]), first)
+        second.default_value = key
+        node = self.builder.add("GeometryNodeSetMaterialIndex")
+        self.builder.join(geometry, node.inputs["Geometry"])
+        self.builder.join(same.outputs[0], node.inputs["Selection"])
+        node.inputs["Material Index"].default_value = index
+        return node.outputs["Geometry"]
+
+    def stored(self, geometry: bpy.types.NodeSocket, name: str, kind: str, domain: str) -> bpy.types.NodeSocket:
+        """An attribute under its own name."""
+        numbers = [number for colour in colour_names(name, kind, domain) for number in self._numbers(colour)]
+        node = self.builder.add("GeometryNodeStoreNamedAttribute", data_type=kind, domain=domain)
+        node.inputs["Name"].default_value = name
+        self.builder.join(geometry, node.inputs["Geometry"])
+        value = next(socket for socket in node.inputs if socket.name == "Value" and socket.enabled)
+        self.builder.join(self._together(kind, numbers), value)
+        return node.outputs["Geometry"]
+
+    def _numbers(self, colour: str) -> list:
+        node = self.builder.add("FunctionNodeSeparateColor", mode="RGB")
+        self.builder.join(self.builder.read(colour, "FLOAT_COLOR"), node.inputs[0])
+        return list(node.outputs[:3])
+
+    def _together(self, kind: str, numbers: list) -> bpy.types.NodeSocket:
+        if kind in {"INT", "INT8", "BOOLEAN"}:
+            return self._rounded(numbers[0])
+        if kind == "FLOAT":
+            return numbers[0]
+        node = self.builder.add("FunctionNodeCombineColor" if kind.endswith("COLOR") else "ShaderNodeCombineXYZ")
+        for number, socket in zip(numbers, node.inputs, strict=False):
+            self.builder.join(number, socket)
+        return node.outputs[0]
+
+    def _rounded(self, number: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+        """A whole number: the mean of three that are equal may lie beside it."""
+        node = self.builder.add("FunctionNodeFloatToInt", rounding_mode="ROUND")
+        self.builder.join(number, node.inputs[0])
+        return node.outputs[0]
