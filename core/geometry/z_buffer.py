@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View, cross, dot, ranges
+from .vectors import cross, dot, ranges
+from .view import View
 
 FRAGMENTS_AT_ONCE = 1_000_000
 
