@@ -2,6 +2,7 @@
 from .discs import Discs
 from .given_order import in_given_order
 from .placement import DEPTH, GAP, place
+from .picture_pieces import PicturePieces, picture_pieces
 from .reflection_mesh import ReflectionMesh
 
-__all__ = ["DEPTH", "Discs", "GAP", "ReflectionMesh", "in_given_order", "place"]
+__all__ = ["DEPTH", "Discs", "GAP", "PicturePieces", "ReflectionMesh", "in_given_order", "picture_pieces", "place"]
