@@ -1,8 +1,8 @@
 """What comes out: the reflection mesh, its discs, where it is drawn, and in whose numbers it is told."""
 from .discs import Discs
 from .given_order import in_given_order
-from .placement import DEPTH, GAP, place
 from .picture_pieces import PicturePieces, picture_pieces
+from .placement import DEPTH, GAP, place
 from .reflection_mesh import ReflectionMesh
 
 __all__ = ["DEPTH", "Discs", "GAP", "PicturePieces", "ReflectionMesh", "in_given_order", "picture_pieces", "place"]

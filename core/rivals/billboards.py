@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View, dot
+from ..geometry import TriangleMesh, View, connected, dot
 from .environment import centre_of
 from .primary_hits import PrimaryHits
 from .rival_picture import NOTHING, RivalPicture, Work
