@@ -35,6 +35,17 @@ class PicturePieces:
     image : (k,) int64
         Which image the piece belongs to: one that hangs together and is nowhere turned over, 0 the largest in the
         picture. A point that is seen several times lies in pieces of several images.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import TriangleMesh, View, picture_pieces, reflect
+    >>> view = View.looking_at((0, -4, 3), (0, 0, 0), (320, 240))
+    >>> mirror = TriangleMesh(np.array([[-2, -2, 0], [2, -2, 0], [0, 2, 0]]), np.array([[0, 1, 2]]))
+    >>> scene = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
+    >>> pieces = picture_pieces(view, reflect(view, mirror, scene))
+    >>> np.abs(np.linalg.det(pieces.weights)).sum().round(6).item()  # all of the triangle is seen
+    1.0
     """
 
     face: np.ndarray
