@@ -76,6 +76,11 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
                         materials, uv_maps, colours, numbers, active_uv, active_colour)
 
 
+def read_normals(depsgraph: bpy.types.Depsgraph, objects: list) -> np.ndarray:
+    """Shading normals (m, 3, 3) of the corners of all triangles that `read_scene` reads of `objects`."""
+    return _joined_normals(read_meshes(depsgraph, objects, normals=True))
+
+
 def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> MirrorSurface:
     """The mirror `obj` in world space with its shading normals.
 
@@ -90,10 +95,14 @@ def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> Mirror
     if not placed:
         raise ReflectionError(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
     positions, triangles, _, _, faces, material, materials = _join(placed, 1)
-    normals = np.concatenate([_world_normals(item).reshape(-1, 3, 3) for item in placed])
+    normals = _joined_normals(placed)
     reflects = np.array([is_mirror(entry) for entry in materials])[material]
     kept = np.flatnonzero(reflects) if reflects.any() else np.arange(len(triangles))
     return MirrorSurface(_triangle_mesh([obj], positions, triangles[kept], normals[kept]), faces[kept])
+
+
+def _joined_normals(placed: list[Placed]) -> np.ndarray:
+    return np.concatenate([_world_normals(item).reshape(-1, 3, 3) for item in placed])
 
 
 def _triangle_mesh(objects: list, positions, triangles, normals=None) -> TriangleMesh:
