@@ -1,12 +1,13 @@
 """What Blender sees of the extension: roles, operators, a panel and a command; the optics are in `core`."""
-from . import clear, command_line, compare, generate, light, mirror_uvs, panel, properties
+from . import clear, command_line, compare, generate, light, mirror_uvs, panel, print_sheet, properties
 from .blender_data import windows
 from .gltf_attributes import AttributesOfResults
 from .lighting import stale_light
 
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
-MODULES = (properties, windows, stale_light, generate, light, mirror_uvs, compare, clear, panel, command_line)
+MODULES = (properties, windows, stale_light, generate, light, mirror_uvs, print_sheet, compare, clear, panel,
+           command_line)
 
 
 def register() -> None:
