@@ -11,11 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View, connected, doubled_areas, split
+from ..geometry import View, connected, doubled_areas, ranges, split
 from .reflection_mesh import ReflectionMesh
 
 STRAYING = 0.1
 """Pixels that a linear map may be wrong by inside a piece, beside what the reflection itself is."""
+TOUCHING = 1e-9
+"""Of a barycentric coordinate: what a point on an edge may be off by."""
 ROUNDS = 12
 """Of halving edges: what a map is wrong by falls to a quarter by each."""
 
@@ -52,6 +54,32 @@ class PicturePieces:
     weights: np.ndarray
     pixels: np.ndarray
     image: np.ndarray
+
+    def select(self, chosen: np.ndarray) -> PicturePieces:
+        """Some of the pieces, by index or mask."""
+        return PicturePieces(self.face[chosen], self.weights[chosen], self.pixels[chosen], self.image[chosen])
+
+    def holding(self, face: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """Piece (n,) of the largest image that holds points of the scene; -1 where none does.
+
+        Parameters
+        ----------
+        face : (n,) int64
+            The triangle that each point lies in.
+        weights : (n, 3) float64
+            Its barycentric coordinates there.
+        """
+        found = np.full(len(face), -1)
+        if not len(self.face):
+            return found
+        point, piece = _near(self.face, self.weights[:, :, 1:], face, weights[:, 1:])
+        shares = np.linalg.solve(np.swapaxes(_regular(self.weights[piece]), 1, 2), weights[point, :, None])[..., 0]
+        held = (shares >= -TOUCHING).all(axis=1)
+        point, piece = point[held], piece[held]
+        order = np.lexsort((self.image[piece], point))
+        first = order[np.unique(point[order], return_index=True)[1]]
+        found[point[first]] = piece[first]
+        return found
 
 
 def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING) -> PicturePieces:
@@ -132,3 +160,34 @@ def _children(corners: np.ndarray, parent: np.ndarray, local: np.ndarray) -> np.
     """What the corners of the parts of triangles have, from what (k, 3, c) those of the triangles have."""
     middles = 0.5 * (corners + np.roll(corners, -1, axis=1))
     return np.take_along_axis(np.concatenate((corners, middles), axis=1)[parent], local[:, :, None], axis=1)
+
+
+def _regular(weights: np.ndarray) -> np.ndarray:
+    """Weights (k, 3, 3) of pieces' corners, those of pieces without an area such that no point lies within."""
+    flat = np.abs(np.linalg.det(weights)) < 1e-18
+    return np.where(flat[:, None, None], -np.eye(3), weights)
+
+
+def _near(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.ndarray) -> tuple:
+    """Pairs of points (n, 2) and pieces with `corners` (k, 3, 2) of the same triangle, `face` and `owner`, among them
+    all in which the piece holds the point: each triangle has a grid of about as many cells as it has pieces."""
+    _, both = np.unique(np.concatenate((owner, face)), return_inverse=True)
+    owner, face = both[:len(owner)], both[len(owner):]
+    number = np.bincount(owner, minlength=int(both.max()) + 1)
+    across = np.ceil(np.sqrt(number)).astype(np.int64)
+    start = np.cumsum(across**2) - across**2
+
+    def cell(of: np.ndarray, place: np.ndarray) -> np.ndarray:
+        return np.clip((place * across[of, None]).astype(np.int64), 0, np.maximum(across[of, None] - 1, 0))
+    low, high = cell(owner, corners.min(axis=1)), cell(owner, corners.max(axis=1))
+    size = high - low + 1
+    step, piece = ranges(np.zeros(len(owner), dtype=np.int64), size.prod(axis=1))
+    column, row = low[piece, 0] + step % size[piece, 0], low[piece, 1] + step // size[piece, 0]
+    held_by = start[owner[piece]] + row * across[owner[piece]] + column
+    order = np.argsort(held_by, kind="stable")
+    asked = np.flatnonzero(number[face] > 0)
+    column, row = cell(face[asked], points[asked]).T
+    wanted = start[face[asked]] + row * across[face[asked]] + column
+    first, last = (np.searchsorted(held_by[order], wanted, side=side) for side in ("left", "right"))
+    entry, point = ranges(first, last - first)
+    return asked[point], piece[order[entry]]
