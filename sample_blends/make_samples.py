@@ -510,7 +510,8 @@ def anamorphosis() -> tuple:
               vertices=64)
     table = add("plane", "Table", (0, 0, -0.001), surface("Table", (0.20, 0.09, 0.04), "Wave", "Object", 6.0), size=1.4)
     add("plane", "Sheet", (0, 0, 0), surface("Paper", (0.8, 0.8, 0.8), Roughness=1.0), size=1, scale=(0.42, 0.297, 1))
-    image = picture("Compass", _compass(1536).reshape(512, 3, 512, 3, 3).mean(axis=(1, 3))).node_tree.nodes["Image Texture"].image
+    soft = _compass(1536).reshape(512, 3, 512, 3, 3).mean(axis=(1, 3))
+    image = picture("Compass", soft).node_tree.nodes["Image Texture"].image
     image.use_fake_user = True
     bpy.data.materials.remove(bpy.data.materials["Compass"])
     eye((0, -0.38, 0.50), (0, 0.06, 0.05), 90)

@@ -1,8 +1,8 @@
 """Triangles cut along the outlines of the pieces that a mirror shows: each part then lies in one piece, or in none.
 
-Pieces of one image lie side by side, those of several over one another; Blender's constrained Delaunay triangulation
-cuts along all of them at once. It works in single precision and takes its time for all that lies in one plane, and so
-a few triangles at a time are laid out beside each other, each as half a unit square.
+Most triangles that are seen are tiled by the pieces of one image, or are one of them, and those are the parts. Where
+a mirror shows a triangle in part, or in several images over one another, Blender's constrained Delaunay triangulation
+cuts it along all outlines at once.
 """
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from mathutils.geometry import delaunay_2d_cdt
 from ...core import PicturePieces
 from ..faults import Steps
 
-ACROSS = 4          # triangles beside each other in a layout, and as many rows
-NEAR = 1e-6         # of a triangle's side for each of them: what is nearer is one place
-HULL = 0            # all triangles of the layout: Blender does not tell rightly which lie in what is thin
+NEAR = 1e-6         # of a triangle's side: what is nearer is one place
+HULL = 0            # all triangles of the convex hull: which faces they come from Blender does not always tell rightly
+AT_ONCE = 16        # triangles cut between two looks at the user
 
 
 @dataclass(frozen=True)
@@ -49,51 +49,51 @@ def cut_triangles(pieces: PicturePieces, count: int) -> Steps[Parts]:
     number = np.bincount(pieces.face, minlength=count)
     whole = np.flatnonzero(number == 0)
     done = [Parts(whole, np.tile(np.eye(3), (len(whole), 1, 1)), np.full((len(whole), 3, 2), np.nan))]
+    tiled = _tiled(pieces, count)
+    kept = pieces.select(tiled[pieces.face])
+    turned = (np.linalg.det(kept.weights) < 0.0)[:, None, None]
+    done.append(Parts(kept.face, np.where(turned, kept.weights[:, ::-1], kept.weights),
+                      np.where(turned, kept.pixels[:, ::-1], kept.pixels)))
     order = np.argsort(pieces.face, kind="stable")
     first = np.cumsum(number) - number
-    # triangles of as many pieces together: the layout is as exact as the finest of them needs
-    cut = np.flatnonzero(number)
-    cut = cut[np.argsort(number[cut], kind="stable")]
-    for start in range(0, len(cut), ACROSS**2):
-        yield start / len(cut), "Cutting faces"
-        chosen = np.sort(cut[start:start + ACROSS**2])
-        inside = np.concatenate([order[first[face]:first[face] + number[face]] for face in chosen])
-        done.append(_cut(chosen, pieces.select(inside)))
+    cut = np.flatnonzero((number > 0) & ~tiled)
+    # one by one: laid out beside each other in one plane, triangles come back without some of their sides
+    for index, face in enumerate(cut.tolist()):
+        if index % AT_ONCE == 0:
+            yield index / len(cut), "Cutting faces"
+        done.append(_cut(face, pieces.select(order[first[face]:first[face] + number[face]])))
     return Parts(*(np.concatenate([getattr(part, name) for part in done]) for name in ("face", "weights", "pixels")))
 
 
-def _cut(chosen: np.ndarray, pieces: PicturePieces) -> Parts:
-    """Cut the triangles `chosen`, in rising order, along the pieces that lie in them, in one layout."""
-    near = NEAR * ACROSS
-    corners = np.concatenate((np.tile(((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)), (len(chosen), 1, 1)),
-                              pieces.weights[:, :, 1:]))
-    cell = np.concatenate((np.arange(len(chosen)), np.searchsorted(chosen, pieces.face)))
+def _tiled(pieces: PicturePieces, count: int) -> np.ndarray:
+    """Which triangles (count,) the pieces of a single image cover whole."""
+    area = np.bincount(pieces.face, np.abs(np.linalg.det(pieces.weights)), minlength=count)
+    low, high = np.full(count, len(pieces.face)), np.full(count, -1)
+    np.minimum.at(low, pieces.face, pieces.image)
+    np.maximum.at(high, pieces.face, pieces.image)
+    return (low == high) & (np.abs(area - 1.0) < NEAR)
+
+
+def _cut(face: int, pieces: PicturePieces) -> Parts:
+    """Cut the triangle `face`, as half a unit square, along the pieces that lie in it."""
+    corners = np.concatenate(([[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]], pieces.weights[:, :, 1:]))
     # sides of what is thinner than what counts as one place would cross each other there
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    high = np.abs(_doubled(corners)) > 4.0 * near * longest
-    laid_out = (corners + _place(cell)[:, None])[high].reshape(-1, 2)
-    numbers = np.arange(len(laid_out)).reshape(-1, 3)
+    corners = corners[np.abs(_doubled(corners)) > 4.0 * NEAR * longest].reshape(-1, 2)
+    numbers = np.arange(len(corners)).reshape(-1, 3)
     sides = np.stack((numbers, np.roll(numbers, -1, axis=1)), axis=2).reshape(-1, 2)
-    points, _, triangles, *_ = delaunay_2d_cdt(list(map(Vector, laid_out.tolist())), sides.tolist(), [], HULL, near,
-                                               False)
+    points, _, triangles, *_ = delaunay_2d_cdt(list(map(Vector, corners.tolist())), sides.tolist(), [], HULL,
+                                               NEAR, False)
     found = np.array([tuple(point) for point in points])[np.array(triangles, dtype=np.int64).reshape(-1, 3)]
-    own = (found.mean(axis=1) // 2).astype(np.int64) @ (1, ACROSS)
-    found = (found - _place(own)[:, None])[own < len(chosen)]
-    own = own[own < len(chosen)]
-    within = (found.mean(axis=1).sum(axis=1) < 1.0) & (_doubled(found) > 0.0)
-    face, found = chosen[own[within]], found[within]
-    weights = _clean(np.concatenate((1.0 - found.sum(axis=2, keepdims=True), found), axis=2), near)
-    piece = pieces.holding(face, weights.mean(axis=1))
+    found = found[_doubled(found) > 0.0]
+    weights = _clean(np.concatenate((1.0 - found.sum(axis=2, keepdims=True), found), axis=2))
+    faces = np.full(len(found), face)
+    piece = pieces.holding(faces, weights.mean(axis=1))
     pixels = np.full((len(found), 3, 2), np.nan)
     seen = np.flatnonzero(piece >= 0)
     shares = np.maximum(weights[seen] @ np.linalg.inv(pieces.weights[piece[seen]]), 0.0)
     pixels[seen] = shares / shares.sum(axis=2, keepdims=True) @ pieces.pixels[piece[seen]]
-    return Parts(face, weights, pixels)
-
-
-def _place(cell: np.ndarray) -> np.ndarray:
-    """Lower left corners (n, 2) of cells (n,) in the layout, a side's length between them."""
-    return 2.0 * np.stack((cell % ACROSS, cell // ACROSS), axis=1)
+    return Parts(faces, weights, pixels)
 
 
 def _doubled(corners: np.ndarray) -> np.ndarray:
@@ -102,8 +102,7 @@ def _doubled(corners: np.ndarray) -> np.ndarray:
     return ux * vy - uy * vx
 
 
-def _clean(weights: np.ndarray, near: float) -> np.ndarray:
+def _clean(weights: np.ndarray) -> np.ndarray:
     """Barycentric coordinates without what single precision leaves beside the sides of a triangle."""
-    weights = np.where(weights < near, 0.0, weights)
+    weights = np.where(weights < NEAR, 0.0, weights)
     return weights / weights.sum(axis=2, keepdims=True)
-
