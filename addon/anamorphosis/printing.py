@@ -13,6 +13,7 @@ from .flat_sheet import FlatSheet
 
 INCH = 0.0254
 FINER = 2               # samples along a pixel's side
+ROUNDING = 0.01         # pixels: a sheet of 10 cm may be a little longer in single precision
 MOST_PIXELS = 200e6
 AT_ONCE = 2_000_000     # samples
 
@@ -25,7 +26,7 @@ def print_size(sheet: FlatSheet, dpi: float) -> tuple[int, int]:
     ReflectionError
         Where there are too many of them to be printed.
     """
-    width, height = (max(1, int(np.ceil(side / INCH * dpi))) for side in sheet.size)
+    width, height = (max(1, int(np.ceil(side / INCH * dpi - ROUNDING))) for side in sheet.size)
     if width * height > MOST_PIXELS:
         metres = " x ".join(f"{side:.2f}" for side in sheet.size)
         raise ReflectionError(f"The sheet is {metres} m large, {width * height / 1e6:.0f} million pixels at {dpi:g} "
