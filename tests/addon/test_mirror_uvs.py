@@ -189,14 +189,15 @@ def test_on_the_object_itself_corners_are_exact_and_no_face_is_cut(wall, room):
 
 @pytest.mark.parametrize(("kind", "low", "high"), [("MIRROR", 0.0, 1.0), ("WHOLE", None, None)])
 def test_what_a_picture_fills(wall, kind, low, high):
+    wall.rotation_euler.x = 0.9
     copy = write(frame=kind)
     uv = uv_of(copy)[np.repeat(seen_of(copy), 3)]
     if kind == "MIRROR":
         assert uv.min(axis=0) == pytest.approx(low, abs=1e-5) and uv.max(axis=0) == pytest.approx(high, abs=1e-5)
         return
-    # the whole unit square is shown, but for what a pixel's rim takes
+    # the whole unit square is shown, but for a part of a pixel at its rim
     triangles = uv_of(copy).reshape(-1, 3, 2)[seen_of(copy)]
-    points = np.random.default_rng(2).uniform(0.02, 0.98, (300, 2))
+    points = np.random.default_rng(2).uniform(0.03, 0.97, (300, 2))
     u, v, w = (triangles[:, k] - triangles[:, 0] for k in (1, 2, 0))
     to = points[:, None] - triangles[None, :, 0]
     area = doubled(triangles)
@@ -204,7 +205,17 @@ def test_what_a_picture_fills(wall, kind, low, high):
     third = (u[:, 0] * to[..., 1] - u[:, 1] * to[..., 0]) / area
     held = ((second >= -1e-6) & (third >= -1e-6) & (second + third <= 1 + 1e-6)).any(axis=1)
     assert held.all(), points[~held]
-    assert (uv.min(axis=0) < 0.02).any() and (uv.max(axis=0) > 0.98).any()
+
+
+@pytest.mark.parametrize("proportion", [0.6, 1.0, 2.3])
+def test_the_largest_frame_is_found_as_by_trying_all(room, proportion):
+    largest = room("addon.anamorphosis.frame")._largest_frame
+    y, x = np.mgrid[:34, :41]
+    shown = (np.hypot(x - 22, 1.3 * (y - 17)) < 15) & (x + y > 25)
+    (column, row), (width, height) = (pair.astype(int) for pair in largest(shown, proportion))
+    assert shown[row:row + height, column:column + width].all() and width == round(height * proportion)
+    high, across = height + 1, round((height + 1) * proportion)
+    assert not any(shown[r:r + high, c:c + across].all() for r in range(34 - high + 1) for c in range(41 - across + 1))
 
 
 def ramp(tmp_path: Path) -> str:
