@@ -158,11 +158,33 @@ def test_the_copy_is_the_object_cut(wall):
 def test_what_the_mirror_does_not_show_is_marked_and_lies_beside_the_picture(wall):
     bpy.data.objects["Mirror"].scale.x = 0.25
     bpy.context.view_layer.update()
+    area = sum(face.area for face in wall.data.polygons)
     copy = write()
     seen = seen_of(copy)
     assert 0 < seen.sum() < len(seen)
+    assert sum(face.area for face in copy.data.polygons) == pytest.approx(area, rel=1e-5)
     assert (uv_of(copy).reshape(-1, 3, 2)[~seen] == -1.0).all()
     assert (uv_of(copy).reshape(-1, 3, 2)[seen] > -0.5).all()
+
+
+def test_of_two_images_the_larger_one_is_taken(wall, room):
+    mirror = bpy.data.objects["Mirror"]
+    mesh = bpy.data.meshes.new("Two")
+    # the wall, and in its own plane's coordinates a small pane beside it that leans forward
+    mesh.from_pydata([(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0),
+                      (-0.5, 2.1, 0), (0.5, 2.1, 0), (0.5, 2.7, 0.35), (-0.5, 2.7, 0.35)], [],
+                     [(0, 1, 2, 3), (4, 5, 6, 7)])
+    mirror.data = mesh
+    both = parts.attribute(parts.generate(), "mirror_face")
+    assert (both < 2).any() and (both >= 2).any()
+    bpy.ops.reflection_mesh.clear()
+    parts.select(wall, mirror)
+    area = sum(face.area for face in wall.data.polygons)
+    copy = write(tolerance=0.25)
+    assert sum(face.area for face in copy.data.polygons) == pytest.approx(area, rel=1e-5)
+    seen = np.repeat(seen_of(copy), 3)
+    off = (uv_of(copy) - mirrored_uv(room, corner_places(copy)))[seen] * (256, 192)
+    assert seen.all() and np.linalg.norm(off, axis=1).max() < 0.6
 
 
 def test_again_updates_the_copy_in_place(wall, room):
