@@ -169,10 +169,11 @@ def test_what_the_mirror_does_not_show_is_marked_and_lies_beside_the_picture(wal
 
 def test_of_two_images_the_larger_one_is_taken(wall, room):
     mirror = bpy.data.objects["Mirror"]
+    wall.rotation_euler.x = 1.1     # so that the large pane sees it large
     mesh = bpy.data.meshes.new("Two")
     # in the wall's own plane's coordinates a large pane, and a small one beside it that is turned to the sheet
-    mesh.from_pydata([(-1.3, -2, 0), (1.3, -2, 0), (1.3, 2, 0), (-1.3, 2, 0), (1.4, -0.4, 0), (2.2, -0.4, 0.37),
-                      (2.2, 0.4, 0.52), (1.4, 0.4, 0.15)], [], [(0, 1, 2, 3), (4, 5, 6, 7)])
+    mesh.from_pydata([(-1.7, -2, 0), (1.7, -2, 0), (1.7, 2, 0), (-1.7, 2, 0), (1.7, -0.4, 0), (2.5, -0.4, 0.37),
+                      (2.5, 0.4, 0.52), (1.7, 0.4, 0.15)], [], [(0, 1, 2, 3), (4, 5, 6, 7)])
     mirror.data = mesh
     both = parts.attribute(parts.generate(), "mirror_face")
     assert (both < 2).any() and (both >= 2).any()
