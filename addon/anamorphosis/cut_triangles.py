@@ -78,14 +78,13 @@ def _cut(face: int, pieces: PicturePieces) -> Parts:
     """Cut the triangle `face`, as half a unit square, along the pieces that lie in it."""
     corners = np.concatenate(([[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]], pieces.weights[:, :, 1:]))
     # sides of what is thinner than what counts as one place would cross each other there
-    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    corners = corners[np.abs(_doubled(corners)) > 4.0 * NEAR * longest].reshape(-1, 2)
+    corners = corners[np.abs(_doubled(corners)) > 4.0 * NEAR * _longest(corners)].reshape(-1, 2)
     numbers = np.arange(len(corners)).reshape(-1, 3)
     sides = np.stack((numbers, np.roll(numbers, -1, axis=1)), axis=2).reshape(-1, 2)
     points, _, triangles, *_ = delaunay_2d_cdt(list(map(Vector, corners.tolist())), sides.tolist(), [], HULL,
                                                NEAR, False)
     found = np.array([tuple(point) for point in points])[np.array(triangles, dtype=np.int64).reshape(-1, 3)]
-    found = found[_doubled(found) > 0.0]
+    found = found[_doubled(found) > NEAR * _longest(found)]
     weights = _clean(np.concatenate((1.0 - found.sum(axis=2, keepdims=True), found), axis=2))
     faces = np.full(len(found), face)
     piece = pieces.holding(faces, weights.mean(axis=1))
@@ -100,6 +99,11 @@ def _doubled(corners: np.ndarray) -> np.ndarray:
     """Twice the areas (n,) of triangles (n, 3, 2)."""
     (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
     return ux * vy - uy * vx
+
+
+def _longest(corners: np.ndarray) -> np.ndarray:
+    """Length (n,) of the longest side of triangles (n, 3, 2)."""
+    return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
 
 
 def _clean(weights: np.ndarray) -> np.ndarray:
