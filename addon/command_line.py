@@ -19,7 +19,7 @@ from .files import check_place, save_blend, staged
 from .generate import generation
 from .light import SAMPLES, lighting
 from .light import summary as lighting_summary
-from .mirror_uvs import FRAMES, TARGETS, Choices, mapping
+from .mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
 from .print_sheet import DPI, check_print, printing
 from .properties import METHODS, PLACEMENTS, settings_of
 
@@ -154,7 +154,7 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     if sheet is not None:
         check_print(sheet, options.dpi)
     started = time.perf_counter()
-    settings = core.Settings(tolerance=options.tolerance, maximum_memory=options.memory)
+    settings = map_settings(options.tolerance, options.memory)
     outcome = _announced(mapping(context, _chosen(context, options), settings,
                                  Choices(options.target, options.frame, options.picture)))
     told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]

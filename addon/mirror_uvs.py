@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
@@ -65,11 +65,26 @@ class Outcome:
         return f"{names}: UV map '{UV_MAP}', {faces} faces, those that are seen marked '{SEEN}', {seconds:.2f} s"
 
 
+def map_settings(tolerance: float, memory: float) -> core.Settings:
+    """The settings of a reflection whose faces tell a map: one bounce, on the mirror itself.
+
+    Raises
+    ------
+    core.ReflectionError
+        Where one of them cannot be.
+    """
+    try:
+        return core.Settings(tolerance=tolerance, maximum_memory=memory, placement="SURFACE")
+    except ValueError as error:
+        raise core.ReflectionError(str(error)) from error
+
+
 def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Settings,
             choices: Choices = Choices()) -> Steps[Outcome]:
     """Write for each of `chosen.diffuse` where the camera sees it in the mirror, yielding (fraction, stage).
 
-    Nothing in the file changes before the last step; a generator that is closed before leaves no trace.
+    Nothing in the file changes before the last step; a generator that is closed before leaves no trace. `settings` are
+    those of `map_settings`.
 
     Raises
     ------
@@ -87,7 +102,6 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
             depsgraph = context.evaluated_depsgraph_get()
             surface = read_mirror(depsgraph, mirror)
             scene, normals = read_scene(depsgraph, sources), read_normals(depsgraph, sources)
-        settings = replace(settings, placement="SURFACE", method="GENERAL", depth=1)
         result = yield from part(core.reflection_steps(view, surface.mesh, scene.mesh, settings), READING, REFLECTING,
                                  mirror.name)
         pieces = core.picture_pieces(view, result)
@@ -148,7 +162,7 @@ class REFLECTION_MESH_OT_mirror_uvs(SteppedOperator, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        settings = core.Settings(tolerance=self.tolerance, maximum_memory=self.memory)
+        settings = map_settings(self.tolerance, self.memory)
         outcome = yield from mapping(context, choose(context), settings,
                                      Choices(self.target, self.frame, self.picture))
         # the view layer knows new objects only from its next update on

@@ -297,7 +297,7 @@ def test_esc_leaves_no_trace(wall, room, tmp_path):
     module = room("addon.mirror_uvs")
     stages = []
     for stop in range(1, 200):
-        steps = module.mapping(bpy.context, room("addon.blender_data").choose(bpy.context), room("core").Settings(),
+        steps = module.mapping(bpy.context, room("addon.blender_data").choose(bpy.context), module.map_settings(0.5, 2.0),
                                module.Choices(picture=picture))
         told = [entry[1] for _, entry in zip(range(stop), steps)]
         steps.close()
@@ -365,3 +365,6 @@ def test_the_verb_writes_maps_and_prints(wall, room, tmp_path, capsys):
     bpy.ops.wm.open_mainfile(filepath=str(output))
     assert UV_MAP in bpy.data.objects["Sheet Anamorphosis"].data.uv_layers
     assert room("addon.command_line").run(["mirror-uvs", "--print", "sheet.jpg", "--output", str(output)]) == 1
+    capsys.readouterr()
+    assert room("addon.command_line").run(["mirror-uvs", "--tolerance", "-1", "--output", str(output)]) == 1
+    assert "not foreseen" not in capsys.readouterr().err
