@@ -297,8 +297,8 @@ def test_esc_leaves_no_trace(wall, room, tmp_path):
     module = room("addon.mirror_uvs")
     stages = []
     for stop in range(1, 200):
-        steps = module.mapping(bpy.context, room("addon.blender_data").choose(bpy.context), module.map_settings(0.5, 2.0),
-                               module.Choices(picture=picture))
+        chosen = room("addon.blender_data").choose(bpy.context)
+        steps = module.mapping(bpy.context, chosen, module.map_settings(0.5, 2.0), module.Choices(picture=picture))
         told = [entry[1] for _, entry in zip(range(stop), steps)]
         steps.close()
         assert parts.state() == before
