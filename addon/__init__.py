@@ -1,12 +1,24 @@
 """What Blender sees of the extension: roles, operators, a panel and a command; the optics are in `core`."""
-from . import bake, clear, command_line, compare, generate, light, panel, properties
+from . import (
+    bake,
+    clear,
+    command_line,
+    compare,
+    generate,
+    light,
+    mirror_uvs,
+    panel,
+    print_sheet,
+    properties,
+)
 from .blender_data import windows
 from .gltf_attributes import AttributesOfResults
 from .lighting import stale_light
 
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
-MODULES = (properties, windows, stale_light, generate, light, bake, compare, clear, panel, command_line)
+MODULES = (properties, windows, stale_light, generate, light, bake, mirror_uvs, print_sheet, compare, clear, panel,
+           command_line)
 
 
 def register() -> None:

@@ -23,6 +23,8 @@ from .files import check_place, save_blend, staged
 from .generate import generation
 from .light import SAMPLES, lighting
 from .light import summary as lighting_summary
+from .mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
+from .print_sheet import DPI, check_print, printing
 from .properties import LIGHTS, METHODS, PLACEMENTS, settings_of
 
 COMMAND = "reflection_mesh"
@@ -55,9 +57,7 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
     generate = verbs.add_parser("generate", help="generate the reflections and save the file")
     _add_settings(generate)
-    generate.add_argument("--mirror", nargs="+", default=[], metavar="NAME",
-                          help="mirror objects (else by selection and role, as in the window)")
-    generate.add_argument("--diffuse", nargs="+", default=[], metavar="NAME", help="diffuse objects")
+    _add_participants(generate)
     generate.add_argument("--light", type=int, nargs="?", const=SAMPLES, default=0, metavar="N",
                           help=f"light them too, with N samples per pixel ({SAMPLES})")
     _add_light(generate, "--light-kind")
@@ -82,8 +82,30 @@ def _parser() -> argparse.ArgumentParser:
     for verb in (generate, light, compare):
         add_place(verb)
     add_place(baked, frame=False)
+    _add_anamorphosis(verbs.add_parser(
+        "mirror-uvs", help="write UV maps by which a picture looks right in the mirror alone, and save the file"))
     _add_benchmark(verbs.add_parser("benchmark", help="every method's error and seconds, judged by Cycles"))
     return parser
+
+
+def _add_anamorphosis(verb: argparse.ArgumentParser) -> None:
+    _add_participants(verb)
+    verb.add_argument("--target", choices=[item[0] for item in TARGETS], default="COPY",
+                      help="on copies that are cut, or on the objects themselves")
+    verb.add_argument("--frame", choices=[item[0] for item in FRAMES], default="CAMERA", help="what the picture fills")
+    verb.add_argument("--picture", default="", metavar="FILE", help="image file, or image of the file, for the copies")
+    verb.add_argument("--print", dest="sheet", metavar="FILE", help="save the sheet, if it is one, as .png or .svg")
+    verb.add_argument("--dpi", type=float, default=DPI, help=f"dots per inch of the print ({DPI:g})")
+    verb.add_argument("--tolerance", type=float, default=0.5, metavar="PIXELS")
+    verb.add_argument("--memory", type=float, default=2.0, metavar="GB")
+    _add_output(verb)
+    verb.set_defaults(work=_mirror_uvs)
+
+
+def _add_participants(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument("--mirror", nargs="+", default=[], metavar="NAME",
+                      help="mirror objects (else by selection and role, as in the window)")
+    verb.add_argument("--diffuse", nargs="+", default=[], metavar="NAME", help="diffuse objects")
 
 
 def _add_benchmark(verb: argparse.ArgumentParser) -> None:
@@ -143,6 +165,25 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
     told = _lit(context, chosen_results(context), options.samples, options.kind, options.every)
     save_blend(path)
     print(told)
+
+
+def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None:
+    path = _path_to_save(options)
+    sheet = os.path.abspath(options.sheet) if options.sheet else None
+    if sheet is not None:
+        check_print(sheet, options.dpi)
+    started = time.perf_counter()
+    settings = map_settings(options.tolerance, options.memory)
+    outcome = announced(mapping(context, _chosen(context, options), settings,
+                                 Choices(options.target, options.frame, options.picture)))
+    told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
+    if sheet is not None:
+        if len(outcome.objects) > 1:
+            raise core.ReflectionError("One sheet is printed at a time: name it with --mirror and --diffuse.")
+        context.view_layer.update()
+        told.append(announced(printing(context, outcome.objects[0], sheet, dpi=options.dpi)))
+    save_blend(path)
+    print(*told, sep="\n")
 
 
 def _lit(context: bpy.types.Context, results: list, samples: int, kind: str, every: bool = False) -> str:

@@ -39,6 +39,10 @@ class REFLECTION_MESH_PT_main(bpy.types.Panel):
             for name in SETTINGS:
                 setattr(operator, name, getattr(settings, name))
         column.operator("reflection_mesh.clear", icon="TRASH")
+        column = layout.column(align=True)
+        maps = column.operator("reflection_mesh.mirror_uvs", icon="UV")
+        maps.tolerance, maps.memory = settings.tolerance, settings.memory
+        column.operator("reflection_mesh.print_sheet", icon="IMAGE_DATA")
         _draw_comparison(layout, context.scene)
 
 

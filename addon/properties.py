@@ -130,6 +130,10 @@ class ReflectionObject(bpy.types.PropertyGroup):
                                "stays with them; none where this reflection shows light of a picture",
                                type=bpy.types.Mesh)
     light_stale: BoolProperty(name="Stale Light", description="The scene has changed since this light was made")
+    mirror_uv_source: PointerProperty(name="Copy Of", description="The object that this one, cut along what a mirror "
+                                      "shows of it, stands in for", type=bpy.types.Object)
+    mirror_uv_picture: PointerProperty(name="Mirror Picture", description="What shows a picture on this copy",
+                                       type=bpy.types.Material)
     camera_hidden: BoolProperty(name="Hidden from the Camera",
                                 description="This mirror is a window to its virtual image, until that is cleared")
 

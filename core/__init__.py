@@ -1,11 +1,11 @@
 """The forward reflection method on plain NumPy arrays; knows nothing of Blender."""
 from .culling import PointTree, SceneTree
-from .geometry import TriangleMesh, View
+from .geometry import TriangleMesh, View, draw
 from .reflection import ReflectionError, reflect, reflection_steps
-from .result import Discs, ReflectionMesh, reflecting_normals
+from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
 from .solver import Images, project
 from .support import METHODS, PLACEMENTS, Settings, in_steps
 
-__all__ = ["Discs", "Images", "METHODS", "PLACEMENTS", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree",
-           "Settings", "TriangleMesh", "View", "in_steps", "project", "reflect", "reflecting_normals",
-           "reflection_steps"]
+__all__ = ["Discs", "Images", "METHODS", "PLACEMENTS", "PicturePieces", "PointTree", "ReflectionError",
+           "ReflectionMesh", "SceneTree", "Settings", "TriangleMesh", "View", "draw", "in_steps", "picture_pieces",
+           "project", "reflect", "reflecting_normals", "reflection_steps"]

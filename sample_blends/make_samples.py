@@ -498,8 +498,53 @@ def pond() -> tuple:
     return mirror, ()
 
 
+def anamorphosis() -> tuple:
+    """A tube of 7 cm on a sheet of A3: *Write Mirror UVs* puts the picture `Compass` of this file on it."""
+    def tube(points: np.ndarray) -> np.ndarray:
+        angle = pi * points[:, 0]
+        return np.column_stack([0.035 * np.cos(angle), 0.035 * np.sin(angle), 0.07 + 0.065 * points[:, 1]])
+
+    mirror = moulded("Mirror Tube", 64, 2, tube, mirror_material("Mirror"))
+    mirror.location = (0, 0.085, 0)
+    lid = add("cylinder", "Lid", (0, 0.085, 0.1375), lit("Lid", (0.10, 0.08, 0.07)), radius=0.036, depth=0.004,
+              vertices=64)
+    table = add("plane", "Table", (0, 0, -0.001), surface("Table", (0.20, 0.09, 0.04), "Wave", "Object", 6.0), size=1.4)
+    add("plane", "Sheet", (0, 0, 0), surface("Paper", (0.8, 0.8, 0.8), Roughness=1.0), size=1, scale=(0.42, 0.297, 1))
+    soft = _compass(1536).reshape(512, 3, 512, 3, 3).mean(axis=(1, 3))
+    image = picture("Compass", soft).node_tree.nodes["Image Texture"].image
+    image.use_fake_user = True
+    bpy.data.materials.remove(bpy.data.materials["Compass"])
+    eye((0, -0.38, 0.50), (0, 0.06, 0.05), 90)
+    return mirror, (lid, table)
+
+
+def _compass(size: int) -> np.ndarray:
+    """A compass rose within a ring of checks, its north red: a picture that is neither symmetric nor plain."""
+    u = (np.arange(size) + 0.5) / (0.5 * size) - 1.0
+    x, y = np.meshgrid(u, u)
+    distance, angle = np.hypot(x, y), np.arctan2(x, y)
+    pixels = np.full((size, size, 3), (0.96, 0.92, 0.82))
+    ring = np.floor(angle / (pi / 36)) % 2 == np.floor((distance - 0.72) / 0.06) % 2
+    pixels[(0.72 < distance) & (distance < 0.84) & ring] = (0.12, 0.16, 0.30)
+    for points, reach, turn, colours in ((4, 0.45, pi / 4, ((0.30, 0.50, 0.52), (0.62, 0.76, 0.74))),
+                                         (4, 0.68, 0.0, ((0.12, 0.16, 0.30), (0.55, 0.60, 0.74)))):
+        off = (angle - turn + pi / points) % (2 * pi / points) - pi / points
+        along, across = distance * np.cos(off), distance * np.abs(np.sin(off))
+        star = across < 0.32 * (reach - along)
+        star &= along > 0.0
+        for side, colour in zip((off < 0, off >= 0), colours):
+            pixels[star & side] = colour
+    north = (np.abs(angle) < pi / 4) & (np.abs(x) < 0.32 * (0.68 - y)) & (y > np.abs(x))
+    pixels[north & (x < 0)], pixels[north & (x >= 0)] = (0.72, 0.10, 0.08), (0.92, 0.45, 0.36)
+    # an N above it
+    n = (np.abs(y - 0.915) < 0.06) & (np.abs(x) < 0.05)
+    pixels[n & ((np.abs(x) > 0.032) | (np.abs(x + (y - 0.915) * 0.75) < 0.014))] = (0.72, 0.10, 0.08)
+    return pixels
+
+
 LIT = (room, bathroom, pond)
-SCENES = {scene.__name__: scene for scene in (sphere, flat_mirror, bowl, water, cylinder, suzanne, mirrors, *LIT)}
+SCENES = {scene.__name__: scene for scene in (sphere, flat_mirror, bowl, water, cylinder, suzanne, mirrors,
+                                             anamorphosis, *LIT)}
 
 
 def write(name: str, folder: Path) -> Path:

@@ -5,7 +5,8 @@
 Leaves `sphere.jpg` (Cycles, the reflection mesh before a mirror that reflects the sky alone, the mesh's edges),
 `samples.jpg` (the reflection mesh in each sample that emits what it shows), `mirrors.jpg` (mirrors in mirrors, by
 Cycles and to a depth of 1, 2 and 3), `lit.jpg` (each lit sample by Cycles, as generated, and lit) and `eevee.jpg`
-(the room by Cycles, by EEVEE's own ray tracing, and by EEVEE with the lit reflection) in the folder, docs/ by default.
+(the room by Cycles, by EEVEE's own ray tracing, and by EEVEE with the lit reflection) and `anamorphosis.jpg` (the
+sheet that is printed, and the mirror on it by Cycles) in the folder, docs/ by default.
 """
 from __future__ import annotations
 
@@ -20,6 +21,7 @@ from PIL import Image
 SAMPLES = extension_zip.ROOT / "sample_blends"
 PANEL, GAP = 480, 6
 LIT = ("room", "bathroom", "pond")
+OWN_PICTURES = (*LIT, "anamorphosis")
 
 
 def main(folder: Path) -> None:
@@ -28,7 +30,7 @@ def main(folder: Path) -> None:
         scratch = Path(name)
         extension_zip.use_throw_away_preferences(scratch / "preferences")
         extension_zip.install(extension_zip.build(scratch))
-        samples = sorted(path for path in SAMPLES.glob("*.blend") if path.stem not in LIT)
+        samples = sorted(path for path in SAMPLES.glob("*.blend") if path.stem not in OWN_PICTURES)
         for path in samples:
             _compare(path, scratch / path.stem)
         _save(folder / "samples.jpg", [scratch / path.stem / "result.png" for path in samples], columns=4)
@@ -42,6 +44,7 @@ def main(folder: Path) -> None:
             scratch / f"mirrors{depth}" / "result.png" for depth in (1, 2, 3))], columns=2, crop=(100, 200, 924, 1024))
         light(folder / "lit.jpg", scratch)
         eevee(folder / "eevee.jpg", scratch)
+        anamorphosis(folder / "anamorphosis.jpg", scratch)
         extension_zip.switch_off()
 
 
@@ -86,6 +89,29 @@ def eevee(path: Path, scratch: Path) -> None:
         scene.render.filepath = str(pictures[-1])
         bpy.ops.render.render(write_still=True)
     _save(path, pictures, columns=3, crop=(88, 80, 318, 310))
+
+
+def anamorphosis(path: Path, scratch: Path) -> None:
+    """The sheet of the sample, as it is printed, and what the camera sees of it and its mirror."""
+    import bpy
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "anamorphosis.blend"))
+    bpy.ops.reflection_mesh.mirror_uvs(picture="Compass", frame="WHOLE")
+    sheet = bpy.data.objects["Sheet Anamorphosis"]
+    bpy.context.view_layer.objects.active = sheet
+    printed, shown = scratch / "sheet.png", scratch / "anamorphosis.png"
+    bpy.ops.reflection_mesh.print_sheet(filepath=str(printed), dpi=100.0)
+    # on white, with a border around the paper
+    paper = np.asarray(Image.open(printed).convert("RGB"))
+    square = np.full((paper.shape[1], paper.shape[1], 3), 225, dtype=np.uint8)
+    top = (paper.shape[1] - paper.shape[0]) // 2
+    square[top:top + paper.shape[0]] = paper
+    Image.fromarray(square).save(printed)
+    scene = bpy.context.scene
+    scene.render.resolution_percentage = 50
+    scene.cycles.samples, scene.cycles.use_denoising = 64, False
+    scene.render.filepath = str(shown)
+    bpy.ops.render.render(write_still=True)
+    _save(path, [printed, shown], columns=2)
 
 
 def _compare(path: Path, folder: Path, depth: int = 1) -> None:

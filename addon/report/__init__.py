@@ -1,6 +1,6 @@
 """Pages, plots and pictures of a report, from plain data to files that open anywhere."""
 from .colour_map import heat_map
-from .png_file import png_bytes
+from .png_file import png_bytes, png_picture
 from .report_data import (
     LEAST,
     Cost,
@@ -20,4 +20,5 @@ from .report_page import page
 from .report_plots import plot_files
 
 __all__ = ["Cost", "Growth", "LEAST", "Picture", "Report", "Run", "Scene", "csv_text", "document", "flat", "heat_map",
-           "number", "page", "pareto", "plot_files", "png_bytes", "run_rows"]
+           "number", "page", "pareto", "plot_files", "png_bytes", "png_picture",
+           "run_rows"]

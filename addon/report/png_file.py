@@ -1,4 +1,4 @@
-"""PNG files with a palette, by the standard library alone (ISO/IEC 15948)."""
+"""PNG files, by the standard library alone (ISO/IEC 15948)."""
 from __future__ import annotations
 
 import struct
@@ -17,13 +17,28 @@ def png_bytes(indices: np.ndarray, palette: np.ndarray) -> bytes:
     palette : (n, 3) uint8
         sRGB colours, at most 256.
     """
-    height, width = indices.shape
-    rows = np.zeros((height, width + 1), dtype=np.uint8)    # each row starts with its filter: none
-    rows[:, 1:] = indices
-    header = struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        _chunk(kind, data) for kind, data in ((b"IHDR", header), (b"PLTE", np.asarray(palette, np.uint8).tobytes()),
-                                              (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b"")))
+    return _file(indices, 3, (b"PLTE", np.asarray(palette, np.uint8).tobytes()))
+
+
+def png_picture(pixels: np.ndarray, dots_per_metre: int) -> bytes:
+    """Encode a picture that is to be printed in its size.
+
+    Parameters
+    ----------
+    pixels : (height, width, 3) uint8
+        sRGB, from the highest row down.
+    """
+    return _file(pixels, 2, (b"pHYs", struct.pack(">IIB", dots_per_metre, dots_per_metre, 1)))
+
+
+def _file(pixels: np.ndarray, kind: int, told: tuple[bytes, bytes]) -> bytes:
+    """A file of colour type `kind`, with what is `told` before the pixels."""
+    height, width = pixels.shape[:2]
+    # each row starts with its filter: none
+    rows = np.concatenate((np.zeros((height, 1), np.uint8), pixels.reshape(height, -1)), axis=1)
+    header = struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)
+    parts = (b"IHDR", header), told, (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*part) for part in parts)
 
 
 def _chunk(kind: bytes, data: bytes) -> bytes:

@@ -3,15 +3,16 @@
 In come a camera's matrices and meshes as they were given; out come pixels, directions, meshes in an order that only
 their places decide, and which triangles lie beyond each other's sides.
 """
-from .adjacency import corners_beyond, neighbours, opposite_corners
+from .adjacency import connected, corners_beyond, neighbours, opposite_corners
 from .canonical_order import TURNS, Order, ordered
 from .scene_frames import SceneFrames, falling
 from .subdivision import doubled_areas, edge_lengths, parent_side, shared_edges, split
 from .triangle_mesh import TriangleMesh, area_normals, has_area
 from .vectors import columns, cross, dot, groups, largest, norm, ranges, rows, shares, smallest, solve, unit
 from .view import View
+from .z_buffer import Drawn, draw
 
-__all__ = ["Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns", "corners_beyond",
-           "cross", "dot", "doubled_areas", "edge_lengths", "falling", "groups", "has_area", "largest", "neighbours",
-           "norm", "opposite_corners", "ordered", "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest",
-           "solve", "split", "unit"]
+__all__ = ["Drawn", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns", "connected",
+           "corners_beyond", "cross", "dot", "doubled_areas", "draw", "edge_lengths", "falling", "groups", "has_area",
+           "largest", "neighbours", "norm", "opposite_corners", "ordered", "parent_side", "ranges", "rows",
+           "shared_edges", "shares", "smallest", "solve", "split", "unit"]

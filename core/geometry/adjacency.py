@@ -36,3 +36,18 @@ def corners_beyond(triangles: np.ndarray) -> np.ndarray:
     beyond = np.full(len(edge), -1)
     beyond[one], beyond[other] = other, one
     return beyond.reshape(-1, 3)
+
+
+def connected(triangles: np.ndarray) -> np.ndarray:
+    """(m,) int64: triangles (m, 3) that hang together by shared vertices have the same number, from 0 on."""
+    part = np.arange(int(triangles.max(initial=-1)) + 1)
+    while True:
+        # the lowest number of a triangle's corners spreads to all three, then each number's own number is followed
+        low = part[triangles].min(axis=1)
+        lower = part.copy()
+        np.minimum.at(lower, triangles.ravel(), np.repeat(low, 3))
+        np.minimum.at(lower, part[triangles].ravel(), np.repeat(low, 3))
+        lower = lower[lower]
+        if (lower == part).all():
+            return np.unique(part[triangles[:, 0]], return_inverse=True)[1].reshape(-1)
+        part = lower

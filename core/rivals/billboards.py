@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View, dot
+from ..geometry import TriangleMesh, View, connected, dot
 from .environment import centre_of
 from .primary_hits import PrimaryHits
 from .rival_picture import NOTHING, RivalPicture, Work
@@ -79,18 +79,7 @@ def billboarded(view: View, mirror: TriangleMesh, scene: TriangleMesh, side: int
 def connected_parts(mesh: TriangleMesh) -> np.ndarray:
     """(t,) int64: triangles that hang together by shared places have the same number."""
     _, welded = np.unique(mesh.positions, axis=0, return_inverse=True)
-    triangles = welded.reshape(-1)[mesh.triangles]
-    part = np.arange(int(triangles.max(initial=-1)) + 1)
-    while True:
-        # the lowest number of a triangle's corners spreads to all three, then each number's own number is followed
-        low = part[triangles].min(axis=1)
-        lower = part.copy()
-        np.minimum.at(lower, triangles.ravel(), np.repeat(low, 3))
-        np.minimum.at(lower, part[triangles].ravel(), np.repeat(low, 3))
-        lower = lower[lower]
-        if (lower == part).all():
-            return np.unique(part[triangles[:, 0]], return_inverse=True)[1].reshape(-1)
-        part = lower
+    return connected(welded.reshape(-1)[mesh.triangles])
 
 
 def _billboard(scene: TriangleMesh, chosen: np.ndarray, viewer: np.ndarray, side: int) -> list[Billboard]:

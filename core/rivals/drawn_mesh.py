@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View
-from .z_buffer import draw
+from ..geometry import View, draw
 
 
 @dataclass(frozen=True)

@@ -7,11 +7,10 @@ import numpy as np
 
 from ..cameras import MirrorMap
 from ..culling import SceneTree
-from ..geometry import TriangleMesh, View, dot, unit
+from ..geometry import TriangleMesh, View, dot, draw, unit
 from ..reflection import ReflectionError
 from .cluster_cones import cones_around
 from .rival_picture import Work
-from .z_buffer import draw
 
 ABOVE = 1e-9  # of the mirror's size: what rises less above a plane touches it by rounding
 TOUCHING = 1e-7  # of a mesh's size: a hit nearer than this is the surface that the ray starts on

@@ -3,8 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View
-from .z_buffer import draw
+from ..geometry import TriangleMesh, View, draw
 
 Texture = tuple[np.ndarray, np.ndarray]
 

@@ -1,10 +1,10 @@
-"""The rivals' z-buffer against the one that judges, which draws in another way."""
+"""The z-buffer against the one that judges, which draws in another way."""
 import numpy as np
 import pytest
 
 from core import TriangleMesh, View
+from core.geometry import draw
 from core.rivals.tessellation import quartered, tessellated
-from core.rivals.z_buffer import draw
 from tests.inputs import shapes
 from tests.oracles.raster import rasterise
 from tests.oracles.true_map import case_of, mesh_of

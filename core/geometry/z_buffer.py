@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View, cross, dot, ranges
+from .vectors import cross, dot, ranges
+from .view import View
 
 FRAGMENTS_AT_ONCE = 1_000_000
 
@@ -41,7 +42,16 @@ class Drawn:
 
 
 def draw(view: View, positions: np.ndarray, triangles: np.ndarray) -> Drawn:
-    """Draw triangles (m, 3) over `positions` (v, 3); either side shows, and edges belong to what they bound."""
+    """Draw triangles (m, 3) over `positions` (v, 3); either side shows, and edges belong to what they bound.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import View, draw
+    >>> view = View.looking_at((0, 0, 4), (0, 0, 0), (2, 2), orthographic_scale=2.0)
+    >>> draw(view, np.array([[-1, -1, 0], [1, -1, 0], [-1, 1, 0]]), np.array([[0, 1, 2]])).triangle.tolist()
+    [0, 0, 0, -1]
+    """
     width, height = view.resolution
     drawn = Drawn(np.full(width * height, -1), np.zeros((3, width * height)), np.full(width * height, np.inf))
     if not len(triangles):

@@ -1,0 +1,109 @@
+"""Copies of objects cut along what a mirror shows of them: made or found, written, standing in for their sources."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+
+import bpy
+from mathutils import Matrix
+
+from ..blender_data import MeshArrays, write_mesh
+from ..faults import AllOrNothing, keep_data, keep_object
+from .sheet_arrays import Sheet
+
+
+def source_of(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Object:
+    """The object that `obj` is a copy of, where that is still in the view layer, or itself."""
+    source = obj.reflection_mesh.mirror_uv_source
+    return source if source is not None and source.name in context.view_layer.objects else obj
+
+
+@contextmanager
+def shown(context: bpy.types.Context, sources: list) -> Iterator[None]:
+    """Sources that copies stand in for are there, as long as the block reads them."""
+    layer = context.view_layer
+    hidden = [(obj, obj.hide_get(), obj.hide_render) for obj in sources if obj.name in layer.objects]
+    hidden = [entry for entry in hidden if entry[1] or entry[2]]
+    for obj, _, _ in hidden:
+        obj.hide_set(False)
+        obj.hide_render = False
+    if hidden:
+        layer.update()
+    try:
+        yield
+    finally:
+        for obj, viewport, render in hidden:
+            obj.hide_set(viewport)
+            obj.hide_render = render
+
+
+def write_copy(context: bpy.types.Context, sheet: Sheet, paper: bpy.types.Material | None,
+               whole: AllOrNothing) -> bpy.types.Object:
+    """The copy of a source object: a new one beside it, or the one that it has, written anew; the source is hidden.
+
+    Parameters
+    ----------
+    paper : bpy.types.Material or None
+        What the copy shows in place of its source's materials; None leaves it what it has.
+    """
+    source = sheet.source
+    earlier = [obj for obj in context.scene.objects if obj.reflection_mesh.mirror_uv_source == source
+               and obj.type == "MESH" and obj.library is None]
+    if earlier:
+        obj = earlier[0]
+        keep_object(obj, whole)
+        keep_data(obj, whole)
+        paper = paper or obj.reflection_mesh.mirror_uv_picture
+    else:
+        obj = _new_copy(context, source, whole)
+    render_map = _render_map(obj.data, sheet)
+    write_mesh(obj.data, sheet.arrays if paper is None else _on_paper(sheet.arrays, paper))
+    obj.data.normals_split_custom_set(sheet.normals.reshape(-1, 3))
+    if render_map:
+        obj.data.uv_layers[render_map].active_render = True
+    if paper is not None:
+        whole.undo(setattr, obj.reflection_mesh, "mirror_uv_picture", obj.reflection_mesh.mirror_uv_picture)
+        obj.reflection_mesh.mirror_uv_picture = paper
+    obj.matrix_world = Matrix(sheet.matrix.tolist())
+    _hide(context, source, whole)
+    return obj
+
+
+def _on_paper(arrays: MeshArrays, paper: bpy.types.Material) -> MeshArrays:
+    """The same arrays with `paper` as the only material."""
+    return replace(arrays, materials=[paper],
+                   attributes=tuple(entry for entry in arrays.attributes if entry.name != "material_index"))
+
+
+def _render_map(mesh: bpy.types.Mesh, sheet: Sheet) -> str:
+    """The UV map that materials without a name of their own show: what it was, else the source's."""
+    of_source = [name for name in sheet.arrays.uv_maps[1:]]
+    earlier = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
+    return earlier if earlier in of_source else next(iter(of_source), "")
+
+
+def _new_copy(context: bpy.types.Context, source: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
+    name = f"{source.name} Anamorphosis"
+    mesh = bpy.data.meshes.new(name)
+    whole.undo(bpy.data.meshes.remove, mesh)
+    obj = bpy.data.objects.new(name, mesh)
+    whole.undo(bpy.data.objects.remove, obj)
+    of_scene = {context.scene.collection, *context.scene.collection.children_recursive}
+    beside = [collection for collection in source.users_collection
+              if collection in of_scene and collection.library is None]
+    for collection in beside or [context.scene.collection]:
+        collection.objects.link(obj)
+    record = obj.reflection_mesh
+    record.role, record.mirror_uv_source = source.reflection_mesh.role, source
+    return obj
+
+
+def _hide(context: bpy.types.Context, source: bpy.types.Object, whole: AllOrNothing) -> None:
+    """Two surfaces in one place would flicker."""
+    if source.library is None:
+        whole.undo(setattr, source, "hide_render", source.hide_render)
+        source.hide_render = True
+    if source.name in context.view_layer.objects:
+        whole.undo(source.hide_set, source.hide_get())
+        source.hide_set(True)

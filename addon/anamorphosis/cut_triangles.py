@@ -1,0 +1,112 @@
+"""Triangles cut along the outlines of the pieces that a mirror shows: each part then lies in one piece, or in none.
+
+Most triangles that are seen are tiled by the pieces of one image, or are one of them, and those are the parts. Where
+a mirror shows a triangle in part, or in several images over one another, Blender's constrained Delaunay triangulation
+cuts it along all outlines at once.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from mathutils import Vector
+from mathutils.geometry import delaunay_2d_cdt
+
+from ...core import PicturePieces
+from ..faults import Steps
+
+NEAR = 1e-6         # of a triangle's side: what is nearer is one place
+HULL = 0            # all triangles of the convex hull: which faces they come from Blender does not always tell rightly
+AT_ONCE = 16        # triangles cut between two looks at the user
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Parts of triangles: of those that a mirror shows, what it shows of them apart from the rest.
+
+    Attributes
+    ----------
+    face : (n,) int64
+        Triangle that each part lies in.
+    weights : (n, 3, 3) float64
+        Barycentric coordinates of the part's corners in it.
+    pixels : (n, 3, 2) float64
+        Where the corners are seen in the largest image that shows the part; no numbers where none does.
+    """
+
+    face: np.ndarray
+    weights: np.ndarray
+    pixels: np.ndarray
+
+    @property
+    def seen(self) -> np.ndarray:
+        """(n,) bool: whether the mirror shows the part."""
+        return np.isfinite(self.pixels[:, 0, 0])
+
+
+def cut_triangles(pieces: PicturePieces, count: int) -> Steps[Parts]:
+    """Cut triangles 0 to `count` along `pieces`, which lie in them; yields (fraction, stage)."""
+    number = np.bincount(pieces.face, minlength=count)
+    whole = np.flatnonzero(number == 0)
+    done = [Parts(whole, np.tile(np.eye(3), (len(whole), 1, 1)), np.full((len(whole), 3, 2), np.nan))]
+    tiled = _tiled(pieces, count)
+    kept = pieces.select(tiled[pieces.face])
+    turned = (np.linalg.det(kept.weights) < 0.0)[:, None, None]
+    done.append(Parts(kept.face, np.where(turned, kept.weights[:, ::-1], kept.weights),
+                      np.where(turned, kept.pixels[:, ::-1], kept.pixels)))
+    order = np.argsort(pieces.face, kind="stable")
+    first = np.cumsum(number) - number
+    cut = np.flatnonzero((number > 0) & ~tiled)
+    # one by one: laid out beside each other in one plane, triangles come back without some of their sides
+    for index, face in enumerate(cut.tolist()):
+        if index % AT_ONCE == 0:
+            yield index / len(cut), "Cutting faces"
+        done.append(_cut(face, pieces.select(order[first[face]:first[face] + number[face]])))
+    return Parts(*(np.concatenate([getattr(part, name) for part in done]) for name in ("face", "weights", "pixels")))
+
+
+def _tiled(pieces: PicturePieces, count: int) -> np.ndarray:
+    """Which triangles (count,) the pieces of a single image cover whole."""
+    area = np.bincount(pieces.face, np.abs(np.linalg.det(pieces.weights)), minlength=count)
+    low, high = np.full(count, len(pieces.face)), np.full(count, -1)
+    np.minimum.at(low, pieces.face, pieces.image)
+    np.maximum.at(high, pieces.face, pieces.image)
+    return (low == high) & (np.abs(area - 1.0) < NEAR)
+
+
+def _cut(face: int, pieces: PicturePieces) -> Parts:
+    """Cut the triangle `face`, as half a unit square, along the pieces that lie in it."""
+    corners = np.concatenate(([[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]], pieces.weights[:, :, 1:]))
+    # sides of what is thinner than what counts as one place would cross each other there
+    corners = corners[np.abs(_doubled(corners)) > 4.0 * NEAR * _longest(corners)].reshape(-1, 2)
+    numbers = np.arange(len(corners)).reshape(-1, 3)
+    sides = np.stack((numbers, np.roll(numbers, -1, axis=1)), axis=2).reshape(-1, 2)
+    points, _, triangles, *_ = delaunay_2d_cdt(list(map(Vector, corners.tolist())), sides.tolist(), [], HULL,
+                                               NEAR, False)
+    found = np.array([tuple(point) for point in points])[np.array(triangles, dtype=np.int64).reshape(-1, 3)]
+    found = found[_doubled(found) > NEAR * _longest(found)]
+    weights = _clean(np.concatenate((1.0 - found.sum(axis=2, keepdims=True), found), axis=2))
+    faces = np.full(len(found), face)
+    piece = pieces.holding(faces, weights.mean(axis=1))
+    pixels = np.full((len(found), 3, 2), np.nan)
+    seen = np.flatnonzero(piece >= 0)
+    shares = np.maximum(weights[seen] @ np.linalg.inv(pieces.weights[piece[seen]]), 0.0)
+    pixels[seen] = shares / shares.sum(axis=2, keepdims=True) @ pieces.pixels[piece[seen]]
+    return Parts(faces, weights, pixels)
+
+
+def _doubled(corners: np.ndarray) -> np.ndarray:
+    """Twice the areas (n,) of triangles (n, 3, 2)."""
+    (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    return ux * vy - uy * vx
+
+
+def _longest(corners: np.ndarray) -> np.ndarray:
+    """Length (n,) of the longest side of triangles (n, 3, 2)."""
+    return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+
+
+def _clean(weights: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates without what single precision leaves beside the sides of a triangle."""
+    weights = np.where(weights < NEAR, 0.0, weights)
+    return weights / weights.sum(axis=2, keepdims=True)

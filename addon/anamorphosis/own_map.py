@@ -1,0 +1,111 @@
+"""The map of a mirror on an object's own mesh, no face of which is cut."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ...core import PicturePieces, ReflectionError
+from ..blender_data import MOST_UV_MAPS, DiffuseScene
+from ..faults import AllOrNothing, keep_data
+from .frame import Frame
+from .sheet_arrays import SEEN, UV_MAP
+
+CORNER = 1.0 - 1e-6     # weight from which on a corner of a piece is one of its triangle
+
+
+@dataclass(frozen=True)
+class OwnMap:
+    """Places (n, 2) in the view of an object's face corners, and which polygons (m,) the mirror shows, in part at
+    least; what is linear between the corners is wrong by up to `straying` pixels."""
+
+    source: bpy.types.Object
+    pixels: np.ndarray
+    seen: np.ndarray
+    straying: float
+
+
+def own_map(index: int, scene: DiffuseScene, pieces: PicturePieces) -> OwnMap:
+    """The map of the source `index` from the pieces of it that are seen.
+
+    Corners that are seen are where they are seen; others are where their triangle would show them were its map linear.
+
+    Raises
+    ------
+    ReflectionError
+        Where the object's own mesh is not what is reflected, or holds no further map.
+    """
+    source = scene.sources[index]
+    triangles = np.flatnonzero(scene.source_object == index)
+    corners, polygon = _own_triangles(source, len(triangles))
+    in_source = np.flatnonzero(scene.source_object[pieces.face] == index)
+    # of each triangle the image that shows the most of it
+    face = scene.source_face[pieces.face[in_source]]
+    image = pieces.image[in_source]
+    _, group = np.unique(np.stack((face, image)), axis=1, return_inverse=True)
+    area = np.abs(np.linalg.det(pieces.weights[in_source]))
+    shown = np.bincount(group.reshape(-1), area)[group.reshape(-1)]
+    order = np.lexsort((image, -shown, face))
+    first = order[np.unique(face[order], return_index=True)[1]]
+    best = np.full(len(triangles), -1)
+    best[face[first]] = image[first]
+    kept = in_source[best[face] == image]
+    face = scene.source_face[pieces.face[kept]]
+    weights, places = pieces.weights[kept], pieces.pixels[kept]
+    fitted = _fitted(face, weights, places, len(triangles))
+    pixels = np.full((len(source.data.loops), 2), np.nan)
+    pixels[corners] = fitted
+    piece, corner, which = np.nonzero(weights > CORNER)
+    pixels[corners[face[piece], which]] = places[piece, corner]
+    straying = np.linalg.norm(weights @ pixels[corners[face]] - places, axis=2).max(initial=0.0)
+    seen = np.zeros(len(source.data.polygons), dtype=bool)
+    seen[polygon[face]] = True
+    return OwnMap(source, pixels, seen, float(straying))
+
+
+def write_own_map(found: OwnMap, frame: Frame, whole: AllOrNothing) -> bpy.types.Object:
+    """Write the map, and a mark on the polygons that are seen, into the object's mesh."""
+    keep_data(found.source, whole)
+    mesh = found.source.data
+    layer = mesh.uv_layers.get(UV_MAP) or mesh.uv_layers.new(name=UV_MAP, do_init=False)
+    layer.uv.foreach_set("vector", frame.uv(found.pixels).reshape(-1))
+    mesh.uv_layers.active = layer
+    earlier = mesh.attributes.get(SEEN)
+    if earlier is not None:
+        mesh.attributes.remove(earlier)
+    mesh.attributes.new(SEEN, "BOOLEAN", "FACE").data.foreach_set("value", found.seen)
+    mesh.update()
+    return found.source
+
+
+def _own_triangles(source: bpy.types.Object, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Face corners (m, 3) and polygon (m,) of each of the `count` triangles that are reflected."""
+    if source.type != "MESH" or source.library is not None or source.is_instancer:
+        raise ReflectionError(f"'{source.name}' has no mesh of its own that could be written: choose On a Copy.")
+    mesh = source.data
+    mesh.calc_loop_triangles()
+    if any(modifier.show_viewport for modifier in source.modifiers) or len(mesh.loop_triangles) != count:
+        raise ReflectionError(f"'{source.name}' is reflected with its modifiers: apply them, or choose On a Copy.")
+    if UV_MAP not in mesh.uv_layers and len(mesh.uv_layers) >= MOST_UV_MAPS:
+        raise ReflectionError(f"'{source.name}' has as many UV maps as a mesh can hold: remove one.")
+    corners, polygon = np.empty((count, 3), dtype=np.int32), np.empty(count, dtype=np.int32)
+    mesh.loop_triangles.foreach_get("loops", corners.reshape(-1))
+    mesh.loop_triangles.foreach_get("polygon_index", polygon)
+    return corners, polygon
+
+
+def _fitted(face: np.ndarray, weights: np.ndarray, pixels: np.ndarray, count: int) -> np.ndarray:
+    """Places (count, 3, 2) of the corners of triangles by the linear maps that fit their pieces best; no numbers where
+    a triangle has no pieces."""
+    share = np.repeat(np.abs(np.linalg.det(weights)) + 1e-12, 3)
+    corners, places, owner = weights.reshape(-1, 3), pixels.reshape(-1, 2), np.repeat(face, 3)
+    square, right = np.zeros((count, 3, 3)), np.zeros((count, 3, 2))
+    np.add.at(square, owner, share[:, None, None] * corners[:, :, None] * corners[:, None])
+    np.add.at(right, owner, share[:, None, None] * corners[:, :, None] * places[:, None])
+    scale = np.trace(square, axis1=1, axis2=2)[:, None, None]
+    has = np.flatnonzero(scale[:, 0, 0] > 0.0)
+    fitted = np.full((count, 3, 2), np.nan)
+    # least squares of the smallest norm: a sliver that is seen tells no place across it
+    fitted[has] = np.linalg.pinv(square[has] / scale[has], rcond=1e-9) @ (right[has] / scale[has])
+    return fitted

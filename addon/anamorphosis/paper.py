@@ -1,0 +1,69 @@
+"""White paper with a picture on it, where the map of a mirror says."""
+from __future__ import annotations
+
+import os
+
+import bpy
+
+from ...core import ReflectionError
+from ..blender_data import compat
+from ..faults import AllOrNothing
+from .sheet_arrays import UV_MAP
+
+WHITE = (0.8, 0.8, 0.8, 1.0)    # as light as paper is
+
+
+def load_picture(name: str, whole: AllOrNothing) -> bpy.types.Image:
+    """The image of that name in the file that is open, or the one at that path, which is loaded where it is not yet.
+
+    Raises
+    ------
+    ReflectionError
+        Where there is no picture.
+    """
+    image = bpy.data.images.get(name)
+    if image is None:
+        path = os.path.abspath(bpy.path.abspath(name))
+        if not os.path.isfile(path):
+            raise ReflectionError(f"There is no picture '{name}': choose an image file.")
+        before = set(bpy.data.images)
+        image = bpy.data.images.load(path, check_existing=True)
+        if image not in before:
+            whole.undo(bpy.data.images.remove, image)
+    if not (image.size[0] and image.size[1]):
+        raise ReflectionError(f"'{name}' is no picture that Blender can read: choose an image file.")
+    return image
+
+
+def paper_with(image: bpy.types.Image, whole: AllOrNothing) -> bpy.types.Material:
+    """Paper that shows an image within its borders and is white beside it and where it is transparent."""
+    material = bpy.data.materials.new("Mirror Picture")
+    whole.undo(bpy.data.materials.remove, material)
+    tree = compat.use_nodes(material)
+    tree.nodes.clear()
+    place, look, mixed, shader, output = (
+        tree.nodes.new(f"ShaderNode{kind}") for kind in
+        ("UVMap", "TexImage", "Mix", "BsdfPrincipled", "OutputMaterial"))
+    for column, node in enumerate((place, look, mixed, shader, output)):
+        node.location = (280.0 * (column - 2), 0.0)
+    place.uv_map = UV_MAP
+    look.image, look.extension = image, "CLIP"
+    mixed.data_type = "RGBA"
+    white, ink = (socket for socket in mixed.inputs if socket.type == "RGBA")
+    white.default_value = WHITE
+    shader.inputs["Roughness"].default_value, shader.inputs["Specular IOR Level"].default_value = 1.0, 0.0
+    link = tree.links.new
+    link(place.outputs["UV"], look.inputs["Vector"])
+    link(look.outputs["Alpha"], mixed.inputs[0])
+    link(look.outputs["Color"], ink)
+    link(next(socket for socket in mixed.outputs if socket.type == "RGBA"), shader.inputs["Base Color"])
+    link(shader.outputs["BSDF"], output.inputs["Surface"])
+    tree.nodes.active = look    # what solid view shows by texture, and what is painted on
+    return material
+
+
+def picture_of(obj: bpy.types.Object) -> bpy.types.Image | None:
+    """The picture that the paper of an object shows; None where it has none, or somebody has changed that."""
+    materials = [slot.material for slot in obj.material_slots if slot.material and slot.material.node_tree]
+    return next((node.image for material in materials for node in material.node_tree.nodes
+                 if node.type == "TEX_IMAGE" and node.image is not None), None)

@@ -1,0 +1,105 @@
+"""A flat sheet as a picture to print, in its size: PNG, or SVG around one."""
+from __future__ import annotations
+
+import base64
+
+import bpy
+import numpy as np
+
+from ...core import ReflectionError, View, draw
+from ..faults import Steps
+from ..report import png_picture
+from .flat_sheet import FlatSheet
+
+INCH = 0.0254
+FINER = 2               # samples along a pixel's side
+ROUNDING = 0.01         # pixels: a sheet of 10 cm may be a little longer in single precision
+MOST_PIXELS = 200e6
+AT_ONCE = 2_000_000     # samples
+
+
+def print_size(sheet: FlatSheet, dpi: float) -> tuple[int, int]:
+    """Width and height in pixels.
+
+    Raises
+    ------
+    ReflectionError
+        Where there are too many of them to be printed.
+    """
+    width, height = (max(1, int(np.ceil(side / INCH * dpi - ROUNDING))) for side in sheet.size)
+    if width * height > MOST_PIXELS:
+        metres = " x ".join(f"{side:.2f}" for side in sheet.size)
+        raise ReflectionError(f"The sheet is {metres} m large, {width * height / 1e6:.0f} million pixels at {dpi:g} "
+                              "dots per inch: lower them, scale the scene to the size of the paper, or set its unit "
+                              "scale.")
+    return width, height
+
+
+def printed(sheet: FlatSheet, picture: np.ndarray, dpi: float) -> Steps[np.ndarray]:
+    """The sheet with `picture` (h, w, 4) float32 on it, (height, width, 3) uint8 from the highest row down, white where
+    the mirror does not show it; yields (fraction, stage)."""
+    width, height = print_size(sheet, dpi)
+    corners, uv = sheet.corners[sheet.seen] / INCH * dpi * FINER, sheet.uv[sheet.seen]
+    places = np.concatenate((corners.reshape(-1, 2), np.zeros((3 * len(corners), 1))), axis=1)
+    triangles = np.arange(len(places)).reshape(-1, 3)
+    low, high = corners[:, :, 1].min(axis=1), corners[:, :, 1].max(axis=1)
+    rows = max(1, AT_ONCE // (FINER * FINER * width))
+    bands = []
+    for start in range(0, height, rows):
+        yield start / height, "Drawing the sheet"
+        lines, across, bottom = min(rows, height - start) * FINER, width * FINER, start * FINER
+        middle = (0.5 * across, bottom + 0.5 * lines)
+        view = View.looking_at((*middle, 1.0), (*middle, 0.0), (across, lines), up=(0.0, 1.0, 0.0),
+                               orthographic_scale=float(max(across, lines)))
+        near = (high > bottom) & (low < bottom + lines)
+        drawn = draw(view, places, triangles[near])
+        pixel = np.flatnonzero(drawn.triangle >= 0)
+        spot = np.einsum("kn,nkc->nc", drawn.weights[:, pixel], uv[near][drawn.triangle[pixel]])
+        band = np.ones((lines * across, 3), dtype=np.float32)
+        band[pixel] = _looked_up(picture, spot)
+        bands.append(band.reshape(lines // FINER, FINER, width, FINER, 3).mean(axis=(1, 3)))
+    return np.round(np.concatenate(bands)[::-1] * 255.0).astype(np.uint8)
+
+
+def _looked_up(picture: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """Colours (n, 3) on white of a picture (h, w, 4) at `uv` (n, 2), between its pixels' centres, clear beside it."""
+    height, width = picture.shape[:2]
+    framed = np.pad(picture, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    framed[[0, -1], :, 3] = framed[:, [0, -1], 3] = 0.0
+    place = np.clip(uv * (width, height) + 0.5, 0.0, (width + 0.999, height + 0.999))
+    column, row = place.astype(np.int64).T
+    right, up = (place - np.floor(place)).astype(np.float32).T[..., None]
+    shown = ((framed[row, column] * (1.0 - right) + framed[row, column + 1] * right) * (1.0 - up)
+             + (framed[row + 1, column] * (1.0 - right) + framed[row + 1, column + 1] * right) * up)
+    return np.clip(shown[:, :3] * shown[:, 3:] + 1.0 - shown[:, 3:], 0.0, 1.0)
+
+
+def pixels_of(image: bpy.types.Image) -> np.ndarray:
+    """(height, width, 4) float32 as a screen shows them, rows from below."""
+    width, height = image.size
+    pixels = np.empty(width * height * 4, dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    pixels = pixels.reshape(height, width, 4)
+    if image.is_float:
+        # IEC 61966-2-1
+        light = np.clip(pixels[..., :3], 0.0, 1.0)
+        pixels[..., :3] = np.where(light <= 0.0031308, 12.92 * light,
+                                   1.055 * np.maximum(light, 0.0031308)**(1.0 / 2.4) - 0.055)
+    return pixels
+
+
+def encoded(pixels: np.ndarray, sheet: FlatSheet, dpi: float, svg: bool) -> bytes:
+    """A PNG that knows its size, or an SVG of exactly the sheet's size around it, with the sheet's border."""
+    png = png_picture(pixels, round(dpi / INCH))
+    if not svg:
+        return png
+    width, height = 1000.0 * sheet.size
+    # the last row and column of pixels may reach beyond the sheet
+    across, down = (1000.0 * INCH / dpi * side for side in (pixels.shape[1], pixels.shape[0]))
+    data = base64.b64encode(png).decode("ascii")
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.3f}mm" height="{height:.3f}mm" '
+            f'viewBox="0 0 {width:.3f} {height:.3f}">\n'
+            f'<image x="0" y="{height - down:.3f}" width="{across:.3f}" height="{down:.3f}" '
+            f'href="data:image/png;base64,{data}"/>\n'
+            f'<rect width="{width:.3f}" height="{height:.3f}" fill="none" stroke="#999" stroke-width="0.2"/>\n'
+            "</svg>\n").encode("ascii")

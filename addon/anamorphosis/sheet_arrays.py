@@ -1,0 +1,65 @@
+"""A source object cut along what a mirror shows of it, as arrays: the copy that a picture is put on."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..blender_data import MOST_UV_MAPS, Attribute, DiffuseScene, MeshArrays, shown_layers
+from .cut_triangles import Parts
+from .frame import Frame
+
+UV_MAP = "Mirror UV"
+SEEN = "mirror_seen"
+ONE_PLACE = 1e-6    # of a sheet's size: vertices of neighbouring faces that lie nearer are one
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """One source object cut: `arrays` to be written in the space of `matrix`, with shading `normals` (m, 3, 3)."""
+
+    source: bpy.types.Object
+    matrix: np.ndarray
+    arrays: MeshArrays
+    normals: np.ndarray
+
+
+def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
+    """The source `index` of `scene`, cut into those of `parts`."""
+    own = np.flatnonzero(scene.source_object[parts.face] == index)
+    face, weights, pixels, seen = parts.face[own], parts.weights[own], parts.pixels[own], parts.seen[own]
+    source = scene.sources[index]
+    matrix = np.array(source.matrix_world, dtype=np.float64)
+    if not np.linalg.cond(matrix[:3, :3]) < 1e6:    # a space as flat as that tells no places
+        matrix = np.eye(4)
+    inverse = np.linalg.inv(matrix)
+    places = (weights @ scene.mesh.positions[scene.mesh.triangles[face]]) @ inverse[:3, :3].T + inverse[:3, 3]
+    positions, triangles = _welded(places)
+    kept = np.flatnonzero((triangles != np.roll(triangles, 1, axis=1)).all(axis=1))
+    triangles, face, weights, pixels, seen = (values[kept] for values in (triangles, face, weights, pixels, seen))
+    used, material = np.unique(scene.material[face], return_inverse=True)
+    own_attributes = (
+        Attribute("material_index", "INT", "FACE", material.reshape(-1).astype(np.int32)),
+        Attribute(SEEN, "BOOLEAN", "FACE", seen),
+        Attribute(UV_MAP, "FLOAT2", "CORNER", frame.uv(pixels)))
+    single = weights.astype(np.float32)
+    layers = shown_layers(scene, own_attributes, "CORNER", lambda values: np.matmul(single, values[face]))
+    maps = [layer.name for layer in layers if layer.kind == "FLOAT2"]
+    layers = tuple(layer for layer in layers if layer.name not in maps[MOST_UV_MAPS - 1:])
+    arrays = MeshArrays(np.zeros(3), positions, triangles.astype(np.int32), own_attributes + layers,
+                        [scene.materials[entry] for entry in used])
+    # normals turn as the inverse's transpose does: back to the object's space as the matrix's transpose
+    turned = weights @ scene.normals[face] @ matrix[:3, :3]
+    length = np.linalg.norm(turned, axis=2, keepdims=True)
+    return Sheet(source, matrix, arrays, (turned / np.where(length > 0.0, length, 1.0)).astype(np.float32))
+
+
+def _welded(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (n, 3) float32 and triangles (m, 3) of corners (m, 3, 3), those in one place joined."""
+    corners = places.reshape(-1, 3)
+    low = corners.min(axis=0)
+    grid = max(float((corners.max(axis=0) - low).max()) * ONE_PLACE, 1e-30)
+    _, first, vertex = np.unique(np.round((corners - low) / grid).astype(np.int64), axis=0, return_index=True,
+                                 return_inverse=True)
+    return corners[first].astype(np.float32), vertex.reshape(-1, 3)

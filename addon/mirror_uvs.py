@@ -1,0 +1,189 @@
+"""The operator that writes maps by which a picture looks right in a mirror: anamorphosis."""
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from .. import core
+from .anamorphosis import (
+    SEEN,
+    UV_MAP,
+    Frame,
+    cut_triangles,
+    load_picture,
+    own_map,
+    paper_with,
+    sheet,
+    shown,
+    source_of,
+    write_copy,
+    write_own_map,
+)
+from .blender_data import Participants, choose, read_mirror, read_scene, read_view
+from .faults import AllOrNothing, SteppedOperator, Steps, part
+from .properties import memory_property, tolerance_property
+
+TARGETS = (
+    ("COPY", "A Copy", "Faces are cut where the map bends, on a copy that stands in for the object, which is hidden"),
+    ("ORIGINAL", "The Object Itself", "No face is cut: the map is right at corners, and wrong between them where it "
+     "bends"),
+)
+FRAMES = (
+    ("CAMERA", "The Camera's View", "The picture fills what the camera sees"),
+    ("WHOLE", "As Much As Is Shown Whole", "The picture keeps its proportions and is as large as the mirror can show "
+     "without cutting it off"),
+    ("MIRROR", "What the Mirror Shows", "The picture fills the box around what the mirror shows of the objects"),
+)
+# shares of the work
+READING, REFLECTING, CUTTING = 0.05, 0.5, 0.4
+TOLD = 1.0     # pixels
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What the user chooses: the entries of `TARGETS` and `FRAMES`, and the file of a picture, or none."""
+
+    target: str = "COPY"
+    frame: str = "CAMERA"
+    picture: str = ""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The objects that carry a map now, and sentences on what was left out."""
+
+    objects: list
+    remarks: list
+
+    def summary(self, seconds: float) -> str:
+        """One line on what was written."""
+        names = ", ".join(f"'{obj.name}'" for obj in self.objects)
+        faces = sum(len(obj.data.polygons) for obj in self.objects)
+        return f"{names}: UV map '{UV_MAP}', {faces} faces, those that are seen marked '{SEEN}', {seconds:.2f} s"
+
+
+def map_settings(tolerance: float, memory: float) -> core.Settings:
+    """The settings of a reflection whose faces tell a map: one bounce, on the mirror itself.
+
+    Raises
+    ------
+    core.ReflectionError
+        Where one of them cannot be.
+    """
+    try:
+        return core.Settings(tolerance=tolerance, maximum_memory=memory, placement="SURFACE")
+    except ValueError as error:
+        raise core.ReflectionError(str(error)) from error
+
+
+def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Settings,
+            choices: Choices = Choices()) -> Steps[Outcome]:
+    """Write for each of `chosen.diffuse` where the camera sees it in the mirror, yielding (fraction, stage).
+
+    Nothing in the file changes before the last step; a generator that is closed before leaves no trace. `settings` are
+    those of `map_settings`.
+
+    Raises
+    ------
+    core.ReflectionError
+        Where the mirror shows none of the objects, or the map cannot be written.
+    """
+    _check(context, chosen, choices)
+    yield 0.0, "Reading the scene"
+    with AllOrNothing() as whole:
+        image = load_picture(choices.picture, whole) if choices.picture else None
+        view, mirror = read_view(context), chosen.mirrors[0]
+        # a copy that was made before is made anew from what it was copied from
+        sources = list(dict.fromkeys(source_of(context, obj) for obj in chosen.diffuse))
+        with shown(context, [obj for obj in sources if obj not in chosen.diffuse]):
+            depsgraph = context.evaluated_depsgraph_get()
+            surface = read_mirror(depsgraph, mirror)
+            scene = read_scene(depsgraph, sources)
+        result = yield from part(core.reflection_steps(view, surface.mesh, scene.mesh, settings), READING, REFLECTING,
+                                 mirror.name)
+        pieces = core.picture_pieces(view, result)
+        indices = np.unique(scene.source_object[pieces.face]).tolist()
+        if not indices:
+            raise core.ReflectionError("The camera sees none of the objects in this mirror; move the camera, the "
+                                       "mirror or the objects.")
+        remarks = [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden if obj not in sources]
+        remarks += [f"Left out because the mirror does not show it: '{obj.name}'." for index, obj in enumerate(sources)
+                    if index not in indices]
+        yield READING + REFLECTING, "Cutting faces"
+        frame = Frame.of(choices.frame, view, pieces.pixels, image.size[0] / image.size[1] if image else 1.0)
+        if choices.target == "ORIGINAL":
+            maps = [own_map(index, scene, pieces) for index in indices]
+            remarks += [f"Between the corners of '{entry.source.name}' the picture is up to {entry.straying:.1f} px "
+                        "off: subdivide it, or choose A Copy." for entry in maps if entry.straying > TOLD]
+        else:
+            parts = yield from part(cut_triangles(pieces, len(scene.mesh.triangles)), READING + REFLECTING, CUTTING)
+            sheets = [sheet(index, scene, parts, frame) for index in indices]
+        yield 1.0, "Writing"
+        if choices.target == "ORIGINAL":
+            objects = [write_own_map(entry, frame, whole) for entry in maps]
+        else:
+            paper = paper_with(image, whole) if image else None
+            objects = [write_copy(context, entry, paper, whole) for entry in sheets]
+        for obj in objects:
+            whole.undo(setattr, obj.reflection_mesh, "mirror", obj.reflection_mesh.mirror)
+            obj.reflection_mesh.mirror = mirror
+    return Outcome(objects, remarks)
+
+
+def _check(context: bpy.types.Context, chosen: Participants, choices: Choices) -> None:
+    if context.mode != "OBJECT":
+        raise core.ReflectionError("Mirror UVs are written in Object Mode: leave the present mode first.")
+    if len(chosen.mirrors) > 1:
+        raise core.ReflectionError(f"Mirror UVs are those of one mirror, and here are {len(chosen.mirrors)}: select "
+                                   "one of them with the objects that it shows.")
+    if choices.picture and choices.target == "ORIGINAL":
+        raise core.ReflectionError("A picture is put on copies alone: choose A Copy, or give the object a material "
+                                   f"that shows the picture by the UV map '{UV_MAP}'.")
+
+
+class REFLECTION_MESH_OT_mirror_uvs(SteppedOperator, bpy.types.Operator):
+    """Give the reflected objects a UV map by which a picture looks right in the mirror alone (anamorphosis)"""
+
+    bl_idname = "reflection_mesh.mirror_uvs"
+    bl_label = "Write Mirror UVs"
+    bl_options = {"REGISTER", "UNDO"}
+
+    tolerance: tolerance_property()
+    memory: memory_property()
+    target: bpy.props.EnumProperty(name="Write On", description="What gets the UV map", items=TARGETS, default="COPY",
+                                   options=set())
+    frame: bpy.props.EnumProperty(name="Picture Fills", description="What the borders of the picture stand for",
+                                  items=FRAMES, default="CAMERA", options=set())
+    picture: bpy.props.StringProperty(name="Picture", description="Image in this file, or image file, to put on the "
+                                      "copies; empty for the map alone", subtype="FILE_PATH", options=set())
+
+    def steps(self, context: bpy.types.Context) -> Steps[None]:
+        started = time.perf_counter()
+        settings = map_settings(self.tolerance, self.memory)
+        outcome = yield from mapping(context, choose(context), settings,
+                                     Choices(self.target, self.frame, self.picture))
+        # the view layer knows new objects only from its next update on
+        context.view_layer.update()
+        for obj in outcome.objects:
+            if obj.name in context.view_layer.objects:
+                obj.select_set(True)
+        for remark in outcome.remarks:
+            self.report({"WARNING"}, remark)
+        self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
+
+
+def draw_menu(self, context: bpy.types.Context) -> None:
+    self.layout.operator(REFLECTION_MESH_OT_mirror_uvs.bl_idname, icon="UV")
+
+
+def register() -> None:
+    bpy.utils.register_class(REFLECTION_MESH_OT_mirror_uvs)
+    bpy.types.VIEW3D_MT_object.append(draw_menu)
+
+
+def unregister() -> None:
+    bpy.types.VIEW3D_MT_object.remove(draw_menu)
+    bpy.utils.unregister_class(REFLECTION_MESH_OT_mirror_uvs)
