@@ -7,7 +7,7 @@ import bpy
 
 from ..core import ReflectionError
 from .anamorphosis import encoded, flat_sheet, load_picture, picture_of, pixels_of, print_size, printed
-from .compare import RELATIVE_PATH
+from .blender_data import compat
 from .faults import AllOrNothing, BrowsingOperator, Steps, part
 from .files import check_place, staged
 
@@ -71,7 +71,7 @@ class REFLECTION_MESH_OT_print_sheet(BrowsingOperator, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     filepath: bpy.props.StringProperty(name="File", description="PNG or SVG file", default="//sheet.png",
-                                       subtype="FILE_PATH", options=RELATIVE_PATH)
+                                       subtype="FILE_PATH", options=compat.RELATIVE_PATH)
     filter_glob: bpy.props.StringProperty(default="*.png;*.svg", options={"HIDDEN"})
     picture: bpy.props.StringProperty(name="Picture", description="Image in this file, or image file; empty for what "
                                       "the object shows", options=set())
