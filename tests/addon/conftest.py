@@ -2,7 +2,9 @@
 from __future__ import annotations
 
 import importlib
+import os
 import shutil
+import sys
 import tempfile
 from pathlib import Path
 from types import ModuleType
@@ -17,15 +19,25 @@ extension_zip.use_throw_away_preferences(USER_FOLDER)
 import bpy  # noqa: E402
 import parts  # noqa: E402
 
+STATUS = pytest.StashKey[int]()
 ZIP = extension_zip.build(USER_FOLDER / "zip")
 extension_zip.install(ZIP)
 
 
-def pytest_sessionfinish() -> None:
-    # bpy may crash at its end where classes are still registered, and hide the tests' own exit status
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.preferences.addon_disable(module=extension_zip.PACKAGE)
     shutil.rmtree(USER_FOLDER, ignore_errors=True)
+    session.config.stash[STATUS] = int(exitstatus)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_unconfigure(config: pytest.Config) -> None:
+    # bpy may crash at its end, that of 4.2 after any export to glTF, and hide the tests' own exit status
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(config.stash.get(STATUS, 1))
 
 
 @pytest.fixture(scope="session")

@@ -81,7 +81,7 @@ def played(file: Path, frames: list, folder: Path, names=(), picture: int = 0,
 
 
 def generated(obj) -> dict:
-    """The same of a result of the open file."""
+    """The same of a result of the open file; marks on edges do not travel."""
     mesh = obj.data
     places = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", places)
@@ -93,7 +93,8 @@ def generated(obj) -> dict:
         width, field = {"FLOAT2": (2, "vector"), "FLOAT_VECTOR": (3, "vector"), "FLOAT_COLOR": (4, "color"),
                         "BYTE_COLOR": (4, "color"), "FLOAT": (1, "value"), "INT": (1, "value"),
                         "BOOLEAN": (1, "value")}.get(entry.data_type, (0, ""))
-        if width and not entry.name.startswith(".") and entry.name not in {"position", "material_index"}:
+        own = entry.name.startswith(".") or entry.name in {"position", "material_index"} or entry.domain == "EDGE"
+        if width and not own:
             values = np.empty(width * len(entry.data), dtype={"INT": np.int32, "BOOLEAN": bool}.get(
                 entry.data_type, np.float32))
             entry.data.foreach_get(field, values)
