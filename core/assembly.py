@@ -12,9 +12,9 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import MirrorMap, brought_back, distance_from
 from .culling import SceneAndMirrors
-from .geometry import SceneFrames, area_normals, dot, doubled_areas, groups, norm, rows, unit
+from .geometry import SceneFrames, area_normals, dot, doubled_areas, groups, norm, rows
 from .polygons import Faces
-from .result import ReflectionMesh, place
+from .result import ReflectionMesh, halfway, place
 from .whole_faces import Seamed
 
 BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
@@ -141,8 +141,8 @@ def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np
 def _mirror_normals(mirror_map: MirrorMap, seen: np.ndarray, leaving: list[np.ndarray]) -> np.ndarray:
     """Unit normals (n, b, 3) of b mirrors, halfway between the ways of light to and from each: it is seen at (3, n)
     places of the first and goes on along `leaving`, (3, n) each."""
-    ways = [unit(way) for way in (mirror_map.view.directions(seen.T).T, *leaving)]
-    return np.stack([unit(after - before).T for before, after in zip(ways, ways[1:])], axis=1)
+    ways = [mirror_map.view.directions(seen.T).T, *leaving]
+    return np.stack([halfway(before, after).T for before, after in zip(ways, ways[1:])], axis=1)
 
 
 def _on_whole_triangles(frames: SceneFrames, faces: Faces, met: SceneAndMirrors) -> tuple[SceneFrames, Faces]:
