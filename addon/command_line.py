@@ -79,11 +79,12 @@ def _parser() -> argparse.ArgumentParser:
     baked = verbs.add_parser("bake", help="write a range of frames to files, and a file that plays them")
     _add_settings(baked)
     add_bake(baked)
-    for verb in (generate, light, compare):
+    maps = verbs.add_parser(
+        "mirror-uvs", help="write UV maps by which a picture looks right in the mirror alone, and save the file")
+    _add_anamorphosis(maps)
+    for verb in (generate, light, compare, maps):
         add_place(verb)
     add_place(baked, frame=False)
-    _add_anamorphosis(verbs.add_parser(
-        "mirror-uvs", help="write UV maps by which a picture looks right in the mirror alone, and save the file"))
     _add_benchmark(verbs.add_parser("benchmark", help="every method's error and seconds, judged by Cycles"))
     return parser
 
@@ -92,7 +93,7 @@ def _add_anamorphosis(verb: argparse.ArgumentParser) -> None:
     _add_participants(verb)
     verb.add_argument("--target", choices=[item[0] for item in TARGETS], default="COPY",
                       help="on copies that are cut, or on the objects themselves")
-    verb.add_argument("--frame", choices=[item[0] for item in FRAMES], default="CAMERA", help="what the picture fills")
+    verb.add_argument("--fills", choices=[item[0] for item in FRAMES], default="CAMERA", help="what the picture fills")
     verb.add_argument("--picture", default="", metavar="FILE", help="image file, or image of the file, for the copies")
     verb.add_argument("--print", dest="sheet", metavar="FILE", help="save the sheet, if it is one, as .png or .svg")
     verb.add_argument("--dpi", type=float, default=DPI, help=f"dots per inch of the print ({DPI:g})")
@@ -175,7 +176,7 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     started = time.perf_counter()
     settings = map_settings(options.tolerance, options.memory)
     outcome = announced(mapping(context, _chosen(context, options), settings,
-                                 Choices(options.target, options.frame, options.picture)))
+                                 Choices(options.target, options.fills, options.picture)))
     told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
     if sheet is not None:
         if len(outcome.objects) > 1:
