@@ -94,7 +94,8 @@ def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn],
             made += [obj, mesh]
             scene.collection.objects.link(obj)
             objects.append((stand.owner, obj))
-            if stand.own:
+            # linked objects keep their names
+            if stand.own and sources[stand.owner].library is None:
                 swap_names(sources[stand.owner], obj)
                 back.callback(swap_names, sources[stand.owner], obj)
         yield BakeScene(scene, objects, targets, camera)

@@ -54,7 +54,8 @@ class _Builder:
     def __init__(self, tree: bpy.types.NodeTree, image: bpy.types.Image) -> None:
         self.tree = tree
         where = self.add("ShaderNodeUVMap", uv_map=UV_MAP)
-        self.light = self.add("ShaderNodeTexImage", image=image, interpolation="Linear", extension="EXTEND")
+        self.light = self.add("ShaderNodeTexImage", name=image.name, image=image, interpolation="Linear",
+                              extension="EXTEND")
         tree.links.new(where.outputs[0], self.light.inputs["Vector"])
 
     def add(self, kind: str, **settings) -> bpy.types.Node:

@@ -53,7 +53,8 @@ def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Imag
         return node
     spot = add("ShaderNodeAttribute", (-600.0, 0.0), attribute_name=UV_MAP)
     for shown, row, engines in ((image, 200.0, ("CYCLES", "EEVEE")), (export_image, -200.0, ("ALL",))):
-        look = add("ShaderNodeTexImage", (-350.0, row), image=shown, interpolation="Linear", extension="EXTEND")
+        look = add("ShaderNodeTexImage", (-350.0, row), name=shown.name, image=shown, interpolation="Linear",
+                   extension="EXTEND")
         tree.links.new(spot.outputs["Vector"], look.inputs["Vector"])
         for column, engine in enumerate(engines):
             output = add("ShaderNodeOutputMaterial", (200.0 * column, row), target=engine)
@@ -75,7 +76,9 @@ def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Imag
 def images_of(material: bpy.types.Material) -> list[bpy.types.Image]:
     """The images that a material of light shows, the exact one first; fewer where somebody has changed that."""
     nodes = material.node_tree.nodes if material.node_tree else ()
-    return [node.image for node in nodes if node.type == "TEX_IMAGE" and node.image is not None]
+    # nodes of a mirror's own may show images of the user's
+    return [node.image for node in nodes
+            if node.type == "TEX_IMAGE" and node.image is not None and node.name.startswith(UV_MAP)]
 
 
 def texels_shown(material: bpy.types.Material) -> np.ndarray | None:

@@ -192,3 +192,31 @@ def test_pictures_of_objects_lie_beside_one_another(room):
     for (column, row), size in zip(at, sizes):
         taken[row:row + size, column:column + size] += 1
     assert taken.max() == 1 and taken.sum() == (sizes ** 2).sum()
+
+
+def test_images_of_the_mirror_s_own_are_the_user_s(blank):
+    """Also where nothing but the material of the light still shows them."""
+    wall = scene_of(blank, "", "Fresnel")
+    own = bpy.data.images.new("Scratches", 4, 4)
+    tree = wall.material_slots[0].material.node_tree
+    tree.nodes.new("ShaderNodeTexImage").image = own
+    parts.generate()
+    light(1)
+    bpy.data.materials.remove(wall.material_slots[0].material)
+    bpy.ops.reflection_mesh.clear()
+    assert "Scratches" in bpy.data.images and "Reflection Light" not in bpy.data.images
+
+
+def test_linked_objects_are_baked_under_their_names(blank, tmp_path):
+    scene_of(blank, "Random")
+    bpy.data.libraries.write(str(tmp_path / "library.blend"), {bpy.data.objects["Box"]})
+    bpy.data.objects.remove(bpy.data.objects["Box"])
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, wanted):
+        wanted.objects = ["Box"]
+    box = wanted.objects[0]
+    blank.scene.collection.objects.link(box)
+    blank.view_layer.update()
+    parts.select(box, bpy.data.objects["Floor"], bpy.data.objects["Mirror"])
+    result = parts.generate()
+    light(1)
+    assert result.reflection_mesh.light_map is not None and not box.hide_render and box.name == "Box"
