@@ -7,6 +7,9 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -55,6 +58,18 @@ def install(path: Path) -> None:
     bpy.ops.extensions.package_install_files(filepath=str(path), repo="user_default", enable_on_install=True)
     if PACKAGE not in bpy.context.preferences.addons:
         raise RuntimeError(f"Blender did not install {path.name}: see the messages above.")
+
+
+@contextmanager
+def installed() -> Iterator[Path]:
+    """The extension as users have it, built and installed into preferences that are thrown away; gives a folder to
+    work in, which is thrown away too."""
+    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as name:
+        scratch = Path(name)
+        use_throw_away_preferences(scratch / "preferences")
+        install(build(scratch))
+        yield scratch
+        switch_off()
 
 
 def switch_off() -> None:

@@ -8,7 +8,6 @@ Leaves `line_art.jpg` (a still life round a silver ball as Line Art draws it, wi
 from __future__ import annotations
 
 import sys
-import tempfile
 from pathlib import Path
 
 import extension_zip
@@ -21,10 +20,7 @@ INK = (0.03, 0.03, 0.05)
 
 def main(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as name:
-        scratch = Path(name)
-        extension_zip.use_throw_away_preferences(scratch / "preferences")
-        extension_zip.install(extension_zip.build(scratch))
+    with extension_zip.installed() as scratch:
         still_life()
         by_line_art = [_line_art(scratch / "plain.png"), None]
         by_freestyle = [_freestyle(scratch / "cycles.png"), None]
@@ -35,7 +31,6 @@ def main(folder: Path) -> None:
         by_freestyle[1] = _freestyle(scratch / "inked.png")
         _beside(folder / "line_art.jpg", by_line_art)
         _beside(folder / "freestyle.jpg", by_freestyle)
-        extension_zip.switch_off()
 
 
 def still_life() -> None:

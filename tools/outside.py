@@ -19,8 +19,8 @@ import extension_zip
 
 sys.path.insert(0, str(extension_zip.ROOT / "sample_blends"))
 import bpy
-import make_samples as samples
 import numpy as np
+import sample_parts as samples
 from mathutils import Vector
 
 SHADINGS = ("smooth", "flat", "sharp", "mixed", "own")

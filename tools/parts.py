@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import importlib
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -32,14 +31,10 @@ SCARCE = "sphere", 0.012  # the sample for filling, which no sample needs, and t
 
 def main(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as name:
-        scratch = Path(name)
-        extension_zip.use_throw_away_preferences(scratch / "preferences")
-        extension_zip.install(extension_zip.build(scratch))
+    with extension_zip.installed() as scratch:
         for sheet, box in BOXES.items():
             sample, memory = SCARCE if sheet == "filling" else (sheet, 2.0)
             _save(folder / f"parts_{sheet}.jpg", _pictures(sample, memory, scratch), box)
-        extension_zip.switch_off()
 
 
 def _pictures(sample: str, memory: float, scratch: Path) -> list[tuple[str, Image.Image]]:

@@ -11,7 +11,6 @@ sheet that is printed, and the mirror on it by Cycles) in the folder, docs/ by d
 from __future__ import annotations
 
 import sys
-import tempfile
 from pathlib import Path
 
 import extension_zip
@@ -26,10 +25,7 @@ OWN_PICTURES = (*LIT, "anamorphosis")
 
 def main(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as name:
-        scratch = Path(name)
-        extension_zip.use_throw_away_preferences(scratch / "preferences")
-        extension_zip.install(extension_zip.build(scratch))
+    with extension_zip.installed() as scratch:
         samples = sorted(path for path in SAMPLES.glob("*.blend") if path.stem not in OWN_PICTURES)
         for path in samples:
             _compare(path, scratch / path.stem)
@@ -45,7 +41,6 @@ def main(folder: Path) -> None:
         light(folder / "lit.jpg", scratch)
         eevee(folder / "eevee.jpg", scratch)
         anamorphosis(folder / "anamorphosis.jpg", scratch)
-        extension_zip.switch_off()
 
 
 def light(path: Path, scratch: Path) -> None:

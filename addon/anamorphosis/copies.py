@@ -8,7 +8,7 @@ from dataclasses import replace
 import bpy
 from mathutils import Matrix
 
-from ..blender_data import MeshArrays, write_mesh
+from ..blender_data import MeshArrays, new_beside, write_mesh
 from ..faults import AllOrNothing, keep_data, keep_object
 from .sheet_arrays import Sheet
 
@@ -84,16 +84,7 @@ def _render_map(mesh: bpy.types.Mesh, sheet: Sheet) -> str:
 
 
 def _new_copy(context: bpy.types.Context, source: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
-    name = f"{source.name} Anamorphosis"
-    mesh = bpy.data.meshes.new(name)
-    whole.undo(bpy.data.meshes.remove, mesh)
-    obj = bpy.data.objects.new(name, mesh)
-    whole.undo(bpy.data.objects.remove, obj)
-    of_scene = {context.scene.collection, *context.scene.collection.children_recursive}
-    beside = [collection for collection in source.users_collection
-              if collection in of_scene and collection.library is None]
-    for collection in beside or [context.scene.collection]:
-        collection.objects.link(obj)
+    obj = new_beside(context, f"{source.name} Anamorphosis", source, whole)
     record = obj.reflection_mesh
     record.role, record.mirror_uv_source = source.reflection_mesh.role, source
     return obj

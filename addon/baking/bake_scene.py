@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bpy
@@ -12,7 +12,7 @@ from mathutils import Matrix
 from ...core import ReflectionError
 from ..blender_data import UV_MAP, compat
 from ..faults import interrupt_held, still_there
-from ..rendering import with_cycles
+from ..rendering import copied_scene, look_through
 from .opacity import show_opacity, without_openings
 from .stand_ins import StandIn, new_mesh, new_object, swap_names
 
@@ -27,7 +27,6 @@ class BakeScene:
     scene: bpy.types.Scene
     objects: list
     targets: dict
-    camera: bpy.types.Object
 
     def bake(self, owner: int, size: int, seen_from: np.ndarray, gloss: bool, samples: int) -> np.ndarray:
         """One participant's picture, (size, size, 4) float32, `UNTOUCHED` where it is not, as seen from a place, or
@@ -36,7 +35,7 @@ class BakeScene:
         scene = self.scene
         scene.cycles.samples = samples
         scene.render.bake.use_pass_glossy = gloss
-        self.camera.matrix_world = Matrix.Translation(seen_from)
+        scene.camera.matrix_world = Matrix.Translation(seen_from)
         image = bpy.data.images.new(UV_MAP, size, size, float_buffer=True, is_data=True, alpha=True)
         values = np.full((size, size, 4), UNTOUCHED, dtype=np.float32)
         try:
@@ -70,15 +69,9 @@ def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn],
                opacity: bool) -> Iterator[BakeScene]:
     """The user's scene as a copy, with stand-ins in place of `sources`; with `opacity` they glow by how opaque they
     are."""
-    scene = context.scene.copy()
-    with ExitStack() as back:
-        back.callback(bpy.data.scenes.remove, scene)
-        scene.name = UV_MAP
-        _prepare(scene, context.view_layer.name)
-        camera = bpy.data.objects.new(UV_MAP, bpy.data.cameras.new(UV_MAP))
-        back.callback(bpy.data.cameras.remove, camera.data)
-        scene.collection.objects.link(camera)
-        scene.camera = camera
+    with copied_scene(context, UV_MAP) as (scene, back):
+        _prepare(scene)
+        look_through(scene, bpy.data.objects.new(UV_MAP, bpy.data.cameras.new(UV_MAP)), back)
         for source in sources:
             back.callback(setattr, source, "hide_render", source.hide_render)
             source.hide_render = True
@@ -98,20 +91,15 @@ def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn],
             if stand.own and sources[stand.owner].library is None:
                 swap_names(sources[stand.owner], obj)
                 back.callback(swap_names, sources[stand.owner], obj)
-        yield BakeScene(scene, objects, targets, camera)
+        yield BakeScene(scene, objects, targets)
 
 
-def _prepare(scene: bpy.types.Scene, layer: str) -> None:
-    with_cycles(scene)
-    for other in [other for other in scene.view_layers if other.name != layer]:
-        scene.view_layers.remove(other)
+def _prepare(scene: bpy.types.Scene) -> None:
     bake = scene.render.bake
     for name in ("use_pass_direct", "use_pass_indirect", "use_pass_diffuse", "use_pass_glossy", "use_pass_transmission",
                  "use_pass_emit"):
         setattr(bake, name, True)
     bake.view_from = "ACTIVE_CAMERA"
-    # a noise of its own
-    scene.cycles.seed = scene.cycles.seed + 1
     scene.cycles.use_adaptive_sampling = False
     # triangles that lie side by side in the picture do not in the scene
     scene.cycles.use_denoising = False

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..blender_data import UV_MAP, compat
+from ..blender_data import UV_MAP, Builder, compat
 from ..blender_data.mirror_materials import surface_shader
 
 NORMAL = "mirror_normal"
@@ -48,21 +48,15 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
     return material
 
 
-class _Builder:
+class _Builder(Builder):
     """Adds nodes to a tree; `light` is the picture of the light."""
 
     def __init__(self, tree: bpy.types.NodeTree, image: bpy.types.Image) -> None:
-        self.tree = tree
+        super().__init__(tree)
         where = self.add("ShaderNodeUVMap", uv_map=UV_MAP)
         self.light = self.add("ShaderNodeTexImage", name=image.name, image=image, interpolation="Linear",
                               extension="EXTEND")
         tree.links.new(where.outputs[0], self.light.inputs["Vector"])
-
-    def add(self, kind: str, **settings) -> bpy.types.Node:
-        node = self.tree.nodes.new(kind)
-        for key, value in settings.items():
-            setattr(node, key, value)
-        return node
 
     def feed(self, value, socket: bpy.types.NodeSocket) -> None:
         """A socket's value, a number or a colour into a socket."""

@@ -1,11 +1,11 @@
-"""Builds trees of Geometry Nodes."""
+"""Builds trees of nodes."""
 from __future__ import annotations
 
 import bpy
 
 
 class Builder:
-    """Adds Geometry Nodes to a tree from left to right."""
+    """Adds nodes to a tree from left to right; what works on geometry is of Geometry Nodes."""
 
     def __init__(self, tree: bpy.types.NodeTree) -> None:
         self.tree = tree

@@ -74,12 +74,7 @@ def write_object(context: bpy.types.Context, made: Reflection, placement: str,
 
 def new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
     """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet."""
-    name = f"{mirror.name} Reflection"
-    mesh = bpy.data.meshes.new(name)
-    whole.undo(bpy.data.meshes.remove, mesh)
-    obj = bpy.data.objects.new(name, mesh)
-    whole.undo(bpy.data.objects.remove, obj)
-    _link_beside(context, obj, mirror)
+    obj = new_beside(context, f"{mirror.name} Reflection", mirror, whole)
     for rays in RAYS:
         setattr(obj, rays, False)
     # Line Art takes creases from the sharp edges alone, and no lines where layers that touch sink into each other
@@ -88,13 +83,20 @@ def new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllO
     return obj
 
 
-def _link_beside(context: bpy.types.Context, obj: bpy.types.Object, mirror: bpy.types.Object) -> None:
-    """Link to the mirror's collections, those of this scene that can be changed, else to the scene's own."""
+def new_beside(context: bpy.types.Context, name: str, other: bpy.types.Object,
+               whole: AllOrNothing) -> bpy.types.Object:
+    """An object with an empty mesh in the collections of another, those of this scene that can be changed, else in the
+    scene's own."""
+    mesh = bpy.data.meshes.new(name)
+    whole.undo(bpy.data.meshes.remove, mesh)
+    obj = bpy.data.objects.new(name, mesh)
+    whole.undo(bpy.data.objects.remove, obj)
     of_scene = {context.scene.collection, *context.scene.collection.children_recursive}
-    beside = [collection for collection in mirror.users_collection
+    beside = [collection for collection in other.users_collection
               if collection in of_scene and collection.library is None]
     for collection in beside or [context.scene.collection]:
         collection.objects.link(obj)
+    return obj
 
 
 def _remember(obj: bpy.types.Object, made: Reflection) -> None:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bpy
@@ -11,7 +11,7 @@ import numpy as np
 from ...core import View
 from ..blender_data import compat, is_opaque
 from ..faults import still_there
-from ..rendering import rendered, with_cycles
+from ..rendering import copied_scene, look_through, rendered
 
 MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
 COVERAGE_SAMPLES = 64
@@ -86,15 +86,9 @@ class LightScene:
 @contextmanager
 def light_scene(context: bpy.types.Context, results: list, window: Window) -> Iterator[LightScene]:
     """The user's scene as a copy that shares its objects; results are hidden in it, their mirrors seen."""
-    scene = context.scene.copy()
-    with ExitStack() as back:
-        back.callback(bpy.data.scenes.remove, scene)
-        scene.name = "Reflection Light"
-        _prepare(scene, context.view_layer.name, window)
-        camera = _sharp_camera(context.scene.camera)
-        back.callback(bpy.data.cameras.remove, camera.data)
-        scene.collection.objects.link(camera)
-        scene.camera = camera
+    with copied_scene(context, "Reflection Light") as (scene, back):
+        _prepare(scene, window)
+        look_through(scene, _sharp_camera(context.scene.camera), back)
         for result in results:
             back.callback(setattr, result, "hide_render", result.hide_render)
             result.hide_render = True
@@ -123,11 +117,8 @@ def white_of(scene: bpy.types.Scene) -> float:
     return (PLAIN_WHITE if view.view_transform in {"Standard", "Raw"} else ROLLED_OFF_WHITE) / 2.0 ** view.exposure
 
 
-def _prepare(scene: bpy.types.Scene, layer: str, window: Window) -> None:
-    """One view layer, one window of the picture, nothing after the render; sampling that denoises well."""
-    with_cycles(scene)
-    for other in [other for other in scene.view_layers if other.name != layer]:
-        scene.view_layers.remove(other)
+def _prepare(scene: bpy.types.Scene, window: Window) -> None:
+    """One window of the picture, nothing after the render; sampling that denoises well."""
     render, cycles = scene.render, scene.cycles
     for name in ("use_compositing", "use_sequencer", "use_motion_blur", "use_freestyle", "use_multiview", "use_stamp",
                  "film_transparent"):
@@ -141,8 +132,6 @@ def _prepare(scene: bpy.types.Scene, layer: str, window: Window) -> None:
     cycles.use_denoising = True
     cycles.denoiser = "OPENIMAGEDENOISE"
     cycles.denoising_input_passes, cycles.denoising_prefilter = "RGB_ALBEDO_NORMAL", "ACCURATE"
-    # a noise of its own: a render of the file must not agree with it by having the same
-    cycles.seed = scene.cycles.seed + 1
 
 
 def _sharp_camera(camera: bpy.types.Object) -> bpy.types.Object:

@@ -17,6 +17,7 @@ USER_FOLDER = Path(tempfile.mkdtemp(prefix="reflection_mesh_tests_"))
 # before anything imports bpy: it reads the place of its preferences once
 extension_zip.use_throw_away_preferences(USER_FOLDER)
 import bpy  # noqa: E402
+import numpy as np  # noqa: E402
 import parts  # noqa: E402
 
 STATUS = pytest.StashKey[int]()
@@ -73,6 +74,41 @@ def saved_scene(blank, tmp_path) -> Path:
     cube.data.materials.append(parts.material("Plain"))
     cube.reflection_mesh.role, parts.add_wall_mirror().reflection_mesh.role = "DIFFUSE", "MIRROR"
     blank.scene.render.resolution_x, blank.scene.render.resolution_y = 96, 72
+    blank.preferences.filepaths.save_version = 0
+    path = tmp_path / "work" / "scene.blend"
+    path.parent.mkdir()
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=False)
+    return path
+
+
+@pytest.fixture
+def moving(blank, tmp_path) -> Path:
+    """A cube of two colours that moves before a wall mirror, with a UV map, colours and an attribute, 96 x 72 pixels,
+    saved; the mirror moves too."""
+    cube = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0))
+    for name, colour in (("Plain", (0.8, 0.8, 0.8, 1.0)), ("Red one", (1.0, 0.0, 0.0, 1.0))):
+        cube.data.materials.append(parts.material(name))
+        cube.data.materials[-1].node_tree.nodes["Emission"].inputs[0].default_value = colour
+    rng = np.random.default_rng(5)
+    for face in cube.data.polygons:
+        face.material_index = face.index % 2
+    for name, kind, domain, width in (("My Colour", "FLOAT_COLOR", "POINT", 4), ("wet spots", "FLOAT", "FACE", 1),
+                                      ("Zähler", "INT", "FACE", 1)):
+        entry = cube.data.attributes.new(name, kind, domain)
+        values = rng.uniform(-3.0, 1e6, width * len(entry.data))
+        entry.data.foreach_set("color" if width == 4 else "value",
+                               values.astype(np.int32 if kind == "INT" else np.float32))
+    mirror = parts.add_wall_mirror()
+    mirror.data.materials.append(parts.material("Glass", "GLOSSY"))
+    cube.reflection_mesh.role, mirror.reflection_mesh.role = "DIFFUSE", "MIRROR"
+    for obj, frame, place in ((cube, 1, (0.0, -1.5, 1.0)), (cube, 5, (1.2, -1.0, 1.3)),
+                              (mirror, 1, (0.0, 1.0, 1.0)), (mirror, 5, (0.0, 1.5, 1.0))):
+        obj.location = place
+        obj.keyframe_insert("location", frame=frame)
+    scene = blank.scene
+    scene.render.resolution_x, scene.render.resolution_y = 96, 72
+    scene.frame_start, scene.frame_end = 1, 4
+    scene.frame_set(1)
     blank.preferences.filepaths.save_version = 0
     path = tmp_path / "work" / "scene.blend"
     path.parent.mkdir()

@@ -8,145 +8,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-
-SIZE = 96
-SAMPLES = 128
-
-
-def link(tree: bpy.types.NodeTree, output, socket) -> None:
-    tree.links.new(output, socket)
-
-
-def principled(name: str, colour=(0.8, 0.8, 0.8), **values) -> bpy.types.Material:
-    """A lit material, rough where nothing else is said."""
-    made = parts.material(name, "PRINCIPLED", 1.0, 0.0)
-    shader = shader_of(made)
-    for socket, value in {"Base Color": (*colour, 1.0), **values}.items():
-        shader.inputs[socket].default_value = value
-    return made
-
-
-def shader_of(material: bpy.types.Material) -> bpy.types.Node:
-    return next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-
-
-def patterned(output: str, node: str = "ShaderNodeTexCoord") -> bpy.types.Material:
-    """A material whose colour is noise by the coordinates `output` of a node."""
-    made = principled("Pattern")
-    tree = made.node_tree
-    noise = tree.nodes.new("ShaderNodeTexNoise")
-    noise.inputs["Scale"].default_value = 4.0
-    link(tree, tree.nodes.new(node).outputs[output], noise.inputs["Vector"])
-    link(tree, noise.outputs["Color"], shader_of(made).inputs["Base Color"])
-    return made
-
-
-def source_material(kind: str, box: bpy.types.Object) -> bpy.types.Material:
-    """What the reflected object shows."""
-    if kind in ("Generated", "Object", "Normal", "UV"):
-        return patterned(kind)
-    if kind == "Gloss":
-        return principled("Glossy", (0.7, 0.1, 0.1), Roughness=0.25)
-    if kind == "Glass":
-        return principled("Glass", (0.9, 1.0, 0.9), **{"Transmission Weight": 1.0, "Roughness": 0.0})
-    made = principled("Source", (0.9, 0.3, 0.1))
-    tree, shader = made.node_tree, shader_of(made)
-    if kind == "Bump":
-        bump, noise = tree.nodes.new("ShaderNodeBump"), tree.nodes.new("ShaderNodeTexNoise")
-        bump.inputs["Distance"].default_value = 0.6
-        link(tree, noise.outputs[0], bump.inputs["Height"])
-        link(tree, bump.outputs[0], shader.inputs["Normal"])
-    elif kind == "Random":
-        ramp = tree.nodes.new("ShaderNodeCombineColor")
-        link(tree, tree.nodes.new("ShaderNodeObjectInfo").outputs["Random"], ramp.inputs[1])
-        link(tree, ramp.outputs[0], shader.inputs["Base Color"])
-    elif kind == "Attribute":
-        heat = box.data.attributes.new("warmth", "FLOAT", "POINT")
-        heat.data.foreach_set("value", np.linspace(0.0, 1.0, len(heat.data), dtype=np.float32))
-        read = tree.nodes.new("ShaderNodeAttribute")
-        read.attribute_name = "warmth"
-        link(tree, read.outputs["Fac"], shader.inputs["Base Color"])
-    elif kind == "Alpha":
-        checks = tree.nodes.new("ShaderNodeTexChecker")
-        checks.inputs["Scale"].default_value = 3.0
-        link(tree, checks.outputs["Fac"], shader.inputs["Alpha"])
-    elif kind == "Backfacing":
-        side, mixed = tree.nodes.new("ShaderNodeNewGeometry"), tree.nodes.new("ShaderNodeMix")
-        mixed.data_type = "RGBA"
-        mixed.inputs[6].default_value, mixed.inputs[7].default_value = (0.9, 0.1, 0.1, 1.0), (0.1, 0.1, 0.9, 1.0)
-        link(tree, side.outputs["Backfacing"], mixed.inputs[0])
-        link(tree, mixed.outputs[2], shader.inputs["Base Color"])
-    return made
-
-
-def mirror_material(kind: str) -> bpy.types.Material:
-    """What the mirror does to what it shows."""
-    silver = principled("Silver", (0.95, 0.7, 0.35) if kind == "Tint" else (1.0, 1.0, 1.0), Metallic=1.0, Roughness=0.0)
-    tree = silver.node_tree
-    if kind == "Textured tint":
-        checks = tree.nodes.new("ShaderNodeTexChecker")
-        checks.inputs["Color1"].default_value, checks.inputs["Color2"].default_value = (1, .9, .5, 1), (.3, .5, .7, 1)
-        link(tree, checks.outputs["Color"], shader_of(silver).inputs["Base Color"])
-    elif kind == "Rough":
-        shader_of(silver).inputs["Roughness"].default_value = 0.1
-    elif kind in ("Fresnel", "Layer weight"):
-        share = tree.nodes.new("ShaderNodeFresnel" if kind == "Fresnel" else "ShaderNodeLayerWeight")
-        ground, gloss, both = (tree.nodes.new(f"ShaderNode{name}") for name in ("BsdfDiffuse", "BsdfAnisotropic",
-                                                                               "MixShader"))
-        gloss.inputs["Roughness"].default_value, gloss.inputs["Color"].default_value = 0.0, (1.0, 1.0, 1.0, 1.0)
-        ground.inputs["Color"].default_value = (0.1, 0.3, 0.2, 1.0)
-        for output, socket in ((share.outputs[0], both.inputs[0]), (ground.outputs[0], both.inputs[1]),
-                               (gloss.outputs[0], both.inputs[2])):
-            link(tree, output, socket)
-        link(tree, both.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
-    return silver
-
-
-def scene_of(context: bpy.types.Context, source: str = "", mirror: str = "") -> bpy.types.Object:
-    """A box or an open tube, where the camera sees its image beside itself, and a floor before a wall mirror, under a
-    lamp; returns the mirror."""
-    scene = context.scene
-    if source == "Backfacing":
-        box = parts.add("cylinder", "Box", radius=0.9, depth=1.2, end_fill_type="NOTHING", location=(1.9, -1.2, 1.0),
-                        rotation=(0.9, 0.4, 0.3))
-    else:
-        box = parts.add("cube", "Box", size=1.3, location=(1.9, -1.2, 1.0), rotation=(0.3, 0.2, 0.5))
-    box.data.materials.append(source_material(source, box))
-    floor = parts.add("plane", "Floor", size=8.0, location=(0.0, -1.0, -0.6))
-    floor.data.materials.append(principled("Floor", (0.5, 0.5, 0.6)))
-    wall = parts.add_wall_mirror()
-    wall.data.materials.append(mirror_material(mirror))
-    bpy.ops.object.light_add(type="AREA", location=(-2.5, -3.0, 3.5), rotation=(0.8, -0.4, 0.0))
-    context.object.data.energy, context.object.data.size = 250.0, 1.5
-    scene.view_settings.view_transform = "Standard"
-    scene.world = bpy.data.worlds.new("World")
-    scene.world.color = (0.2, 0.25, 0.3)
-    scene.render.resolution_x = scene.render.resolution_y = SIZE
-    scene.render.engine = "CYCLES"
-    scene.cycles.use_denoising, scene.cycles.use_adaptive_sampling = False, False
-    scene.cycles.samples = SAMPLES
-    parts.select(box, floor, wall)
-    return wall
-
-
-def picture(room, seed: int = 0) -> np.ndarray:
-    """What a render of the file shows, in sRGB, (height, width, 3)."""
-    rendering = room("addon.rendering")
-    scene = bpy.context.scene.copy()
-    try:
-        rendering.with_cycles(scene)
-        scene.cycles.seed = seed
-        linear = np.clip(rendering.rendered(scene)[..., :3], 0.0, 1.0)
-    finally:
-        bpy.data.scenes.remove(scene)
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 1e-9)**(1 / 2.4) - 0.055)
-
-
-def psnr(one: np.ndarray, other: np.ndarray) -> float:
-    """Over the pixels inside the mirror."""
-    inside = slice(SIZE // 5, -SIZE // 5)
-    return float(-10.0 * np.log10(1e-12 + ((one - other)[inside, inside]**2).mean()))
-
+from lamp_scenes import SIZE, leaves_no_trace, link, lit_state, picture, principled, psnr, scene_of, shader_of
 
 SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Glass", "Alpha",
            "Backfacing")
@@ -221,19 +83,6 @@ def test_compare_tells_how_lit_pictures_differ(blank, tmp_path):
     assert "where Cycles equals itself to" in (tmp_path / "report.html").read_text()
 
 
-def lit_state() -> dict:
-    """As `parts.state`, and what a light changes of a result."""
-    results = {obj.name: ([(slot.link, slot.material and slot.material.name) for slot in obj.material_slots],
-                          sorted(obj.data.attributes.keys()), obj.reflection_mesh.light,
-                          obj.reflection_mesh.light_stale)
-               for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"}
-    cycles = bpy.context.scene.cycles
-    return {**parts.state(), "results": results, "lights": sorted(bpy.data.lights.keys()),
-            "cycles": (cycles.samples, cycles.seed, cycles.use_denoising, cycles.max_bounces, cycles.film_exposure),
-            "layers": [(layer.name, layer.use, [branch.holdout for branch in layer.layer_collection.children])
-                       for layer in bpy.context.scene.view_layers]}
-
-
 @pytest.mark.parametrize("placement", ["LAYERED", "VIRTUAL"])
 def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement):
     scene_of(blank)
@@ -251,16 +100,8 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement):
 
 @pytest.mark.parametrize("failing", ["rendered", "new_material", "show_light"])
 def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
-    scene_of(blank)
-    parts.generate()
-    before = lit_state()
-
-    def fails(*arguments):
-        raise room("core").ReflectionError("It failed: try again.")
-    monkeypatch.setattr(room("addon.lighting.light_scene" if failing == "rendered" else "addon.light"), failing, fails)
-    with pytest.raises(RuntimeError, match="It failed: try again."):
-        bpy.ops.reflection_mesh.light(samples=1)
-    assert lit_state() == before
+    where = "addon.lighting.light_scene" if failing == "rendered" else "addon.light"
+    leaves_no_trace(blank, room, monkeypatch, (where, failing), "PICTURE")
 
 
 def test_what_is_lit_is_the_result_alone(blank):

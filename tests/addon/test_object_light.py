@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from test_light import lit_state, picture, psnr, scene_of
+from lamp_scenes import leaves_no_trace, lit_state, picture, psnr, scene_of
 
 # gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
 SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Alpha")
@@ -76,16 +76,7 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, stop):
 
 @pytest.mark.parametrize("failing", ["kept_map", "new_object_material", "show_object_light"])
 def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
-    scene_of(blank)
-    parts.generate()
-    before = lit_state()
-
-    def fails(*arguments):
-        raise room("core").ReflectionError("It failed: try again.")
-    monkeypatch.setattr(room("addon.light"), failing, fails)
-    with pytest.raises(RuntimeError, match="It failed: try again."):
-        light(1)
-    assert lit_state() == before
+    leaves_no_trace(blank, room, monkeypatch, ("addon.light", failing), "OBJECTS")
 
 
 def test_clear_takes_it_away(blank):

@@ -1,0 +1,32 @@
+"""Copies of the user's scene, for Cycles to work on while the file stays as it is."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+
+import bpy
+
+from .cycles_pictures import with_cycles
+
+
+@contextmanager
+def copied_scene(context: bpy.types.Context, name: str) -> Iterator[tuple[bpy.types.Scene, ExitStack]]:
+    """A copy that shares the scene's objects, with the present view layer alone and a noise of its own: what comes of
+    it must not agree with a render of the file by having the same. What else is changed for a while the caller tells
+    the stack, which takes it back before the copy goes."""
+    scene = context.scene.copy()
+    with ExitStack() as back:
+        back.callback(bpy.data.scenes.remove, scene)
+        scene.name = name
+        with_cycles(scene)
+        for other in [other for other in scene.view_layers if other.name != context.view_layer.name]:
+            scene.view_layers.remove(other)
+        scene.cycles.seed = scene.cycles.seed + 1
+        yield scene, back
+
+
+def look_through(scene: bpy.types.Scene, camera: bpy.types.Object, back: ExitStack) -> None:
+    """Let a temporary camera be that of a temporary scene."""
+    back.callback(bpy.data.cameras.remove, camera.data)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
