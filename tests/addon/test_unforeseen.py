@@ -160,7 +160,7 @@ STEPS = [("write_mesh", "GENERAL"), ("_remember", "GENERAL"), ("_remember", "POI
 
 
 @pytest.mark.parametrize("late", [False, True])
-@pytest.mark.parametrize(("name", "method"), [*STEPS, ("_link_beside", "GENERAL")])
+@pytest.mark.parametrize(("name", "method"), [*STEPS, ("new_beside", "GENERAL")])
 def test_new_results_go_where_the_second_fails(scene, room, monkeypatch, capfd, name, method, late):
     before = fingerprint()
     break_second(room, monkeypatch, name, ZeroDivisionError("a number is zero"), late)
