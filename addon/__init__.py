@@ -11,9 +11,9 @@ from . import (
     print_sheet,
     properties,
 )
-from .blender_data import windows
 from .gltf_attributes import AttributesOfResults
 from .lighting import stale_light
+from .writing import windows
 
 __all__ = ["AttributesOfResults", "register", "unregister"]
 

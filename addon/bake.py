@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 import bpy
 
 from .. import core
-from .blender_data import NothingSeen, candidates, choose, compat, read_view, render_size, visible
+from . import compat
 from .clear import clear
 from .faults import AllOrNothing, BrowsingOperator, Steps, interrupt_held, part, still_there
 from .files import chosen_folder, staged
@@ -35,6 +35,7 @@ from .frames import (
 from .generate import generation
 from .light import SAMPLES, lighting
 from .properties import SettingsProperties, settings_of
+from .reading import NothingSeen, candidates, choose, read_view, render_size, visible
 
 FOLDER = "//reflection frames"
 

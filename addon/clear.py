@@ -3,10 +3,10 @@ from __future__ import annotations
 
 import bpy
 
-from .blender_data import close_abandoned_windows, disc_nodes, forget_nodes
 from .faults import in_one_sentence
 from .frames import stop_playing
 from .lighting import forget_light, forget_map
+from .writing import close_abandoned_windows, disc_nodes, forget_nodes
 
 
 def chosen_results(context: bpy.types.Context) -> list:

@@ -12,7 +12,6 @@ import bpy
 
 from .. import core
 from . import benchmark
-from .blender_data import Participants, choose
 from .clear import chosen_results
 from .command_bake import add_bake
 from .command_place import add_place, placed
@@ -26,6 +25,7 @@ from .light import summary as lighting_summary
 from .mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
 from .print_sheet import DPI, check_print, printing
 from .properties import LIGHTS, METHODS, PLACEMENTS, settings_of
+from .reading import Participants, choose
 
 COMMAND = "reflection_mesh"
 _commands = []

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ..core import ReflectionError, Settings, in_steps
-from .blender_data import Participants, compat, participants, read_view, results_of
+from . import compat
 from .clear import clear
 from .comparison import load_pictures, remember, render_comparison, show_picture, write_report
 from .faults import AllOrNothing, BrowsingOperator, Steps, part, still_there
@@ -16,6 +16,7 @@ from .generate import generation
 from .judge import copied_scene
 from .metrics import measure, picture_errors, without_packing
 from .properties import SettingsProperties, settings_of
+from .reading import Participants, participants, read_view, results_of
 
 # shares of the work: of all of it what generating takes, where something is missing, and of the rest what follows
 GENERATING, COPYING, RENDERING, JUDGING = 0.3, 0.02, 0.88, 0.05

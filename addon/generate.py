@@ -7,24 +7,13 @@ from dataclasses import dataclass, replace
 import bpy
 
 from .. import core
-from .blender_data import (
-    NothingSeen,
-    Participants,
-    Reflection,
-    choose,
-    is_opaque,
-    mesh_arrays,
-    point_arrays,
-    read_mirror,
-    read_scene,
-    read_view,
-    write_object,
-)
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .frames import stop_playing
 from .lighting import keep_light
 from .properties import SettingsProperties, settings_of
+from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view
 from .shortcomings import shortcomings, window_shortcomings
+from .writing import Reflection, mesh_arrays, point_arrays, write_object
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1

@@ -8,7 +8,6 @@ import numpy as np
 
 from ..core import ReflectionError, View
 from .baking import KeptMap, baked, can_be_baked, kept_map, new_object_material, vectors
-from .blender_data import is_mirror, is_opaque, read_scene, read_view
 from .clear import chosen_results
 from .faults import AllOrNothing, SteppedOperator, Steps, Undivided, part
 from .lighting import (
@@ -27,6 +26,7 @@ from .lighting import (
     white_of,
 )
 from .properties import LIGHTS
+from .reading import is_mirror, is_opaque, read_scene, read_view
 
 SAMPLES = 64
 NAME = "Reflection Light"

@@ -22,9 +22,9 @@ from .anamorphosis import (
     write_copy,
     write_own_map,
 )
-from .blender_data import Participants, choose, read_mirror, read_scene, read_view
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .properties import memory_property, tolerance_property
+from .reading import Participants, choose, read_mirror, read_scene, read_view
 
 TARGETS = (
     ("COPY", "A Copy", "Faces are cut where the map bends, on a copy that stands in for the object, which is hidden"),

@@ -4,11 +4,11 @@ from __future__ import annotations
 import bpy
 
 from ..core.result.reflection_mesh import filled_share
-from .blender_data import records
 from .comparison import show_comparison
 from .frames import plays
 from .lighting import light_lines
 from .properties import SETTINGS
+from .writing import records
 
 
 class REFLECTION_MESH_PT_main(bpy.types.Panel):

@@ -6,8 +6,8 @@ import os
 import bpy
 
 from ..core import ReflectionError
+from . import compat
 from .anamorphosis import encoded, flat_sheet, load_picture, picture_of, pixels_of, print_size, printed
-from .blender_data import compat
 from .faults import AllOrNothing, BrowsingOperator, Steps, part
 from .files import check_place, staged
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ..core import ReflectionError, ReflectionMesh
-from .blender_data import what_is_in_the_way
+from .writing import what_is_in_the_way
 
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
 PARTLY_HIDDEN, HIDDEN = 0.01, 0.5

@@ -61,7 +61,7 @@ def _generated(sample: str, memory: float) -> tuple:
         if modifier.type == "SUBSURF":
             # what is reflected is the viewport's mesh: a render shows no finer one
             modifier.render_levels = modifier.levels
-    chosen = _room("addon.blender_data.roles").choose(bpy.context)
+    chosen = _room("addon.reading.roles").choose(bpy.context)
     steps = _room("addon.generate").generation(bpy.context, chosen, _room("core").Settings(maximum_memory=memory))
     while True:
         try:

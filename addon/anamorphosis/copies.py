@@ -8,8 +8,8 @@ from dataclasses import replace
 import bpy
 from mathutils import Matrix
 
-from ..blender_data import MeshArrays, new_beside, write_mesh
 from ..faults import AllOrNothing, keep_data, keep_object
+from ..writing import MeshArrays, new_beside, write_mesh
 from .sheet_arrays import Sheet
 
 

@@ -7,8 +7,9 @@ import bpy
 import numpy as np
 
 from ...core import PicturePieces, ReflectionError
-from ..blender_data import MOST_UV_MAPS, DiffuseScene
 from ..faults import AllOrNothing, keep_data
+from ..reading import DiffuseScene
+from ..writing import MOST_UV_MAPS
 from .frame import Frame
 from .sheet_arrays import SEEN, UV_MAP
 

@@ -6,7 +6,7 @@ import os
 import bpy
 
 from ...core import ReflectionError
-from ..blender_data import compat
+from .. import compat
 from ..faults import AllOrNothing
 from .sheet_arrays import UV_MAP
 

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..blender_data import MOST_UV_MAPS, Attribute, DiffuseScene, MeshArrays, shown_layers
+from ..reading import DiffuseScene
+from ..writing import MOST_UV_MAPS, Attribute, MeshArrays, shown_layers
 from .cut_triangles import Parts
 from .frame import Frame
 

@@ -10,9 +10,10 @@ import numpy as np
 from mathutils import Matrix
 
 from ...core import ReflectionError
-from ..blender_data import UV_MAP, compat
+from .. import compat
 from ..faults import interrupt_held, still_there
 from ..rendering import copied_scene, look_through
+from ..writing import UV_MAP
 from .opacity import show_opacity, without_openings
 from .stand_ins import StandIn, new_mesh, new_object, swap_names
 

@@ -3,8 +3,9 @@ from __future__ import annotations
 
 import bpy
 
-from ..blender_data import UV_MAP, Builder, compat
-from ..blender_data.mirror_materials import surface_shader
+from .. import compat
+from ..reading.mirror_materials import surface_shader
+from ..writing import UV_MAP, Builder
 
 NORMAL = "mirror_normal"
 GLOSSY = {"BSDF_GLOSSY", "BSDF_METALLIC"}

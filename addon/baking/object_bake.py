@@ -7,9 +7,9 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, View
-from ..blender_data import DiffuseScene, is_opaque
-from ..blender_data.read_meshes import read_meshes
 from ..faults import Steps, Undivided
+from ..reading import DiffuseScene, is_opaque
+from ..reading.read_meshes import read_meshes
 from .atlas import arranged, packed
 from .bake_scene import UNTOUCHED, bake_scene
 from .seen_sources import seen_sources, triangles_by_source

@@ -7,7 +7,8 @@ import bpy
 import numpy as np
 
 from ...core import View, reflecting_normals
-from ..blender_data import DiffuseScene, light_layer
+from ..reading import DiffuseScene
+from ..writing import light_layer
 from .mirror_part import NORMAL
 from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, vectors
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..blender_data.mirror_materials import surface_shader
+from ..reading.mirror_materials import surface_shader
 from .mirror_part import given, node_behind
 
 OPEN = {"BSDF_TRANSPARENT", "HOLDOUT"}

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import View
-from ..blender_data import DiffuseScene
+from ..reading import DiffuseScene
 
 ONE_EYE = 0.1   # of the way to what is seen, from which on the eye's mirror images are not one
 SHARPEST = 0.9  # quantile of the pixels of an object that have no more than one texel

@@ -7,9 +7,9 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..blender_data import UV_MAP, write_mesh
-from ..blender_data.mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
-from ..blender_data.read_meshes import LocalMesh, Placed
+from ..reading.read_meshes import LocalMesh, Placed
+from ..writing import UV_MAP, write_mesh
+from ..writing.mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
 
 
 @dataclass(frozen=True)

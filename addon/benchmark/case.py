@@ -7,8 +7,8 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, TriangleMesh, View
-from ..blender_data import DiffuseScene, choose, read_mirror, read_scene, read_view, render_size
 from ..judge import polygons
+from ..reading import DiffuseScene, choose, read_mirror, read_scene, read_view, render_size
 
 LEAST_PIXELS = 8
 

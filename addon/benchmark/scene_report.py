@@ -10,12 +10,13 @@ import numpy as np
 from ...core import Settings, reflect
 from ...core.rivals import PrimaryHits, primary_hits
 from ...core.rivals.forward import drawn_mesh
-from ..blender_data import RAYS, MirrorSurface, mesh_arrays, write_mesh
 from ..comparison import comparison_pictures, render_pictures
 from ..faults import finished
 from ..judge import CodedMaterials, CopiedScene, copied_scene, dress, reflecting
 from ..metrics import NOTHING, CodedPicture, measure
+from ..reading import MirrorSurface
 from ..report import Scene
+from ..writing import RAYS, mesh_arrays, write_mesh
 from .answer import facts, summary
 from .case import Case, read_case
 from .methods import METHODS

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...core import View
 from ...core.rivals import eye_depths
-from ..blender_data import compat
+from .. import compat
 from ..faults import finished
 from ..judge import CodedMaterials, CodedTruth, CopiedScene, cycles_render, lowest_corner
 from ..metrics import ITSELF, NOTHING, CodedPicture, motion_per_pixel

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError
-from ..blender_data import compat, records
+from .. import compat
 from ..faults import Steps, Undivided
 from ..judge import (
     CodedMaterials,
@@ -26,6 +26,7 @@ from ..judge import (
     show,
 )
 from ..metrics import CodedPicture
+from ..writing import records
 
 DEEPEST = 1000  # bounces that are followed; Cycles knows 1024, four of them for other rays
 RENDERS = 7  # of a comparison; where Cycles rounds normals it takes two more

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import bpy
 
-from ..blender_data import records
+from ..writing import records
 
 TITLES = {"reference": "Reference", "displacement": "Displacement", "difference": "Difference", "holes": "Holes",
           "result": "Result"}

@@ -7,19 +7,11 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..blender_data import (
-    close_window,
-    compat,
-    forget_nodes,
-    hide_discs,
-    new_object,
-    open_window,
-    render_size,
-    results_of,
-    show_own_materials,
-)
+from .. import compat
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from ..lighting import forget_light, new_material
+from ..reading import render_size, results_of
+from ..writing import close_window, forget_nodes, hide_discs, new_object, open_window, show_own_materials
 from .frame_records import FrameRecord
 from .play_nodes import NAME, unpacking_nodes
 from .write_frame import MESH_PATH, OBJECT_PATH

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..blender_data import Builder
+from ..writing import Builder
 from .packed_mesh import MATERIAL, colour_names
 from .write_frame import material_key
 

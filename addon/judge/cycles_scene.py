@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from ..blender_data import SURFACES
 from ..faults import still_there
+from ..reading import SURFACES
 
 RAYS = ("camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow")
 

@@ -6,8 +6,8 @@ from collections.abc import Generator
 import bpy
 import numpy as np
 
-from ..blender_data import is_mirror
 from ..metrics import ITSELF, NOTHING, CodedPicture
+from ..reading import is_mirror
 from . import cycles_codes, cycles_render
 from .cycles_codes import CodedMaterials
 from .cycles_scene import CopiedScene

@@ -4,7 +4,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..blender_data import UV_MAP, compat
+from .. import compat
+from ..writing import UV_MAP
 
 
 def new_image(name: str, texels: np.ndarray) -> bpy.types.Image:

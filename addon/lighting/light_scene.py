@@ -9,8 +9,9 @@ import bpy
 import numpy as np
 
 from ...core import View
-from ..blender_data import compat, is_opaque
+from .. import compat
 from ..faults import still_there
+from ..reading import is_opaque
 from ..rendering import copied_scene, look_through, rendered
 
 MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside

@@ -9,8 +9,9 @@ import numpy as np
 
 from ...core import View
 from ..baking import KeptMap, lay_out
-from ..blender_data import LONGEST_RECORD, DiffuseScene, show_own_materials
 from ..faults import AllOrNothing, keep_data, keep_object, still_there
+from ..reading import DiffuseScene
+from ..writing import LONGEST_RECORD, show_own_materials
 from .light_material import images_of, texels_shown
 from .light_scene import Window
 from .needs_light import needs_light

@@ -4,8 +4,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..blender_data import compat
-from ..blender_data.mirror_materials import is_mirror, surface_shader
+from .. import compat
+from ..reading.mirror_materials import is_mirror, surface_shader
 
 WHITE = 0.999
 TINTS = {"BSDF_GLOSSY": ("Color",), "BSDF_PRINCIPLED": ("Base Color", "Specular Tint")}

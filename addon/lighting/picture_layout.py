@@ -10,7 +10,7 @@ import bmesh
 import numpy as np
 
 from ...core import View
-from ..blender_data import UV_MAP, light_layer
+from ..writing import UV_MAP, light_layer
 from .light_scene import Window
 
 COLOUR = "Reflection Light Colour"

@@ -7,7 +7,7 @@ import json
 import numpy as np
 
 from ...core import View
-from ..blender_data import LONGEST_RECORD
+from ..writing import LONGEST_RECORD
 from .light_scene import Window
 
 

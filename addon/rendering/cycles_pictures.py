@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError
-from ..blender_data import render_size
 from ..faults import interrupt_held
 from ..files import has_room, is_whole, scratch_folder, scratch_is_full
+from ..reading import render_size
 
 SLOT = "Reflection Comparison"
 

@@ -49,7 +49,7 @@ def extension_archive() -> Path:
 
 @pytest.fixture(scope="session")
 def room():
-    """Import a module of the installed extension: room("addon.blender_data.read_view")."""
+    """Import a module of the installed extension: room("addon.reading.read_view")."""
     def imported(name: str) -> ModuleType:
         return importlib.import_module(f"{extension_zip.PACKAGE}.{name}")
     return imported

@@ -150,7 +150,7 @@ def test_mirrors_that_show_nothing_are_left_out(scene, room):
     """Two of three mirrors show nothing: the third gets its result, and each of the others its sentence."""
     high = parts.add("plane", "High", location=(0.0, 1.0, 500.0))
     behind = parts.add("plane", "Back", size=4.0, location=(0.0, 9.0, 1.0), rotation=(0.0, np.pi / 2, 0.0))
-    chosen = room("addon.blender_data.roles").Participants([high, behind, scene[0]], [scene[1]], [])
+    chosen = room("addon.reading.roles").Participants([high, behind, scene[0]], [scene[1]], [])
     steps = room("addon.generate").generation(bpy.context, chosen, room("core").Settings())
     outcome = room("addon.command_line").announced(steps)
     assert [obj.name for obj, _ in outcome.results] == ["Mirror Reflection"]

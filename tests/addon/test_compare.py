@@ -15,9 +15,9 @@ COUNTED = ("objects", "meshes", "materials", "scenes", "cameras", "lights", "wor
 @pytest.fixture(scope="module")
 def rooms(room) -> SimpleNamespace:
     """The extension's rooms for comparing."""
-    names = ("blender_data.compat", "compare", "metrics.pixel_errors", "comparison.compare_pictures",
+    names = ("compat", "compare", "metrics.pixel_errors", "comparison.compare_pictures",
              "judge.cycles_codes", "judge.cycles_render", "judge.cycles_scene", "rendering.cycles_pictures",
-             "blender_data.read_view", "faults")
+             "reading.read_view", "faults")
     return SimpleNamespace(**{name.rpartition(".")[2]: room(f"addon.{name}") for name in names})
 
 

@@ -204,7 +204,7 @@ def test_the_picture_lies_where_the_camera_sees_it_inside_faces_too(blank, room)
     result = floor_mirror(blank, checks(), lamp=True)
     before = len(result.data.polygons)
     bpy.ops.reflection_mesh.light(samples=1)
-    mesh, view = result.data, room("addon.blender_data").read_view(blank)
+    mesh, view = result.data, room("addon.reading").read_view(blank)
     assert before < len(mesh.polygons) < before + 2000
     window = np.array(json.loads(result.reflection_mesh.light)["window"])
     spots = np.empty((len(mesh.loops), 2), dtype=np.float32)

@@ -281,7 +281,7 @@ def test_the_parallel_method_runs(sphere_scene):
 
 def test_summary_tells_the_share_filled_by_rays_and_remarks_the_bounds_hit(sphere_scene, room):
     sphere, cube, floor = sphere_scene
-    chosen = room("addon.blender_data.roles").Participants([sphere], [cube, floor], [])
+    chosen = room("addon.reading.roles").Participants([sphere], [cube, floor], [])
     generate, settings = room("addon.generate").generation, room("core").Settings
 
     def outcome(**options):

@@ -29,12 +29,12 @@ def opened(what: str) -> bpy.types.Material:
 @pytest.mark.parametrize("what", ["alpha", "alpha by a texture", "transmission", "a group", "ShaderNodeBsdfTransparent",
                                   "ShaderNodeBsdfGlass", "ShaderNodeBsdfRefraction", "ShaderNodeHoldout"])
 def test_materials_that_let_light_through(blank, room, what):
-    assert not room("addon.blender_data.opaque_materials").is_opaque(opened(what))
+    assert not room("addon.reading.opaque_materials").is_opaque(opened(what))
 
 
 @pytest.mark.parametrize("kind", ["EMISSION", "GLOSSY", "PRINCIPLED"])
 def test_opaque_materials(blank, room, kind):
-    is_opaque = room("addon.blender_data.opaque_materials").is_opaque
+    is_opaque = room("addon.reading.opaque_materials").is_opaque
     assert is_opaque(parts.material("Opaque", kind)) and is_opaque(None)
 
 
@@ -61,7 +61,7 @@ def shown(result: bpy.types.Object, name: str) -> int:
 def test_what_is_hidden_whole_is_left_out(dense_scene, room):
     near, far = (shown(parts.generate(), name) for name in ("Near", "Far"))
     assert near > 2000 and far < 200
-    counts = room("addon.blender_data.records").counts(bpy.context.object)
+    counts = room("addon.writing.records").counts(bpy.context.object)
     assert counts["whole"] > 2000 and counts["hidden"] > 2000
 
 

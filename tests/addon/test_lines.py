@@ -108,7 +108,7 @@ def test_marked_edges_are_drawn_and_no_others(blank):
 def test_marks_lie_on_the_marked_edge(blank, room, chosen):
     """Be it the last one, whose number stands for sides that are no edges too; and on the sheet's outline."""
     result, ends = grid(chosen)
-    marks = room("addon.blender_data.compat").freestyle_marks(result.data, "EDGE")
+    marks = room("addon.compat").freestyle_marks(result.data, "EDGE")
     vertices = np.array([edge.vertices[:] for edge in result.data.edges])
     points = parts.attribute(result, "reflected_position")
     share = ((points - ends[0]) @ (ends[1] - ends[0])) / ((ends[1] - ends[0]) @ (ends[1] - ends[0]))

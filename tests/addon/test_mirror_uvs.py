@@ -120,7 +120,7 @@ def wall(blank) -> bpy.types.Object:
 
 def mirrored_uv(room, places: np.ndarray) -> np.ndarray:
     """Where the camera sees points in the wall mirror, as parts of its picture."""
-    view = room("addon.blender_data").read_view(bpy.context)
+    view = room("addon.reading").read_view(bpy.context)
     return view.pixels(places * (1.0, -1.0, 1.0) + (0.0, 2.0, 0.0)) / view.resolution
 
 
@@ -297,7 +297,7 @@ def test_esc_leaves_no_trace(wall, room, tmp_path):
     module = room("addon.mirror_uvs")
     stages = []
     for stop in range(1, 200):
-        chosen = room("addon.blender_data").choose(bpy.context)
+        chosen = room("addon.reading").choose(bpy.context)
         steps = module.mapping(bpy.context, chosen, module.map_settings(0.5, 2.0), module.Choices(picture=picture))
         told = [entry[1] for _, entry in zip(range(stop), steps)]
         steps.close()

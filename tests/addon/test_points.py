@@ -210,7 +210,7 @@ def test_compare_judges_points_as_it_judges_meshes(scan_scene, tmp_path):
 def test_coarse_objects_are_told(blank, room):
     leaf = parts.add_triangle("Leaf", [(-0.5, -1.0, 0.6), (0.7, -1.5, 0.8), (0.1, -0.5, 1.7)])
     parts.select(leaf, parts.add_wall_mirror())
-    generate, choose = room("addon.generate").generation, room("addon.blender_data.roles").choose
+    generate, choose = room("addon.generate").generation, room("addon.reading.roles").choose
     outcome = _end(generate(bpy.context, choose(bpy.context), room("core").Settings(method="POINTS")))
     assert len(outcome.remarks) == 1 and outcome.remarks[0].startswith("Mirror: 3 of 3 points")
 

@@ -30,7 +30,7 @@ def test_points_land_where_blender_puts_them(blank, room, kind, fit, size, aspec
     scene.render.resolution_percentage = 50
     scene.render.pixel_aspect_x, scene.render.pixel_aspect_y = aspect
     scene.camera.rotation_euler = 1.4, 0.2, -0.1
-    view = room("addon.blender_data.read_view").read_view(blank)
+    view = room("addon.reading.read_view").read_view(blank)
     assert view.resolution == (size[0] // 2, size[1] // 2)
     assert view.orthographic == (kind == "ORTHO")
     assert np.abs(view.pixels(POINTS) - expected_pixels(scene)).max() < 2e-3
@@ -39,7 +39,7 @@ def test_points_land_where_blender_puts_them(blank, room, kind, fit, size, aspec
 def test_the_cameras_scale_takes_no_part(blank, room):
     blank.scene.camera.scale = 3.0, 3.0, 0.5
     blank.view_layer.update()
-    placement = room("addon.blender_data.read_view").read_view(blank).camera_to_world
+    placement = room("addon.reading.read_view").read_view(blank).camera_to_world
     assert np.allclose(placement[:3, :3].T @ placement[:3, :3], np.eye(3), atol=1e-6)
     assert np.allclose(placement[:3, 3], (0.0, -6.0, 1.0))
     assert np.allclose(placement[:3, 2], (0.0, -np.sin(1.45), np.cos(1.45)), atol=1e-6)
@@ -53,7 +53,7 @@ def test_an_animated_lens_is_that_of_the_frame(blank, room):
     widths = []
     for frame in (1, 11):
         blank.scene.frame_set(frame)
-        widths.append(room("addon.blender_data.read_view").read_view(blank).projection[0, 0])
+        widths.append(room("addon.reading.read_view").read_view(blank).projection[0, 0])
     assert np.isclose(widths[1] / widths[0], 2.0, rtol=1e-6)
 
 
@@ -61,4 +61,4 @@ def test_the_percentage_is_taken_in_whole_numbers(blank, room):
     """57 % of 100 pixels are 57; in floating point they are 56.99..., which would lose one."""
     render = blank.scene.render
     render.resolution_x, render.resolution_y, render.resolution_percentage = 100, 201, 57
-    assert room("addon.blender_data.read_view").read_view(blank).resolution == (57, 114)
+    assert room("addon.reading.read_view").read_view(blank).resolution == (57, 114)

@@ -120,7 +120,7 @@ def test_a_redraw_reads_a_record_once_and_never_the_disk(scene, room, tmp_path, 
     def touched(*_, **__):
         raise AssertionError("A redraw touched the disk, or read a record again.")
     for place, name in ((os, "stat"), (os, "lstat"), (os, "listdir"), (os, "scandir"), (os, "open"), (io, "open"),
-                        (Path, "is_file"), (Path, "exists"), (room("addon.blender_data.records").json, "loads")):
+                        (Path, "is_file"), (Path, "exists"), (room("addon.writing.records").json, "loads")):
         monkeypatch.setattr(place, name, touched)
     assert drawn(room).made["wm.url_open"].url.startswith("file:///")
     monkeypatch.undo()

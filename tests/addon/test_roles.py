@@ -5,7 +5,7 @@ import pytest
 
 
 def names(room) -> tuple[list, list]:
-    mirrors, diffuse = room("addon.blender_data.roles").participants(bpy.context)
+    mirrors, diffuse = room("addon.reading.roles").participants(bpy.context)
     return sorted(obj.name for obj in mirrors), sorted(obj.name for obj in diffuse)
 
 
@@ -54,7 +54,7 @@ def test_active_diffuse_object_is_no_mirror(four, room):
     four[1].reflection_mesh.role = "DIFFUSE"
     parts.select(four[0], four[1])
     with pytest.raises(room("core").ReflectionError, match="mirror"):
-        room("addon.blender_data.roles").participants(bpy.context)
+        room("addon.reading.roles").participants(bpy.context)
 
 
 def test_a_result_knows_its_own(four, room):
@@ -80,7 +80,7 @@ def test_lights_and_cameras_take_no_part(four, room):
 def test_hidden_objects_are_left_out_and_named(four, room):
     parts.select(*four)
     four[0].hide_render = True
-    chosen = room("addon.blender_data.roles").choose(bpy.context)
+    chosen = room("addon.reading.roles").choose(bpy.context)
     assert [obj.name for obj in chosen.hidden] == ["A"]
     assert names(room) == (["D"], ["B", "C"])
 
@@ -103,7 +103,7 @@ def test_objects_in_a_hidden_collection_are_left_out(four, room):
     ("PRINCIPLED", 0.0, 1.0, True), ("PRINCIPLED", 0.0, 0.0, False), ("PRINCIPLED", 0.5, 1.0, False),
     ("DIFFUSE", 0.0, 0.0, False), ("EMISSION", 0.0, 0.0, False)])
 def test_mirror_materials(blank, room, kind, roughness, metallic, expected):
-    is_mirror = room("addon.blender_data.mirror_materials").is_mirror
+    is_mirror = room("addon.reading.mirror_materials").is_mirror
     assert is_mirror(parts.material("M", kind, roughness, metallic)) is expected
 
 
@@ -112,11 +112,11 @@ def test_a_textured_roughness_makes_no_mirror(blank, room):
     tree = made.node_tree
     shader = next(node for node in tree.nodes if node.type == "BSDF_GLOSSY")
     tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], shader.inputs["Roughness"])
-    assert not room("addon.blender_data.mirror_materials").is_mirror(made)
+    assert not room("addon.reading.mirror_materials").is_mirror(made)
 
 
 def test_reroutes_and_empty_materials(blank, room):
-    is_mirror = room("addon.blender_data.mirror_materials").is_mirror
+    is_mirror = room("addon.reading.mirror_materials").is_mirror
     made = parts.material("M", "GLOSSY")
     tree = made.node_tree
     output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")

@@ -14,7 +14,7 @@ def scene(blank):
 
 def started(room):
     generation = room("addon.generate").generation
-    return generation(bpy.context, room("addon.blender_data.roles").choose(bpy.context), room("core").Settings())
+    return generation(bpy.context, room("addon.reading.roles").choose(bpy.context), room("core").Settings())
 
 
 def test_progress_grows_to_one(scene, room):

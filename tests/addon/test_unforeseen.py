@@ -71,7 +71,7 @@ def sentence_of(operator, capfd, **options) -> str:
 @pytest.mark.parametrize(("verb", "place", "name", "label"), [
     ("generate", "generate", "read_scene", "Generate Reflection"),
     ("generate", "generate", "choose", "Generate Reflection"),
-    ("generate", "blender_data.write_object", "write_mesh", "Generate Reflection"),
+    ("generate", "writing.write_object", "write_mesh", "Generate Reflection"),
     ("compare", "compare", "measure", "Compare with Cycles"),
     ("compare", "compare", "write_report", "Compare with Cycles"),
     ("compare", "compare", "participants", "Compare with Cycles"),
@@ -135,13 +135,13 @@ def test_what_is_no_exception_passes(scene, room, monkeypatch, tmp_path):
 # ---- all results, or none -----------------------------------------------------------------------------------------
 
 def started(room, **settings):
-    chosen = room("addon.blender_data.roles").choose(bpy.context)
+    chosen = room("addon.reading.roles").choose(bpy.context)
     return room("addon.generate").generation(bpy.context, chosen, room("core").Settings(**settings))
 
 
 def break_second(room, monkeypatch, name: str, error, late: bool = False) -> None:
     """Let the second call of one step of writing fail: before it has done its work, or behind it."""
-    place, count = room("addon.blender_data.write_object"), []
+    place, count = room("addon.writing.write_object"), []
     work = getattr(place, name)
 
     def broken(*arguments):

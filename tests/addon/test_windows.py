@@ -77,7 +77,7 @@ def test_a_render_shows_it_though_nothing_has_asked_for_the_change_before(scene,
 
 
 def test_a_file_that_is_saved_right_after_holds_no_abandoned_window(scene, room, tmp_path):
-    windows, path = room("addon.blender_data.windows"), str(tmp_path / "file.blend")
+    windows, path = room("addon.writing.windows"), str(tmp_path / "file.blend")
     bpy.data.objects.remove(parts.generate(placement="VIRTUAL"))
     bpy.ops.wm.save_as_mainfile(filepath=path)
     # as without the extension
@@ -91,7 +91,7 @@ def test_a_file_that_is_saved_right_after_holds_no_abandoned_window(scene, room,
 
 def test_a_window_that_was_abandoned_without_the_extension_is_found_when_the_file_is_opened(scene, room, tmp_path):
     mirror, _ = scene
-    windows, path = room("addon.blender_data.windows"), str(tmp_path / "file.blend")
+    windows, path = room("addon.writing.windows"), str(tmp_path / "file.blend")
     result = parts.generate(placement="VIRTUAL")
     windows.unregister()
     try:
@@ -209,6 +209,6 @@ def test_the_mirror_itself_and_other_windows_do_not_count(scene, room):
 
 def remarks(room) -> list[str]:
     """What a generation with windows has to say."""
-    steps = room("addon.generate").generation(bpy.context, room("addon.blender_data").choose(bpy.context),
+    steps = room("addon.generate").generation(bpy.context, room("addon.reading").choose(bpy.context),
                                               room("core").Settings(placement="VIRTUAL"))
     return room("addon.faults").finished(steps).remarks

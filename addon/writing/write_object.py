@@ -9,9 +9,9 @@ from mathutils import Matrix
 
 from ...core import ReflectionMesh
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
+from ..reading.roles import results_of
 from .disc_nodes import hide_discs, show_discs
 from .mesh_arrays import MeshArrays
-from .roles import results_of
 from .windows import close_window, open_window
 from .write_mesh import write_mesh
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import compat
+from .. import compat
 from .material_nodes import all_nodes
 
 OPEN_SHADERS = {"BSDF_TRANSPARENT", "BSDF_GLASS", "BSDF_REFRACTION", "HOLDOUT"}

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import ReflectionMesh, TriangleMesh, View
-from . import compat
-from .join_meshes import DiffuseScene, MirrorSurface
+from .. import compat
+from ..reading.join_meshes import DiffuseScene, MirrorSurface
 from .single_precision import in_single_precision
 
 # a Blender mesh holds no more

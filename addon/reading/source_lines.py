@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from . import compat
+from .. import compat
 
 # faces that meet at less than 140 degrees, Line Art's own default, make a crease
 CREASE = np.cos(np.radians(180.0 - 140.0))

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 
 import bpy
 
-from . import compat
+from .. import compat
 
 # where each kind of node names what it reads
 NAMES = {"ATTRIBUTE": "attribute_name", "VERTEX_COLOR": "layer_name", "UVMAP": "uv_map"}

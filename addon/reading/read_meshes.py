@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError
-from . import compat
+from .. import compat
 from .read_layers import NO_LAYERS, read_layers
 from .source_lines import SourceLines
 

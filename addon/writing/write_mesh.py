@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from . import compat
+from .. import compat
 from .mesh_arrays import Lines, MeshArrays
 
 # where the values of an attribute lie, by its type; all others call it "value"

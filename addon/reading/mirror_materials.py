@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import compat
+from .. import compat
 
 SHARP_ROUGHNESS = 0.1
 FULL_METALLIC = 0.9
