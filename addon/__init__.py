@@ -4,8 +4,10 @@ from . import (
     clear,
     command_line,
     compare,
+    freshness,
     generate,
     light,
+    live,
     mirror_uvs,
     panel,
     print_sheet,
@@ -17,7 +19,7 @@ from .writing import windows
 
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
-MODULES = (properties, windows, stale_light, generate, light, bake, mirror_uvs, print_sheet, compare, clear, panel,
+MODULES = (properties, windows, stale_light, freshness, generate, live, light, bake, mirror_uvs, print_sheet, compare, clear, panel,
            command_line)
 
 

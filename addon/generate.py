@@ -9,6 +9,7 @@ import bpy
 from .. import core
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .frames import stop_playing
+from .freshness import origin_of, record_of
 from .lighting import keep_light
 from .properties import SettingsProperties, settings_of
 from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view
@@ -21,10 +22,12 @@ READING = 0.1
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a generation made: (object, core.ReflectionMesh) of each mirror, and sentences on what was left out."""
+    """What a generation made: (object, core.ReflectionMesh) of each mirror, and sentences on what was left out; and what
+    it was made from, as it was read: the view, the surface of each mirror, the diffuse scene."""
 
     results: list
     remarks: list
+    read: tuple
 
     def summary(self, seconds: float) -> str:
         """One line on what was generated."""
@@ -38,12 +41,13 @@ class Outcome:
                 f"{seconds:.2f} s")
 
 
-def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings) -> Steps[Outcome]:
+def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings,
+               view: core.View | None = None) -> Steps[Outcome]:
     """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
 
     Nothing in the file changes before the last step, which writes all results, or none where one of them fails; a
     generator that is closed before leaves no trace. Of several mirrors, those that cannot show anything are left out
-    with a remark.
+    with a remark. The eye is the `view` that is given, else the scene's camera.
 
     Raises
     ------
@@ -55,10 +59,11 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     started = time.perf_counter()
     yield 0.0, "Reading the scene"
     remarks = [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
-    view = read_view(context)
+    view = view or read_view(context)
     depsgraph = context.evaluated_depsgraph_get()
     surfaces = [read_mirror(depsgraph, mirror) for mirror in chosen.mirrors]
     scene = read_scene(depsgraph, chosen.diffuse)
+    origins = {mirror: record_of(origin_of(depsgraph, view, mirror, chosen.diffuse)) for mirror in chosen.mirrors}
     if not all(map(is_opaque, scene.materials)):
         settings = replace(settings, hidden_faces=True)
     yield 0.5 * READING, "Building the tree"
@@ -92,8 +97,9 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         for obj, _ in results:
             keep_light(obj, view, scene)
             whole.after(stop_playing, obj)
+            obj.reflection_mesh.made_from = origins[obj.reflection_mesh.mirror]
             obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
-    return Outcome(results, remarks + refused)
+    return Outcome(results, remarks + refused, (view, dict(zip(chosen.mirrors, surfaces)), scene))
 
 
 class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types.Operator):

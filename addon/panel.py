@@ -7,6 +7,7 @@ from ..core.result.reflection_mesh import filled_share
 from .comparison import show_comparison
 from .frames import plays
 from .lighting import light_lines
+from .live import draw_live
 from .properties import SETTINGS
 from .writing import records
 
@@ -26,6 +27,7 @@ class REFLECTION_MESH_PT_main(bpy.types.Panel):
         layout.use_property_decorate = False
         if context.object is not None:
             _draw_object(layout, context.object)
+        draw_live(layout, context)
         settings = context.scene.reflection_mesh
         column = layout.column()
         for name in SETTINGS:

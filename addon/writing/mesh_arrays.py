@@ -79,8 +79,7 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
     view : View
         Who sees it.
     """
-    origin = origin_of(surface.mesh)
-    result = in_single_precision(result, origin, view)
+    result, origin = vertices_written(result, surface.mesh, view)
     source, mirror_face = result.source_face, result.mirror_face
     spans = mirror_face < 0
     weights = result.source_weights.astype(np.float32)
@@ -99,6 +98,12 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
     return MeshArrays(origin, (result.positions - origin).astype(np.float32), result.triangles.astype(np.int32),
                       own + shown, scene.materials, _lines(result, scene))
+
+
+def vertices_written(result: ReflectionMesh, mirror: TriangleMesh, view: View) -> tuple[ReflectionMesh, np.ndarray]:
+    """A result with faces as `mesh_arrays` writes it: vertex by vertex, and relative to which place (3,)."""
+    origin = origin_of(mirror)
+    return in_single_precision(result, origin, view), origin
 
 
 def _normals(result: ReflectionMesh, scene: DiffuseScene) -> tuple[Attribute, ...]:

@@ -1,0 +1,113 @@
+"""Digests of what objects show: where they and their instances stand, and their evaluated geometry, hashed once.
+
+Geometry is hashed again only where Blender has told that it may be another; `tick` counts what may have changed
+anything.
+"""
+from __future__ import annotations
+
+from hashlib import blake2b
+
+import bpy
+import numpy as np
+from bpy.app.handlers import persistent
+
+from ..reading import SURFACES
+
+# how the values of an attribute are read: property, components, type
+LAYOUTS = {"FLOAT": ("value", 1, np.float32), "FLOAT_VECTOR": ("vector", 3, np.float32),
+           "FLOAT2": ("vector", 2, np.float32), "FLOAT_COLOR": ("color", 4, np.float32),
+           "BYTE_COLOR": ("color", 4, np.float32), "INT": ("value", 1, np.int32), "BOOLEAN": ("value", 1, bool)}
+CORNERS = ".corner_vert"  # of the hidden attributes the one that is shape; the others are selections
+SIZE = 12  # bytes of a digest
+
+_geometry: dict[tuple, bytes] = {}
+_ticks = [0]
+
+
+def tick() -> int:
+    """A number that is another one whenever anything may have changed."""
+    return _ticks[0]
+
+
+def forget(session_uid: int | None = None) -> None:
+    """Hash the geometry of an object, or of all, anew when it is asked for next."""
+    for key in [key for key in _geometry if session_uid is None or session_uid in key[:2]]:
+        del _geometry[key]
+
+
+def digest_of(depsgraph: bpy.types.Depsgraph, objects: list) -> str:
+    """One digest of what `objects`, and what they instance, show and where; nothing that is hidden takes part."""
+    owner_of = {obj: index for index, obj in enumerate(objects)}
+    known = []
+    for instance in depsgraph.object_instances:
+        evaluated = instance.object
+        parent = instance.parent.original if instance.is_instance else None
+        owner = owner_of.get(evaluated.original if parent is None else parent)
+        if owner is None or evaluated.type not in SURFACES or not instance.show_self:
+            continue
+        key = (evaluated.original.session_uid, parent.session_uid if parent else 0, evaluated.data.name)
+        if key not in _geometry:
+            _geometry[key] = _hashed(evaluated)
+        matrix = np.array(instance.matrix_world, dtype=np.float32)
+        known.append(owner.to_bytes(4, "big") + matrix.tobytes() + _geometry[key])
+    return blake2b(b"".join(sorted(known)), digest_size=SIZE).hexdigest()
+
+
+def _hashed(obj: bpy.types.Object) -> bytes:
+    """A digest of the shape and the layers of an evaluated object."""
+    mesh = obj.data if obj.type == "MESH" else obj.to_mesh()
+    told = blake2b(digest_size=SIZE)
+    if mesh is not None:
+        told.update(np.array((len(mesh.vertices), len(mesh.polygons)), dtype=np.int64).tobytes())
+        told.update(_values(mesh.polygons, "loop_start", 1, np.int32))
+        for attribute in sorted(mesh.attributes, key=lambda attribute: attribute.name):
+            if attribute.data_type in LAYOUTS and (not attribute.name.startswith(".") or attribute.name == CORNERS):
+                told.update(attribute.name.encode())
+                told.update(_values(attribute.data, *LAYOUTS[attribute.data_type]))
+        if mesh.has_custom_normals:
+            told.update(_values(mesh.corner_normals, "vector", 3, np.float32))
+    if obj.type != "MESH":
+        obj.to_mesh_clear()
+    return told.digest()
+
+
+def _values(data, name: str, width: int, dtype) -> bytes:
+    array = np.empty(width * len(data), dtype=dtype)
+    data.foreach_get(name, array)
+    return array.tobytes()
+
+
+@persistent
+def _after_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    # a render's depsgraph tells of nothing that has happened in the file
+    if depsgraph.mode != "VIEWPORT":
+        return
+    _ticks[0] += 1
+    for update in depsgraph.updates:
+        if update.is_updated_geometry and isinstance(update.id, bpy.types.Object):
+            forget(update.id.original.session_uid)
+
+
+@persistent
+def _after_all(*_) -> None:
+    """After whatever may have exchanged everything."""
+    _ticks[0] += 1
+    forget()
+
+
+def _handlers() -> list:
+    handlers = bpy.app.handlers
+    return [(handlers.depsgraph_update_post, _after_change), (handlers.frame_change_post, _after_change),
+            *((handlers_of, _after_all) for handlers_of in (handlers.undo_post, handlers.redo_post,
+                                                            handlers.load_post))]
+
+
+def register() -> None:
+    for handlers, function in _handlers():
+        handlers.append(function)
+
+
+def unregister() -> None:
+    for handlers, function in _handlers():
+        handlers.remove(function)
+    forget()

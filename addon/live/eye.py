@@ -1,0 +1,52 @@
+"""For whom Live keeps results right: the scene's camera, or whoever looks through the largest 3D viewport."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...core import ReflectionError, View
+from ..reading import read_view
+
+
+def read_eye(context: bpy.types.Context, of_viewport: bool) -> View:
+    """The view of the scene's camera; or, where it is to be that `of_viewport`, of the largest 3D viewport that shows
+    the scene, which is the camera's again while that looks through the camera.
+
+    Raises
+    ------
+    ReflectionError
+        As `read_view`.
+    """
+    region = largest_viewport(context) if of_viewport else None
+    if region is None or region[0].view_perspective == "CAMERA":
+        return read_view(context)
+    return view_of(*region)
+
+
+def view_of(region_3d: bpy.types.RegionView3D, size: tuple[int, int]) -> View:
+    """The view through a 3D viewport of so many pixels."""
+    placement = np.array(region_3d.view_matrix, dtype=np.float64)
+    try:
+        placement = np.linalg.inv(placement)
+        # single precision leaves the last row a little off what it is
+        placement[3] = 0.0, 0.0, 0.0, 1.0
+        projection = np.array(region_3d.window_matrix, dtype=np.float64)
+        return View(placement, projection, size)
+    except (ValueError, np.linalg.LinAlgError) as error:
+        raise ReflectionError(f"The 3D viewport's view cannot be reflected: {error}") from error
+
+
+def largest_viewport(context: bpy.types.Context) -> tuple | None:
+    """The largest 3D viewport of the scene, as its view and its size in pixels; None where there is none."""
+    found, most = None, 0
+    for window in context.window_manager.windows:
+        if window.scene != context.scene:
+            continue
+        for area in window.screen.areas:
+            if area.type != "VIEW_3D":
+                continue
+            region = next((region for region in area.regions if region.type == "WINDOW"), None)
+            view = area.spaces.active.region_3d
+            if region is not None and view is not None and region.width * region.height > most:
+                found, most = (view, (region.width, region.height)), region.width * region.height
+    return found

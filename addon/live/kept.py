@@ -1,0 +1,34 @@
+"""What Live keeps right: the results of a scene, those that show the same objects together."""
+from __future__ import annotations
+
+import bpy
+
+from ...core import ReflectionError
+from ..frames import plays
+from ..reading import Participants, visible
+from ..reading.roles import results_of
+
+
+def kept_results(context: bpy.types.Context) -> list:
+    """The results of the scene that are made anew when something moves."""
+    layer = set(context.view_layer.objects)
+    return [obj for obj in context.scene.objects if obj.reflection_mesh.role == "REFLECTION" and obj in layer
+            and obj.type == "MESH" and obj.reflection_mesh.mirror is not None and not plays(obj)
+            and obj in results_of(context, obj.reflection_mesh.mirror)]
+
+
+def groups(context: bpy.types.Context) -> list[Participants]:
+    """The mirrors and objects of these results; what is hidden takes no part."""
+    found: dict = {}
+    for obj in kept_results(context):
+        record = obj.reflection_mesh
+        sources = tuple(source.object for source in record.sources if source.object is not None)
+        if sources and record.mirror not in sources:
+            found.setdefault(sources, {})[record.mirror] = None
+    chosen = []
+    for sources, mirrors in found.items():
+        try:
+            chosen.append(visible(context, list(mirrors), list(sources)))
+        except ReflectionError:
+            continue
+    return chosen

@@ -1,0 +1,171 @@
+"""Live in Blender: the switch, the handlers that tell of changes, the timer that asks for work."""
+from __future__ import annotations
+
+import time
+
+import bpy
+from bpy.app.handlers import persistent
+from bpy.props import BoolProperty, EnumProperty, PointerProperty
+
+from .updater import LiveUpdater
+
+INTERVAL = 0.02     # seconds between two looks
+WAIT = 0.25         # the same while something else is at work
+EYES = (
+    ("CAMERA", "Camera", "Reflections are kept right for the scene's camera"),
+    ("VIEW", "Viewport", "Reflections are kept right for the largest 3D viewport; Generate makes them right for the camera "
+     "again"),
+)
+JOBS = ("RENDER", "OBJECT_BAKE", "COMPOSITE")
+
+updater: LiveUpdater | None = None
+
+
+def is_live() -> bool:
+    return updater is not None
+
+
+def start(of_viewport: bool) -> None:
+    """Begin to keep the results of the file right."""
+    global updater
+    stop()
+    updater = LiveUpdater(of_viewport)
+    for handlers, function in _handlers():
+        handlers.append(function)
+    bpy.app.timers.register(_tick, first_interval=INTERVAL)
+
+
+def stop() -> None:
+    """End, with all results as they are."""
+    global updater
+    if updater is not None:
+        updater.forget()
+        for handlers, function in _handlers():
+            if function in handlers:
+                handlers.remove(function)
+        if bpy.app.timers.is_registered(_tick):
+            bpy.app.timers.unregister(_tick)
+    updater = None
+
+
+def is_busy() -> bool:
+    """Whether a render, a bake or an operator of this extension is at work."""
+    if any(map(bpy.app.is_job_running, JOBS)):
+        return True
+    return any(operator.bl_idname.startswith("REFLECTION_MESH_OT_")
+               for window in bpy.context.window_manager.windows for operator in window.modal_operators)
+
+
+def _tick() -> float | None:
+    """Called by the timer; when it is called next."""
+    if updater is None:
+        return None
+    if is_busy():
+        updater.forget()
+        return WAIT
+    before = updater.milliseconds, updater.told, updater.at_rest
+    window = next(iter(bpy.context.window_manager.windows), None)
+    with bpy.context.temp_override(**({} if window is None else {"window": window})):
+        updater.step(bpy.context, time.monotonic())
+    if before != (updater.milliseconds, updater.told, updater.at_rest):
+        _redraw()
+    return INTERVAL
+
+
+def _redraw() -> None:
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+@persistent
+def _after_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    # a render's depsgraph tells of nothing that has happened in the file
+    if updater is None or depsgraph.mode != "VIEWPORT":
+        return
+    changed = [update.id for update in depsgraph.updates if not _is_own(update.id)]
+    if changed:
+        updater.note(not all(isinstance(one, bpy.types.Camera) or getattr(one, "type", "") == "CAMERA"
+                             for one in changed))
+
+
+def _is_own(changed: bpy.types.ID) -> bool:
+    """Whether it is a result, which Live itself writes."""
+    if isinstance(changed, bpy.types.Object):
+        return changed.reflection_mesh.role == "REFLECTION"
+    return isinstance(changed, bpy.types.Mesh) and changed.original.users == 0
+
+
+@persistent
+def _before_other_data(*_) -> None:
+    """Before undo and redo, which exchange what is pointed to."""
+    if updater is not None:
+        updater.forget()
+
+
+@persistent
+def _after_other_data(*_) -> None:
+    if updater is not None:
+        updater.note()
+
+
+@persistent
+def _before_opening(*_) -> None:
+    """Another file begins without Live."""
+    stop()
+    for manager in bpy.data.window_managers:
+        manager.reflection_mesh_live["on"] = False
+
+
+def _handlers() -> list:
+    handlers = bpy.app.handlers
+    return [(handlers.depsgraph_update_post, _after_change), (handlers.frame_change_post, _after_change),
+            (handlers.undo_pre, _before_other_data), (handlers.redo_pre, _before_other_data),
+            (handlers.undo_post, _after_other_data), (handlers.redo_post, _after_other_data),
+            (handlers.load_pre, _before_opening)]
+
+
+def _switched(self, _context: bpy.types.Context) -> None:
+    if self.on:
+        start(self.eye == "VIEW")
+    else:
+        stop()
+
+
+class ReflectionLive(bpy.types.PropertyGroup):
+    """`WindowManager.reflection_mesh_live`: whether results are kept right, and for whom. No file remembers it."""
+
+    on: BoolProperty(name="Live", description="Keep reflections right while the camera, mirrors or objects move: coarse "
+                     "on the way, exact at rest", default=False, update=_switched, options={"SKIP_SAVE"})
+    eye: EnumProperty(name="Seen From", description="For whom Live keeps reflections right", items=EYES,
+                      default="CAMERA", update=lambda self, context: self.on and _switched(self, context),
+                      options={"SKIP_SAVE"})
+
+
+class REFLECTION_MESH_OT_live(bpy.types.Operator):
+    """Keep reflections right while the camera, mirrors or objects move: coarse on the way, exact at rest"""
+
+    bl_idname = "reflection_mesh.live"
+    bl_label = "Live Reflections"
+
+    def execute(self, context: bpy.types.Context) -> set:
+        live = context.window_manager.reflection_mesh_live
+        live.on = not live.on
+        return {"FINISHED"}
+
+
+CLASSES = (ReflectionLive, REFLECTION_MESH_OT_live)
+
+
+def register() -> None:
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.WindowManager.reflection_mesh_live = PointerProperty(name="Live Reflections", type=ReflectionLive)
+
+
+def unregister() -> None:
+    stop()
+    del bpy.types.WindowManager.reflection_mesh_live
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

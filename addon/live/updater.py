@@ -1,0 +1,212 @@
+"""The heart of Live: told of changes, asked to work every now and then, by a clock that is given."""
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+import bpy
+
+from ...core import ReflectionError, View
+from ..faults import sentence
+from ..freshness import COARSE, same_view, view_numbers
+from ..reading import read_mirror, read_scene
+from .eye import read_eye
+from .pace import Pace
+from .track import Track
+from .watched import Record, Watched, watched
+from .work import Work
+
+PAUSE = 0.25    # seconds without a change after which what is shown is made exact
+REST = 4.0      # of what new results on the way take: so long vertices follow before the next are begun
+
+
+class LiveUpdater:
+    """Keeps the results of a scene right.
+
+    `note` is told that something may have changed; `step`, asked every now and then, finds out what, and works a
+    little. Between two steps it holds nothing of Blender's but the work that is under way, which `forget` ends.
+
+    Attributes
+    ----------
+    of_viewport : bool
+        Whether results are right for the 3D viewport's view.
+    milliseconds : float
+        What the last update took.
+    told : str
+        What keeps it from working, or what went wrong; empty where nothing does.
+    at_rest : bool
+        Whether all is as it is to be.
+    updates : dict of str to int
+        How many there were: `followed`, `coarse` and `exact`.
+    """
+
+    def __init__(self, of_viewport: bool = False) -> None:
+        self.of_viewport = of_viewport
+        self.milliseconds, self.told, self.at_rest = 0.0, "", False
+        self.updates = {"followed": 0, "coarse": 0, "exact": 0}
+        self._pace = Pace()
+        self._noted = self._moved = True
+        self._record: Record | None = None  # what the results show
+        self._looked: Record | None = None  # what was found at the last look
+        self._changed = 0.0                 # when that was another thing than before
+        self._tracks: list[Track] = []
+        self._meshes: dict = {}             # by mirror: its mesh and the scene's, as the results show them
+        self._work: Work | None = None
+        self._begun, self._ready = 0.0, 0.0
+
+    def note(self, moved: bool = True) -> None:
+        """Something may have changed: the view alone, or, where it `moved`, what mirrors or is reflected."""
+        self._noted, self._moved = True, self._moved or moved
+
+    def forget(self) -> None:
+        """Let go of all that is Blender's and of what is known of the file, which may be another one now."""
+        self._drop_work()
+        self._tracks, self._meshes, self._record, self._looked = [], {}, None, None
+        self.note()
+
+    def step(self, context: bpy.types.Context, now: float) -> str:
+        """Work a little; returns what was done: "followed", "coarse", "exact", "working", or "" for nothing."""
+        try:
+            return self._step(context, now)
+        except ReflectionError as error:
+            return self._give_up(str(error))
+        except Exception as error:
+            return self._give_up(sentence(error, "Live"))
+
+    def _step(self, context: bpy.types.Context, now: float) -> str:
+        if context.mode != "OBJECT":
+            self._drop_work()
+            self.told = "Live waits for Object Mode."
+            return ""
+        if not (self._noted or self.of_viewport):
+            if self.at_rest or (self._work is None and now - self._changed < PAUSE):
+                return ""
+        started = time.perf_counter()
+        view = read_eye(context, self.of_viewport)
+        if self._noted or self._looked is None or not same_view(view_numbers(view), self._looked.view):
+            current = self._look(context, view, now)
+            if current is None:
+                return ""
+            if not current.record.same(self._record):
+                return self._change(context, current, now, started)
+        if self.at_rest:
+            return ""
+        if self._work is None:
+            if now - self._changed < PAUSE:
+                return ""
+            current = watched(context, view)
+            self._work = Work.of(context, current, current.settings)
+        return self._go_on(now)
+
+    def _look(self, context: bpy.types.Context, view: View, now: float) -> Watched | None:
+        """How all stands now; None where there is nothing to keep right."""
+        current = watched(context, view, None if self._moved else self._looked)
+        self._noted = self._moved = False
+        if not current.chosen:
+            self._drop_work()
+            self.told, self._looked, self._record, self._tracks = "Generate a reflection first.", None, None, []
+            self.at_rest = True
+            return None
+        self.told = ""
+        if not current.record.same(self._looked):
+            # what Live begins with is made exact at once
+            self._changed = now if self._looked is not None else now - PAUSE
+            self.at_rest = False
+        self._looked = current.record
+        return current
+
+    def _change(self, context: bpy.types.Context, current: Watched, now: float, started: float) -> str:
+        """The results show something else than what there is."""
+        if self._work is not None and self._work.exact and not current.record.same(self._work.record):
+            self._drop_work()
+        if self._follow(context, current):
+            self.milliseconds = 1000.0 * (time.perf_counter() - started)
+            self.updates["followed"] += 1
+            self._pace.took(time.perf_counter() - started)
+            if self._work is None and now - self._ready > REST * (self._ready - self._begun):
+                self._begin(context, current, now)
+            if self._work is not None:
+                self._go_on(now)
+            return "followed"
+        if self._work is None:
+            self._begin(context, current, now)
+        return self._go_on(now)
+
+    def _begin(self, context: bpy.types.Context, current: Watched, now: float) -> None:
+        """Begin new results: coarse ones, or exact ones where nothing moves."""
+        settings = current.settings
+        if now - self._changed < PAUSE:
+            settings = replace(settings, tolerance=self._pace.coarse(settings.tolerance))
+        self._begun = now
+        self._work = Work.of(context, current, settings)
+
+    def _follow(self, context: bpy.types.Context, current: Watched) -> bool:
+        """Let all results follow; whether that is possible."""
+        wanted = {mirror.session_uid for group in current.chosen for mirror in group.mirrors}
+        if self._record is None or not self._tracks or {track.mirror for track in self._tracks} != wanted:
+            return False
+        meshes = self._meshes
+        if current.record.digests != self._record.digests:
+            meshes = _read(context, current)
+        objects = {obj.session_uid: obj for obj in context.scene.objects}
+        if not all(track.fits(objects.get(track.result), *meshes[track.mirror]) for track in self._tracks):
+            self._tracks = []
+            return False
+        self._tracks = [track.moved(objects[track.result], current.view, *meshes[track.mirror])
+                        for track in self._tracks]
+        self._meshes, self._record = meshes, current.record
+        return True
+
+    def _go_on(self, now: float) -> str:
+        """Some work on the next results."""
+        work = self._work
+        if not work.go_on():
+            return "working"
+        self._work, self._ready = None, now
+        self.told, self.milliseconds = work.told, 1000.0 * work.seconds
+        self._keep_track(work)
+        # all may have moved on since
+        self._record, self._noted = work.record, True
+        self.at_rest = work.exact
+        kind = "exact" if work.exact else "coarse"
+        self.updates[kind] += 1
+        if not (work.exact or self._tracks):
+            self._pace.took(work.seconds)
+        return kind
+
+    def _keep_track(self, work: Work) -> None:
+        """Remember how to follow new results, if all of them can be."""
+        self._tracks, self._meshes = [], {}
+        tracks = []
+        for outcome in work.outcomes:
+            view, surfaces, scene = outcome.read
+            for obj, result in outcome.results:
+                mirror = obj.reflection_mesh.mirror
+                meshes = surfaces[mirror].mesh, scene.mesh
+                tracks.append(Track.of(obj, result, work.settings.placement, view, *meshes))
+                self._meshes[mirror.session_uid] = meshes
+                if not work.exact:
+                    obj.reflection_mesh.made_from = COARSE
+        if all(track is not None for track in tracks):
+            self._tracks = tracks
+
+    def _drop_work(self) -> None:
+        work, self._work = self._work, None
+        if work is not None:
+            work.close()
+
+    def _give_up(self, told: str) -> str:
+        """Nothing can be done before the next change."""
+        self._drop_work()
+        self._tracks, self._record, self._looked, self.at_rest, self.told = [], None, None, True, told
+        return ""
+
+
+def _read(context: bpy.types.Context, current: Watched) -> dict:
+    """The meshes of each mirror and of what it shows, by the mirror's `session_uid`."""
+    depsgraph = context.evaluated_depsgraph_get()
+    meshes = {}
+    for group in current.chosen:
+        scene = read_scene(depsgraph, group.diffuse).mesh
+        meshes.update({mirror.session_uid: (read_mirror(depsgraph, mirror).mesh, scene) for mirror in group.mirrors})
+    return meshes

@@ -1,0 +1,54 @@
+"""What Live's results depend on, as it stands now: equal where nothing has changed that they show."""
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import bpy
+
+from ...core import Settings, View
+from ..freshness import origin_of, same_view, view_numbers
+from ..properties import settings_of
+from ..reading import Participants
+from .kept import groups
+
+
+class Record(NamedTuple):
+    """What an update is made from, without anything of Blender's, which may go.
+
+    Attributes
+    ----------
+    view : tuple of float
+    settings : Settings
+    digests : tuple of (str, str)
+        Of each mirror and its sources.
+    """
+
+    view: tuple[float, ...]
+    settings: Settings
+    digests: tuple[tuple[str, str], ...]
+
+    def same(self, other: Record | None) -> bool:
+        """Whether both tell of the same, but for rounding."""
+        return other is not None and self[1:] == other[1:] and same_view(self.view, other.view)
+
+
+class Watched(NamedTuple):
+    """Everything that an update is made from: the view, who takes part, the settings, and the record of it."""
+
+    view: View
+    chosen: list[Participants]
+    settings: Settings
+    record: Record
+
+
+def watched(context: bpy.types.Context, view: View, known: Record | None = None) -> Watched:
+    """What the results of the scene are made from, seen by `view`; mirrors and objects are as `known` where that is
+    given."""
+    chosen, settings = groups(context), settings_of(context.scene.reflection_mesh)
+    if known is None:
+        depsgraph = context.evaluated_depsgraph_get()
+        digests = tuple(origin_of(depsgraph, view, mirror, group.diffuse)[1:]
+                        for group in chosen for mirror in group.mirrors)
+    else:
+        digests = known.digests
+    return Watched(view, chosen, settings, Record(view_numbers(view), settings, digests))

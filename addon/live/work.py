@@ -1,0 +1,71 @@
+"""New results in the making, a little at a time."""
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+
+import bpy
+
+from ...core import ReflectionError, Settings
+from ..faults import Steps
+from ..generate import Outcome, generation
+from .watched import Record, Watched
+
+BUDGET = 0.05   # seconds of work between two looks at what has changed
+READ = 2        # steps of a generation after which it has read what it reflects
+
+
+@dataclass
+class Work:
+    """The generations of all groups, one after another.
+
+    Attributes
+    ----------
+    record : Record
+        Of what they are made from.
+    settings : Settings
+    exact : bool
+        Whether these are the file's.
+    seconds : float
+        Of work until now.
+    outcomes : list of Outcome
+    told : str
+        Why some are missing.
+    """
+
+    record: Record
+    settings: Settings
+    exact: bool
+    _waiting: list[Steps[Outcome]]
+    seconds: float = 0.0
+    outcomes: list[Outcome] = field(default_factory=list)
+    told: str = ""
+
+    @classmethod
+    def of(cls, context: bpy.types.Context, current: Watched, settings: Settings) -> Work:
+        return cls(current.record, settings, settings == current.settings,
+                   [generation(context, group, settings, current.view) for group in current.chosen])
+
+    def go_on(self) -> bool:
+        """Work for a while; whether all is done."""
+        started = time.perf_counter()
+        steps = 0
+        while self._waiting and (steps < READ or time.perf_counter() - started < BUDGET):
+            try:
+                next(self._waiting[0])
+            except StopIteration as stop:
+                self.outcomes.append(stop.value)
+                del self._waiting[0]
+            except ReflectionError as error:
+                # what this mirror cannot show keeps none of the others
+                self.told = str(error)
+                del self._waiting[0]
+            steps += 1
+        self.seconds += time.perf_counter() - started
+        return not self._waiting
+
+    def close(self) -> None:
+        """Stop without a trace."""
+        for steps in self._waiting:
+            steps.close()
+        self._waiting = []

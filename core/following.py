@@ -1,0 +1,106 @@
+"""Following: the faces of a reflection stay, and their vertices move to where the eye now sees their points.
+
+While the eye, the mirror or the points move a little, each image moves a little too: Newton's method on the true map
+starts where the image was and ends where it is. What comes into sight, or goes, is left to the next reflection.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .cameras import MirrorMap, drawn_in, settle
+from .culling import SceneTree, first_crossed
+from .geometry import SceneFrames, TriangleMesh, View, norm, rows, unit
+from .result import place
+
+STEPS = 3  # of Newton's method, before an image is looked for on other triangles of the mirror
+CLOSE = 1e-3  # of its viewing distance: where the ray of an image that was found may pass its point
+
+
+@dataclass(frozen=True)
+class FollowedImages:
+    """Images of points of the scene, n of them, which can be followed.
+
+    Attributes
+    ----------
+    source : (n,) int64
+        Triangle of the scene that each point lies in.
+    weights : (3, n) float64
+        Its place there.
+    face : (n,) int64
+        Triangle of the mirror in which it is seen.
+    uv : (2, n) float64
+        Where there.
+    distance : (n,) float64
+        s: how many viewing distances, or in orthographic views units, the point is away from there.
+    """
+
+    source: np.ndarray
+    weights: np.ndarray
+    face: np.ndarray
+    uv: np.ndarray
+    distance: np.ndarray
+
+
+@dataclass(frozen=True)
+class Followed:
+    """Where images went.
+
+    Attributes
+    ----------
+    images : FollowedImages
+        To be followed further.
+    positions, reflected_position, mirror_position : (n, 3) float64
+    path_length : (n,) float64
+        As of a `ReflectionMesh`.
+    lost : (n,) bool
+        Images that are no more; they stay at the rim of the mirror's triangle that they left.
+    """
+
+    images: FollowedImages
+    positions: np.ndarray
+    reflected_position: np.ndarray
+    mirror_position: np.ndarray
+    path_length: np.ndarray
+    lost: np.ndarray
+
+
+def images_of(view: View, mirror: TriangleMesh, scene: TriangleMesh, points: np.ndarray, places: np.ndarray,
+              source: np.ndarray, face: np.ndarray) -> FollowedImages:
+    """The images of `points` (n, 3), which lie in the scene's triangles `source` (n,) and are seen at `places` (n, 3)
+    of the mirror's triangles `face` (n,), -1 where those are not known."""
+    column, index = np.unique(source, return_inverse=True)
+    index = index.reshape(-1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        weights = np.nan_to_num(SceneFrames.of(scene, column).weights(index, rows(points)), posinf=0.0, neginf=0.0)
+    weights = np.maximum(weights, 0.0)
+    weights /= np.maximum(weights.sum(axis=0), 1e-300)
+    unknown = np.flatnonzero(face < 0)
+    if len(unknown):
+        face = face.copy()
+        ahead = rows(view.directions(places[unknown]))
+        start = rows(places[unknown]) - ahead
+        found, _ = first_crossed(SceneTree.of_ordered(mirror), start, unit(ahead))
+        face[unknown] = np.where(found >= 0, found, 0)
+    mirror_map = MirrorMap(view, mirror)
+    uv = drawn_in(mirror_map.coordinates(face, rows(places)))
+    way = norm(mirror_map.arriving(rows(places)))
+    return FollowedImages(source, weights, face, uv, norm(rows(points - places)) / way)
+
+
+def follow(view: View, mirror: TriangleMesh, scene: TriangleMesh, images: FollowedImages, placement: str) -> Followed:
+    """Where the view sees the images now, in a mirror and a scene of as many triangles as before."""
+    corners = scene.positions[scene.triangles[images.source]]
+    points = rows(np.einsum("kn,nkc->nc", images.weights, corners))
+    mirror_map = MirrorMap(view, mirror)
+    face, uv, s, found = settle(mirror_map, images.face, *mirror_map.locate(
+        images.face, images.uv, images.distance, points, STEPS), points)
+    origin, ray = mirror_map.leave(face, uv)
+    lost = ~(found & (s > 0.0) & (norm(origin + s * ray - points) < CLOSE * norm(ray)))
+    uv = np.where(lost, drawn_in(np.nan_to_num(uv)), uv)
+    seen = mirror_map.places(face, uv)
+    path = norm(points - seen)
+    s = np.where(lost, path / norm(mirror_map.arriving(seen)), s)
+    return Followed(replace(images, face=face, uv=uv, distance=s), place(view, seen, path, placement).T, points.T,
+                    seen.T, path, lost)
