@@ -11,8 +11,8 @@ import numpy as np
 
 from .cameras import MirrorMap, drawn_in, settle
 from .culling import SceneTree, first_crossed
-from .geometry import SceneFrames, TriangleMesh, View, norm, rows, unit
-from .result import place
+from .geometry import TriangleMesh, View, norm, rows, unit
+from .result import ReflectionMesh, place
 
 STEPS = 3  # of Newton's method, before an image is looked for on other triangles of the mirror
 CLOSE = 1e-3  # of its viewing distance: where the ray of an image that was found may pass its point
@@ -66,27 +66,24 @@ class Followed:
     lost: np.ndarray
 
 
-def images_of(view: View, mirror: TriangleMesh, scene: TriangleMesh, points: np.ndarray, places: np.ndarray,
-              source: np.ndarray, face: np.ndarray) -> FollowedImages:
-    """The images of `points` (n, 3), which lie in the scene's triangles `source` (n,) and are seen at `places` (n, 3)
-    of the mirror's triangles `face` (n,), -1 where those are not known."""
-    column, index = np.unique(source, return_inverse=True)
-    index = index.reshape(-1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        weights = np.nan_to_num(SceneFrames.of(scene, column).weights(index, rows(points)), posinf=0.0, neginf=0.0)
-    weights = np.maximum(weights, 0.0)
-    weights /= np.maximum(weights.sum(axis=0), 1e-300)
+def images_of(view: View, mirror: TriangleMesh, mesh: ReflectionMesh) -> FollowedImages:
+    """The images at the vertices of a reflection with faces, of one bounce, as `view` sees them in `mirror`."""
+    count = len(mesh.positions)
+    source, face, weights = np.zeros(count, np.int64), np.full(count, -1), np.zeros((count, 3))
+    corner = mesh.triangles.ravel()
+    source[corner], weights[corner] = np.repeat(mesh.source_face, 3), mesh.source_weights.reshape(-1, 3)
+    face[corner] = np.repeat(mesh.mirror_face, 3)
+    places = rows(mesh.mirror_position)
     unknown = np.flatnonzero(face < 0)
     if len(unknown):
-        face = face.copy()
-        ahead = rows(view.directions(places[unknown]))
-        start = rows(places[unknown]) - ahead
-        found, _ = first_crossed(SceneTree.of_ordered(mirror), start, unit(ahead))
-        face[unknown] = np.where(found >= 0, found, 0)
+        # of faces that span several triangles of the mirror
+        ahead = rows(view.directions(mesh.mirror_position[unknown]))
+        found, _ = first_crossed(SceneTree.of_ordered(mirror), places[:, unknown] - ahead, unit(ahead))
+        face[unknown] = np.maximum(found, 0)
     mirror_map = MirrorMap(view, mirror)
-    uv = drawn_in(mirror_map.coordinates(face, rows(places)))
-    way = norm(mirror_map.arriving(rows(places)))
-    return FollowedImages(source, weights, face, uv, norm(rows(points - places)) / way)
+    uv = drawn_in(mirror_map.coordinates(face, places))
+    distance = norm(rows(mesh.reflected_position) - places) / norm(mirror_map.arriving(places))
+    return FollowedImages(source, rows(weights), face, uv, distance)
 
 
 def follow(view: View, mirror: TriangleMesh, scene: TriangleMesh, images: FollowedImages, placement: str) -> Followed:

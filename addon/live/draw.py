@@ -12,7 +12,8 @@ def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """The switch and its state, or one sentence on each result that is stale, with the button that mends it."""
     live = context.window_manager.reflection_mesh_live
     row = layout.row(align=True)
-    row.operator("reflection_mesh.live", text="Live", icon="RADIOBUT_ON" if live.on else "RADIOBUT_OFF", depress=live.on)
+    icon = "RADIOBUT_ON" if live.on else "RADIOBUT_OFF"
+    row.operator("reflection_mesh.live", text="Live", icon=icon, depress=live.on)
     row.prop(live, "eye", text="")
     if live.on and switch.updater is not None:
         layout.label(text=state_of(switch.updater), icon="TIME")

@@ -1,6 +1,4 @@
 """Live in Blender: the switch, the handlers that tell of changes, the timer that asks for work."""
-from __future__ import annotations
-
 import time
 
 import bpy
@@ -13,8 +11,8 @@ INTERVAL = 0.02     # seconds between two looks
 WAIT = 0.25         # the same while something else is at work
 EYES = (
     ("CAMERA", "Camera", "Reflections are kept right for the scene's camera"),
-    ("VIEW", "Viewport", "Reflections are kept right for the largest 3D viewport; Generate makes them right for the camera "
-     "again"),
+    ("VIEW", "Viewport", "Reflections are kept right for the largest 3D viewport; Generate makes them right for the "
+     "camera again"),
 )
 JOBS = ("RENDER", "OBJECT_BAKE", "COMPOSITE")
 
@@ -80,21 +78,24 @@ def _redraw() -> None:
 
 
 @persistent
-def _after_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+def _after_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     # a render's depsgraph tells of nothing that has happened in the file
     if updater is None or depsgraph.mode != "VIEWPORT":
         return
-    changed = [update.id for update in depsgraph.updates if not _is_own(update.id)]
+    own = _own(scene)
+    changed = [update.id for update in depsgraph.updates if update.id.original not in own]
     if changed:
-        updater.note(not all(isinstance(one, bpy.types.Camera) or getattr(one, "type", "") == "CAMERA"
-                             for one in changed))
+        updater.note(not all(map(_is_camera, changed)))
 
 
-def _is_own(changed: bpy.types.ID) -> bool:
-    """Whether it is a result, which Live itself writes."""
-    if isinstance(changed, bpy.types.Object):
-        return changed.reflection_mesh.role == "REFLECTION"
-    return isinstance(changed, bpy.types.Mesh) and changed.original.users == 0
+def _own(scene: bpy.types.Scene) -> set:
+    """Results and their meshes, which Live itself writes."""
+    results = {obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
+    return results | {obj.data for obj in results}
+
+
+def _is_camera(changed: bpy.types.ID) -> bool:
+    return isinstance(changed, bpy.types.Camera) or (isinstance(changed, bpy.types.Object) and changed.type == "CAMERA")
 
 
 @persistent
@@ -114,8 +115,6 @@ def _after_other_data(*_) -> None:
 def _before_opening(*_) -> None:
     """Another file begins without Live."""
     stop()
-    for manager in bpy.data.window_managers:
-        manager.reflection_mesh_live["on"] = False
 
 
 def _handlers() -> list:
@@ -126,21 +125,25 @@ def _handlers() -> list:
             (handlers.load_pre, _before_opening)]
 
 
-def _switched(self, _context: bpy.types.Context) -> None:
-    if self.on:
-        start(self.eye == "VIEW")
+def _switch(live: bpy.types.PropertyGroup, on: bool) -> None:
+    if on:
+        start(live.eye == "VIEW")
     else:
         stop()
+
+
+def _choose_eye(live: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
+    if is_live():
+        start(live.eye == "VIEW")
 
 
 class ReflectionLive(bpy.types.PropertyGroup):
     """`WindowManager.reflection_mesh_live`: whether results are kept right, and for whom. No file remembers it."""
 
-    on: BoolProperty(name="Live", description="Keep reflections right while the camera, mirrors or objects move: coarse "
-                     "on the way, exact at rest", default=False, update=_switched, options={"SKIP_SAVE"})
+    on: BoolProperty(name="Live", description="Keep reflections right while the camera, mirrors or objects move: "
+                     "coarse on the way, exact at rest", get=lambda live: is_live(), set=_switch, options={"SKIP_SAVE"})
     eye: EnumProperty(name="Seen From", description="For whom Live keeps reflections right", items=EYES,
-                      default="CAMERA", update=lambda self, context: self.on and _switched(self, context),
-                      options={"SKIP_SAVE"})
+                      default="CAMERA", update=_choose_eye, options={"SKIP_SAVE"})
 
 
 class REFLECTION_MESH_OT_live(bpy.types.Operator):

@@ -47,11 +47,7 @@ class Track:
         result, origin = vertices_written(result, mirror, view)
         if len(result.positions) != len(obj.data.vertices):
             return None
-        source, face = np.zeros(len(result.positions), np.int64), np.full(len(result.positions), -1)
-        source[result.triangles.ravel()] = np.repeat(result.source_face, 3)
-        known = result.mirror_face >= 0
-        face[result.triangles[known].ravel()] = np.repeat(result.mirror_face[known], 3)
-        images = images_of(view, mirror, scene, result.reflected_position, result.mirror_position, source, face)
+        images = images_of(view, mirror, result)
         return cls(obj.session_uid, obj.reflection_mesh.mirror.session_uid, placement, origin, images,
                    (len(mirror.triangles), len(scene.triangles)))
 

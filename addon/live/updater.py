@@ -17,7 +17,8 @@ from .watched import Record, Watched, watched
 from .work import Work
 
 PAUSE = 0.25    # seconds without a change after which what is shown is made exact
-REST = 4.0      # of what new results on the way take: so long vertices follow before the next are begun
+LONG = 0.5      # seconds that vertices follow before new results are begun on the way, and
+REST = 4.0      # how many times what these take
 
 
 class LiveUpdater:
@@ -52,7 +53,8 @@ class LiveUpdater:
         self._tracks: list[Track] = []
         self._meshes: dict = {}             # by mirror: its mesh and the scene's, as the results show them
         self._work: Work | None = None
-        self._begun, self._ready = 0.0, 0.0
+        self._moving: float | None = None   # since when vertices have followed
+        self._took = 0.0                    # seconds that the last new results took
 
     def note(self, moved: bool = True) -> None:
         """Something may have changed: the view alone, or, where it `moved`, what mirrors or is reflected."""
@@ -91,12 +93,14 @@ class LiveUpdater:
                 return self._change(context, current, now, started)
         if self.at_rest:
             return ""
+        rested = now - self._changed >= PAUSE
+        if rested and self._work is not None and self._tracks and not self._work.exact:
+            self._drop_work()
         if self._work is None:
-            if now - self._changed < PAUSE:
+            if not rested:
                 return ""
-            current = watched(context, view)
-            self._work = Work.of(context, current, current.settings)
-        return self._go_on(now)
+            self._begin(context, watched(context, view), now)
+        return self._go_on(context, view, now)
 
     def _look(self, context: bpy.types.Context, view: View, now: float) -> Watched | None:
         """How all stands now; None where there is nothing to keep right."""
@@ -123,21 +127,21 @@ class LiveUpdater:
             self.milliseconds = 1000.0 * (time.perf_counter() - started)
             self.updates["followed"] += 1
             self._pace.took(time.perf_counter() - started)
-            if self._work is None and now - self._ready > REST * (self._ready - self._begun):
+            self._moving = now if self._moving is None else self._moving
+            if self._work is None and now - self._moving > max(LONG, REST * self._took):
                 self._begin(context, current, now)
             if self._work is not None:
-                self._go_on(now)
+                self._go_on(context, current.view, now)
             return "followed"
         if self._work is None:
             self._begin(context, current, now)
-        return self._go_on(now)
+        return self._go_on(context, current.view, now)
 
     def _begin(self, context: bpy.types.Context, current: Watched, now: float) -> None:
         """Begin new results: coarse ones, or exact ones where nothing moves."""
         settings = current.settings
         if now - self._changed < PAUSE:
             settings = replace(settings, tolerance=self._pace.coarse(settings.tolerance))
-        self._begun = now
         self._work = Work.of(context, current, settings)
 
     def _follow(self, context: bpy.types.Context, current: Watched) -> bool:
@@ -157,21 +161,25 @@ class LiveUpdater:
         self._meshes, self._record = meshes, current.record
         return True
 
-    def _go_on(self, now: float) -> str:
+    def _go_on(self, context: bpy.types.Context, view: View, now: float) -> str:
         """Some work on the next results."""
         work = self._work
         if not work.go_on():
             return "working"
-        self._work, self._ready = None, now
+        self._work, self._moving, self._took = None, None, work.seconds
         self.told, self.milliseconds = work.told, 1000.0 * work.seconds
         self._keep_track(work)
-        # all may have moved on since
-        self._record, self._noted = work.record, True
-        self.at_rest = work.exact
+        self._record, self.at_rest = work.record, work.exact
         kind = "exact" if work.exact else "coarse"
         self.updates[kind] += 1
         if not (work.exact or self._tracks):
             self._pace.took(work.seconds)
+        current = watched(context, view)
+        if current.record.same(work.record):
+            return kind
+        # all has moved on meanwhile, and nobody is to see where it was
+        self._noted, self._moved, self.at_rest = True, True, False
+        self._follow(context, current)
         return kind
 
     def _keep_track(self, work: Work) -> None:

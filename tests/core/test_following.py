@@ -1,0 +1,63 @@
+"""Images that are followed lie where the law of reflection has them: closed form, and a reflection made anew."""
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core import Settings, TriangleMesh, View, follow, images_of, reflect
+from tests.inputs import scenes, shapes
+from tests.oracles.judge import judge
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("known", [False, True])
+def test_in_a_flat_mirror_they_lie_before_their_twins(orthographic, known):
+    """The eye and the scene move; a twin beyond the mirror's rim has no image, and every other one has."""
+    rng = np.random.default_rng(7)
+    mirror = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (0.0, 4.0, 0.0)))
+    corners = rng.uniform((-3.0, -3.0, 1.0), (3.0, 3.0, 3.0), (60, 1, 3)) + rng.normal(scale=0.2, size=(60, 3, 3))
+    scene = TriangleMesh(corners.reshape(-1, 3), np.arange(180).reshape(-1, 3))
+    size = 14.0 if orthographic else 0.0
+    view = View.looking_at((1.0, -2.0, 9.0), (0.0, 0.0, 0.0), (400, 300), field_of_view=1.2, orthographic_scale=size)
+    mesh = reflect(view, mirror, scene)
+    if not known:
+        mesh = replace(mesh, mirror_face=np.full(len(mesh.triangles), -1))
+    images = images_of(view, mirror, mesh)
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    for step in (0.0, 0.1, 0.3, 0.8):
+        view = View.looking_at((1.0 + step, -2.0, 9.0), (0.0, 0.0, 0.0), (400, 300), field_of_view=1.2,
+                               orthographic_scale=size)
+        moved = TriangleMesh(scene.positions + step * turn[0] * (1.0, 1.0, 0.2), scene.triangles)
+        now = follow(view, mirror, moved, images, "SURFACE")
+        images = now.images
+        point = np.einsum("kn,nkc->nc", images.weights, moved.positions[moved.triangles[images.source]])
+        np.testing.assert_allclose(now.reflected_position, point, rtol=0, atol=1e-12)
+        ahead = view.directions(twin := point * (1.0, 1.0, -1.0))
+        seen = twin - (twin[:, 2] / ahead[:, 2])[:, None] * ahead
+        beyond = np.abs(seen[:, :2]).max(axis=1) - 4.0
+        certain = np.abs(beyond) > 1e-6
+        np.testing.assert_array_equal(now.lost[certain], beyond[certain] > 0.0)
+        assert 0.3 < (~now.lost).mean() <= 1.0
+        np.testing.assert_allclose(now.mirror_position[~now.lost], seen[~now.lost], rtol=0, atol=1e-9)
+        np.testing.assert_allclose(now.path_length, np.linalg.norm(point - now.mirror_position, axis=1), rtol=1e-12)
+        # what is lost waits on the mirror
+        assert np.abs(now.mirror_position[:, :2]).max() < 4.0 + 1e-9
+        assert np.abs(now.mirror_position[:, 2]).max() < 1e-12
+
+
+def test_on_a_ball_the_faces_stay_right_while_the_eye_goes_on():
+    case = scenes.sphere((256, 256))
+    mesh = reflect(case.view, case.mirror, case.scene, Settings(tolerance=0.5))
+    images = images_of(case.view, case.mirror, mesh)
+    for step in range(5):
+        placement = case.view.camera_to_world.copy()
+        placement[:3, 3] += 0.05 * step * placement[:3, 0]
+        view = replace(case.view, camera_to_world=placement)
+        now = follow(view, case.mirror, case.scene, images, "LAYERED")
+        images = now.images
+        followed = replace(mesh, positions=now.positions, reflected_position=now.reflected_position,
+                           mirror_position=now.mirror_position, path_length=now.path_length)
+        found = judge(view, case.mirror, case.scene, followed)
+        assert found["p99"] < 1.0 and found["uncovered"] < 2.0
+    stays = judge(view, case.mirror, case.scene, mesh)
+    assert stays["p99"] > 3.0 * found["p99"]
