@@ -19,8 +19,8 @@ from .writing import windows
 
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
-MODULES = (properties, windows, stale_light, freshness, generate, live, light, bake, mirror_uvs, print_sheet, compare, clear,
-           panel, command_line)
+MODULES = (properties, windows, stale_light, freshness, generate, live, light, bake, mirror_uvs, print_sheet, compare,
+           clear, panel, command_line)
 
 
 def register() -> None:

@@ -22,8 +22,8 @@ READING = 0.1
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a generation made: (object, core.ReflectionMesh) of each mirror, and sentences on what was left out; and from
-    what, as it was read: the view, the surface of each mirror, the diffuse scene."""
+    """What a generation made: (object, core.ReflectionMesh) of each mirror, and sentences on what was left out; and
+    from what, as it was read: the view, the surface of each mirror, the diffuse scene."""
 
     results: list
     remarks: list

@@ -1,12 +1,12 @@
 """The forward reflection method on plain NumPy arrays; knows nothing of Blender."""
 from .culling import PointTree, SceneTree
-from .following import Followed, FollowedImages, follow, images_of
+from .following import FollowedImages
 from .geometry import TriangleMesh, View, draw
 from .reflection import ReflectionError, reflect, reflection_steps
 from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
 from .solver import Images, project
 from .support import METHODS, PLACEMENTS, Settings, in_steps
 
-__all__ = ["Discs", "Followed", "FollowedImages", "Images", "METHODS", "PLACEMENTS", "PicturePieces", "PointTree",
-           "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "TriangleMesh", "View", "draw", "follow",
-           "images_of", "in_steps", "picture_pieces", "project", "reflect", "reflecting_normals", "reflection_steps"]
+__all__ = ["Discs", "FollowedImages", "Images", "METHODS", "PLACEMENTS", "PicturePieces", "PointTree",
+           "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "TriangleMesh", "View", "draw", "in_steps",
+           "picture_pieces", "project", "reflect", "reflecting_normals", "reflection_steps"]

@@ -34,6 +34,19 @@ class FollowedImages:
         Where there.
     distance : (n,) float64
         s: how many viewing distances, or in orthographic views units, the point is away from there.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import FollowedImages, TriangleMesh, View, reflect
+    >>> view = View.looking_at((0, -4, 3), (0, 0, 0), (320, 240))
+    >>> mirror = TriangleMesh(np.array([[-2, -2, 0], [2, -2, 0], [0, 2, 0]]), np.array([[0, 1, 2]]))
+    >>> scene = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
+    >>> images = FollowedImages.of(view, mirror, reflect(view, mirror, scene))
+    >>> raised = TriangleMesh(scene.positions + (0, 0, 0.5), scene.triangles)
+    >>> now = images.seen(view, mirror, raised, "VIRTUAL")
+    >>> now.positions[:, 2].round(6).min().item()  # as deep behind the mirror as the scene is high by now
+    -1.9
     """
 
     source: np.ndarray
@@ -41,6 +54,43 @@ class FollowedImages:
     face: np.ndarray
     uv: np.ndarray
     distance: np.ndarray
+
+    @classmethod
+    def of(cls, view: View, mirror: TriangleMesh, mesh: ReflectionMesh) -> FollowedImages:
+        """The images at the vertices of a reflection with faces, of one bounce, as `view` sees them in `mirror`."""
+        count = len(mesh.positions)
+        source, face, weights = np.zeros(count, np.int64), np.full(count, -1), np.zeros((count, 3))
+        corner = mesh.triangles.ravel()
+        source[corner], weights[corner] = np.repeat(mesh.source_face, 3), mesh.source_weights.reshape(-1, 3)
+        face[corner] = np.repeat(mesh.mirror_face, 3)
+        places = rows(mesh.mirror_position)
+        unknown = np.flatnonzero(face < 0)
+        if len(unknown):
+            # of faces that span several triangles of the mirror
+            ahead = rows(view.directions(mesh.mirror_position[unknown]))
+            tree = SceneTree.build(mirror)
+            found, _ = first_crossed(tree, places[:, unknown] - ahead, unit(ahead))
+            face[unknown] = tree.given.triangle[np.maximum(found, 0)]
+        mirror_map = MirrorMap(view, mirror)
+        uv = drawn_in(mirror_map.coordinates(face, places))
+        distance = norm(rows(mesh.reflected_position) - places) / norm(mirror_map.arriving(places))
+        return cls(source, rows(weights), face, uv, distance)
+
+    def seen(self, view: View, mirror: TriangleMesh, scene: TriangleMesh, placement: str) -> Followed:
+        """Where the view sees the images now, in a mirror and a scene of as many triangles as before."""
+        corners = scene.positions[scene.triangles[self.source]]
+        points = rows(np.einsum("kn,nkc->nc", self.weights, corners))
+        mirror_map = MirrorMap(view, mirror)
+        face, uv, s, found = settle(mirror_map, self.face, *mirror_map.locate(
+            self.face, self.uv, self.distance, points, STEPS), points)
+        origin, ray = mirror_map.leave(face, uv)
+        lost = ~(found & (s > 0.0) & (norm(origin + s * ray - points) < CLOSE * norm(ray)))
+        uv = np.where(lost, drawn_in(np.nan_to_num(uv)), uv)
+        seen = mirror_map.places(face, uv)
+        path = norm(points - seen)
+        s = np.where(lost, path / norm(mirror_map.arriving(seen)), s)
+        return Followed(replace(self, face=face, uv=uv, distance=s), place(view, seen, path, placement).T, points.T,
+                        seen.T, path, lost)
 
 
 @dataclass(frozen=True)
@@ -64,40 +114,3 @@ class Followed:
     mirror_position: np.ndarray
     path_length: np.ndarray
     lost: np.ndarray
-
-
-def images_of(view: View, mirror: TriangleMesh, mesh: ReflectionMesh) -> FollowedImages:
-    """The images at the vertices of a reflection with faces, of one bounce, as `view` sees them in `mirror`."""
-    count = len(mesh.positions)
-    source, face, weights = np.zeros(count, np.int64), np.full(count, -1), np.zeros((count, 3))
-    corner = mesh.triangles.ravel()
-    source[corner], weights[corner] = np.repeat(mesh.source_face, 3), mesh.source_weights.reshape(-1, 3)
-    face[corner] = np.repeat(mesh.mirror_face, 3)
-    places = rows(mesh.mirror_position)
-    unknown = np.flatnonzero(face < 0)
-    if len(unknown):
-        # of faces that span several triangles of the mirror
-        ahead = rows(view.directions(mesh.mirror_position[unknown]))
-        found, _ = first_crossed(SceneTree.of_ordered(mirror), places[:, unknown] - ahead, unit(ahead))
-        face[unknown] = np.maximum(found, 0)
-    mirror_map = MirrorMap(view, mirror)
-    uv = drawn_in(mirror_map.coordinates(face, places))
-    distance = norm(rows(mesh.reflected_position) - places) / norm(mirror_map.arriving(places))
-    return FollowedImages(source, rows(weights), face, uv, distance)
-
-
-def follow(view: View, mirror: TriangleMesh, scene: TriangleMesh, images: FollowedImages, placement: str) -> Followed:
-    """Where the view sees the images now, in a mirror and a scene of as many triangles as before."""
-    corners = scene.positions[scene.triangles[images.source]]
-    points = rows(np.einsum("kn,nkc->nc", images.weights, corners))
-    mirror_map = MirrorMap(view, mirror)
-    face, uv, s, found = settle(mirror_map, images.face, *mirror_map.locate(
-        images.face, images.uv, images.distance, points, STEPS), points)
-    origin, ray = mirror_map.leave(face, uv)
-    lost = ~(found & (s > 0.0) & (norm(origin + s * ray - points) < CLOSE * norm(ray)))
-    uv = np.where(lost, drawn_in(np.nan_to_num(uv)), uv)
-    seen = mirror_map.places(face, uv)
-    path = norm(points - seen)
-    s = np.where(lost, path / norm(mirror_map.arriving(seen)), s)
-    return Followed(replace(images, face=face, uv=uv, distance=s), place(view, seen, path, placement).T, points.T,
-                    seen.T, path, lost)

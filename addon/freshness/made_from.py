@@ -51,12 +51,13 @@ def why_stale(context: bpy.types.Context, result: bpy.types.Object) -> str:
 
     As cheap as a look: what it finds is kept until something changes again.
     """
-    made = _read(result.reflection_mesh.made_from)
-    if made is None or plays(result):
+    text = result.reflection_mesh.made_from
+    if not text or plays(result):
         return ""
-    key = (digests.tick(), result.reflection_mesh.made_from)
+    key = digests.tick(), text
     if _told.get(result.session_uid, (None,))[0] != key:
-        _told[result.session_uid] = key, _changed(context, result, made)
+        made = _read(text)
+        _told[result.session_uid] = key, "" if made is None else _changed(context, result, made)
     return _told[result.session_uid][1]
 
 

@@ -11,13 +11,12 @@ from .kept import kept_results
 def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """The switch and its state, or one sentence on each result that is stale, with the button that mends it."""
     live = context.window_manager.reflection_mesh_live
-    row = layout.row(align=True)
-    icon = "RADIOBUT_ON" if live.on else "RADIOBUT_OFF"
-    row.operator("reflection_mesh.live", text="Live", icon=icon, depress=live.on)
-    row.prop(live, "eye", text="")
     if live.on and switch.updater is not None:
+        layout.operator("reflection_mesh.live", text="Stop Live", icon="PAUSE")
+        layout.prop(live, "eye")
         layout.label(text=state_of(switch.updater), icon="TIME")
         return
+    layout.operator("reflection_mesh.live", text="Live", icon="PLAY")
     for obj, why in stale_results(context):
         box = layout.box()
         box.label(text=f"'{obj.name}': {why} since it was made.", icon="ERROR", translate=False)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from ...core import FollowedImages, ReflectionMesh, TriangleMesh, View, follow, images_of
+from ...core import FollowedImages, ReflectionMesh, TriangleMesh, View
 from ..freshness import COARSE
 from ..writing import vertices_written
 
@@ -47,7 +47,7 @@ class Track:
         result, origin = vertices_written(result, mirror, view)
         if len(result.positions) != len(obj.data.vertices):
             return None
-        images = images_of(view, mirror, result)
+        images = FollowedImages.of(view, mirror, result)
         return cls(obj.session_uid, obj.reflection_mesh.mirror.session_uid, placement, origin, images,
                    (len(mirror.triangles), len(scene.triangles)))
 
@@ -58,7 +58,7 @@ class Track:
 
     def moved(self, obj: bpy.types.Object, view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Track:
         """The result where the view sees it now, written."""
-        now = follow(view, mirror, scene, self.images, self.placement)
+        now = self.images.seen(view, mirror, scene, self.placement)
         mesh = obj.data
         _write(mesh, "position", now.positions - self.origin)
         for name in ATTRIBUTES:

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core import Settings, TriangleMesh, View, follow, images_of, reflect
+from core import FollowedImages, Settings, TriangleMesh, View, reflect
 from tests.inputs import scenes, shapes
 from tests.oracles.judge import judge
 
@@ -22,13 +22,13 @@ def test_in_a_flat_mirror_they_lie_before_their_twins(orthographic, known):
     mesh = reflect(view, mirror, scene)
     if not known:
         mesh = replace(mesh, mirror_face=np.full(len(mesh.triangles), -1))
-    images = images_of(view, mirror, mesh)
+    images = FollowedImages.of(view, mirror, mesh)
     turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     for step in (0.0, 0.1, 0.3, 0.8):
         view = View.looking_at((1.0 + step, -2.0, 9.0), (0.0, 0.0, 0.0), (400, 300), field_of_view=1.2,
                                orthographic_scale=size)
         moved = TriangleMesh(scene.positions + step * turn[0] * (1.0, 1.0, 0.2), scene.triangles)
-        now = follow(view, mirror, moved, images, "SURFACE")
+        now = images.seen(view, mirror, moved, "SURFACE")
         images = now.images
         point = np.einsum("kn,nkc->nc", images.weights, moved.positions[moved.triangles[images.source]])
         np.testing.assert_allclose(now.reflected_position, point, rtol=0, atol=1e-12)
@@ -45,15 +45,18 @@ def test_in_a_flat_mirror_they_lie_before_their_twins(orthographic, known):
         assert np.abs(now.mirror_position[:, 2]).max() < 1e-12
 
 
-def test_on_a_ball_the_faces_stay_right_while_the_eye_goes_on():
+@pytest.mark.parametrize("known", [False, True])
+def test_on_a_ball_the_faces_stay_right_while_the_eye_goes_on(known):
     case = scenes.sphere((256, 256))
     mesh = reflect(case.view, case.mirror, case.scene, Settings(tolerance=0.5))
-    images = images_of(case.view, case.mirror, mesh)
+    if not known:
+        mesh = replace(mesh, mirror_face=np.full(len(mesh.triangles), -1))
+    images = FollowedImages.of(case.view, case.mirror, mesh)
     for step in range(5):
         placement = case.view.camera_to_world.copy()
         placement[:3, 3] += 0.05 * step * placement[:3, 0]
         view = replace(case.view, camera_to_world=placement)
-        now = follow(view, case.mirror, case.scene, images, "LAYERED")
+        now = images.seen(view, case.mirror, case.scene, "LAYERED")
         images = now.images
         followed = replace(mesh, positions=now.positions, reflected_position=now.reflected_position,
                            mirror_position=now.mirror_position, path_length=now.path_length)
