@@ -15,6 +15,7 @@ from .geometry import TriangleMesh, View, norm, rows, unit
 from .result import ReflectionMesh, place
 
 STEPS = 3  # of Newton's method, before an image is looked for on other triangles of the mirror
+LIFTED = 3e-3  # of the viewing distance: faces that keep no longer to the mirror's triangles would sink behind its edges
 CLOSE = 1e-3  # of its viewing distance: where the ray of an image that was found may pass its point
 
 
@@ -70,7 +71,11 @@ class FollowedImages:
             ahead = rows(view.directions(mesh.mirror_position[unknown]))
             tree = SceneTree.build(mirror)
             found, _ = first_crossed(tree, places[:, unknown] - ahead, unit(ahead))
-            face[unknown] = tree.given.triangle[np.maximum(found, 0)]
+            face[unknown] = np.where(found >= 0, tree.given.triangle[np.maximum(found, 0)], -1)
+            # a ray may slip through between two triangles: then what its neighbours lie on
+            near = np.zeros(count, dtype=np.int64)
+            np.maximum.at(near, corner, np.repeat(face[mesh.triangles].max(axis=1), 3))
+            face = np.where(face >= 0, face, near)
         mirror_map = MirrorMap(view, mirror)
         uv = drawn_in(mirror_map.coordinates(face, places))
         distance = norm(rows(mesh.reflected_position) - places) / norm(mirror_map.arriving(places))
@@ -89,8 +94,12 @@ class FollowedImages:
         seen = mirror_map.places(face, uv)
         path = norm(points - seen)
         s = np.where(lost, path / norm(mirror_map.arriving(seen)), s)
-        return Followed(replace(self, face=face, uv=uv, distance=s), place(view, seen, path, placement).T, points.T,
-                        seen.T, path, lost)
+        positions = place(view, seen, path, placement)
+        if placement == "LAYERED" and len(path):
+            # towards the eye, who sees no difference
+            ahead = view.directions(positions.T).T
+            positions = positions - LIFTED * (np.ptp(seen, axis=1).max() if view.orthographic else 1.0) * ahead
+        return Followed(replace(self, face=face, uv=uv, distance=s), positions.T, points.T, seen.T, path, lost)
 
 
 @dataclass(frozen=True)

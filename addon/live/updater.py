@@ -63,7 +63,7 @@ class LiveUpdater:
     def forget(self) -> None:
         """Let go of all that is Blender's and of what is known of the file, which may be another one now."""
         self._drop_work()
-        self._tracks, self._meshes, self._record, self._looked = [], {}, None, None
+        self._tracks, self._meshes, self._record, self._looked, self.at_rest = [], {}, None, None, False
         self.note()
 
     def step(self, context: bpy.types.Context, now: float) -> str:

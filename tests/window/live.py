@@ -10,8 +10,8 @@ from the folder of this repository; the extension is taken from there, and not f
 4. keeps the viewport's view right and orbits with the numpad's keys;
 5. opens the file anew with Live on, and quits.
 
-Pictures (`import`, of ImageMagick) and `live.json` with what was counted go to the folder WINDOW_SHOTS, `shots` where that is
-not set. The exit status is 0 where all of it held.
+Pictures (`import`, of ImageMagick) and `live.json` with what was counted go to the folder WINDOW_SHOTS, `shots` where
+that is not set. The exit status is 0 where all of it held.
 """
 import importlib
 import json
@@ -133,8 +133,8 @@ def steps():
     sphere = next(obj.reflection_mesh.mirror for obj in bpy.context.scene.objects
                   if obj.reflection_mesh.role == "REFLECTION")
     for frame, height in ((1, 0.0), (24, 0.6)):
-        sphere.keyframe_insert("location", frame=frame)
         sphere.location.z += height
+        sphere.keyframe_insert("location", frame=frame)
     bpy.context.scene.frame_set(1)
     yield from resting()
     started, before = time.monotonic(), switch.updater.updates["followed"]
