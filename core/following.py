@@ -15,7 +15,7 @@ from .geometry import TriangleMesh, View, norm, rows, unit
 from .result import ReflectionMesh, place
 
 STEPS = 3  # of Newton's method, before an image is looked for on other triangles of the mirror
-LIFTED = 3e-3  # of the viewing distance: faces that keep no longer to the mirror's triangles would sink behind its edges
+LIFTED = 3e-3  # of the viewing distance: faces that leave the mirror's triangles would sink behind its edges
 CLOSE = 1e-3  # of its viewing distance: where the ray of an image that was found may pass its point
 
 
@@ -70,8 +70,9 @@ class FollowedImages:
             # of faces that span several triangles of the mirror
             ahead = rows(view.directions(mesh.mirror_position[unknown]))
             tree = SceneTree.build(mirror)
-            found, _ = first_crossed(tree, places[:, unknown] - ahead, unit(ahead))
-            face[unknown] = np.where(found >= 0, tree.given.triangle[np.maximum(found, 0)], -1)
+            found, away = first_crossed(tree, places[:, unknown] - ahead, unit(ahead))
+            there = np.abs(away - norm(ahead)) < CLOSE * norm(ahead)
+            face[unknown] = np.where(there, tree.given.triangle[np.maximum(found, 0)], -1)
             # a ray may slip through between two triangles: then what its neighbours lie on
             near = np.zeros(count, dtype=np.int64)
             np.maximum.at(near, corner, np.repeat(face[mesh.triangles].max(axis=1), 3))

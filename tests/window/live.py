@@ -79,6 +79,15 @@ def resting(limit=20.0):
 
 def steps():
     screen = Screen()
+    yield from begun(screen)
+    yield from dragged(screen)
+    yield from played()
+    yield from orbited(screen)
+    # the timer that is to go on is one that lives through the opening of files
+    bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
+
+
+def begun(screen):
     screen.move()
     yield 1.0
     screen.press("ESC")
@@ -99,6 +108,8 @@ def steps():
     note("begun", time.monotonic())
     shot("1_begun")
 
+
+def dragged(screen):
     camera = bpy.context.scene.camera
     for obj in bpy.context.selected_objects:
         obj.select_set(False)
@@ -127,9 +138,11 @@ def steps():
     yield from resting()
     camera = bpy.context.scene.camera
     assert (camera.location - place).length < 1e-5, "Ctrl-Z has not brought the camera back."
-    note("undone", started)
+    note("undone", time.monotonic())
     shot("5_undone")
 
+
+def played():
     sphere = next(obj.reflection_mesh.mirror for obj in bpy.context.scene.objects
                   if obj.reflection_mesh.role == "REFLECTION")
     for frame, height in ((1, 0.0), (24, 0.6)):
@@ -147,6 +160,8 @@ def steps():
     yield from resting()
     shot("7_played")
 
+
+def orbited(screen):
     bpy.context.window_manager.reflection_mesh_live.eye = "VIEW"
     screen.press("NUMPAD_5")
     yield from resting()
@@ -159,8 +174,6 @@ def steps():
     assert note("orbited", started)["updates"]["followed"] > before
     yield from resting()
     shot("9_orbited")
-    bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
-    # a timer that is to go on begins anew with each file
 
 
 def after_opening(*_):
