@@ -74,8 +74,9 @@ def test_what_is_transparent_before_the_mirror_is_seen_once(blank, room, kind):
 
 def test_what_stands_behind_a_mirror_that_is_half_open_is_seen_through_it(blank, room):
     scene_of(blank, "UV", "Half open")
-    behind = parts.add("cube", "Behind", size=1.2, location=(-0.6, 1.4, 1.0))
-    behind.data.materials.append(principled("Red", (0.9, 0.1, 0.05)))
+    behind = parts.add("cube", "Behind", size=1.2, location=(-0.6, 2.0, 1.0))
+    behind.data.materials.append(principled("Red", (0.9, 0.1, 0.05), **{
+        "Emission Color": (1.0, 0.2, 0.1, 1.0), "Emission Strength": 2.0}))
     parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
     reference, other = picture(room), picture(room, seed=7)
     behind.hide_render = True
@@ -90,7 +91,7 @@ def test_what_stands_behind_a_mirror_that_is_half_open_is_seen_through_it(blank,
 def test_light_lies_behind_what_stands_before_the_mirror_too(blank, room, kind):
     """A post before the mirror is taken away after lighting: what it hid is lit as all else."""
     scene_of(blank, "UV", kind)
-    post = parts.add("cube", "Post", size=1.0, location=(0.3, -0.5, 1.0))
+    post = parts.add("cube", "Post", size=1.0, location=(0.8, -0.5, 1.0))
     post.scale = (0.3, 0.02, 3.0)
     post.visible_glossy = post.visible_diffuse = post.visible_shadow = False
     post.data.materials.append(principled("Red", (0.9, 0.1, 0.05)))
