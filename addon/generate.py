@@ -23,8 +23,8 @@ READING = 0.1
 @dataclass(frozen=True)
 class Outcome:
     """What a generation made: (object, core.ReflectionMesh) of each mirror, sentences on what was left out, and the
-    objects of which the light is still to come; and from what, as it was read: the view, the surface of each mirror, the
-    diffuse scene."""
+    objects of which the light is still to come; and from what, as it was read: the view, the surface of each mirror,
+    the diffuse scene."""
 
     results: list
     remarks: list

@@ -44,7 +44,7 @@ class Work:
     @classmethod
     def of(cls, context: bpy.types.Context, current: Watched, settings: Settings) -> Work:
         return cls(current.record, settings, settings == current.settings,
-                   [generation(context, group, settings, current.view) for group in current.chosen])
+                   [generation(context, group, settings, view=current.view) for group in current.chosen])
 
     def go_on(self) -> bool:
         """Work for a while; whether all is done."""
