@@ -156,7 +156,7 @@ def test_all_settings_reach_the_core(wall_scene, room, tmp_path, monkeypatch):
               "hidden_faces": True}
 
     def told(context, participants, settings, *_):
-        raise room("core").ReflectionError(f"{settings}.")
+        raise room("core").ReflectionError(f"{settings(participants.mirrors[0])}.")
     for verb in ("generate", "compare"):
         monkeypatch.setattr(room(f"addon.{verb}"), "generation", told)
     expected = str(room("core").Settings(2.0, "VIRTUAL", "PARALLEL", 3, maximum_memory=0.5, hidden_faces=True)) + "."
