@@ -11,7 +11,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from .settings import ReflectionSettings, SettingsOfScene, holder_of, make_own, mirror_of
+from .settings import SettingsOfMirror, SettingsOfScene, holder_of, make_own, mirror_of
 
 ROLES = (
     ("AUTO", "Automatic", "A mirror if its material is one; if no selected object is, the active object is the mirror"),
@@ -34,15 +34,14 @@ class ReflectionSource(bpy.types.PropertyGroup):
     object: PointerProperty(name="Object", type=bpy.types.Object)
 
 
-class ReflectionObject(bpy.types.PropertyGroup):
-    """`Object.reflection_mesh`: the role that an object plays and, for a result, where it came from."""
+class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
+    """`Object.reflection_mesh`: the role that an object plays, a mirror's own settings and, for a result, where it came
+    from."""
 
     role: EnumProperty(name="Role", description="The part that this object plays in a reflection", items=ROLES,
                        default="AUTO", override=OVERRIDABLE)
     own_settings: BoolProperty(name="Own Settings", description="This mirror has settings of its own; else the scene's "
                                "hold for it", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
-    settings: PointerProperty(name="Settings", description="The mirror's own settings", type=ReflectionSettings,
-                              override=OVERRIDABLE)
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object)
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
@@ -79,7 +78,7 @@ class ReflectionScene(SettingsOfScene, bpy.types.PropertyGroup):
         return holder_of(mirror_of(context.view_layer.objects.active), context.scene)
 
 
-CLASSES = (ReflectionSettings, ReflectionSource, ReflectionObject, ReflectionScene)
+CLASSES = (ReflectionSource, ReflectionObject, ReflectionScene)
 
 
 def register() -> None:

@@ -7,7 +7,6 @@ import bpy
 MANUAL = "https://extensions.blender.org/add-ons/reflection-mesh/"
 PAGES = (
     ("bpy.ops.reflection_mesh.*", "#operators"),
-    ("bpy.types.reflectionsettings.*", "#settings"),
     ("bpy.types.reflectionscene.*", "#settings"),
     ("bpy.types.reflectionobject.*", "#roles"),
 )

@@ -20,8 +20,12 @@ class SettingsOfScene:
     __annotations__ = declared(ALL)
 
 
-class ReflectionSettings(bpy.types.PropertyGroup):
-    """`Object.reflection_mesh.settings`: those of one mirror, in use where its `own_settings` says so."""
+class SettingsOfMirror:
+    """Mix-in of the settings of one mirror, in use where its `own_settings` says so.
+
+    They stand beside the role, in no group of their own: Blender 5 loses overrides of a group inside a group that the
+    linked file does not hold.
+    """
 
     __annotations__ = declared(ALL, override={"LIBRARY_OVERRIDABLE"})
 
@@ -36,13 +40,13 @@ def mirror_of(obj: bpy.types.Object | None) -> bpy.types.Object | None:
 def holder_of(mirror: bpy.types.Object | None, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
     """What holds the settings of a mirror: it itself where it has its own, else the scene."""
     if mirror is not None and mirror.reflection_mesh.own_settings:
-        return mirror.reflection_mesh.settings
+        return mirror.reflection_mesh
     return scene.reflection_mesh
 
 
 def make_own(mirror: bpy.types.Object, scene: bpy.types.Scene) -> None:
     """Let a mirror's own settings begin as the scene's, if it never had any."""
     record = mirror.reflection_mesh
-    if not any(record.settings.is_property_set(name) for name in ALL):
+    if not any(map(record.is_property_set, ALL)):
         for name in ALL:
-            setattr(record.settings, name, getattr(scene.reflection_mesh, name))
+            setattr(record, name, getattr(scene.reflection_mesh, name))
