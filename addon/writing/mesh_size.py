@@ -12,5 +12,5 @@ WIDTHS = {"FLOAT": 4, "INT": 4, "FLOAT_VECTOR": 12, "FLOAT_COLOR": 16, "BYTE_COL
 
 def mesh_bytes(mesh: bpy.types.Mesh) -> int:
     """Bytes of all values of a mesh's attributes, and of where its faces begin; cheap enough for every redraw."""
-    attributes = sum(compat.values_stored(attribute) * WIDTHS.get(attribute.data_type, 0) for attribute in mesh.attributes)
+    attributes = sum(compat.values_stored(entry) * WIDTHS.get(entry.data_type, 0) for entry in mesh.attributes)
     return attributes + 4 * (len(mesh.polygons) + 1)
