@@ -10,7 +10,7 @@ from ..lighting import light_lines
 from ..reading import render_size
 from ..writing import mesh_bytes, records
 
-NAMED = 3   # sources whose names are drawn
+NAMED = 2   # so many sources are all named; of more the first
 
 
 def draw_object(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:
@@ -49,13 +49,14 @@ def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bp
     layout.label(text=_size(obj), translate=False)
     if tuple(record.resolution) != render_size(context.scene):
         layout.label(text="The render has another size now:", icon="ERROR")
-        layout.label(text="press Generate Reflection again.")
-    for line in light_lines(obj):
-        layout.label(text=line, icon="LIGHT")
+        layout.label(text="press Generate Reflection again.", icon="BLANK1")
+    for number, line in enumerate(light_lines(obj)):
+        layout.label(text=line, icon="BLANK1" if number else "LIGHT")
 
 
 def _names(sources) -> str:
-    names = [f"'{source.object.name}'" for source in sources[:NAMED] if source.object is not None]
+    named = sources[:NAMED if len(sources) <= NAMED else 1]
+    names = [f"'{source.object.name}'" for source in named if source.object is not None]
     more = len(sources) - len(names)
     if not names:
         return pgettext_iface("{count} objects").format(count=more)

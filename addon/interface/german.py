@@ -98,7 +98,7 @@ SETTINGS = {
     "Points": "Punkte",
     "A small disc for each point that the mirror shows: for dense scans, with triangles smaller than a pixel":
         "Ein Scheibchen für jeden Punkt, den der Spiegel zeigt: für dichte Scans, mit Dreiecken kleiner als ein Pixel",
-    "Bounces": "Spiegel im Spiegel",
+    "Bounces": "Tiefe",
     "How many times the scene is followed from mirror to mirror; 1: mirrors show no mirrors":
         "Wie oft die Szene von Spiegel zu Spiegel verfolgt wird; 1: Spiegel zeigen keine Spiegel",
     "Memory (GB)": "Speicher (GB)",
@@ -188,7 +188,7 @@ OBSTACLES = {
         "Spiegel-UVs werden im Objektmodus geschrieben" + OBJECT_MODE,
     "No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
     "Reflection tab.": "Kein Spiegel: wähle aus, was sich spiegeln soll, und zuletzt, als aktives Objekt, den "
-        "Spiegel, oder gib den Objekten Rollen im Reiter Reflection.",
+        "Spiegel, oder gib den Objekten Rollen im Reiter Reflexion.",
     "No sheet: make the object that carries the mirror UVs the active one.":
         "Kein Blatt: mache das Objekt mit den Spiegel-UVs zum aktiven.",
     "The scene has no camera: add one (Add > Camera) and make it the scene's camera.":
