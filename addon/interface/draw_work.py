@@ -9,7 +9,7 @@ from ..comparison import show_comparison
 WORK = (("reflection_mesh.generate", "MOD_MIRROR"), ("reflection_mesh.light", "LIGHT"),
         ("reflection_mesh.bake", "FILE_CACHE"), ("reflection_mesh.clear", "TRASH"))
 TOOLS = (("reflection_mesh.compare", "IMAGE_DATA"), ("reflection_mesh.mirror_uvs", "UV"),
-         ("reflection_mesh.print_sheet", "FILE_IMAGE"))
+         ("reflection_mesh.print_sheet", "OUTPUT"))
 
 
 def draw_buttons(layout: bpy.types.UILayout, operators: tuple) -> None:

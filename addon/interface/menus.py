@@ -15,10 +15,11 @@ class VIEW3D_MT_reflection_mesh(bpy.types.Menu):
         layout = self.layout
         # else a menu runs what stands in it without asking for a file or showing progress
         layout.operator_context = "INVOKE_REGION_WIN"
-        for operators in (WORK, TOOLS):
-            for name, icon in operators:
-                layout.operator(name, icon=icon)
-            layout.separator()
+        for name, icon in WORK:
+            layout.operator(name, icon=icon)
+        layout.separator()
+        for name, icon in TOOLS:
+            layout.operator(name, icon=icon)
 
 
 def _draw_entry(self, context: bpy.types.Context) -> None:
