@@ -8,7 +8,7 @@ from ...core.result.reflection_mesh import filled_share
 from ..frames import plays
 from ..lighting import light_lines
 from ..reading import render_size
-from ..writing import mesh_bytes, records
+from ..writing import mesh_bytes, records, size_text
 
 NAMED = 2   # so many sources are all named; of more the first
 
@@ -66,5 +66,5 @@ def _names(sources) -> str:
 
 def _size(obj: bpy.types.Object) -> str:
     record = obj.reflection_mesh
-    text = pgettext_iface("{count:,} points, {size:.1f} MB" if record.points else "{count:,} faces, {size:.1f} MB")
-    return text.format(count=record.points or record.faces, size=mesh_bytes(obj.data) / 1e6)
+    text = pgettext_iface("{count:,} points, {size}" if record.points else "{count:,} faces, {size}")
+    return text.format(count=record.points or record.faces, size=size_text(mesh_bytes(obj.data)))

@@ -75,6 +75,11 @@ def test_a_mirror_shows_its_role_and_the_settings_that_hold(scene, room, space):
     assert "own_settings" not in drawn(room, space).properties
 
 
+def told(room, obj) -> str:
+    writing = room("addon.writing")
+    return writing.size_text(writing.mesh_bytes(obj.data))
+
+
 @pytest.mark.parametrize("space", ["VIEW_3D", "PROPERTIES"])
 def test_a_result_tells_of_itself_in_plain_words(scene, room, space):
     result = parts.generate()
@@ -82,7 +87,7 @@ def test_a_result_tells_of_itself_in_plain_words(scene, room, space):
     mirror.own_settings = True
     layout = drawn(room, space)
     assert layout.labels[:3] == ["Mirror Reflection", "Reflection in 'Mirror'", "Shows 'Box'"]
-    assert layout.labels[3] == f"{len(result.data.polygons)} faces, 0.0 MB"
+    assert layout.labels[3] == f"{len(result.data.polygons)} faces, {told(room, result)}"
     # the settings are those of its mirror, figures come last
     assert layout.properties["tolerance"] == mirror
     assert layout.labels[-4:][0] == "Made for 64 x 48 px" and "filled by rays" in layout.labels[-1]
