@@ -18,10 +18,6 @@ def mesh_bytes(mesh: bpy.types.Mesh) -> int:
 
 def size_text(size: int) -> str:
     """A size as it is read: "12 MB"."""
-    for unit in ("bytes", "KB", "MB"):
-        if size < 1000:
-            break
-        size /= 1000
-    else:
-        unit = "GB"
-    return f"{size:.1f} {unit}" if unit != "bytes" and size < 10 else f"{size:.0f} {unit}"
+    power = sum(size >= 1000 ** step for step in (1, 2, 3))
+    value = size / 1000 ** power
+    return f"{value:.{1 if power and value < 10 else 0}f} {('bytes', 'KB', 'MB', 'GB')[power]}"
