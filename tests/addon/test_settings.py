@@ -326,6 +326,9 @@ def test_old_files_settings_are_taken_over(pair, tmp_path):
         stored(bpy.context.scene, "reflection_mesh", {"tolerance": 4.0, "placement": 1, "method": 2, "depth": 3,
                                                       "memory": 8.0, "hidden_faces": 1, "comparison": "{}"})
         stored(mirror, "reflection_mesh", {"role": 1})
+        for placement, method in ((0, 1), (2, 0)):
+            other = bpy.data.scenes.new(f"{placement} {method}")
+            stored(other, "reflection_mesh", {"placement": placement, "method": method})
         path = saved(tmp_path)
     finally:
         bpy.ops.preferences.addon_enable(module=PACKAGE)
@@ -334,5 +337,8 @@ def test_old_files_settings_are_taken_over(pair, tmp_path):
     assert {name: getattr(settings, name) for name in list(OTHERS)[:6]} == {
         "tolerance": 4.0, "placement": "SURFACE", "method": "POINTS", "depth": 3, "memory": 8.0, "hidden_faces": True}
     assert (settings.light_samples, settings.light_kind, settings.comparison) == (64, "AUTO", "{}")
+    assert [(scene.reflection_mesh.placement, scene.reflection_mesh.method)
+            for scene in (bpy.data.scenes["0 1"], bpy.data.scenes["2 0"])] == [("LAYERED", "PARALLEL"),
+                                                                               ("VIRTUAL", "GENERAL")]
     record = bpy.data.objects["Old"].reflection_mesh
     assert record.role == "MIRROR" and not record.own_settings
