@@ -11,8 +11,8 @@ from .. import core
 from . import polls
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .frames import stop_playing
-from .lighting import keep_light
-from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view
+from .lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
+from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view, results_of
 from .settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
 from .shortcomings import shortcomings, window_shortcomings
 from .writing import Reflection, mesh_arrays, point_arrays, write_object
@@ -24,10 +24,12 @@ IN_OBJECT_MODE = "Reflections are generated in Object Mode: leave the present mo
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a generation made: (object, core.ReflectionMesh) of each mirror, and sentences on what was left out."""
+    """What a generation made: (object, core.ReflectionMesh) of each mirror, sentences on what was left out, and the
+    objects of which the light is still to come."""
 
     results: list
     remarks: list
+    unlit: list
 
     def summary(self, seconds: float) -> str:
         """One line on what was generated."""
@@ -37,12 +39,13 @@ class Outcome:
         error = max(result.estimated_error for _, result in self.results)
         filled = max(result.filled_share for _, result in self.results)
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
+        light = "; the light is still to come, by Light Reflection" if self.unlit else ""
         return (f"{names}: {size}, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
-                f"{seconds:.2f} s")
+                f"{seconds:.2f} s{light}")
 
 
-def generation(context: bpy.types.Context, chosen: Participants,
-               settings: core.Settings | SettingsOfMirrors) -> Steps[Outcome]:
+def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings | SettingsOfMirrors,
+               preview: bool = False) -> Steps[Outcome]:
     """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
 
     Nothing in the file changes before the last step, which writes all results, or none where one of them fails; a
@@ -98,13 +101,17 @@ def generation(context: bpy.types.Context, chosen: Participants,
     if not prepared:
         raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
     yield 1.0, "Writing"
+    previewed = {obj for made, _ in prepared for obj in results_of(context, made.mirror) if shows_preview(obj)}
     with AllOrNothing() as whole:
         results = [(write_object(context, made, placement, whole), made.result) for made, placement in prepared]
         for obj, _ in results:
             keep_light(obj, view, scene)
             whole.after(stop_playing, obj)
             obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
-    return Outcome(results, remarks + refused)
+        unlit = [obj for obj, _ in results if not is_lit(obj) and needs_light(obj)]
+        show_previews([obj for obj in unlit if preview or obj in previewed], whole)
+        whole.after(forget_previews)
+    return Outcome(results, remarks + refused, unlit)
 
 
 class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions, bpy.types.Operator):
@@ -114,14 +121,23 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
     bl_label = "Generate Reflection"
     bl_options = {"REGISTER", "UNDO"}
 
+    preview: bpy.props.BoolProperty(name="Preview", default=False, options={"SKIP_SAVE"},
+                                    description="Until it is lit, show the colours of what is reflected in the "
+                                    "mirror's tint, untouched by lamps: on where the operator is invoked")
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
 
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
+        if not self.properties.is_property_set("preview"):
+            self.preview = True
+        return super().invoke(context, event)
+
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
         chosen, wanted = choose(context), self.wanted(context)
-        outcome = yield from generation(context, chosen, wanted)
+        outcome = yield from generation(context, chosen, wanted, self.preview)
         self.show_used(wanted, chosen.mirrors)
         # the view layer knows new objects only from its next update on
         context.view_layer.update()

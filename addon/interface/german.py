@@ -5,6 +5,10 @@ OPERATORS = {
     "Generate Reflection": "Spiegelung erzeugen",
     "Make what each mirror shows as an object of its own, as the scene's camera sees it":
         "Macht aus dem, was jeder Spiegel zeigt, ein eigenes Objekt, wie die Kamera der Szene es sieht",
+    "Preview": "Vorschau",
+    "Until it is lit, show the colours of what is reflected in the mirror's tint, untouched by lamps: on where the "
+    "operator is invoked": "Zeigt, bis sie beleuchtet ist, die Farben des Gespiegelten in der Tönung des Spiegels, "
+        "von Lampen unberührt: an, wenn der Operator aufgerufen wird",
     "Light Reflection": "Spiegelung beleuchten",
     "Let the reflections look as the mirrors do, with the scene's lamps, materials and the mirrors' own tint":
         "Lässt die Spiegelungen aussehen wie die Spiegel, mit Lampen und Materialien der Szene und der Tönung der "

@@ -155,7 +155,7 @@ def test_all_settings_reach_the_core(wall_scene, room, tmp_path, monkeypatch):
     chosen = {"tolerance": 2.0, "placement": "VIRTUAL", "method": "PARALLEL", "depth": 3, "memory": 0.5,
               "hidden_faces": True}
 
-    def told(context, participants, settings, *_):
+    def told(context, participants, settings, *_, **__):
         raise room("core").ReflectionError(f"{settings(participants.mirrors[0])}.")
     for verb in ("generate", "compare"):
         monkeypatch.setattr(room(f"addon.{verb}"), "generation", told)

@@ -33,7 +33,7 @@ def seen(room, monkeypatch) -> list:
     """The settings of each mirror, by its name, whenever a generation is asked for; none takes place."""
     told: list = []
 
-    def instead(context, chosen, settings, *_):
+    def instead(context, chosen, settings, *_, **__):
         told.append({mirror.name: settings(mirror) for mirror in chosen.mirrors})
         raise room("core").ReflectionError("Not here.")
     for way in ("generate", "compare", "bake", "command_line"):
