@@ -11,7 +11,7 @@ from ..core import ReflectionError
 from .bake import FOLDER, baking, blur_remarks, plan_of, playing, summary
 from .command_place import camera_of
 from .command_progress import announced
-from .command_settings import given
+from .command_settings import given, whole_number
 from .files import check_place, chosen_folder, save_blend
 from .frames import FrameRecord
 from .settings import Wanted
@@ -25,7 +25,7 @@ def add_bake(parser: argparse.ArgumentParser) -> None:
                         help="as 1-24, or 1-100:2 with a step, or 3,5-10 (else the scene's range)")
     parser.add_argument("--camera", nargs="+", default=[], metavar="NAME",
                         help="the cameras, each with a sequence of its own (else the scene's, by its markers)")
-    parser.add_argument("--light", type=int, metavar="N",
+    parser.add_argument("--light", type=whole_number, metavar="N",
                         help="samples per pixel of what needs light (else the file's); 0 for none")
     parser.add_argument("--overwrite", action="store_true", help="make again the frames that are there already")
     parser.add_argument("--frames-only", action="store_true", help="write no file that plays them")

@@ -6,13 +6,23 @@ import argparse
 from .settings import LIGHTS, METHODS, PLACEMENTS, SETTINGS
 
 
+def number(text: str) -> float | None:
+    """A number; none where the text is empty: templates of farms name an option even where nothing is given."""
+    return float(text) if text else None
+
+
+def whole_number(text: str) -> int | None:
+    """As `number`."""
+    return int(text) if text else None
+
+
 def add_settings(parser: argparse.ArgumentParser) -> None:
     """The options for what a reflection is made by."""
-    parser.add_argument("--tolerance", type=float, metavar="PIXELS", help="how far off a point may be")
+    parser.add_argument("--tolerance", type=number, metavar="PIXELS", help="how far off a point may be")
     parser.add_argument("--placement", choices=[item[0] for item in PLACEMENTS], help="where the reflection lies")
     parser.add_argument("--method", choices=[item[0] for item in METHODS], help="what the reflection is made of")
-    parser.add_argument("--depth", type=int, metavar="BOUNCES", help="followed from mirror to mirror")
-    parser.add_argument("--memory", type=float, metavar="GB",
+    parser.add_argument("--depth", type=whole_number, metavar="BOUNCES", help="followed from mirror to mirror")
+    parser.add_argument("--memory", type=number, metavar="GB",
                         help="what would need more is worked out more coarsely, or refused")
     parser.add_argument("--hidden-faces", action=argparse.BooleanOptionalAction,
                         help="also the faces that nearer ones hide whole")

@@ -19,6 +19,7 @@ from .writing import Reflection, mesh_arrays, point_arrays, write_object
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
+WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
 IN_OBJECT_MODE = "Reflections are generated in Object Mode: leave the present mode first."
 
 
@@ -37,11 +38,11 @@ class Outcome:
         faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
         size = f"{points} points" if points else f"{faces} faces"
         error = max(result.estimated_error for _, result in self.results)
-        filled = max(result.filled_share for _, result in self.results)
+        share = max(result.filled_share for _, result in self.results)
+        filled = f", {share:.1f} % filled by rays" if share >= WORTH_TELLING else ""
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
         light = "; the light is still to come, by Light Reflection" if self.unlit else ""
-        return (f"{names}: {size}, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
-                f"{seconds:.2f} s{light}")
+        return f"{names}: {size}, error about {error:.2f} px{filled}, {seconds:.2f} s{light}"
 
 
 def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings | SettingsOfMirrors,

@@ -289,7 +289,9 @@ def test_summary_tells_the_share_filled_by_rays_and_remarks_the_bounds_hit(spher
 
     free, bounded = outcome(), outcome(tolerance=0.02, maximum_faces=2000)
     assert free.remarks == []
-    assert ", 0.000 % filled by rays, " in free.summary(1.0)
+    assert "filled by rays" not in free.summary(1.0)
+    filled = SimpleNamespace(estimated_error=0.4, filled_share=2.345)
+    assert ", 2.3 % filled by rays, 1.00 s" in replace(free, results=[(free.results[0][0], filled)]).summary(1.0)
     assert len(bounded.remarks) == 1
     assert bounded.remarks[0].startswith("Ball: Refinement stopped at the largest number of faces")
     counts = json.loads(bounded.results[0][0].reflection_mesh.counts)

@@ -62,6 +62,9 @@ WAYS = {
     "bake": lambda room, path: bpy.ops.reflection_mesh.bake(filepath=path, frames="1"),
     "verb generate": lambda room, path: room("addon.command_line").run(["generate", "--output", f"{path}.blend"]),
     "verb compare": lambda room, path: room("addon.command_line").run(["compare", "--output", path]),
+    # as templates of farms do, where nothing is given
+    "farm": lambda room, path: room("addon.command_line").run(
+        ["bake", "--frames", "1", "--tolerance", "", "--light", "", "--output", path]),
     "verb bake": lambda room, path: room("addon.command_line").run(["bake", "--frames", "1", "--output", path]),
 }
 
