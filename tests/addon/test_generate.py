@@ -1,5 +1,7 @@
 """Generate on primitives: what the result is, against closed forms of the flat mirror and of linear interpolation."""
 import json
+from dataclasses import replace
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
