@@ -1,4 +1,4 @@
-"""What Blender sees of the extension: roles, operators, a panel and a command; the optics are in `core`."""
+"""What Blender sees of the extension: roles, operators, panels, a menu and a command; the optics are in `core`."""
 from . import (
     bake,
     clear,
@@ -6,10 +6,10 @@ from . import (
     compare,
     freshness,
     generate,
+    interface,
     light,
     live,
     mirror_uvs,
-    panel,
     print_sheet,
     properties,
 )
@@ -20,7 +20,7 @@ from .writing import windows
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
 MODULES = (properties, windows, stale_light, freshness, generate, live, light, bake, mirror_uvs, print_sheet, compare,
-           clear, panel, command_line)
+           clear, interface, command_line)
 
 
 def register() -> None:

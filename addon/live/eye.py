@@ -31,6 +31,11 @@ def view_of(region_3d: bpy.types.RegionView3D, size: tuple[int, int]) -> View:
         # single precision leaves the last row a little off what it is
         placement[3] = 0.0, 0.0, 0.0, 1.0
         projection = np.array(region_3d.window_matrix, dtype=np.float64)
+        if projection[3, 2] == 0.0:
+            # without perspective Blender has the eye in the middle of what it sees: back to the near plane with it
+            back = max(0.0, -(1.0 + projection[2, 3]) / projection[2, 2])
+            placement[:3, 3] += back * placement[:3, 2]
+            projection[:, 3] += back * projection[:, 2]
         return View(placement, projection, size)
     except (ValueError, np.linalg.LinAlgError) as error:
         raise ReflectionError(f"The 3D viewport's view cannot be reflected: {error}") from error

@@ -139,9 +139,10 @@ class LiveUpdater:
 
     def _begin(self, context: bpy.types.Context, current: Watched, now: float) -> None:
         """Begin new results: coarse ones, or exact ones where nothing moves."""
-        settings = current.settings
+        settings = current.record.settings
         if now - self._changed < PAUSE:
-            settings = replace(settings, tolerance=self._pace.coarse(settings.tolerance))
+            settings = {mirror: replace(own, tolerance=self._pace.coarse(own.tolerance))
+                        for mirror, own in settings.items()}
         self._work = Work.of(context, current, settings)
 
     def _follow(self, context: bpy.types.Context, current: Watched) -> bool:
@@ -191,7 +192,7 @@ class LiveUpdater:
             for obj, result in outcome.results:
                 mirror = obj.reflection_mesh.mirror
                 meshes = surfaces[mirror].mesh, scene.mesh
-                tracks.append(Track.of(obj, result, work.settings.placement, view, *meshes))
+                tracks.append(Track.of(obj, result, work.settings[mirror.session_uid].placement, view, *meshes))
                 self._meshes[mirror.session_uid] = meshes
                 if not work.exact:
                     obj.reflection_mesh.made_from = COARSE

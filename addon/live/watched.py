@@ -7,8 +7,8 @@ import bpy
 
 from ...core import Settings, View
 from ..freshness import origin_of, same_view, view_numbers
-from ..properties import settings_of
 from ..reading import Participants
+from ..settings import Wanted
 from .kept import groups
 
 
@@ -18,13 +18,14 @@ class Record(NamedTuple):
     Attributes
     ----------
     view : tuple of float
-    settings : Settings
+    settings : dict of int to Settings
+        Of each mirror, by its `session_uid`.
     digests : tuple of (str, str)
         Of each mirror and its sources.
     """
 
     view: tuple[float, ...]
-    settings: Settings
+    settings: dict[int, Settings]
     digests: tuple[tuple[str, str], ...]
 
     def same(self, other: Record | None) -> bool:
@@ -33,22 +34,22 @@ class Record(NamedTuple):
 
 
 class Watched(NamedTuple):
-    """Everything that an update is made from: the view, who takes part, the settings, and the record of it."""
+    """Everything that an update is made from: the view, who takes part, and the record of it."""
 
     view: View
     chosen: list[Participants]
-    settings: Settings
     record: Record
 
 
 def watched(context: bpy.types.Context, view: View, known: Record | None = None) -> Watched:
     """What the results of the scene are made from, seen by `view`; mirrors and objects are as `known` where that is
     given."""
-    chosen, settings = groups(context), settings_of(context.scene.reflection_mesh)
+    chosen, wanted = groups(context), Wanted(context.scene)
+    settings = {mirror.session_uid: wanted(mirror) for group in chosen for mirror in group.mirrors}
     if known is None:
         depsgraph = context.evaluated_depsgraph_get()
         digests = tuple(origin_of(depsgraph, view, mirror, group.diffuse)[1:]
                         for group in chosen for mirror in group.mirrors)
     else:
         digests = known.digests
-    return Watched(view, chosen, settings, Record(view_numbers(view), settings, digests))
+    return Watched(view, chosen, Record(view_numbers(view), settings, digests))

@@ -23,7 +23,8 @@ class Work:
     ----------
     record : Record
         Of what they are made from.
-    settings : Settings
+    settings : dict of int to Settings
+        Of each mirror, by its `session_uid`.
     exact : bool
         Whether these are the file's.
     seconds : float
@@ -34,7 +35,7 @@ class Work:
     """
 
     record: Record
-    settings: Settings
+    settings: dict[int, Settings]
     exact: bool
     _waiting: list[Steps[Outcome]]
     seconds: float = 0.0
@@ -42,9 +43,11 @@ class Work:
     told: str = ""
 
     @classmethod
-    def of(cls, context: bpy.types.Context, current: Watched, settings: Settings) -> Work:
-        return cls(current.record, settings, settings == current.settings,
-                   [generation(context, group, settings, view=current.view) for group in current.chosen])
+    def of(cls, context: bpy.types.Context, current: Watched, settings: dict[int, Settings]) -> Work:
+        def of_mirror(mirror: bpy.types.Object) -> Settings:
+            return settings[mirror.session_uid]
+        return cls(current.record, settings, settings == current.record.settings,
+                   [generation(context, group, of_mirror, view=current.view) for group in current.chosen])
 
     def go_on(self) -> bool:
         """Work for a while; whether all is done."""

@@ -306,6 +306,13 @@ def test_the_viewports_view_is_read(blank, room):
         points = np.random.default_rng(1).uniform(-2.0, 2.0, (50, 3))
         assert np.allclose(view.pixels(points), camera.pixels(points), atol=1e-6)
         assert view.orthographic == camera.orthographic
+    # without perspective Blender's own eye stands in the middle of the scene, and sees what lies behind it
+    forward, nearer = np.eye(4), camera.projection.copy()
+    forward[2, 3] = 6.0
+    nearer[:, 3] -= 6.0 * nearer[:, 2]
+    region.view_matrix, region.window_matrix = forward @ region.view_matrix, nearer
+    view = eye.view_of(region, (256, 192))
+    assert np.allclose(view.pixels(points), camera.pixels(points), atol=1e-6) and (view.depths(points) > 0.0).all()
 
 
 def test_live_follows_the_viewport(scene, clock, room, monkeypatch):
