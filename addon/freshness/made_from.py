@@ -62,10 +62,11 @@ def why_stale(context: bpy.types.Context, result: bpy.types.Object) -> str:
 
 
 def _changed(context: bpy.types.Context, result: bpy.types.Object, made: Origin | str) -> str:
+    """What is no longer as it was `made` from."""
     record = result.reflection_mesh
     sources = [source.object for source in record.sources]
     if isinstance(made, str):
-        return made
+        return "Live was stopped before it was exact"
     if record.mirror is None or None in sources:
         return "an object was removed"
     try:
@@ -86,7 +87,7 @@ def _read(text: str) -> Origin | str | None:
     try:
         known = json.loads(text)
         if known.get("coarse") is True:
-            return "it is coarse still"
+            return text
         return Origin(tuple(float(number) for number in known["view"]), str(known["mirror"]), str(known["sources"]))
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None

@@ -200,4 +200,31 @@ OBSTACLES = {
     "The scene has no reflection to light: generate one first.":
         "Die Szene hat keine Spiegelung zum Beleuchten: erzeuge zuerst eine.",
 }
-GERMAN = {**OPERATORS, **SETTINGS, **ROLES, **PANELS, **OBSTACLES}
+LIVE = {
+    "Live": "Live",
+    "Live Reflections": "Live-Spiegelungen",
+    "Stop Live": "Live beenden",
+    "Keep reflections right while the camera, mirrors or objects move: coarse on the way, exact at rest":
+        "Hält Spiegelungen richtig, während sich Kamera, Spiegel oder Objekte bewegen: grob unterwegs, genau in Ruhe",
+    "Seen From": "Gesehen von",
+    "For whom Live keeps reflections right": "Für wen Live die Spiegelungen richtig hält",
+    "Camera": "Kamera",
+    "Reflections are kept right for the scene's camera": "Spiegelungen bleiben für die Kamera der Szene richtig",
+    "Viewport": "Ansicht",
+    "Reflections are kept right for the largest 3D viewport; Generate makes them right for the camera again":
+        "Spiegelungen bleiben für die größte 3D-Ansicht richtig; Spiegelung erzeugen macht sie wieder für die Kamera "
+        "richtig",
+    "Generate Again": "Neu erzeugen",
+    "'{name}' is stale: {why}.": "'{name}' ist veraltet: {why}.",
+    "an object was removed": "ein Objekt wurde entfernt",
+    "the camera or the picture's size has changed": "die Kamera oder die Bildgröße hat sich geändert",
+    "the mirror has changed": "der Spiegel hat sich geändert",
+    "a reflected object has changed": "ein gespiegeltes Objekt hat sich geändert",
+    "Live was stopped before it was exact":
+        "Live wurde beendet, bevor sie genau war",
+    "Exact, {milliseconds:.0f} ms": "Genau, {milliseconds:.0f} ms",
+    "Coarse, {milliseconds:.0f} ms": "Grob, {milliseconds:.0f} ms",
+    "Live waits for Object Mode.": "Live wartet auf den Objektmodus.",
+    "Generate a reflection first.": "Erzeuge zuerst eine Spiegelung.",
+}
+GERMAN = {**OPERATORS, **SETTINGS, **ROLES, **PANELS, **OBSTACLES, **LIVE}

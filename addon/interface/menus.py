@@ -17,6 +17,7 @@ class VIEW3D_MT_reflection_mesh(bpy.types.Menu):
         layout.operator_context = "INVOKE_REGION_WIN"
         for name, icon in WORK:
             layout.operator(name, icon=icon)
+        layout.operator("reflection_mesh.live", icon="PLAY")
         layout.separator()
         for name, icon in TOOLS:
             layout.operator(name, icon=icon)

@@ -7,8 +7,8 @@ from __future__ import annotations
 import bpy
 
 from ..frames import plays
-from ..live import draw_live
 from ..reading import can_take_part
+from .draw_live import draw_live
 from .draw_object import draw_figures, draw_object
 from .draw_settings import draw_limits, draw_settings, possible_mirror
 from .draw_work import TOOLS, WORK, draw_buttons, draw_comparison

@@ -5,6 +5,7 @@ import bpy
 from bpy.app.handlers import persistent
 from bpy.props import BoolProperty, EnumProperty, PointerProperty
 
+from .. import polls
 from .updater import LiveUpdater
 
 INTERVAL = 0.02     # seconds between two looks
@@ -19,8 +20,9 @@ JOBS = ("RENDER", "OBJECT_BAKE", "COMPOSITE")
 updater: LiveUpdater | None = None
 
 
-def is_live() -> bool:
-    return updater is not None
+def present() -> LiveUpdater | None:
+    """What keeps the results of the file right at the moment; None where Live is off."""
+    return updater
 
 
 def start(of_viewport: bool) -> None:
@@ -133,7 +135,7 @@ def _switch(live: bpy.types.PropertyGroup, on: bool) -> None:
 
 
 def _choose_eye(live: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
-    if is_live():
+    if updater is not None:
         start(live.eye == "VIEW")
 
 
@@ -141,7 +143,8 @@ class ReflectionLive(bpy.types.PropertyGroup):
     """`WindowManager.reflection_mesh_live`: whether results are kept right, and for whom. No file remembers it."""
 
     on: BoolProperty(name="Live", description="Keep reflections right while the camera, mirrors or objects move: "
-                     "coarse on the way, exact at rest", get=lambda live: is_live(), set=_switch, options={"SKIP_SAVE"})
+                     "coarse on the way, exact at rest", get=lambda live: updater is not None, set=_switch,
+                     options={"SKIP_SAVE"})
     eye: EnumProperty(name="Seen From", description="For whom Live keeps reflections right", items=EYES,
                       default="CAMERA", update=_choose_eye, options={"SKIP_SAVE"})
 
@@ -151,6 +154,10 @@ class REFLECTION_MESH_OT_live(bpy.types.Operator):
 
     bl_idname = "reflection_mesh.live"
     bl_label = "Live Reflections"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set:
         live = context.window_manager.reflection_mesh_live

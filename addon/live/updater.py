@@ -17,6 +17,8 @@ from .watched import Record, Watched, watched
 from .work import Work
 
 PAUSE = 0.25    # seconds without a change after which what is shown is made exact
+WAITS = "Live waits for Object Mode."
+NOTHING_YET = "Generate a reflection first."
 LONG = 0.5      # seconds that vertices follow before new results are begun on the way, and
 REST = 4.0      # how many times what these take
 
@@ -78,7 +80,7 @@ class LiveUpdater:
     def _step(self, context: bpy.types.Context, now: float) -> str:
         if context.mode != "OBJECT":
             self._drop_work()
-            self.told = "Live waits for Object Mode."
+            self.told = WAITS
             return ""
         if not (self._noted or self.of_viewport):
             if self.at_rest or (self._work is None and now - self._changed < PAUSE):
@@ -108,7 +110,7 @@ class LiveUpdater:
         self._noted = self._moved = False
         if not current.chosen:
             self._drop_work()
-            self.told, self._looked, self._record, self._tracks = "Generate a reflection first.", None, None, []
+            self.told, self._looked, self._record, self._tracks = NOTHING_YET, None, None, []
             self.at_rest = True
             return None
         self.told = ""

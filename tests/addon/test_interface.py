@@ -13,7 +13,7 @@ import pytest
 
 from tools.extension_zip import PACKAGE
 
-OPERATORS = ("generate", "light", "bake", "clear", "compare", "mirror_uvs", "print_sheet")
+OPERATORS = ("generate", "light", "bake", "clear", "live", "compare", "mirror_uvs", "print_sheet")
 
 
 class Layout:
@@ -67,7 +67,7 @@ def test_a_mirror_shows_its_role_and_the_settings_that_hold(scene, room, space):
     assert layout.properties["role"] == mirror.reflection_mesh
     assert layout.properties["tolerance"] == scene.reflection_mesh
     settings = {*room("addon.settings").SETTINGS, *room("addon.settings").LIGHT_SETTINGS}
-    assert settings | {"role", "own_settings"} == set(layout.properties)
+    assert settings | {"role", "own_settings", "eye"} == set(layout.properties)
     mirror.reflection_mesh.own_settings = True
     layout = drawn(room, space)
     assert {layout.properties[name] for name in settings} == {mirror.reflection_mesh}

@@ -337,11 +337,10 @@ def test_live_follows_the_viewport(scene, clock, room, monkeypatch):
 
 
 def test_the_panel_draws_both_states(scene, clock, room):
-    room("addon.live.draw")
-    draw, labels, buttons = room("addon.live").draw_live, [], []
+    draw, labels, buttons = room("addon.interface.draw_live").draw_live, [], []
     layout = SimpleNamespace(label=lambda text, **_: labels.append(text), prop=lambda *_, **__: None,
-                             operator=lambda name, **_: buttons.append(name))
-    layout.row = layout.box = lambda **_: layout
+                             operator=lambda name, text, **_: buttons.append((name, text)))
+    layout.column = lambda **_: layout
     draw(layout, bpy.context)
     assert labels[0].startswith("Exact") and labels[0].endswith(" ms") and len(labels) == 1
     bpy.ops.reflection_mesh.live()
@@ -350,4 +349,4 @@ def test_the_panel_draws_both_states(scene, clock, room):
     labels.clear()
     draw(layout, bpy.context)
     assert len(labels) == 1 and "'Ball Reflection'" in labels[0] and "camera" in labels[0]
-    assert buttons[-1] == "reflection_mesh.generate"
+    assert buttons[-1] == ("reflection_mesh.generate", "Generate Again")

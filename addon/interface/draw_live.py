@@ -1,0 +1,36 @@
+"""Live: the switch, what it does, and what is stale where it is off."""
+from __future__ import annotations
+
+import bpy
+from bpy.app.translations import pgettext_iface
+
+from ..freshness import why_stale
+from ..live import kept_results, present
+
+
+def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """The switch and its state, or one sentence on each result that is stale, with the button that mends it."""
+    live, updater = context.window_manager.reflection_mesh_live, present()
+    column = layout.column(align=True)
+    if updater is None:
+        column.operator("reflection_mesh.live", text="Live", icon="PLAY")
+    else:
+        column.operator("reflection_mesh.live", text="Stop Live", icon="PAUSE")
+    column.prop(live, "eye")
+    if updater is not None:
+        layout.label(text=state_of(updater), icon="TIME", translate=False)
+        return
+    for obj in kept_results(context):
+        why = why_stale(context, obj)
+        if why:
+            told = pgettext_iface("'{name}' is stale: {why}.").format(name=obj.name, why=pgettext_iface(why))
+            layout.label(text=told, icon="ERROR", translate=False)
+            layout.operator("reflection_mesh.generate", text="Generate Again", icon="FILE_REFRESH")
+
+
+def state_of(updater) -> str:
+    """What Live is doing, in a few words."""
+    if updater.told:
+        return pgettext_iface(updater.told)
+    text = pgettext_iface("Exact, {milliseconds:.0f} ms" if updater.at_rest else "Coarse, {milliseconds:.0f} ms")
+    return text.format(milliseconds=updater.milliseconds)
