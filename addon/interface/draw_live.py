@@ -20,12 +20,12 @@ def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     if updater is not None:
         layout.label(text=state_of(updater), icon="TIME", translate=False)
         return
-    for obj in kept_results(context):
-        why = why_stale(context, obj)
-        if why:
-            told = pgettext_iface("'{name}' is stale: {why}.").format(name=obj.name, why=pgettext_iface(why))
-            layout.label(text=told, icon="ERROR", translate=False)
-            layout.operator("reflection_mesh.generate", text="Generate Again", icon="FILE_REFRESH")
+    stale = [(obj, why) for obj in kept_results(context) if (why := why_stale(context, obj))]
+    for obj, why in stale:
+        told = pgettext_iface("'{name}' is stale: {why}.").format(name=obj.name, why=pgettext_iface(why))
+        layout.label(text=told, icon="ERROR", translate=False)
+    if stale:
+        layout.operator("reflection_mesh.update", icon="FILE_REFRESH")
 
 
 def state_of(updater) -> str:

@@ -214,7 +214,9 @@ LIVE = {
     "Reflections are kept right for the largest 3D viewport; Generate makes them right for the camera again":
         "Spiegelungen bleiben für die größte 3D-Ansicht richtig; Spiegelung erzeugen macht sie wieder für die Kamera "
         "richtig",
-    "Generate Again": "Neu erzeugen",
+    "Update Reflections": "Spiegelungen erneuern",
+    "Make the reflections anew that no longer show what there is, as the scene's camera sees it":
+        "Erzeugt die Spiegelungen neu, die nicht mehr zeigen, was da ist, wie die Kamera der Szene es sieht",
     "'{name}' is stale: {why}.": "'{name}' ist veraltet: {why}.",
     "an object was removed": "ein Objekt wurde entfernt",
     "the camera or the picture's size has changed": "die Kamera oder die Bildgröße hat sich geändert",

@@ -18,6 +18,7 @@ class VIEW3D_MT_reflection_mesh(bpy.types.Menu):
         for name, icon in WORK:
             layout.operator(name, icon=icon)
         layout.operator("reflection_mesh.live", icon="PLAY")
+        layout.operator("reflection_mesh.update", icon="FILE_REFRESH")
         layout.separator()
         for name, icon in TOOLS:
             layout.operator(name, icon=icon)

@@ -3,8 +3,19 @@
 `LiveUpdater` is told of changes (`note`) and asked to work (`step`); handlers and a timer do both. What is written, is
 written by `generation`; between two of its results their vertices follow what moves.
 """
+from . import switch, update
 from .kept import kept_results
-from .switch import present, register, unregister
+from .switch import present
 from .updater import LiveUpdater
 
 __all__ = ["LiveUpdater", "kept_results", "present", "register", "unregister"]
+
+
+def register() -> None:
+    switch.register()
+    update.register()
+
+
+def unregister() -> None:
+    update.unregister()
+    switch.unregister()

@@ -271,11 +271,19 @@ def test_a_stale_result_says_so(scene, room):
         assert word in told()
         obj.location.y -= 1.5
         assert told() == ""
-    scene.camera.location.y -= 1.5
-    assert told()
-    parts.select(scene.leaf, scene.ball)
-    parts.generate()
-    assert told() == ""
+    for mend in (parts.generate, bpy.ops.reflection_mesh.update):
+        scene.camera.location.y -= 0.5
+        assert told()
+        parts.select(scene.leaf, scene.ball)
+        mend()
+        assert told() == ""
+    # whatever is selected, and nothing that is right as it is
+    parts.select(scene.camera)
+    before = shape(scene.result)
+    assert bpy.ops.reflection_mesh.update() == {"FINISHED"} and shape(scene.result) == before
+    scene.camera.location.y += 0.5
+    assert told() and bpy.ops.reflection_mesh.update() == {"FINISHED"} and told() == ""
+    assert shape(scene.result) == generated(scene.leaf, scene.ball)
     scene.leaf.data.vertices[0].co.z += 0.1
     scene.leaf.data.update()
     assert "object" in told()
@@ -339,7 +347,7 @@ def test_live_follows_the_viewport(scene, clock, room, monkeypatch):
 def test_the_panel_draws_both_states(scene, clock, room):
     draw, labels, buttons = room("addon.interface.draw_live").draw_live, [], []
     layout = SimpleNamespace(label=lambda text, **_: labels.append(text), prop=lambda *_, **__: None,
-                             operator=lambda name, text, **_: buttons.append((name, text)))
+                             operator=lambda name, **_: buttons.append(name))
     layout.column = lambda **_: layout
     draw(layout, bpy.context)
     assert labels[0].startswith("Exact") and labels[0].endswith(" ms") and len(labels) == 1
@@ -349,4 +357,4 @@ def test_the_panel_draws_both_states(scene, clock, room):
     labels.clear()
     draw(layout, bpy.context)
     assert len(labels) == 1 and "'Ball Reflection'" in labels[0] and "camera" in labels[0]
-    assert buttons[-1] == ("reflection_mesh.generate", "Generate Again")
+    assert buttons[-1] == "reflection_mesh.update"

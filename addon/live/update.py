@@ -1,0 +1,46 @@
+"""Make what is stale anew, with one click and whatever is selected."""
+import time
+
+import bpy
+
+from .. import polls
+from ..faults import SteppedOperator, Steps, part
+from ..freshness import why_stale
+from ..generate import IN_OBJECT_MODE, generation
+from ..settings import Wanted
+from .kept import groups, kept_results
+
+NOTHING_STALE = "No reflection is stale."
+
+
+class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
+    """Make the reflections anew that no longer show what there is, as the scene's camera sees it"""
+
+    bl_idname = "reflection_mesh.update"
+    bl_label = "Update Reflections"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_camera)
+
+    def steps(self, context: bpy.types.Context) -> Steps[None]:
+        started = time.perf_counter()
+        stale = {obj.reflection_mesh.mirror for obj in kept_results(context) if why_stale(context, obj)}
+        chosen = [group for group in groups(context) if stale.intersection(group.mirrors)]
+        if not chosen:
+            self.report({"INFO"}, NOTHING_STALE)
+        for number, group in enumerate(chosen):
+            steps = generation(context, group, Wanted(context.scene))
+            outcome = yield from part(steps, number / len(chosen), 1.0 / len(chosen))
+            for remark in outcome.remarks:
+                self.report({"WARNING"}, remark)
+            self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
+
+
+def register() -> None:
+    bpy.utils.register_class(REFLECTION_MESH_OT_update)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(REFLECTION_MESH_OT_update)
