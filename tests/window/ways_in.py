@@ -55,8 +55,8 @@ def turned_to_tab(screen: Screen) -> bool:
 
 def install() -> None:
     folder = Path(tempfile.mkdtemp())
-    subprocess.run([bpy.app.binary_path, "--factory-startup", "--command", "extension", "build", "--source-dir", str(ROOT),
-                    "--output-dir", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([bpy.app.binary_path, "--factory-startup", "--command", "extension", "build",
+                    "--source-dir", str(ROOT), "--output-dir", str(folder)], check=True, stdout=subprocess.DEVNULL)
     path = next(folder.glob("*.zip"))
     bpy.ops.extensions.package_install_files(filepath=str(path), repo="user_default", enable_on_install=True)
 
