@@ -6,6 +6,7 @@
 import ctypes
 import importlib.util
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -63,6 +64,7 @@ def _end(status: int) -> None:
         sys.exit(status)
     sys.stdout.flush()
     sys.stderr.flush()
+    shutil.rmtree(sys.modules["bpy"].app.tempdir, ignore_errors=True)
     if os.name == "posix":
         # what Blender itself has printed
         ctypes.CDLL(None).fflush(None)
