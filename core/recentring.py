@@ -34,7 +34,9 @@ def far_corner(mirror: TriangleMesh) -> np.ndarray | None:
 def moved_view(view: View, offset: np.ndarray) -> View:
     placement = view.camera_to_world.copy()
     placement[:3, 3] += offset
-    return replace(view, camera_to_world=placement)
+    meshes = {name: moved_surface(mesh, offset) for name in ("shades", "screens")
+              if isinstance(mesh := getattr(view, name, None), TriangleMesh)}
+    return replace(view, camera_to_world=placement, **meshes)
 
 
 def moved_surface(surface: Surface, offset: np.ndarray) -> Surface:
