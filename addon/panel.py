@@ -33,6 +33,8 @@ class REFLECTION_MESH_PT_main(bpy.types.Panel):
         column = layout.column(align=True)
         generate = column.operator("reflection_mesh.generate", icon="MOD_MIRROR")
         column.operator("reflection_mesh.light", icon="LIGHT")
+        caustics = column.operator("reflection_mesh.caustics", icon="LIGHT_POINT")
+        caustics.tolerance, caustics.depth, caustics.memory = settings.tolerance, settings.depth, settings.memory
         bake = column.operator("reflection_mesh.bake", icon="FILE_CACHE")
         compare = column.operator("reflection_mesh.compare", icon="IMAGE_DATA")
         for operator in (generate, bake, compare):
@@ -50,6 +52,11 @@ def _draw_object(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     record = obj.reflection_mesh
     box = layout.box()
     box.label(text=obj.name, icon="OBJECT_DATA", translate=False)
+    if record.role == "CAUSTICS":
+        for what, thing in (("Mirror", record.mirror), ("Lamp", record.lamp)):
+            box.label(text=f"{what}: {thing.name if thing else 'removed'}", translate=False)
+        box.label(text=f"{record.faces} faces of light")
+        return
     if record.role != "REFLECTION":
         box.prop(record, "role")
         return

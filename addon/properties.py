@@ -19,6 +19,7 @@ ROLES = (
     ("DIFFUSE", "Diffuse", "This object is reflected"),
     ("IGNORE", "Ignore", "This object takes no part"),
     ("REFLECTION", "Reflection", "This object is a reflection that was generated"),
+    ("CAUSTICS", "Caustics", "This object is light thrown by a mirror that was generated"),
 )
 PLACEMENTS = (
     ("LAYERED", "Layered", "In front of the mirror, in the order of path lengths, so that near images hide far ones"),
@@ -113,6 +114,7 @@ class ReflectionObject(bpy.types.PropertyGroup):
     role: EnumProperty(name="Role", description="The part that this object plays in a reflection", items=ROLES,
                        default="AUTO")
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object)
+    lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object)
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
     estimated_error: FloatProperty(name="Estimated Error", description="99th percentile of the displacement, in pixels")

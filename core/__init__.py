@@ -7,6 +7,7 @@ from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflec
 from .solver import Images, project
 from .support import METHODS, PLACEMENTS, Settings, in_steps
 
-__all__ = ["CausticMesh", "Discs", "Images", "Lamp", "METHODS", "PLACEMENTS", "PicturePieces", "PointTree", "ReflectionError",
-           "ReflectionMesh", "SceneTree", "Settings", "TriangleMesh", "View", "caustic_steps", "caustics", "draw", "in_steps", "picture_pieces",
-           "project", "reflect", "reflecting_normals", "reflection_steps"]
+__all__ = ["CausticMesh", "Discs", "Images", "Lamp", "METHODS", "PLACEMENTS", "PicturePieces", "PointTree",
+           "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "TriangleMesh", "View", "caustic_steps",
+           "caustics", "draw", "in_steps", "picture_pieces", "project", "reflect", "reflecting_normals",
+           "reflection_steps"]

@@ -124,16 +124,11 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     mirror_map = MirrorMap(view, body, settings.method == "PARALLEL")
     cameras = three_ray_cameras(mirror_map, body, faces)
     uncut = cameras.places.shape[1]
-    cameras = cameras.select(in_picture(cameras))
-    if not len(cameras):
-        raise NothingInView("The view does not see the mirror; turn the camera to the mirror or move it into view.")
+    cameras = _seen(cameras.select(in_picture(cameras)))
     cameras = cut_at_borders(cut_before_eye(cameras))
     cameras, grid = without_hidden(cameras)
     cameras, occluded, overlaid = without_occluded(body, cameras, grid)
-    cameras = cameras.select(cameras.face < len(mirror.triangles))
-    if not len(cameras):
-        raise NothingInView("All that the view sees of the mirror is hidden; take away what stands before it.")
-    cameras = cut_at_horizon(cameras)
+    cameras = cut_at_horizon(_seen(cameras.select(cameras.face < len(mirror.triangles))))
     progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
                   overlaid=overlaid)
 
@@ -168,6 +163,12 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     left = np.concatenate([bounce.left for bounce in bounces], axis=1)
     error = max(_estimate(*left), 0.0 if whole is None else INSIDE_WHOLE * _over_length(*whole.straying))
     return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=error)
+
+
+def _seen(cameras: Cameras) -> Cameras:
+    if not len(cameras):
+        raise NothingInView("The view does not see the mirror; turn the camera to the mirror or move it into view.")
+    return cameras
 
 
 def _met(view: View, tree: SceneTree | PointTree, mirror: TriangleMesh,

@@ -17,7 +17,7 @@ from ..support import breathe
 from .corners import Corners, light_at
 
 LEVELS = 6
-STRAYING = 0.05  # of the irradiance in the middle of a side: by how much that on its ends may miss it
+STRAYING = 0.02  # of the irradiance in the middle of a side: by how much that on its ends may miss it
 AT_ONCE = 1 << 16
 STEPS = 8  # of Newton's method
 

@@ -13,7 +13,7 @@ from .vectors import columns, cross, dot, groups, largest, norm, ranges, rows, s
 from .view import View
 from .z_buffer import Drawn, draw
 
-__all__ = ["Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns", "connected",
-           "corners_beyond", "cross", "dot", "doubled_areas", "draw", "edge_lengths", "falling", "groups", "has_area",
-           "largest", "neighbours", "norm", "opposite_corners", "ordered", "parent_side", "ranges", "rows",
+__all__ = ["Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns",
+           "connected", "corners_beyond", "cross", "dot", "doubled_areas", "draw", "edge_lengths", "falling", "groups",
+           "has_area", "largest", "neighbours", "norm", "opposite_corners", "ordered", "parent_side", "ranges", "rows",
            "shared_edges", "shares", "smallest", "solve", "split", "unit"]

@@ -7,6 +7,6 @@ from .progress import Progress
 from .settings import METHODS, PLACEMENTS, Settings
 from .stepping import breathe, in_steps, tell
 
-__all__ = ["FACE_SHARE", "LARGEST", "METHODS", "MIRROR_SHARE", "NothingInView", "OUTLINE_SHARE", "PLACEMENTS", "Progress",
-           "ReflectionError", "Settings", "breathe", "crowded", "in_steps", "number", "numbers", "tell", "whole_number",
-           "whole_numbers"]
+__all__ = ["FACE_SHARE", "LARGEST", "METHODS", "MIRROR_SHARE", "NothingInView", "OUTLINE_SHARE", "PLACEMENTS",
+           "Progress", "ReflectionError", "Settings", "breathe", "crowded", "in_steps", "number", "numbers", "tell",
+           "whole_number", "whole_numbers"]

@@ -11,5 +11,5 @@ from .scene_contacts import drop_behind_contacts
 from .self_occlusion import without_occluded
 from .touching_mirrors import plainly_seen
 
-__all__ = ["cut_at_borders", "cut_before_eye", "cut_behind_mirrors", "drop_behind_contacts", "plainly_seen", "with_shades", "without_hidden",
-           "without_occluded"]
+__all__ = ["cut_at_borders", "cut_before_eye", "cut_behind_mirrors", "drop_behind_contacts", "plainly_seen",
+           "with_shades", "without_hidden", "without_occluded"]
