@@ -21,8 +21,10 @@ from .refinement import LitFaces, refined
 
 DETAIL = 1024
 """Pixels across the mirror in the lamp's picture, in which the settings' tolerance is counted."""
+ON_CAUSTIC = 1e-5  # growth of a bundle below which bisection has put a vertex on the caustic
 NO_AREA = 1e-14  # of the square of its size: what a face is larger than
-LEAST = 4e-6  # of the flux: what carries less is not split
+LEAST = 1.5e-5  # of the flux: what carries less is not split
+STRAY = 1e-6  # of the flux: with less, faces with a corner to which no light comes are rounding
 FINEST = 2e-3  # of the size of what is lit: shorter sides are not split
 
 
@@ -148,7 +150,8 @@ def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int
     light, corners = faces.light, np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area, size = 0.5 * np.linalg.norm(normal, axis=1), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
-    kept = np.flatnonzero((area > NO_AREA * size**2) & (flux > 0.0))
+    arrived = light.arrived.reshape(3, -1).all(axis=0) | (flux > STRAY * flux.sum())
+    kept = np.flatnonzero((area > NO_AREA * size**2) & (flux > 0.0) & arrived)
     irradiance, cosine, side = (value.reshape(3, -1).T[kept] for value in (
         light.irradiance, light.cosine, light.side))
     irradiance = balanced(irradiance, flux[kept], area[kept], faces.triangles[kept])
@@ -166,7 +169,7 @@ def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int
     return {
         "positions": faces.points[:, used].T, "triangles": number_of[triangles], "irradiance": irradiance,
         "flux": flux[kept], "mirror_position": light.place[:, entry].T,
-        "image_parity": np.sign(light.turned[entry]).astype(np.int8), "cosine": cosine, "source_face": source,
+        "image_parity": np.where(np.abs(light.turned[entry]) < ON_CAUSTIC, 0, np.sign(light.turned[entry])).astype(np.int8), "cosine": cosine, "source_face": source,
         "source_weights": _weights(receivers, source, corners),
         "bounces": np.full(len(kept), number, dtype=np.int8)}
 
