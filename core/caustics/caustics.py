@@ -73,15 +73,26 @@ def caustics(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings
     corner = far_corner(mirror) if isinstance(mirror, TriangleMesh) and len(mirror.triangles) else None
     if corner is None:
         return _near_origin(lamp, mirror, receivers, settings, mirrors, blockers)
-    moved = [None if mesh is None else moved_surface(mesh, -corner) for mesh in (mirror, receivers, mirrors, blockers)]
-    mesh = _near_origin(lamp.moved(-corner), moved[0], moved[1], settings, moved[2], moved[3])
+    others = [None if mesh is None else moved_surface(mesh, -corner) for mesh in (mirrors, blockers)]
+    mesh = _near_origin(lamp.moved(-corner), moved_surface(mirror, -corner), moved_surface(receivers, -corner), settings,
+                        *others)
     return replace(mesh, positions=mesh.positions + corner, mirror_position=mesh.mirror_position + corner)
 
 
 def caustic_steps(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings: Settings = Settings(),
                   mirrors: TriangleMesh | None = None, blockers: TriangleMesh | None = None
                   ) -> Generator[tuple[float, str], None, CausticMesh]:
-    """`caustics` in steps, as `reflection_steps` yields them."""
+    """`caustics` in steps, as `reflection_steps` yields them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import Lamp, TriangleMesh, caustic_steps
+    >>> mirror = TriangleMesh(np.array([[0, -1, 1], [0, 1, 1], [0, 0, 2.0]]), np.array([[0, 1, 2]]))
+    >>> floor = TriangleMesh(np.array([[-9, -9, 0], [9, -9, 0], [0, 9, 0.0]]), np.array([[0, 1, 2]]))
+    >>> next(caustic_steps(Lamp((1, 0, 3)), mirror, floor))  # in a generator: mesh = yield from caustic_steps(...)
+    (0.0, 'k-d tree')
+    """
     return (yield from in_steps(lambda: caustics(lamp, mirror, receivers, settings, mirrors, blockers)))
 
 
@@ -121,6 +132,7 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
 
 
 def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, receivers: TriangleMesh) -> LitFaces:
+    assert seen.map_face is not None  # a lamp's view tells it
     triangles, face = seen.triangles[chosen], seen.map_face[chosen]
     corner, owner = triangles.T.ravel(), np.tile(face, 3)
     normal = receivers.face_normals()[seen.source_face[chosen]].T

@@ -83,7 +83,7 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
     turned = ray_map.turned(face, uv, s)
     place = ray_map.places(face, uv)
     if ray_map.orthographic:
-        way, falling = np.broadcast_to(ray_map.view.forward[:, None], place.shape), 1.0
+        way, falling = np.broadcast_to(ray_map.view.forward[:, None], place.shape), np.ones(place.shape[1])
     else:
         way = place - ray_map.view.eye[:, None]
         falling = 1.0 / np.maximum(dot(way, way), 1e-300)
