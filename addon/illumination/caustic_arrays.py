@@ -14,6 +14,8 @@ from .tint import Tint
 LIFT = 1e-4  # of the size of what is lit: how far the mesh lies before it
 ROUNDING = 2.0 ** -20  # of a coordinate: by how much single precision may miss, several times over
 DEPTH_STEP = 2.0 ** -22  # of the depth buffer of viewports: what it can tell apart, several times over
+SPREAD = 2.0  # times as far before it: where the layer of the largest number lies
+ACROSS = np.array((0.6180, 0.7071, 0.3437))  # an odd direction, along which few places of a mirror are as far
 MOST_LIFT = 2e-3  # of the size of what is lit
 
 
@@ -33,7 +35,9 @@ def caustic_arrays(lit: list[tuple[Eye, CausticMesh]], scene: DiffuseScene, tint
     low, high = positions.min(axis=0), positions.max(axis=0)
     origin = (0.5 * (low + high)).astype(np.float32).astype(np.float64)
     size = float((high - low).max())
+    place = np.repeat(np.arange(len(meshes)), [len(mesh.positions) for mesh in meshes])
     lift = _lift(positions, size, float(np.abs(positions).max()), camera)
+    lift *= _layers(together["mirror_position"], together["image_parity"], place)
     positions = positions + lift[:, None] * _normals(positions, triangles)
     source, weights = together["source_face"], together["source_weights"].astype(np.float32)
     own = (
@@ -68,6 +72,14 @@ def _lift(positions: np.ndarray, size: float, farthest: float, camera: bpy.types
         return least
     distance = np.linalg.norm(positions - np.array(camera.matrix_world.translation), axis=1)
     return np.clip(DEPTH_STEP * distance**2 / camera.data.clip_start, least, np.maximum(MOST_LIFT * size, least))
+
+
+def _layers(mirror_position: np.ndarray, parity: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """By how many times as far (n,) faces lie that are turned over, that light comes to from elsewhere on the mirror, or
+    from another `place` (n,) of the lamp: Cycles takes surfaces in one place for one."""
+    along = mirror_position @ ACROSS
+    along = (along - along.min()) / max(float(np.ptp(along)), 1e-300)
+    return 1.0 + SPREAD * (place + 0.5 * along + 0.25 * (1 - parity)) / (place.max() + 1)
 
 
 def _normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:

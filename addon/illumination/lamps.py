@@ -138,7 +138,10 @@ def _square(count: int) -> np.ndarray:
 
 def _across(way: np.ndarray) -> np.ndarray:
     """Two unit vectors across a way (3,), as columns (3, 2)."""
-    way = way / max(np.linalg.norm(way), 1e-300)
+    length = np.linalg.norm(way)
+    if not length > 0.0:
+        return np.eye(3)[:, :2]
+    way = way / length
     other = np.eye(3)[np.argmin(np.abs(way))]
     first = np.cross(way, other)
     first /= np.linalg.norm(first)

@@ -74,8 +74,8 @@ def caustics(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings
     if corner is None:
         return _near_origin(lamp, mirror, receivers, settings, mirrors, blockers)
     others = [None if mesh is None else moved_surface(mesh, -corner) for mesh in (mirrors, blockers)]
-    mesh = _near_origin(lamp.moved(-corner), moved_surface(mirror, -corner), moved_surface(receivers, -corner), settings,
-                        *others)
+    mesh = _near_origin(lamp.moved(-corner), moved_surface(mirror, -corner), moved_surface(receivers, -corner),
+                        settings, *others)
     return replace(mesh, positions=mesh.positions + corner, mirror_position=mesh.mirror_position + corner)
 
 
@@ -178,10 +178,11 @@ def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int
     number_of = np.zeros(faces.points.shape[1], dtype=np.int64)
     number_of[used] = np.arange(len(used))
     entry = (first % 3) * len(faces) + kept[first // 3]
+    parity = np.where(np.abs(light.turned[entry]) < ON_CAUSTIC, 0, np.sign(light.turned[entry]))
     return {
         "positions": faces.points[:, used].T, "triangles": number_of[triangles], "irradiance": irradiance,
         "flux": flux[kept], "mirror_position": light.place[:, entry].T,
-        "image_parity": np.where(np.abs(light.turned[entry]) < ON_CAUSTIC, 0, np.sign(light.turned[entry])).astype(np.int8), "cosine": cosine, "source_face": source,
+        "image_parity": parity.astype(np.int8), "cosine": cosine, "source_face": source,
         "source_weights": _weights(receivers, source, corners),
         "bounces": np.full(len(kept), number, dtype=np.int8)}
 
