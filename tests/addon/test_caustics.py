@@ -42,7 +42,7 @@ def scene_of(kind: str = "POINT", **values) -> tuple:
     scene = bpy.context.scene
     scene.render.engine, scene.world, scene.view_settings.view_transform = "CYCLES", None, "Raw"
     scene.render.resolution_x = scene.render.resolution_y = SIZE
-    scene.cycles.sample_clamp_indirect, scene.cycles.use_denoising = 0.0, False
+    scene.cycles.sample_clamp_indirect, scene.cycles.use_denoising, scene.cycles.blur_glossy = 0.0, False, 0.0
     camera = scene.camera
     camera.location, camera.rotation_euler, camera.data.type, camera.data.ortho_scale = (0, 0, 6), (0, 0, 0), "ORTHO", 3
     floor = parts.add("plane", "Floor", size=20.0)
