@@ -1,4 +1,4 @@
-"""What Blender sees of the extension: roles, operators, a panel and a command; the optics are in `core`."""
+"""What Blender sees of the extension: roles, operators, panels, a menu and a command; the optics are in `core`."""
 from . import (
     bake,
     caustics,
@@ -6,9 +6,9 @@ from . import (
     command_line,
     compare,
     generate,
+    interface,
     light,
     mirror_uvs,
-    panel,
     print_sheet,
     properties,
 )
@@ -19,7 +19,7 @@ from .writing import windows
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
 MODULES = (properties, windows, stale_light, generate, light, caustics, bake, mirror_uvs, print_sheet, compare, clear,
-           panel, command_line)
+           interface, command_line)
 
 
 def register() -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import bpy
 
 from .. import core
+from . import polls
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .illumination import (
     Caustic,
@@ -18,19 +19,21 @@ from .illumination import (
     leave_out_own_caustics,
     write_caustics,
 )
-from .properties import depth_property, memory_property, tolerance_property
 from .reading import SURFACES, DiffuseScene, Participants, choose, is_opaque, read_mirror, read_scene
+from .settings import SettingsOfMirrors, UsesSettings, option
 
+IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
 READING = 0.05  # share of the work
 LAYERS = 3  # of light over each other that one place of a lamp may make, where a mirror folds it
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """What is asked for: places on each lamp, core's settings, and whether Cycles' own caustics are left out."""
+class Asked:
+    """What is asked for: places on each lamp, the settings of each mirror, and whether Cycles' own caustics are left
+    out."""
 
     eyes: int
-    settings: core.Settings
+    settings: SettingsOfMirrors
     leave_out: bool
 
 
@@ -46,7 +49,7 @@ class Thrown:
         return f"{names}: {sum(obj.reflection_mesh.faces for obj in self.objects)} faces of light, {seconds:.2f} s"
 
 
-def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, wanted: Wanted) -> Steps[Thrown]:
+def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, wanted: Asked) -> Steps[Thrown]:
     """Generate the light of `lamps` that `chosen.mirrors` throw on `chosen.diffuse`, yielding (fraction, stage).
 
     Nothing in the file changes before the last step; a generator that is closed before leaves no trace.
@@ -57,7 +60,9 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
         Where there is nothing to see of it; its message is one sentence for the user.
     """
     if context.mode != "OBJECT":
-        raise core.ReflectionError("Caustics are generated in Object Mode: leave the present mode first.")
+        raise core.ReflectionError(IN_OBJECT_MODE)
+    if wanted.eyes < 1:
+        raise core.ReflectionError("Light comes from one place of each lamp at least: raise the number of places.")
     yield 0.0, "Reading the scene"
     depsgraph = context.evaluated_depsgraph_get()
     surfaces = [read_mirror(depsgraph, mirror).mesh for mirror in chosen.mirrors]
@@ -72,7 +77,7 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
             name = f"{mirror.name} Caustics{f' {lamp.name}' if several else ''}"
             lit, told = [], ""
             for eye in eyes_of(depsgraph, lamp, wanted.eyes, surface.positions[surface.triangles].mean(axis=(0, 1))):
-                steps = core.caustic_steps(eye.lamp, surface, scene.mesh, wanted.settings,
+                steps = core.caustic_steps(eye.lamp, surface, scene.mesh, wanted.settings(mirror),
                                            others if len(others.triangles) else None, blockers)
                 try:
                     lit.append((eye, (yield from part(steps, done, share, name))))
@@ -95,7 +100,7 @@ def _made(context: bpy.types.Context, name: str, pair: tuple, lit: list, scene: 
     return Caustic(name, *pair, scene.sources, arrays, counts)
 
 
-def _written(context: bpy.types.Context, prepared: list, wanted: Wanted, remarks: list) -> Thrown:
+def _written(context: bpy.types.Context, prepared: list, wanted: Asked, remarks: list) -> Thrown:
     objects, unknown, scene = [], [], context.scene
     with AllOrNothing() as whole:
         for made in prepared:
@@ -134,59 +139,43 @@ def _blockers(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph,
         return None  # none of them has faces
 
 
-class REFLECTION_MESH_OT_caustics(SteppedOperator, bpy.types.Operator):
+class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Operator):
     """Compute the light of lamps that the mirrors throw on the diffuse objects, as meshes that add it to them"""
 
     bl_idname = "reflection_mesh.caustics"
     bl_label = "Generate Caustics"
     bl_options = {"REGISTER", "UNDO"}
 
+    uses = ("tolerance", "depth", "memory")
+
+    tolerance: option("tolerance")
+    depth: option("depth")
+    memory: option("memory")
     eyes: bpy.props.IntProperty(name="Lamp Places", default=1, min=1, soft_max=64, max=4096, options=set(),
                                 description="Places on each lamp that its light comes from: one is sharp, more are as "
                                 "soft as the lamp is large")
-    tolerance: tolerance_property()
-    depth: depth_property()
-    memory: memory_property()
     leave_out: bpy.props.BoolProperty(name="Replace Cycles' Own", default=True, options=set(),
                                       description="The lamps do not light these mirrors any more, so that Cycles does "
                                       "not add caustics of its own; clearing brings that back")
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror)
+
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        wanted = wanted_of(self)
-        thrown = yield from throwing(context, choose(context), chosen_lamps(context), wanted)
+        chosen, wanted = choose(context), self.wanted(context)
+        thrown = yield from throwing(context, chosen, chosen_lamps(context), Asked(self.eyes, wanted, self.leave_out))
+        self.show_used(wanted, chosen.mirrors)
         context.view_layer.update()
         for remark in thrown.remarks:
             self.report({"WARNING"}, remark)
         self.report({"INFO"}, thrown.summary(time.perf_counter() - started))
 
 
-def wanted_of(holder) -> Wanted:
-    """What an operator or a command line's options ask for.
-
-    Raises
-    ------
-    core.ReflectionError
-        Where one of the settings cannot be.
-    """
-    if holder.eyes < 1:
-        raise core.ReflectionError("Light comes from one place of each lamp at least: raise the number of places.")
-    try:
-        settings = core.Settings(tolerance=holder.tolerance, depth=holder.depth, maximum_memory=holder.memory)
-    except ValueError as error:
-        raise core.ReflectionError(str(error)) from error
-    return Wanted(holder.eyes, settings, holder.leave_out)
-
-
-def draw_menu(self, context: bpy.types.Context) -> None:
-    self.layout.operator(REFLECTION_MESH_OT_caustics.bl_idname, icon="LIGHT_POINT")
-
-
 def register() -> None:
     bpy.utils.register_class(REFLECTION_MESH_OT_caustics)
-    bpy.types.VIEW3D_MT_object.append(draw_menu)
 
 
 def unregister() -> None:
-    bpy.types.VIEW3D_MT_object.remove(draw_menu)
     bpy.utils.unregister_class(REFLECTION_MESH_OT_caustics)

@@ -197,7 +197,8 @@ def test_a_stop_in_the_middle_leaves_nothing(blank, room):
     floor, mirror, lamp = scene_of()
     before = parts.state()
     place, reading = room("addon.caustics"), room("addon.reading")
-    wanted = place.Wanted(2, room("core").Settings(), True)
+    settings = room("core").Settings()
+    wanted = place.Asked(2, lambda mirror: settings, True)
     steps = place.throwing(blank, reading.choose(blank), [lamp], wanted)
     for share, _ in steps:
         if share > 0.5:
