@@ -75,8 +75,8 @@ def _lift(positions: np.ndarray, size: float, farthest: float, camera: bpy.types
 
 
 def _layers(mirror_position: np.ndarray, parity: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """By how many times as far (n,) faces lie that are turned over, that light comes to from elsewhere on the mirror, or
-    from another `place` (n,) of the lamp: Cycles takes surfaces in one place for one."""
+    """By how many times as far (n,) faces lie that are turned over, to which light comes from elsewhere on the mirror,
+    or from another `place` (n,) of the lamp: Cycles takes surfaces in one place for one."""
     along = mirror_position @ ACROSS
     along = (along - along.min()) / max(float(np.ptp(along)), 1e-300)
     return 1.0 + SPREAD * (place + 0.5 * along + 0.25 * (1 - parity)) / (place.max() + 1)

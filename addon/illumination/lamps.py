@@ -58,7 +58,7 @@ class Eye:
 
 
 def chosen_lamps(context: bpy.types.Context) -> list:
-    """The selected lamps, or where none is selected all that light the view layer's renders.
+    """The selected lamps; where none is selected that of active caustics, else all that light the view layer's renders.
 
     Raises
     ------
@@ -67,7 +67,10 @@ def chosen_lamps(context: bpy.types.Context) -> list:
     """
     lamps = [obj for obj in context.view_layer.objects
              if obj.type == "LIGHT" and obj.visible_get() and not obj.hide_render]
-    lamps = [obj for obj in lamps if obj.select_get()] or lamps
+    active = context.view_layer.objects.active
+    own = [obj for obj in lamps if active is not None and active.reflection_mesh.role == "CAUSTICS"
+           and obj == active.reflection_mesh.lamp]
+    lamps = [obj for obj in lamps if obj.select_get()] or own or lamps
     if not lamps:
         raise ReflectionError("There is no lamp: add one (Add > Light) or show it in the viewport and in renders.")
     return lamps
