@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import bpy
 
 from .. import core
+from ..core.caustics import most_layers
 from . import polls
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .illumination import (
@@ -24,7 +25,6 @@ from .settings import SettingsOfMirrors, UsesSettings, option
 
 IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
 READING = 0.05  # share of the work
-LAYERS = 3  # of light over each other that one place of a lamp may make, where a mirror folds it
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,9 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
 def _made(context: bpy.types.Context, name: str, pair: tuple, lit: list, scene: DiffuseScene) -> Caustic:
     counts = {key: sum(mesh.counts.get(key, 0) for _, mesh in lit) for key in lit[0][1].counts}
     arrays = caustic_arrays(lit, scene, Tint.of(pair[0]), context.scene.camera)
-    return Caustic(name, *pair, scene.sources, arrays, counts)
+    places = [arrays.positions, arrays.triangles, next(
+        one.values for one in arrays.attributes if one.name == "source_face")]
+    return Caustic(name, *pair, scene.sources, arrays, counts, most_layers(*places))
 
 
 def _written(context: bpy.types.Context, prepared: list, wanted: Asked, remarks: list) -> Thrown:
@@ -116,10 +118,10 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, remarks:
                        "mixed of several shaders: its light may have another colour.")
     if not all(Tint.of(made.mirror).constant for made in prepared):
         remarks.append("A mirror's colour that changes over it counts as one: plug it off to choose which.")
-    bounces, layers = scene.cycles.transparent_max_bounces, LAYERS * wanted.eyes * len(prepared)
+    bounces, layers = scene.cycles.transparent_max_bounces, sum(made.layers for made in prepared)
     if scene.render.engine == "CYCLES" and layers > bounces:
-        remarks.append(f"Cycles follows {bounces} transparent layers and there may be {layers}: raise Light Paths > "
-                       "Max Bounces > Transparent.")
+        remarks.append(f"Cycles follows {bounces} transparent layers, and of light {layers} or more lie over each "
+                       "other, which is dark there: raise Light Paths > Max Bounces > Transparent.")
     return Thrown(objects, remarks)
 
 

@@ -26,6 +26,8 @@ class Caustic:
     arrays : MeshArrays
         With the receivers' materials.
     counts : dict
+    layers : int
+        The most faces over each other.
     """
 
     name: str
@@ -34,6 +36,7 @@ class Caustic:
     sources: list
     arrays: MeshArrays
     counts: dict
+    layers: int
 
 
 def results_with(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.types.Object) -> list:

@@ -8,5 +8,6 @@ Reflectors", SIGGRAPH 1992.
 from .caustic_mesh import CausticMesh
 from .caustics import caustic_steps, caustics
 from .lamps import Lamp
+from .layers import most_layers
 
-__all__ = ["CausticMesh", "Lamp", "caustic_steps", "caustics"]
+__all__ = ["CausticMesh", "Lamp", "caustic_steps", "caustics", "most_layers"]

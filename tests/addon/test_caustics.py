@@ -215,3 +215,12 @@ def test_the_verb_writes_a_file(blank, room, tmp_path):
     bpy.ops.wm.open_mainfile(filepath=str(path))
     assert bpy.data.objects["Mirror Caustics"].reflection_mesh.lamp == bpy.data.objects["Lamp"]
     assert run(["caustics", "--eyes", "0", "--output", str(path)]) == 1
+
+
+def test_more_layers_than_cycles_follows_are_told(blank, capfd):
+    scene_of(shadow_soft_size=0.1)
+    blank.scene.cycles.transparent_max_bounces = 5
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=4) == {"FINISHED"}
+    assert "transparent layers" not in capfd.readouterr().out
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=8) == {"FINISHED"}
+    assert "Cycles follows 5 transparent layers, and of light 8 or more" in capfd.readouterr().out
