@@ -76,6 +76,7 @@ work: environment
 pictures: environment
 	$(RUN) tools/pictures.py
 	$(RUN) tools/line_pictures.py
+	$(RUN) tools/caustic_pictures.py
 	$(RUN) tools/parts.py
 
 test: lint test-core test-addon
