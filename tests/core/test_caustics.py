@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 
 from core import Lamp, ReflectionError, Settings, TriangleMesh, View, caustics
+from core.cameras import MirrorMap
+from core.caustics.corners import light_at
 from tests.oracles.ray_hits import first_hits, plane_hits
 
 SIDE = 1.6
@@ -121,6 +123,25 @@ def test_a_flat_mirror_throws_light_as_from_the_lamp_behind_it():
     assert (normal[:, 2] > 0.0).all() and (mesh.image_parity == 1).all()
 
 
+def test_irradiance_is_the_solid_angle_of_a_thin_bundle_over_the_area_that_it_lights():
+    mirror = TriangleMesh(np.array([(0.0, -0.4, 1.2), (0.1, 0.5, 1.1), (0.0, 0.0, 1.9)]), np.array([[0, 1, 2]]),
+                          np.array([[(1.0, -0.3, 0.1), (1.0, 0.2, -0.1), (1.0, 0.1, 0.2)]]))
+    view = View.looking_at((1.5, 0.2, 3.0), (0.0, 0.0, 1.4), (64, 64))
+    ray_map, face = MirrorMap(view, mirror), np.zeros(3, dtype=int)
+
+    def landed(uv: np.ndarray) -> np.ndarray:
+        place, way = ray_map.leave(face[:uv.shape[1]], uv)
+        return place - place[2] / way[2] * way
+    for u, v in ((0.2, 0.3), (0.5, 0.1), (0.1, 0.7)):
+        uv = np.array([[u, u + 1e-5, u], [v, v, v + 1e-5]])
+        points = landed(uv)
+        area = 0.5 * np.linalg.norm(np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]))
+        place = TriangleMesh(ray_map.places(face, uv).T, np.array([[0, 1, 2]]))
+        found = light_at(ray_map, face[:1], uv[:, :1], points[:, :1], np.array([[0.0], [0.0], [1.0]]))
+        assert abs(found.irradiance[0] / (solid_angle(view.eye, place) / area) - 1.0) < 1e-4
+        assert found.arrived[0] and found.side[0] == 1.0
+
+
 def test_what_stands_in_the_way_casts_its_shadow_exactly():
     lamp, mirror, floor = Lamp((1.0, 0.0, 3.0)), upright(0.0, 1.5, 0.5), level(0.0, 0.0, 0.0, 9.0)
     whole = solid_angle(lamp.place, mirror)
@@ -203,6 +224,10 @@ def test_several_bounces_go_on_from_mirror_to_mirror():
     expected = 4.0 / np.linalg.norm(way, axis=2)**3
     assert np.median(np.abs(two.irradiance[again] / expected - 1.0)) < 1e-3
     assert two.flux[again].sum() <= solid_angle((-1.0, 0.0, 4.0), window) + 1e-9
+    # a wall that the light of the first mirror meets throws nothing on
+    walled = caustics(lamp, first, floor, Settings(depth=2), second, upright(5.0, 1.0, 1.0))
+    assert walled.flux[walled.bounces == 1].sum() < one.flux.sum() - 1e-3
+    assert abs(walled.flux[walled.bounces == 2].sum() - two.flux[again].sum()) < 1e-9
 
 
 def test_far_from_the_origin_nothing_changes():
