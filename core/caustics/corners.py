@@ -2,7 +2,8 @@
 
 Light of the intensity I that has gone the way d to the mirror has the irradiance I / |d|^2 across its direction there.
 On its way on a thin bundle of it grows to `turned` times its area across the light, and falls on the receiver with the
-cosine c: I c / (|d|^2 |turned|) is the irradiance there, infinite on a caustic, where `turned` is zero.
+cosine c: I c / (|d|^2 |turned|) is the irradiance there, infinite on a caustic, where `turned` is zero. Flat triangles
+with smooth normals send a bundle on that is wider or narrower than what came: by the sines of both ways to them.
 """
 from __future__ import annotations
 
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..cameras import ReflectionMap
+from ..cameras import BouncedMap, ReflectionMap
 from ..geometry import dot, norm, unit
 
 ON_FOLD = 1e-12  # of the growth of a bundle: less is none
@@ -88,12 +89,25 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
         way = place - ray_map.view.eye[:, None]
         falling = 1.0 / np.maximum(dot(way, way), 1e-300)
     cosine = -dot(ray, normals) / length
-    grown = np.abs(turned)
+    ways = [unit(way), *map(unit, ray_map.leaving(face, uv))]
+    grown = np.abs(turned) * _widened(ray_map, face, ways)
     with np.errstate(divide="ignore"):
         irradiance = np.where(grown > ON_FOLD, falling * np.abs(cosine) / np.maximum(grown, ON_FOLD), np.inf)
-    way, first = unit(way), unit(ray_map.leaving(face, uv)[0])
     # a ray is turned by twice the angle that it has to the mirror's plane
-    upright = np.sqrt(np.clip(0.5 * (1.0 - dot(way, first)), 0.0, 1.0))
+    upright = np.sqrt(np.clip(0.5 * (1.0 - dot(ways[0], ways[1])), 0.0, 1.0))
     miss = norm(origin + s * ray - points)
     arrived = (s > 0.0) & (miss <= ARRIVED * (norm(points - origin) + sum(map(norm, ray_map.spans(face)))))
     return Corners(uv, irradiance, turned, upright, place, np.sign(cosine), arrived)
+
+
+def _widened(ray_map: ReflectionMap, face: np.ndarray, ways: list[np.ndarray]) -> np.ndarray:
+    """How much wider (n,) bundles leave the flat triangles of all mirrors than they come; `ways` (3, n) are the unit
+    directions of light before the first mirror and behind each."""
+    wider = np.ones(len(face))
+    for before, after in zip(ways[-2::-1], ways[:0:-1]):
+        surface, triangle = ray_map.last(face)
+        normal = surface.face_normal[:, triangle]
+        wider *= np.abs(dot(after, normal)) / np.maximum(np.abs(dot(before, normal)), 1e-12)
+        if isinstance(ray_map, BouncedMap):
+            face, ray_map = ray_map.face_before[face], ray_map.before
+    return wider
