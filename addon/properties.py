@@ -11,7 +11,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from .settings import SettingsOfMirror, SettingsOfScene, holder_of, make_own, mirror_of
+from .settings import SettingsOfMirror, SettingsOfScene, make_own
 
 ROLES = (
     ("AUTO", "Automatic", "A mirror if its material is one; if no selected object is, the active object is the mirror"),
@@ -74,10 +74,6 @@ class ReflectionScene(SettingsOfScene, bpy.types.PropertyGroup):
     """`Scene.reflection_mesh`: the settings of every mirror that has none of its own."""
 
     comparison: StringProperty(name="Comparison", description="Numbers of the last comparison with Cycles, as JSON")
-
-    def shown(self, context: bpy.types.Context) -> bpy.types.PropertyGroup:
-        """The settings that the panels show and presets set: those that hold for the active object."""
-        return holder_of(mirror_of(context.view_layer.objects.active), context.scene)
 
 
 CLASSES = (ReflectionSource, ReflectionObject, ReflectionScene)
