@@ -5,13 +5,14 @@ asked for it is the next mirror. Convex mirrors never see themselves: their tria
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from copy import copy
 from functools import cached_property
 
 import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
-from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, opposite_corners, rows, unit
+from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, in_order, opposite_corners, rows, unit
 from .bounded_trace import bounded_trace
 from .candidates import Candidates
 from .cones import Cones
@@ -112,13 +113,14 @@ class SceneAndMirrors:
         assert isinstance(self.tree, SceneTree)  # points have a trace of their own
         pieces = self.pieces
         if pieces is None:
-            return bounded_trace(self.tree, Cones.around(cameras), most, worth)
-        on_patch, pairs, visited = pieces.holds(cameras), [], 0
-        given_up = np.zeros(len(cameras), dtype=bool)
-        for tree, first, own in ((self.tree, 0, ~on_patch), (pieces.tree, len(self.tree.mesh.triangles), on_patch)):
+            parts = [(self.tree, 0, np.ones(len(cameras), dtype=bool))]
+        else:
+            on_patch = pieces.holds(cameras)
+            parts = [(self.tree, 0, ~on_patch), (pieces.tree, len(self.tree.mesh.triangles), on_patch)]
+        pairs, visited, given_up = [], 0, np.zeros(len(cameras), dtype=bool)
+        for tree, first, own in parts:
             chosen = np.flatnonzero(own)
-            camera, triangle, more, crowd = bounded_trace(tree, Cones.around(cameras.select(chosen)), most,
-                                                          worth[chosen])
+            camera, triangle, more, crowd = _traced(tree, cameras.select(chosen), most, worth[chosen])
             pairs.append((chosen[camera], first + triangle))
             given_up[chosen[crowd]] = True
             visited += more
@@ -156,8 +158,8 @@ class SceneAndMirrors:
             if (self._outside * dot(sides[1], surface.face_normal[:, face]) > 0.0).all():
                 none = np.zeros(0, dtype=np.int64)
                 return none, none, 0, np.zeros(len(cameras), dtype=bool)
-        return bounded_trace(self.mirror_tree, Cones.around(cameras), most, worth,
-                             lambda camera, triangle: self._above(sides, camera, triangle))
+        return _traced(self.mirror_tree, cameras, most, worth,
+                       lambda camera, triangle: self._above(sides, camera, triangle))
 
     def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
         """The triangle (n,) that each ray, from `origin` along unit vectors `ray` (3, n), meets first, -1 where none.
@@ -230,3 +232,16 @@ class SceneAndMirrors:
                          for corner in (own[side], beyond))
             inner[side, pair] = near * far == -9.0
         return inner
+
+
+def _traced(tree: SceneTree, cameras: Cameras, most: int, worth: np.ndarray,
+            asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
+            ) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+    """`bounded_trace` of cameras, those of one mirror triangle side by side: they look nearly the same way."""
+    order = in_order(cameras.face)
+    by_order = None if asked is None else lambda camera, triangle: asked(order[camera], triangle)
+    camera, triangle, visited, crowd = bounded_trace(tree, Cones.around(cameras.select(order)), most, worth[order],
+                                                     by_order, cameras.face[order])
+    given_up = np.zeros(len(order), dtype=bool)
+    given_up[order[crowd]] = True
+    return order[camera], triangle, visited, given_up

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..cameras import Cameras, beyond_horizon, split_cameras
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import doubled_areas, edge_lengths, ranges
+from ..geometry import doubled_areas, edge_lengths, in_order, ranges
 from ..support import breathe
 from .covering import Overlaps
 
@@ -69,7 +69,7 @@ def _children(camera: np.ndarray, column: np.ndarray, parent: np.ndarray, new: n
     splitting = np.zeros(before, dtype=bool)
     splitting[parent[new]] = True
     own = np.flatnonzero((camera >= 0) & splitting[camera])
-    own = own[np.argsort(camera[own], kind="stable")]
+    own = own[in_order(camera[own])]
     start = np.searchsorted(camera[own], np.arange(before + 1))
     child = np.flatnonzero(new)
     entry, run = ranges(start[parent[child]], start[parent[child] + 1] - start[parent[child]])

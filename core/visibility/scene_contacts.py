@@ -13,7 +13,7 @@ import numpy as np
 
 from ..cameras import Cameras, picture_areas, with_pieces
 from ..culling import Candidates
-from ..geometry import SceneFrames, cross, dot, largest, ranges, rows, smallest
+from ..geometry import SceneFrames, cross, dot, in_order, largest, ranges, rows, smallest
 from ..polygons import ConvexPolygons, Line
 from ..support import breathe, crowded
 
@@ -77,7 +77,7 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
     now = np.full(len(cut), -1)
     now[np.delete(origin, piece)] = np.delete(np.arange(len(cameras)), piece)
     asked = np.flatnonzero(cut[candidates.camera])
-    asked = asked[np.argsort(candidates.camera[asked], kind="stable")]
+    asked = asked[in_order(candidates.camera[asked])]
     start, stop = (np.searchsorted(candidates.camera[asked], origin[piece], side=side) for side in ("left", "right"))
     crowd = np.zeros(len(cameras), dtype=bool)
     crowd[piece] = crowded(stop - start, picture_areas(cameras.select(piece)), AGAIN * maximum)
