@@ -91,13 +91,13 @@ class MirrorSurface:
     def _unit_normal(self, raw: np.ndarray, face: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
         """Unit normals, in place of the `raw` ones, and how long (n,) they were."""
         size = norm(raw)
-        lost = size > 1e-12
-        if lost.all():
+        known = size > 1e-12
+        if known.all():
             raw /= size
             return raw, size
         raw /= np.where(size > 0.0, size, 1.0)
         # opposite normals may cancel along an edge: the flat normal is then the only one left
-        lost = np.flatnonzero(~lost)
+        lost = np.flatnonzero(~known)
         raw[:, lost] = self.face_normal[:, face][:, lost]
         return raw, np.maximum(size, 1e-12)
 
@@ -116,9 +116,11 @@ class MirrorSurface:
         raw = self.raw_normals(face, uv)
         normal, size = self._unit_normal(raw, face)
         slope = dot(direction, normal)
+        own_u, own_v = (self._parts[first:first + 3] if isinstance(face, slice) else
+                        columns(self._parts[first:first + 3], face) for first in (3, 6))
         turned = []
         for way, move in changes:
-            turn = way[0] * self.normal_u[:, face] + way[1] * self.normal_v[:, face]
+            turn = way[0] * own_u + way[1] * own_v
             turn = (turn - dot(turn, normal) * normal) / size
             turned.append(move - 2.0 * (dot(move, normal) + dot(direction, turn)) * normal - 2.0 * slope * turn)
         return direction - 2.0 * slope * normal, turned

@@ -138,12 +138,12 @@ class SceneAndMirrors:
         else:
             return 0.0
         # a surface that winds about itself is convex everywhere but as a whole
-        corners = self.mirror_corners.reshape(3, -1)
+        corners = rows(self.mirrors.positions[np.unique(self.mirrors.triangles)])
         turn = np.arange(DIRECTIONS) + 0.5
         height, angle = 1.0 - 2.0 * turn / DIRECTIONS, np.pi * (1.0 + np.sqrt(5.0)) * turn
         ring = np.sqrt(1.0 - height * height)
         for direction in np.stack((ring * np.cos(angle), ring * np.sin(angle), height), axis=1):
-            farthest = corners[:, np.argmax(direction @ corners)]
+            farthest = corners[:, np.argmax(dot(direction, corners))]
             if (side * dot(farthest[:, None] - self.surface.a, self.surface.face_normal) > room).any():
                 return 0.0
         return side
