@@ -169,9 +169,11 @@ class SceneAndMirrors:
                                        lambda own, triangle: self._above(sides, own, triangle))
         return np.where(nearer < near, mirror + self.diffuse, diffuse)
 
-    def first_distances(self, origin: np.ndarray, ray: np.ndarray) -> list[np.ndarray]:
-        """How far along rays (3, n), unit vectors, the diffuse scene and the mirrors lie, infinite where not at all."""
-        return [first_crossed(tree, origin, ray)[1] for tree in (self.tree, self.mirror_tree)]
+    def first_distances(self, origin: np.ndarray, ray: np.ndarray, diffuse: bool) -> np.ndarray:
+        """How far along rays (3, n), unit vectors, the diffuse scene, or this and the mirrors lie, infinite where not
+        at all."""
+        trees = [self.tree] if diffuse else [self.tree, self.mirror_tree]
+        return np.minimum.reduce([first_crossed(tree, origin, ray)[1] for tree in trees])
 
     def shown_in_middles(self, cameras: Cameras) -> np.ndarray:
         """The triangle (n,) that the ray through the middle of each camera meets first, -1 where it meets none."""

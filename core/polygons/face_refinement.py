@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, ReflectionMap
-from ..geometry import SceneFrames, View, dot, falling, norm, shared_edges
+from ..geometry import SceneFrames, View, columns, dot, falling, norm, shared_edges
 from ..support import breathe
 from .polygon_corners import Nodes
 from .triangulation import Faces
@@ -58,11 +58,12 @@ class FaceRefinement:
         finished: list[Faces] = []
         left: list[np.ndarray] = []
         done = np.zeros((len(faces), 3), dtype=bool)
+        pixels = self._view.pixels(nodes.place.T)
         for level in range(LEVELS + 1):
             if not len(faces):
                 break
             breathe()
-            marked, straying, chosen, middle = self._marked(nodes, faces, done, tolerance)
+            marked, straying, chosen, middle = self._marked(nodes, pixels, faces, done, tolerance)
             ends, edge, choice, middle_nodes = middle
             stop = level == LEVELS or sum(map(len, finished)) + len(faces) + 2 * marked.sum() > maximum
             if stop or not marked.any():
@@ -72,6 +73,7 @@ class FaceRefinement:
             new = np.full(len(ends), -1)
             new[choice] = np.arange(marked.sum()) + len(nodes.distance)
             nodes = nodes.joined(*middle_nodes)
+            pixels = np.concatenate((pixels, self._view.pixels(middle_nodes[0].T)))
             faces, done = faces.split(new[edge])
             resting = np.all(done, axis=1)
             finished.append(faces.select(resting))
@@ -79,9 +81,9 @@ class FaceRefinement:
         resting_left = np.concatenate((*left, np.zeros((2, 1))), axis=1)
         return nodes, Faces.joined(finished) if finished else faces, resting_left, 0
 
-    def _marked(self, nodes: Nodes, faces: Faces, done: np.ndarray, tolerance: float):
-        """Edges to split; of those that no neighbour has settled yet, what they stray by, their lengths, and whether
-        they are to be split; and the nodes in their middles."""
+    def _marked(self, nodes: Nodes, pixels: np.ndarray, faces: Faces, done: np.ndarray, tolerance: float):
+        """Edges to split between nodes at `pixels` (n, 2); of those that no neighbour has settled yet, what they stray
+        by, their lengths, and whether they are to be split; and the nodes in their middles."""
         ends, first, edge = shared_edges(faces.nodes)
         face = first // 3
         open_ = np.flatnonzero(~done.reshape(-1)[first])
@@ -100,11 +102,12 @@ class FaceRefinement:
         drift, error, point, distance = (np.concatenate(side, axis=-1) for side in zip(*parts))
         worth = np.zeros(len(ends), dtype=bool)
         worth[edge[~self.beyond[faces.camera]]] = True
-        pixels = self._view.pixels(nodes.place.T)
-        beyond = np.concatenate((pixels < -MARGIN, pixels > np.add(self._view.resolution, MARGIN)), axis=1)
-        worth[open_] &= ~(beyond[a] & beyond[b]).any(axis=1)
+        (right, up), (other_right, other_up) = (columns(pixels.T, end) for end in (a, b))
+        for one, other, size in ((right, other_right, self._view.resolution[0]),
+                                 (up, other_up, self._view.resolution[1])):
+            worth[open_] &= ~((np.maximum(one, other) < -MARGIN) | (np.minimum(one, other) > size + MARGIN))
         drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
-        length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
+        length = np.sqrt((right - other_right)**2 + (up - other_up)**2)
         # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight
         outline = np.zeros(len(ends), dtype=bool)
         outline[edge[faces.on_scene_edge]] = True
