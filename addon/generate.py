@@ -9,9 +9,9 @@ import bpy
 from .. import core
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .frames import stop_playing
-from .lighting import keep_light
+from .lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
 from .properties import SettingsProperties, settings_of
-from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view
+from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view, results_of
 from .shortcomings import shortcomings, window_shortcomings
 from .writing import Reflection, mesh_arrays, point_arrays, write_object
 
@@ -21,10 +21,12 @@ READING = 0.1
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a generation made: (object, core.ReflectionMesh) of each mirror, and sentences on what was left out."""
+    """What a generation made: (object, core.ReflectionMesh) of each mirror, sentences on what was left out, and the
+    objects of which the light is still to come."""
 
     results: list
     remarks: list
+    unlit: list
 
     def summary(self, seconds: float) -> str:
         """One line on what was generated."""
@@ -34,11 +36,13 @@ class Outcome:
         error = max(result.estimated_error for _, result in self.results)
         filled = max(result.filled_share for _, result in self.results)
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
+        light = "; the light is still to come, by Light Reflection" if self.unlit else ""
         return (f"{names}: {size}, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
-                f"{seconds:.2f} s")
+                f"{seconds:.2f} s{light}")
 
 
-def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings) -> Steps[Outcome]:
+def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings,
+               preview: bool = False) -> Steps[Outcome]:
     """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
 
     Nothing in the file changes before the last step, which writes all results, or none where one of them fails; a
@@ -87,13 +91,17 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     if not prepared:
         raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
     yield 1.0, "Writing"
+    previewed = {obj for made in prepared for obj in results_of(context, made.mirror) if shows_preview(obj)}
     with AllOrNothing() as whole:
         results = [(write_object(context, made, settings.placement, whole), made.result) for made in prepared]
         for obj, _ in results:
             keep_light(obj, view, scene)
             whole.after(stop_playing, obj)
             obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
-    return Outcome(results, remarks + refused)
+        unlit = [obj for obj, _ in results if not is_lit(obj) and needs_light(obj)]
+        show_previews([obj for obj in unlit if preview or obj in previewed], whole)
+        whole.after(forget_previews)
+    return Outcome(results, remarks + refused, unlit)
 
 
 class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types.Operator):
@@ -103,9 +111,18 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
     bl_label = "Generate Reflection"
     bl_options = {"REGISTER", "UNDO"}
 
+    preview: bpy.props.BoolProperty(name="Preview", default=False, options={"SKIP_SAVE"},
+                                    description="Until it is lit, show the colours of what is reflected in the "
+                                    "mirror's tint, untouched by lamps: on where the operator is invoked")
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
+        if not self.properties.is_property_set("preview"):
+            self.preview = True
+        return super().invoke(context, event)
+
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        outcome = yield from generation(context, choose(context), settings_of(self))
+        outcome = yield from generation(context, choose(context), settings_of(self), self.preview)
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
         for obj, _ in outcome.results:
