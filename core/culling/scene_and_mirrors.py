@@ -17,11 +17,13 @@ from .bounded_trace import bounded_trace
 from .candidates import Candidates
 from .cones import Cones
 from .first_crossed import first_crossed
+from .node_tree import curve_leaves, depth_for
 from .point_tree import PointTree
 from .scene_pieces import ScenePieces
 from .scene_tree import SceneTree
 
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
+FAMILY = 16  # cameras that are looked at together at the most, or about half as many
 DIRECTIONS = 64  # in which a body's farthest corner is looked for
 RISEN = 1e-5  # of the mirrors' size: what rises less is seen by rays along the mirror alone
 
@@ -239,11 +241,23 @@ class SceneAndMirrors:
 def _traced(tree: SceneTree, cameras: Cameras, most: int, worth: np.ndarray,
             asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
             ) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
-    """`bounded_trace` of cameras, those of one mirror triangle side by side: they look nearly the same way."""
-    order = in_order(cameras.face)
+    """`bounded_trace` of cameras, those side by side that look nearly the same way."""
+    family = _families(cameras)
+    order = in_order(family)
     by_order = None if asked is None else lambda camera, triangle: asked(order[camera], triangle)
     camera, triangle, visited, crowd = bounded_trace(tree, Cones.around(cameras.select(order)), most, worth[order],
-                                                     by_order, cameras.face[order])
+                                                     by_order, family[order])
     given_up = np.zeros(len(order), dtype=bool)
     given_up[order[crowd]] = True
     return order[camera], triangle, visited, given_up
+
+
+def _families(cameras: Cameras) -> np.ndarray:
+    """(n,): cameras with the same number lie on one mirror triangle, and where these are many, close together."""
+    face = cameras.face
+    many = np.flatnonzero(np.bincount(face)[face] > FAMILY)
+    depth = depth_for(len(many), FAMILY // 2)
+    family = face << depth
+    if len(many):
+        family[many] += curve_leaves(cameras.places[:, cameras.corners[many]].mean(axis=2).T, depth)
+    return family

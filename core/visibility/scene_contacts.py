@@ -49,9 +49,10 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
     origin, cut, count = np.arange(len(cameras)), np.zeros(len(cameras), dtype=bool), 0
     for number in range(PASSES + 1):
         breathe()
+        meeting = np.flatnonzero(_meets(cameras, frames, camera, column))
+        camera, column = camera[meeting], column[meeting]
         sides, solid = hidden_sides(cameras, frames, camera, column)
-        meeting = _meets(cameras, frames, camera, column) & solid
-        camera, column, sides = camera[meeting], column[meeting], sides[:, :, meeting]
+        camera, column, sides = camera[solid], column[solid], sides[:, :, solid]
         if not len(camera) or len(cameras) > maximum or number == PASSES:
             break
         chosen, first = np.unique(camera, return_index=True)
