@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..geometry import TriangleMesh, View, neighbours, unit
-from .mirror_surface import MirrorSurface, Way
+from .mirror_surface import MirrorSurface, Way, along
 from .reflection_map import ReflectionMap
 
 NEARLY_GRAZING = 0.03  # sine at a face's corners or middle below which some ray of the face may need to be bent
@@ -110,7 +110,7 @@ class MirrorMap(ReflectionMap):
     def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: Way) -> tuple:
         own, every = self._gathered(face), slice(None)
         place = own.places(every, uv)
-        moves = [way[0] * own.u + way[1] * own.v for way in ways]
+        moves = [along(way, own.u, own.v) for way in ways]
         if self.parallel:
             return place, self.constant[:, face], [(move, np.zeros_like(move)) for move in moves]
         seen = [np.zeros_like(move) if self.orthographic else move for move in moves]

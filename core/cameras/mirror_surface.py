@@ -18,6 +18,7 @@ import numpy as np
 
 from ..geometry import TriangleMesh, columns, cross, dot, norm, rows, unit
 
+ALONG_UV = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])  # ways in (u, v)
 LEAST_RISE = 0.01  # sine of the angle at which Cycles lets a bent ray leave
 Way = np.ndarray | tuple[np.ndarray, np.ndarray]
 """A change of (u, v): (2, n), or its two rows."""
@@ -115,15 +116,21 @@ class MirrorSurface:
         that arrives, (3, n)."""
         raw = self.raw_normals(face, uv)
         normal, size = self._unit_normal(raw, face)
-        slope = dot(direction, normal)
+        slope = 2.0 * dot(direction, normal)
         own_u, own_v = (self._parts[first:first + 3] if isinstance(face, slice) else
                         columns(self._parts[first:first + 3], face) for first in (3, 6))
         turned = []
         for way, move in changes:
-            turn = way[0] * own_u + way[1] * own_v
-            turn = (turn - dot(turn, normal) * normal) / size
-            turned.append(move - 2.0 * (dot(move, normal) + dot(direction, turn)) * normal - 2.0 * slope * turn)
-        return direction - 2.0 * slope * normal, turned
+            turn = along(way, own_u, own_v)
+            turn = turn - dot(turn, normal) * normal
+            turn /= size
+            change = normal * (2.0 * (dot(move, normal) + dot(direction, turn)))
+            np.subtract(move, change, out=change)
+            turn *= slope
+            change -= turn
+            turned.append(change)
+        normal *= slope
+        return np.subtract(direction, normal, out=normal), turned
 
     def rise(self, face: np.ndarray, ray: np.ndarray, direction: np.ndarray) -> np.ndarray:
         """How steeply rays leave the flat triangles on the side that they came from, as a sine."""
@@ -169,6 +176,14 @@ def _coordinates(own: np.ndarray, moves: np.ndarray) -> np.ndarray:
 def _least_rise(upright: np.ndarray) -> np.ndarray:
     """How steeply rays must leave, as a sine, where the eye sees triangles under the sine `upright`."""
     return np.minimum(0.9 * np.abs(upright), LEAST_RISE)
+
+
+def along(way: Way, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """What changes by `u` and `v` (3, n) along them, along a way."""
+    for alone, own in zip(ALONG_UV, (u, v)):
+        if way is alone:
+            return own
+    return way[0] * u + way[1] * v
 
 
 def least_weight(uv: np.ndarray) -> np.ndarray:

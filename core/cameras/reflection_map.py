@@ -11,9 +11,8 @@ from abc import ABC, abstractmethod
 import numpy as np
 
 from ..geometry import View, cross, dot, norm, solve
-from .mirror_surface import MirrorSurface, Way
+from .mirror_surface import ALONG_UV, MirrorSurface, Way
 
-ALONG_UV = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])  # ways in (u, v)
 SETTLED = 1e-9  # of a triangle's side, or of s: after a shorter step of Newton's method the next is rounding alone
 ARRIVED = 1e-10  # of the path and the viewing distance: by how much a ray that Newton's method found may miss
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..cameras import Cameras, ReflectionMap
+from ..cameras import ALONG_UV, Cameras, ReflectionMap
 from ..geometry import SceneFrames, View, columns, dot, falling, norm, shared_edges
 from ..support import breathe
 from .polygon_corners import Nodes
@@ -150,18 +150,19 @@ class FaceRefinement:
         Near a caustic the picture of a point is drawn out in one direction, and a shift in that direction shows
         nothing: none counts for more than `STRETCH` times the pixels it would be where the picture is drawn out least.
         """
-        one, zero = np.ones(len(face)), np.zeros(len(face))
-        origin, ray, moves = self._map.linearise(face, uv, np.stack((one, zero)), np.stack((zero, one)))
-        s = np.maximum(self.frames.distance(column, origin, ray), 0.0)
-        point = origin + s * ray
-        normal = np.take(self.frames.normal, column, axis=1)
+        origin, ray, moves = self._map.linearise(face, uv, *ALONG_UV)
+        frames = self.frames
+        base, first, second, normal = (columns(row, column) for row in
+                                       (frames.origin, frames.first, frames.second, frames.normal))
         speed = falling(normal, ray)
+        s = np.maximum(dot(normal, base - origin) / speed, 0.0)
+        point = origin + s * ray
         moving = []
         for move, change in moves:
             free = move + s * change
             moving.append(free - dot(normal, free) / speed * ray)
-        (a, c), (b, d) = (self.frames.directions(column, along)[:2] for along in moving)
-        right = self.frames.directions(column, shown - point)[:2]
+        off = shown - point
+        (a, c), (b, d), right = ((dot(first, along), dot(second, along)) for along in (*moving, off))
         x, y = _solve(a, b, c, d, *right)
         place = self._map.places(face, uv)
         gradients = self._view.pixel_gradients(place)
@@ -170,7 +171,7 @@ class FaceRefinement:
         motion = [norm(x * moving[0] + y * moving[1]) for x, y in
                   (_solve(seen_u[0], seen_v[0], seen_u[1], seen_v[1], *step) for step in ((1.0, 0.0), (0.0, 1.0)))]
         with np.errstate(over="ignore"):
-            coarse = norm(shown - point) / np.maximum(np.maximum(*motion), 1e-300)
+            coarse = norm(off) / np.maximum(np.maximum(*motion), 1e-300)
             return drift, np.minimum(drift, STRETCH * coarse), point, s
 
 
