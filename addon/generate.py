@@ -3,20 +3,24 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from functools import partial
 
 import bpy
 
 from .. import core
+from . import polls
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .frames import stop_playing
 from .lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
-from .properties import SettingsProperties, settings_of
 from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view, results_of
+from .settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
 from .shortcomings import shortcomings, window_shortcomings
 from .writing import Reflection, mesh_arrays, point_arrays, write_object
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
+WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
+IN_OBJECT_MODE = "Reflections are generated in Object Mode: leave the present mode first."
 
 
 @dataclass(frozen=True)
@@ -34,14 +38,14 @@ class Outcome:
         faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
         size = f"{points} points" if points else f"{faces} faces"
         error = max(result.estimated_error for _, result in self.results)
-        filled = max(result.filled_share for _, result in self.results)
+        share = max(result.filled_share for _, result in self.results)
+        filled = f", {share:.1f} % filled by rays" if share >= WORTH_TELLING else ""
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
         light = "; the light is still to come, by Light Reflection" if self.unlit else ""
-        return (f"{names}: {size}, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
-                f"{seconds:.2f} s{light}")
+        return f"{names}: {size}, error about {error:.2f} px{filled}, {seconds:.2f} s{light}"
 
 
-def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings,
+def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings | SettingsOfMirrors,
                preview: bool = False) -> Steps[Outcome]:
     """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
 
@@ -49,13 +53,18 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     generator that is closed before leaves no trace. Of several mirrors, those that cannot show anything are left out
     with a remark.
 
+    Parameters
+    ----------
+    settings : core.Settings, or a function that gives those of a mirror
+
     Raises
     ------
     core.ReflectionError
         Where the input cannot be reflected; its message is one sentence for the user.
     """
     if context.mode != "OBJECT":
-        raise core.ReflectionError("Reflections are generated in Object Mode: leave the present mode first.")
+        raise core.ReflectionError(IN_OBJECT_MODE)
+    own = list(map(of_each(settings), chosen.mirrors))
     started = time.perf_counter()
     yield 0.0, "Reading the scene"
     remarks = [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
@@ -64,18 +73,20 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     surfaces = [read_mirror(depsgraph, mirror) for mirror in chosen.mirrors]
     scene = read_scene(depsgraph, chosen.diffuse)
     if not all(map(is_opaque, scene.materials)):
-        settings = replace(settings, hidden_faces=True)
-    yield 0.5 * READING, "Building the tree"
-    kind = core.PointTree if settings.method == "POINTS" else core.SceneTree
-    tree = yield from part(core.in_steps(lambda: kind.build(scene.mesh)), 0.5 * READING, 0.5 * READING,
-                           "Building the tree")
+        own = [replace(one, hidden_faces=True) for one in own]
+    trees, kinds = {}, [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
+    for number, kind in enumerate(dict.fromkeys(kinds)):
+        start = READING * (0.5 + 0.25 * number)
+        yield start, "Building the tree"
+        trees[kind] = yield from part(core.in_steps(partial(kind.build, scene.mesh)), start, 0.25 * READING,
+                                      "Building the tree")
     mirrors = core.TriangleMesh.joined([surface.mesh for surface in surfaces])
     prepared, refused, unseen, share = [], [], 0, (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
-        steps = core.reflection_steps(view, surface.mesh, tree, settings, mirrors)
+        steps = core.reflection_steps(view, surface.mesh, trees[kinds[index]], own[index], mirrors)
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
-            if settings.placement == "VIRTUAL":
+            if own[index].placement == "VIRTUAL":
                 remarks += window_shortcomings(context, mirror, result, chosen.mirrors)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
@@ -87,13 +98,13 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             continue
         remarks += shortcomings(mirror.name, result)
         arrays = (mesh_arrays if result.discs is None else point_arrays)(result, scene, surface, view)
-        prepared.append(Reflection(mirror, chosen.diffuse, result, arrays, view.resolution))
+        prepared.append((Reflection(mirror, chosen.diffuse, result, arrays, view.resolution), own[index].placement))
     if not prepared:
         raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
     yield 1.0, "Writing"
-    previewed = {obj for made in prepared for obj in results_of(context, made.mirror) if shows_preview(obj)}
+    previewed = {obj for made, _ in prepared for obj in results_of(context, made.mirror) if shows_preview(obj)}
     with AllOrNothing() as whole:
-        results = [(write_object(context, made, settings.placement, whole), made.result) for made in prepared]
+        results = [(write_object(context, made, placement, whole), made.result) for made, placement in prepared]
         for obj, _ in results:
             keep_light(obj, view, scene)
             whole.after(stop_playing, obj)
@@ -104,8 +115,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     return Outcome(results, remarks + refused, unlit)
 
 
-class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types.Operator):
-    """Compute the reflection of the diffuse objects in each mirror, as a mesh"""
+class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions, bpy.types.Operator):
+    """Make what each mirror shows as an object of its own, as the scene's camera sees it"""
 
     bl_idname = "reflection_mesh.generate"
     bl_label = "Generate Reflection"
@@ -115,6 +126,10 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
                                     description="Until it is lit, show the colours of what is reflected in the "
                                     "mirror's tint, untouched by lamps: on where the operator is invoked")
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
+
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
         if not self.properties.is_property_set("preview"):
             self.preview = True
@@ -122,7 +137,9 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        outcome = yield from generation(context, choose(context), settings_of(self), self.preview)
+        chosen, wanted = choose(context), self.wanted(context)
+        outcome = yield from generation(context, chosen, wanted, self.preview)
+        self.show_used(wanted, chosen.mirrors)
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
         for obj, _ in outcome.results:
@@ -134,16 +151,9 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
         self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
 
 
-def draw_menu(self, context: bpy.types.Context) -> None:
-    self.layout.separator()
-    self.layout.operator(REFLECTION_MESH_OT_generate.bl_idname, icon="MOD_MIRROR")
-
-
 def register() -> None:
     bpy.utils.register_class(REFLECTION_MESH_OT_generate)
-    bpy.types.VIEW3D_MT_object.append(draw_menu)
 
 
 def unregister() -> None:
-    bpy.types.VIEW3D_MT_object.remove(draw_menu)
     bpy.utils.unregister_class(REFLECTION_MESH_OT_generate)

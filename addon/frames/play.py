@@ -31,13 +31,14 @@ class Sequence:
         In the order of their frames.
     name : str
         What tells it from sequences of other cameras; empty where there are none.
-    placement : str
+    placements : dict
+        Where each mirror's reflection lies, by the mirror's name.
     """
 
     folder: str
     records: list[FrameRecord]
     name: str
-    placement: str
+    placements: dict
 
 
 @dataclass(frozen=True)
@@ -103,7 +104,7 @@ def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOr
     if player.light is not None:
         for slot in obj.material_slots:
             slot.link, slot.material = "OBJECT", player.light
-    (open_window if player.sequence.placement == "VIRTUAL" else close_window)(mirror)
+    (open_window if player.sequence.placements[mirror.name] == "VIRTUAL" else close_window)(mirror)
     return obj
 
 

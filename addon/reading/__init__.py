@@ -3,9 +3,19 @@ from .join_meshes import DiffuseScene, MirrorSurface, read_mirror, read_scene
 from .mirror_materials import is_mirror
 from .opaque_materials import is_opaque
 from .read_meshes import SURFACES
-from .read_view import read_view, render_size
-from .roles import NothingSeen, Participants, candidates, choose, participants, results_of, visible
+from .read_view import NO_CAMERA, read_view, render_size
+from .roles import (
+           NO_MIRROR,
+           NothingSeen,
+           Participants,
+           can_take_part,
+           candidates,
+           choose,
+           participants,
+           results_of,
+           visible,
+)
 
-__all__ = ["DiffuseScene", "MirrorSurface", "NothingSeen", "Participants", "SURFACES", "candidates",
-           "choose", "is_mirror", "is_opaque", "participants", "read_mirror", "read_scene", "read_view", "render_size",
-           "results_of", "visible"]
+__all__ = ["DiffuseScene", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants", "SURFACES",
+           "can_take_part", "candidates", "choose", "is_mirror", "is_opaque", "participants", "read_mirror",
+           "read_scene", "read_view", "render_size", "results_of", "visible"]

@@ -8,6 +8,8 @@ import bpy
 from ...core import ReflectionError
 from .mirror_materials import is_mirror
 
+NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
+             "Reflection tab.")
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
 
@@ -107,14 +109,13 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
     if not seen.mirrors:
         if mirrors:
             raise NothingSeen(f"The mirror '{mirrors[0].name}' is hidden: show it in the viewport and in renders.")
-        raise ReflectionError("No mirror: select the objects to reflect and then, as the active object, the mirror, or "
-                              "set roles in the Reflection tab.")
+        raise ReflectionError(NO_MIRROR)
     if not seen.diffuse:
         if diffuse:
             raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport and in "
                               "renders.")
         raise ReflectionError("Nothing to reflect: select the objects to reflect together with the mirror, or set "
-                              "their role to Diffuse in the Reflection tab.")
+                              "their role to Reflected in the Reflection tab.")
     return seen
 
 
