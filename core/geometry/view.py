@@ -155,7 +155,8 @@ class View:
         """The `wanted` clip coordinates of `points` (n, 3). Products with so small a matrix are not worth the threads
         that NumPy's own start for them."""
         offset = np.subtract(points.T, self.eye[:, None], out=np.empty(points.T.shape))
-        return [dot(self._towards[row], offset) + self.projection[row, 3] for row in wanted]
+        local = np.stack([dot(row, offset) for row in self._inverse])
+        return [dot(self.projection[row], local) + self.projection[row, 3] for row in wanted]
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
         """Picture positions (n, 2) of `points` (n, 3) in pixels, from the lower left corner, right and up.
