@@ -11,7 +11,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from .settings import SettingsOfMirror, SettingsOfScene, holder_of, make_own, mirror_of
+from .settings import SettingsOfMirror, SettingsOfScene, make_own
 
 ROLES = (
     ("AUTO", "Automatic", "A mirror if its material is one; if no selected object is, the active object is the mirror"),
@@ -19,6 +19,7 @@ ROLES = (
     ("DIFFUSE", "Reflected", "Mirrors show this object"),
     ("IGNORE", "Ignored", "This object takes no part"),
     ("REFLECTION", "Reflection", "This object is a reflection that was generated"),
+    ("CAUSTICS", "Caustics", "This object is light thrown by a mirror that was generated"),
 )
 OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
 
@@ -43,6 +44,7 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     own_settings: BoolProperty(name="Own Settings", description="This mirror has settings of its own; else the scene's "
                                "hold for it", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object)
+    lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object)
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
     estimated_error: FloatProperty(name="Estimated Error", description="99th percentile of the displacement, in pixels")
@@ -72,10 +74,6 @@ class ReflectionScene(SettingsOfScene, bpy.types.PropertyGroup):
     """`Scene.reflection_mesh`: the settings of every mirror that has none of its own."""
 
     comparison: StringProperty(name="Comparison", description="Numbers of the last comparison with Cycles, as JSON")
-
-    def shown(self, context: bpy.types.Context) -> bpy.types.PropertyGroup:
-        """The settings that the panels show and presets set: those that hold for the active object."""
-        return holder_of(mirror_of(context.view_layer.objects.active), context.scene)
 
 
 CLASSES = (ReflectionSource, ReflectionObject, ReflectionScene)

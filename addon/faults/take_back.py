@@ -6,7 +6,7 @@ import bpy
 from .all_or_nothing import AllOrNothing
 
 PLACE = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
-RECORD = ("role", "mirror", "estimated_error", "seconds", "counts", "resolution", "faces", "points", "light",
+RECORD = ("role", "mirror", "lamp", "estimated_error", "seconds", "counts", "resolution", "faces", "points", "light",
           "light_material", "light_map", "light_stale")
 
 

@@ -8,6 +8,7 @@ import bpy
 from ...core import ReflectionError
 from .mirror_materials import is_mirror
 
+RESULTS = {"REFLECTION", "CAUSTICS"}
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
              "Reflection tab.")
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
@@ -53,7 +54,7 @@ def candidates(context: bpy.types.Context) -> tuple[list, list]:
     objects = [obj for obj in context.view_layer.objects if can_take_part(obj)]
     mirrors, diffuse = _by_role([obj for obj in objects if obj.select_get()], active)
     if not (mirrors and diffuse):
-        if active is not None and active.reflection_mesh.role == "REFLECTION" and active.reflection_mesh.mirror:
+        if active is not None and active.reflection_mesh.role in RESULTS and active.reflection_mesh.mirror:
             mirrors, diffuse = _of_result(active)
         else:
             explicit = [obj for obj in objects if obj.reflection_mesh.role in {"MIRROR", "DIFFUSE"}]
@@ -63,7 +64,7 @@ def candidates(context: bpy.types.Context) -> tuple[list, list]:
 
 def can_take_part(obj: bpy.types.Object) -> bool:
     """Whether the object has faces to show, or instances of objects that may."""
-    if obj.reflection_mesh.role in {"IGNORE", "REFLECTION"}:
+    if obj.reflection_mesh.role in {"IGNORE", *RESULTS}:
         return False
     return obj.type in GEOMETRY or obj.is_instancer
 
