@@ -12,7 +12,18 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import MirrorMap, brought_back, distance_from
 from .culling import SceneAndMirrors
-from .geometry import LampView, SceneFrames, area_normals, dot, doubled_areas, groups, norm, rows
+from .geometry import (
+    LampView,
+    SceneFrames,
+    area_normals,
+    distinct,
+    dot,
+    doubled_areas,
+    groups,
+    in_order,
+    norm,
+    rows,
+)
 from .polygons import Faces
 from .result import ReflectionMesh, halfway, place
 from .whole_faces import Seamed
@@ -72,9 +83,9 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
     weights = np.where(turned[:, None, None], np.eye(3)[[0, 2, 1]], np.eye(3))
     part = np.flatnonzero(whole.split)
     if len(part):
-        source, column = np.unique(whole.source[part], return_inverse=True)
+        source, column = distinct(whole.source[part])
         frames = SceneFrames.of(met, source)
-        own = np.maximum(frames.weights(np.repeat(column.ravel(), 3), points[:, nodes[part].ravel()]), 0.0)
+        own = np.maximum(frames.weights(np.repeat(column, 3), points[:, nodes[part].ravel()]), 0.0)
         weights[part] = (own / own.sum(axis=0)).T.reshape(-1, 3, 3)
     return {
         "triangles": vertex_of[nodes], "reflected_position": point.T, "mirror_position": place.T,
@@ -95,7 +106,7 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     # doubled triangles of the scene, and polygons that fold flat, give the same face twice
     once, _ = groups(*np.sort(faces.nodes, axis=1).T)
     faces = faces.select(np.sort(once))
-    used, corner = np.unique(faces.nodes, return_inverse=True)
+    used, corner = distinct(faces.nodes.ravel())
     triangles = corner.reshape(-1, 3)
     seen, point = nodes.place[:, used], nodes.point[:, used]
     column = np.repeat(faces.column, 3)
@@ -156,8 +167,8 @@ def _on_whole_triangles(frames: SceneFrames, faces: Faces, met: SceneAndMirrors)
     """The faces with columns for the triangles that their pieces lie in."""
     if met.pieces is None:
         return frames, faces
-    source, column = np.unique(met.sources(frames.triangle[faces.column]), return_inverse=True)
-    return SceneFrames.of(met, source), replace(faces, column=column.reshape(-1))
+    source, column = distinct(met.sources(frames.triangle[faces.column]))
+    return SceneFrames.of(met, source), replace(faces, column=column)
 
 
 def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, point: np.ndarray, frames: SceneFrames,
@@ -179,8 +190,8 @@ def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, 
     point = np.concatenate((point, own[:, beside[first]]), axis=1)
     corner[beside] = count + group
     # a vertex that no face is left of goes; new ones stand where they come from
-    kept = np.unique(corner)
-    kept = kept[np.argsort(vertex[kept], kind="stable")]
+    kept, _ = distinct(corner)
+    kept = kept[in_order(vertex[kept])]
     number = np.empty(len(vertex), dtype=np.int64)
     number[kept] = np.arange(len(kept))
     return number[corner].reshape(-1, 3), vertex[kept], point[:, kept]

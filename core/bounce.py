@@ -8,7 +8,7 @@ import numpy as np
 from .cameras import Cameras, beyond_horizon, picture_areas, refine_mirror
 from .culling import Candidates, SceneAndMirrors
 from .filling import Crowds, Limits
-from .geometry import SceneFrames, edge_lengths, norm
+from .geometry import SceneFrames, distinct, edge_lengths, norm
 from .polygons import (
     FaceRefinement,
     Faces,
@@ -139,7 +139,7 @@ def _met(cameras: Cameras, task: Task, showing: np.ndarray) -> tuple[Candidates,
     may hide something."""
     met, most, worth = task.met, task.limits.pairs, picture_areas(cameras)
     camera, triangle, visited, crowd = met.diffuse_in(cameras, most, worth)
-    seen, column = np.unique(triangle, return_inverse=True)
+    seen, column = distinct(triangle)
     diffuse = Overlaps.of(cameras, SceneFrames.of(met, seen), (camera, column), met)
     looking = showing[cameras.face] & ~crowd
     if task.last:
@@ -147,7 +147,7 @@ def _met(cameras: Cameras, task: Task, showing: np.ndarray) -> tuple[Candidates,
     looking = np.flatnonzero(looking)
     mirror_camera, triangle, more, given_up = met.mirrors_in(cameras.select(looking), most, worth[looking])
     crowd[looking[given_up]] = True
-    mirrors, column = np.unique(triangle, return_inverse=True)
+    mirrors, column = distinct(triangle)
     frames = SceneFrames.of(met, np.append(seen, mirrors + met.diffuse))
     mirror = Overlaps.of(cameras, frames, (looking[mirror_camera], len(seen) + column), met)
     mirror = mirror.select(plainly_seen(met, mirror.candidates))

@@ -6,7 +6,7 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import BouncedMap, Cameras
 from .culling import SceneAndMirrors
-from .geometry import doubled_areas, groups, norm
+from .geometry import distinct, doubled_areas, groups, norm
 
 SAME_RAY = 1e-7  # of its length: rays at one node that differ by less are one ray
 PATCHES = 8  # smooth patches of a mirror that meet in a node; more share no corners
@@ -50,5 +50,5 @@ def _shared(node: np.ndarray, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray]
         if not len(rest):
             break
     like[rest] = rest
-    chosen, corner = np.unique(like, return_inverse=True)
+    chosen, corner = distinct(like)
     return corner, chosen

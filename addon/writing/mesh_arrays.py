@@ -111,7 +111,7 @@ def _normals(result: ReflectionMesh, scene: DiffuseScene) -> tuple[Attribute, ..
     if not compat.has_free_normals():
         return ()
     normals = result.image_normals(scene.normals)
-    normals = np.where((normals != 0.0).any(axis=2, keepdims=True), normals, UP)
+    normals[(normals[..., 0] == 0.0) & (normals[..., 1] == 0.0) & (normals[..., 2] == 0.0)] = UP
     return (Attribute("custom_normal", "FLOAT_VECTOR", "CORNER", normals.astype(np.float32)),)
 
 
@@ -131,12 +131,19 @@ def _lines(result: ReflectionMesh, scene: DiffuseScene) -> Lines:
 
 def _once(edges: np.ndarray) -> np.ndarray:
     """Which edges (e, 2) are there once."""
-    key = np.sort(edges, axis=1).astype(np.int64) @ (2 ** 32, 1)
+    key = edge_keys(edges)
     order = np.argsort(key)
     new = np.append(np.diff(key[order], prepend=-1) != 0, True)
     once = np.empty(len(key), dtype=bool)
     once[order] = new[:-1] & new[1:]
     return once
+
+
+def edge_keys(edges: np.ndarray) -> np.ndarray:
+    """A number (e,) for each of the edges (e, 2), the same from both its ends."""
+    one, other = edges.T
+    key = np.minimum(one, other).astype(np.int64) << 32
+    return np.bitwise_or(key, np.maximum(one, other), out=key)
 
 
 def origin_of(mirror: TriangleMesh) -> np.ndarray:

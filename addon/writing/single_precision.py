@@ -48,25 +48,32 @@ def _away(places: np.ndarray, ahead: np.ndarray, triangles: np.ndarray) -> np.nd
 
 def _thin(places: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Triangles, in order, so thin that rounding may turn them over."""
-    a, b, c = (places[corner] for corner in triangles.T)
-    one, other = (b - a).T, (c - a).T
+    places = np.ascontiguousarray(places.T)
+    a, b, c = (places[:, corner] for corner in triangles.T)
+    one, other = b - a, c - a
     normal = np.stack([one[i - 2] * other[i - 1] - one[i - 1] * other[i - 2] for i in range(3)])
-    length = np.maximum(np.abs(one).max(axis=0), np.abs(other).max(axis=0))
-    return np.flatnonzero(np.abs(normal).max(axis=0) < THIN * length * np.abs(a).max(axis=1, initial=0.0))
+    length = np.maximum(_largest(np.abs(one)), _largest(np.abs(other)))
+    return np.flatnonzero(_largest(np.abs(normal)) < THIN * length * _largest(np.abs(a)))
+
+
+def _largest(rows: np.ndarray) -> np.ndarray:
+    """The largest of three rows (3, n)."""
+    return np.maximum(np.maximum(rows[0], rows[1]), rows[2])
 
 
 def _together(places: np.ndarray, triangles: np.ndarray) -> np.ndarray | None:
     """Of each vertex (n,) at `places` (n, 3), the one that stands for it and for all that lie too near to it; None
     where all stand for themselves."""
-    room = np.float32(SPACING) * np.abs(places).max(axis=1, initial=0.0)
+    places = np.ascontiguousarray(places.T)
+    room = np.float32(SPACING) * _largest(np.abs(places))
     pairs = []
     for one, other in zip(triangles.T, np.roll(triangles, -1, axis=1).T):
-        short = np.abs(places[one] - places[other]).max(axis=1) <= np.maximum(room[one], room[other])
+        short = _largest(np.abs(places[:, one] - places[:, other])) <= np.maximum(room[one], room[other])
         pairs.append((one[short], other[short]))
     one, other = np.concatenate(pairs, axis=1)
     if not len(one):
         return None
-    vertex = np.arange(len(places))
+    vertex = np.arange(places.shape[1])
     while (vertex[one] != vertex[other]).any():
         low = np.minimum(vertex[one], vertex[other])
         for end in (one, other):

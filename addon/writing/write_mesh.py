@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from .. import compat
-from .mesh_arrays import Lines, MeshArrays
+from .mesh_arrays import Lines, MeshArrays, edge_keys
 
 # where the values of an attribute lie, by its type; all others call it "value"
 FIELDS = {"FLOAT_VECTOR": "vector", "FLOAT2": "vector", "FLOAT_COLOR": "color", "BYTE_COLOR": "color"}
@@ -41,18 +41,21 @@ def _write_faces(mesh: bpy.types.Mesh, triangles: np.ndarray) -> None:
 
 
 def _write_lines(mesh: bpy.types.Mesh, lines: Lines) -> None:
+    if not len(lines.sharp_edges) and not len(lines.marked_edges):
+        edges = np.zeros((0, 2), dtype=np.int32)
+    else:
+        edges = np.empty((len(mesh.edges), 2), dtype=np.int32)
+        mesh.edges.foreach_get("vertices", edges.reshape(-1))
     if len(lines.sharp_edges):
         sharp = mesh.attributes.get("sharp_edge") or mesh.attributes.new("sharp_edge", "BOOLEAN", "EDGE")
-        sharp.data.foreach_set("value", _among(mesh, lines.sharp_edges))
+        sharp.data.foreach_set("value", _among(edges, lines.sharp_edges))
     if len(lines.marked_edges):
-        compat.mark_for_freestyle(mesh, "EDGE", _among(mesh, lines.marked_edges))
+        compat.mark_for_freestyle(mesh, "EDGE", _among(edges, lines.marked_edges))
     if lines.marked_faces.any():
         compat.mark_for_freestyle(mesh, "FACE", lines.marked_faces)
 
 
-def _among(mesh: bpy.types.Mesh, pairs: np.ndarray) -> np.ndarray:
-    """Which edges of a mesh (e,) join one of the `pairs` (n, 2) of vertices."""
-    edges = np.empty((len(mesh.edges), 2), dtype=np.int32)
-    mesh.edges.foreach_get("vertices", edges.reshape(-1))
-    own, chosen = (np.sort(ends, axis=1).astype(np.int64) @ (len(mesh.vertices), 1) for ends in (edges, pairs))
-    return np.isin(own, chosen)
+def _among(edges: np.ndarray, pairs: np.ndarray) -> np.ndarray:
+    """Which edges (e, 2) join one of the `pairs` (n, 2) of vertices, at least one."""
+    own, chosen = edge_keys(edges), np.sort(edge_keys(pairs))
+    return chosen[np.minimum(np.searchsorted(chosen, own), len(chosen) - 1)] == own

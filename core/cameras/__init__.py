@@ -8,10 +8,10 @@ from .camera_splitting import in_picture, split_cameras, with_pieces
 from .folding import may_fold
 from .mirror_map import MirrorMap
 from .mirror_refinement import refine_mirror
-from .mirror_surface import MirrorSurface, drawn_in, least_weight
+from .mirror_surface import ALONG_UV, MirrorSurface, drawn_in, least_weight
 from .picture_areas import covered_pixels, picture_areas, pixels_around, pixels_of
 from .picture_cells import PictureCells
-from .reflection_map import ALONG_UV, ReflectionMap, grown
+from .reflection_map import ReflectionMap, grown
 from .shading_horizon import beyond_horizon, cut_at_horizon
 from .three_ray_cameras import Cameras, three_ray_cameras, visible_triangles
 from .triangle_walk import INSIDE, brought_back, distance_from, settle

@@ -75,7 +75,8 @@ class BouncedMap(ReflectionMap):
         place, direction, _ = self._arriving(face, uv)
         on = self.surface.coordinates(triangle, place)
         ray = self.surface.unbent(triangle, on, direction)
-        return place, self.surface.lift(triangle, on, ray, direction)
+        self.surface.lift(triangle, on, ray, direction)
+        return place, ray
 
     def rays(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
         return self.leave(face, uv)[1]

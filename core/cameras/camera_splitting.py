@@ -26,7 +26,7 @@ def split_cameras(cameras: Cameras,
     ends, first, edge = shared_edges(cameras.corners)
     chosen = np.zeros(len(ends), dtype=bool)
     chosen[edge[marked]] = True
-    cameras, parent = split_at(cameras, chosen, edge, *edge_middles(cameras, ends, first))
+    cameras, parent = split_at(cameras, chosen, edge, *edge_middles(cameras, ends[chosen], first[chosen]))
     seen = in_picture(cameras)
     return cameras.select(seen), parent[seen], chosen[edge].any(axis=1)[parent[seen]]
 
@@ -42,13 +42,13 @@ def edge_middles(cameras: Cameras, ends: np.ndarray,
 
 def split_at(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np.ndarray, origins: np.ndarray,
              rays: np.ndarray) -> tuple[Cameras, np.ndarray]:
-    """Cameras split at the middles of the `marked` (e,) edges, and the camera that each lies in; `edge` (n, 3) are the
-    cameras' edges."""
+    """Cameras split at the `middles` (3, k) of the k `marked` of e edges, which have rays and their origins, and the
+    camera that each lies in; `edge` (n, 3) are the cameras' edges."""
     new = np.cumsum(marked) - 1 + cameras.places.shape[1]
     parent, local = split(marked[edge])
     six = np.concatenate((cameras.corners, new[edge]), axis=1)[parent]
-    return cameras.replaced(np.take_along_axis(six, local, axis=1), cameras.face[parent], middles[:, marked],
-                            origins[:, marked], rays[:, marked]), parent
+    return cameras.replaced(np.take_along_axis(six, local, axis=1), cameras.face[parent], middles, origins,
+                            rays), parent
 
 
 def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray,

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..geometry import TriangleMesh, View, neighbours, unit
-from .mirror_surface import MirrorSurface, Way
+from .mirror_surface import MirrorSurface, Way, along
 from .reflection_map import ReflectionMap
 
 NEARLY_GRAZING = 0.03  # sine at a face's corners or middle below which some ray of the face may need to be bent
@@ -29,6 +29,7 @@ class MirrorMap(ReflectionMap):
         self.orthographic = view.orthographic
         self.eye, self.forward = view.eye[:, None], view.forward[:, None]
         self.parallel = parallel
+        self._last: tuple[np.ndarray, MirrorSurface] | None = None
         count = len(self.surface)
         self.grazing = np.zeros(count, dtype=bool)
         every = np.arange(count)
@@ -74,7 +75,9 @@ class MirrorMap(ReflectionMap):
         ray = self.surface.unbent(face, uv, direction)
         part = np.flatnonzero(self.grazing[face])
         if len(part):
-            ray[:, part] = self.surface.lift(face[part], uv[:, part], ray[:, part], direction[:, part])
+            lifted = ray[:, part]
+            self.surface.lift(face[part], uv[:, part], lifted, direction[:, part])
+            ray[:, part] = lifted
         return ray
 
     def leave(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -98,10 +101,16 @@ class MirrorMap(ReflectionMap):
             found[part] = self.surface.enters(face, self.surface.unbent(face, uv, direction), direction, slack)
         return found
 
+    def _gathered(self, face: np.ndarray) -> MirrorSurface:
+        """The surface's triangles `face` (n,), which Newton's method asks for several times."""
+        if self._last is None or self._last[0] is not face:
+            self._last = face, self.surface.select(face)
+        return self._last[1]
+
     def linearise(self, face: np.ndarray, uv: np.ndarray, *ways: Way) -> tuple:
-        own, every = self.surface.select(face), slice(None)
+        own, every = self._gathered(face), slice(None)
         place = own.places(every, uv)
-        moves = [way[0] * own.u + way[1] * own.v for way in ways]
+        moves = [along(way, own.u, own.v) for way in ways]
         if self.parallel:
             return place, self.constant[:, face], [(move, np.zeros_like(move)) for move in moves]
         seen = [np.zeros_like(move) if self.orthographic else move for move in moves]

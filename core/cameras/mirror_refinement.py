@@ -57,7 +57,8 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
         # a whole camera stays whole: what is said of an edge does not depend on who asks
         divided = marked[edge].any(axis=1)
         finished.append(cameras.select(~divided))
-        cameras, _ = split_at(cameras.select(divided), marked, edge[divided], middles, origins, rays)
+        cameras, _ = split_at(cameras.select(divided), marked, edge[divided],
+                              *(of_all[:, marked] for of_all in (middles, origins, rays)))
         cameras = cameras.select(in_picture(cameras))
     parts = [*finished, cameras]
     return Cameras(np.concatenate([part.corners for part in parts]), np.concatenate([part.face for part in parts]),

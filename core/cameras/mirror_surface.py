@@ -18,6 +18,7 @@ import numpy as np
 
 from ..geometry import TriangleMesh, columns, cross, dot, norm, rows, unit
 
+ALONG_UV = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])  # ways in (u, v)
 LEAST_RISE = 0.01  # sine of the angle at which Cycles lets a bent ray leave
 Way = np.ndarray | tuple[np.ndarray, np.ndarray]
 """A change of (u, v): (2, n), or its two rows."""
@@ -33,63 +34,81 @@ class MirrorSurface:
         corners = mirror.positions[mirror.triangles]
         a, b, c = (rows(corners[:, k]) for k in range(3))
         normal, normal_b, normal_c = (rows(mirror.corner_normals[:, k]) for k in range(3))
-        flat = cross(b - a, c - a)
-        self._set(np.concatenate((a, b - a, c - a, flat, unit(flat), normal, normal_b - normal, normal_c - normal)))
+        u, v = b - a, c - a
+        flat = cross(u, v)
+        self._set(np.concatenate((normal, normal_b - normal, normal_c - normal, a, u, v, flat, dot(flat, flat)[None])))
+        self.face_normal = unit(flat)
 
     def _set(self, parts: np.ndarray) -> None:
         self._parts = parts
-        (self.a, self.u, self.v, self.flat, self.face_normal, self.normal, self.normal_u,
-         self.normal_v) = parts.reshape(8, 3, -1)
+        self.normal, self.normal_u, self.normal_v, self.a, self.u, self.v = parts[:18].reshape(6, 3, -1)
 
     def select(self, face: np.ndarray) -> MirrorSurface:
-        """A surface of the triangles `face` (n,): to gather all that is known of them at once is quicker than one by
-        one."""
+        """A surface of the triangles `face` (n,), which knows places, normals and rays: to gather all that is known of
+        them at once is quicker than one by one."""
         chosen = copy(self)
-        chosen._set(columns(self._parts, face))
+        chosen._set(columns(self._parts[:18], face))
+        chosen.face_normal = columns(self.face_normal, face)
         return chosen
 
     def __len__(self) -> int:
         return self.a.shape[1]
 
+    def _between(self, first: int, face: np.ndarray | slice, uv: np.ndarray) -> np.ndarray:
+        """What is A + u B + v C of the rows from the `first` on."""
+        own = self._parts[first:first + 9]
+        if not isinstance(face, slice):
+            own = columns(own, face)
+        between = own[3:6] * uv[0]
+        between += own[:3]
+        return np.add(between, own[6:] * uv[1], out=between)
+
     def places(self, face: np.ndarray | slice, uv: np.ndarray) -> np.ndarray:
         """Q."""
-        return self.a[:, face] + uv[0] * self.u[:, face] + uv[1] * self.v[:, face]
+        return self._between(9, face, uv)
 
     def corners(self, face: np.ndarray) -> np.ndarray:
         """(3, 3, n): the corners of triangles one behind another."""
-        a = self.a[:, face]
-        return np.stack((a, a + self.u[:, face], a + self.v[:, face]), axis=1)
+        own = columns(self._parts[9:18], face)
+        return np.stack((own[:3], own[:3] + own[3:6], own[:3] + own[6:]), axis=1)
 
     def coordinates(self, face: np.ndarray, places: np.ndarray) -> np.ndarray:
         """(u, v) of `places` on the planes of the triangles."""
-        return self.move_coordinates(face, places - self.a[:, face])
+        own = columns(self._parts[9:], face)
+        return _coordinates(own[3:], places - own[:3])
 
     def move_coordinates(self, face: np.ndarray, moves: np.ndarray) -> np.ndarray:
         """The change of (u, v) that moves in the planes of the triangles make."""
-        u, v, flat = self.u[:, face], self.v[:, face], self.flat[:, face]
-        return np.stack((dot(cross(moves, v), flat), dot(cross(u, moves), flat))) / dot(flat, flat)
+        return _coordinates(columns(self._parts[12:], face), moves)
 
     def raw_normals(self, face: np.ndarray | slice, uv: np.ndarray) -> np.ndarray:
         """Interpolated normals before they are made unit vectors."""
-        return self.normal[:, face] + uv[0] * self.normal_u[:, face] + uv[1] * self.normal_v[:, face]
+        return self._between(0, face, uv)
 
     def normals(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
         """Unit interpolated normals."""
         return self._unit_normal(self.raw_normals(face, uv), face)[0]
 
     def _unit_normal(self, raw: np.ndarray, face: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
-        """Unit normals, and how long (n,) they were."""
+        """Unit normals, in place of the `raw` ones, and how long (n,) they were."""
         size = norm(raw)
-        normal = raw / np.where(size > 0.0, size, 1.0)
+        known = size > 1e-12
+        if known.all():
+            raw /= size
+            return raw, size
+        raw /= np.where(size > 0.0, size, 1.0)
         # opposite normals may cancel along an edge: the flat normal is then the only one left
-        lost = np.flatnonzero(~(size > 1e-12))
-        normal[:, lost] = self.face_normal[:, face][:, lost]
-        return normal, np.maximum(size, 1e-12)
+        lost = np.flatnonzero(~known)
+        raw[:, lost] = self.face_normal[:, face][:, lost]
+        return raw, np.maximum(size, 1e-12)
 
     def unbent(self, face: np.ndarray, uv: np.ndarray, direction: np.ndarray) -> np.ndarray:
         """Rays of the interpolated normals alone, whether they enter the triangle or not."""
         normal = self.normals(face, uv)
-        return direction - 2.0 * dot(direction, normal) * normal
+        slope = dot(direction, normal)
+        slope *= 2.0
+        normal *= slope
+        return np.subtract(direction, normal, out=normal)
 
     def derivatives(self, face: np.ndarray | slice, uv: np.ndarray, direction: np.ndarray,
                     changes: Sequence[tuple[Way, np.ndarray]]) -> tuple[np.ndarray, list[np.ndarray]]:
@@ -97,42 +116,74 @@ class MirrorSurface:
         that arrives, (3, n)."""
         raw = self.raw_normals(face, uv)
         normal, size = self._unit_normal(raw, face)
-        slope = dot(direction, normal)
+        slope = 2.0 * dot(direction, normal)
+        own_u, own_v = (self._parts[first:first + 3] if isinstance(face, slice) else
+                        columns(self._parts[first:first + 3], face) for first in (3, 6))
         turned = []
         for way, move in changes:
-            turn = way[0] * self.normal_u[:, face] + way[1] * self.normal_v[:, face]
-            turn = (turn - dot(turn, normal) * normal) / size
-            turned.append(move - 2.0 * (dot(move, normal) + dot(direction, turn)) * normal - 2.0 * slope * turn)
-        return direction - 2.0 * slope * normal, turned
+            turn = along(way, own_u, own_v)
+            turn = turn - dot(turn, normal) * normal
+            turn /= size
+            change = normal * (2.0 * (dot(move, normal) + dot(direction, turn)))
+            np.subtract(move, change, out=change)
+            turn *= slope
+            change -= turn
+            turned.append(change)
+        normal *= slope
+        return np.subtract(direction, normal, out=normal), turned
 
     def rise(self, face: np.ndarray, ray: np.ndarray, direction: np.ndarray) -> np.ndarray:
         """How steeply rays leave the flat triangles on the side that they came from, as a sine."""
-        flat = self.face_normal[:, face]
+        flat = columns(self.face_normal, face)
         length = np.maximum(norm(direction), 1e-300)
         return -dot(ray, flat) * np.sign(dot(direction, flat)) / length
 
     def enters(self, face: np.ndarray, ray: np.ndarray, direction: np.ndarray, slack: float = 0.0) -> np.ndarray:
         """Whether rays would enter their flat triangles and have to be lifted, or, by `slack` of their rise, all but
         have to be."""
-        return self.rise(face, ray, direction) < self._least_rise(face, direction) + slack
+        flat = columns(self.face_normal, face)
+        length, upright = np.maximum(norm(direction), 1e-300), dot(direction, flat)
+        return -dot(ray, flat) * np.sign(upright) / length < _least_rise(upright / length) + slack
 
-    def _least_rise(self, face: np.ndarray, direction: np.ndarray) -> np.ndarray:
-        upright = np.abs(dot(unit(direction), self.face_normal[:, face]))
-        return np.minimum(0.9 * upright, LEAST_RISE)
-
-    def lift(self, face: np.ndarray, uv: np.ndarray, ray: np.ndarray, direction: np.ndarray) -> np.ndarray:
-        """The rays, those that would enter the flat triangle turned until they just clear it."""
-        length = np.maximum(norm(direction), 1e-300)
-        to_eye = -direction / length
-        side = np.where(dot(to_eye, self.face_normal[:, face]) < 0.0, -1.0, 1.0)
-        flat, normal = side * self.face_normal[:, face], side * self.normals(face, uv)
+    def lift(self, face: np.ndarray, uv: np.ndarray, ray: np.ndarray, direction: np.ndarray) -> None:
+        """Turns those of the rays that would enter the flat triangle until they just clear it."""
+        flat = columns(self.face_normal, face)
+        length, upright = np.maximum(norm(direction), 1e-300), dot(direction, flat)
+        # seen from behind, the triangle's back is its front
+        side = np.where(upright > 0.0, -1.0, 1.0)
+        asked = np.flatnonzero(side * dot(ray, flat) < _least_rise(upright / length) * length)
+        if not len(asked):
+            return
+        face, uv, side, length = face[asked], uv[:, asked], side[asked], length[asked]
+        to_eye = -direction[:, asked] / length
+        flat, normal = side * flat[:, asked], side * self.normals(face, uv)
         upright = dot(to_eye, flat)
-        least = self._least_rise(face, direction)
+        least = _least_rise(upright)
         tangent = unit(normal - dot(normal, flat) * flat)
         sideways = dot(to_eye, tangent)
         forth = np.sqrt(np.maximum(sideways**2 + upright**2 - least**2, 0.0))
-        lifted = forth * tangent + least * flat - (to_eye - sideways * tangent - upright * flat)
-        return np.where(dot(ray, flat) < least * length, lifted * length, ray)
+        ray[:, asked] = (forth * tangent + least * flat - (to_eye - sideways * tangent - upright * flat)) * length
+
+
+def _coordinates(own: np.ndarray, moves: np.ndarray) -> np.ndarray:
+    """(u, v) of moves in the planes of triangles of which sides, normal and its square are given, exact for a side."""
+    u, v, flat, uv = own[:3], own[3:6], own[6:9], np.empty((2, *moves.shape[1:]))
+    for k, turned in enumerate((cross(moves, v), cross(u, moves))):
+        np.divide(dot(turned, flat), own[9], out=uv[k])
+    return uv
+
+
+def _least_rise(upright: np.ndarray) -> np.ndarray:
+    """How steeply rays must leave, as a sine, where the eye sees triangles under the sine `upright`."""
+    return np.minimum(0.9 * np.abs(upright), LEAST_RISE)
+
+
+def along(way: Way, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """What changes by `u` and `v` (3, n) along them, along a way."""
+    for alone, own in zip(ALONG_UV, (u, v)):
+        if way is alone:
+            return own
+    return way[0] * u + way[1] * v
 
 
 def least_weight(uv: np.ndarray) -> np.ndarray:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import doubled_areas, edge_lengths
+from ..geometry import distinct, doubled_areas, edge_lengths
 from .three_ray_cameras import Cameras
 
 LEAST_WORTH = 1.0 / 16.0  # square pixels: no camera counts for less
@@ -29,7 +29,7 @@ def covered_pixels(cameras: Cameras) -> int:
     view = cameras.view
     places = cameras.places[:, cameras.corners].mean(axis=2)
     pixels = np.floor(np.clip(view.pixels(places.T), 0.0, np.subtract(view.resolution, 1))).astype(np.int64)
-    _, pixel = np.unique(pixels @ (1, view.resolution[0]), return_inverse=True)
+    _, pixel = distinct(pixels[:, 0] + view.resolution[0] * pixels[:, 1])
     return round(float(np.minimum(np.bincount(pixel, pixels_of(cameras)), 1.0).sum()))
 
 

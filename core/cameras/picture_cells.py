@@ -70,13 +70,14 @@ class PictureCells:
         """The grid with all cells marked that boxes from `low` to `high` (2, n) touch."""
         (x0, y0), (x1, y1) = self._cell(low), self._cell(high) + 1
         height, width = self.before.shape
-        change = np.zeros(height * width)
-        for x, y, sign in ((x0, y0, 1.0), (x1, y0, -1.0), (x0, y1, -1.0), (x1, y1, 1.0)):
-            change += sign * np.bincount(y * width + x, minlength=len(change))
-        marked = change.reshape(height, width).cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0.5
-        marked |= np.diff(np.diff(self.before, axis=0), axis=1) > 0
+        corner = np.concatenate((y0 * width + x0, y1 * width + x1, y0 * width + x1, y1 * width + x0))
+        sign = np.repeat((1.0, -1.0), 2 * len(x0))
+        change = np.bincount(corner, sign, minlength=height * width).reshape(height, width)
+        marked = change.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0.5
+        if self.before[-1, -1]:
+            marked |= np.diff(np.diff(self.before, axis=0), axis=1) > 0
         before = np.zeros_like(self.before)
-        before[1:, 1:] = marked.cumsum(axis=0).cumsum(axis=1)
+        np.cumsum(marked.cumsum(axis=0), axis=1, out=before[1:, 1:])
         return PictureCells(self.low, self.side, before)
 
     def touched(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:

@@ -11,9 +11,9 @@ from abc import ABC, abstractmethod
 import numpy as np
 
 from ..geometry import View, cross, dot, norm, solve
-from .mirror_surface import MirrorSurface, Way
+from .mirror_surface import ALONG_UV, MirrorSurface, Way
 
-ALONG_UV = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])  # ways in (u, v)
+SETTLED = 1e-9  # of a triangle's side, or of s: after a shorter step of Newton's method the next is rounding alone
 ARRIVED = 1e-10  # of the path and the viewing distance: by how much a ray that Newton's method found may miss
 
 
@@ -97,13 +97,22 @@ class ReflectionMap(ABC):
     def locate(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray,
                steps: int = 4) -> tuple[np.ndarray, np.ndarray]:
         """Newton's method for O(u, v) + s R(u, v) = P from a near start, `points` P as (3, n); returns uv and s."""
+        found, going = np.concatenate((uv, s[None])), np.arange(len(s))
         for _ in range(steps):
-            origin, ray, ((ou, ru), (ov, rv)) = self.linearise(face, uv, *ALONG_UV)
+            now = found[:, going]
+            origin, ray, ((ou, ru), (ov, rv)) = self.linearise(face, now[:2], *ALONG_UV)
+            s = now[2]
             step = solve(ou + s * ru, ov + s * rv, ray, points - origin - s * ray)
             # a step longer than the triangle tells a start too far off: keep its direction only
-            step = step / np.maximum(1.0, np.abs(step[:2]).max(axis=0))
-            uv, s = uv + step[:2], s + step[2]
-        return uv, s
+            step /= np.maximum(1.0, np.maximum(np.abs(step[0]), np.abs(step[1])))
+            now += step
+            found[:, going] = now
+            more = np.flatnonzero(_moving(step, now[2]))
+            if not len(more):
+                break
+            if len(more) < len(going):
+                going, face, points = going[more], face[more], points[:, more]
+        return found[:2], found[2]
 
     def meet(self, face: np.ndarray, line: tuple[np.ndarray, np.ndarray], other: tuple[np.ndarray, np.ndarray],
              guess: tuple[np.ndarray, np.ndarray], steps: int = 5) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -112,13 +121,22 @@ class ReflectionMap(ABC):
         the other, and s."""
         (start, end), (point, edge), (t, s) = line, other, guess
         way = end - start
-        r = np.zeros_like(t)
+        found, going = np.stack((t, s, np.zeros_like(t))), np.arange(len(t))
         for _ in range(steps):
+            t, s, r = found[:, going]
             origin, ray, ((move, change),) = self.linearise(face, start + t * way, way)
             moved = solve(move + s * change, ray, -edge, point - origin - s * ray)
             # s is a length in orthographic views: only t can tell a step that is too long
-            step = moved[:2] / np.maximum(1.0, np.abs(moved[0]))
-            t, s, r = t + step[0], s + step[1], moved[2]
+            moved[:2] /= np.maximum(1.0, np.abs(moved[0]))
+            now = np.stack((t + moved[0], s + moved[1], moved[2]))
+            found[:, going] = now
+            more = np.flatnonzero(_moving(np.stack((moved[0], moved[2] - r, moved[1])), now[1]))
+            if not len(more):
+                break
+            if len(more) < len(going):
+                going, face, start, way, point, edge = (going[more], face[more], start[:, more], way[:, more],
+                                                        point[:, more], edge[:, more])
+        t, s, r = found
         return t, r, s
 
     def meets(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -135,6 +153,11 @@ class ReflectionMap(ABC):
         Its sign is the image's parity: it starts at +1 on the mirror and crosses zero on a caustic.
         """
         return self.turned_before(face, uv) * grown(self.linearise(face, uv, *ALONG_UV), s)
+
+
+def _moving(step: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Whether the last `step` (3, n), of two shares and of s, was more than what another one leaves to rounding."""
+    return (np.maximum(np.abs(step[0]), np.abs(step[1])) > SETTLED) | (np.abs(step[2]) > SETTLED * np.abs(s))
 
 
 def grown(seen: tuple, s: np.ndarray) -> np.ndarray:

@@ -14,7 +14,8 @@ VISITS_OF_A_PAIR = 3  # tests of a cone against a node, to a pair that may be fo
 
 
 def bounded_trace(tree: SceneTree, cones: Cones, most: int, worth: np.ndarray,
-                  asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
+                  asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
+                  family: np.ndarray | None = None
                   ) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
     """Pairs of cones and triangles that may touch, no more than `most`.
 
@@ -24,6 +25,8 @@ def bounded_trace(tree: SceneTree, cones: Cones, most: int, worth: np.ndarray,
         Of cones that meet too much, those are given up first that meet the most for their worth.
     asked : callable, optional
         Which pairs (p,) of a cone and a triangle count.
+    family : (n,) int64, optional
+        Rising: cones of one family lie close together.
 
     Returns
     -------
@@ -35,7 +38,7 @@ def bounded_trace(tree: SceneTree, cones: Cones, most: int, worth: np.ndarray,
     """
     wanted, visits = np.ones(len(worth), dtype=bool), VISITS_OF_A_PAIR * most
     found, visited, total = [(np.zeros(0, dtype=np.int64),) * 2], 0, 0
-    for cone, triangle, more in tree.traced(cones, wanted):
+    for cone, triangle, more in tree.traced(cones, wanted, family):
         breathe()
         visited += more
         if visited > visits and len(cone):

@@ -41,10 +41,7 @@ class Cones:
         axis = unit(total)
         # |axis - ray| = 2 sin(angle / 2) keeps its digits where the angle is small
         half = wider * 0.5 * np.sqrt(((rays - axis[:, :, None]) ** 2).sum(axis=0)).max(axis=1) + 1e-12
-        wide = (half >= 0.7) | (norm(total) < 1e-6)
-        cosine = np.where(wide, -1.0, 1.0 - 2.0 * half**2)
-        sine = 2.0 * half * np.sqrt(np.maximum(1.0 - half**2, 0.0))
-        return cls(centre, radius, axis, sine, cosine)
+        return cls(centre, radius, axis, *_opening(half, norm(total) < 1e-6))
 
     def touch(self, cone: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
         """Whether cones `cone` (n,) may touch spheres with `centre` (3, n) and `radius` (n,); never a false no."""
@@ -55,6 +52,19 @@ class Cones:
         room = columns(self.radius, cone) + radius
         sine, cosine = columns(self.sine, cone), columns(self.cosine, cone)
         return (cosine <= 0.0) | ((norm(offset) * cosine - height * sine <= room) & (height >= -room))
+
+
+    def together(self, start: np.ndarray) -> Cones:
+        """Cones round the cones of each run from one of `start` (f,) to the next."""
+        count = np.diff(np.append(start, len(self.radius)))
+        run = np.repeat(np.arange(len(start)), count)
+        centre = np.add.reduceat(self.centre, start, axis=1) / count
+        radius = np.maximum.reduceat(norm(self.centre - columns(centre, run)) + self.radius, start)
+        total = np.add.reduceat(self.axis, start, axis=1)
+        axis = unit(total)
+        # half the sum of two angles has no larger a sine than the halves' sines together
+        half = 0.5 * norm(self.axis - columns(axis, run)) + np.sqrt(np.maximum(0.5 * (1.0 - self.cosine), 0.0))
+        return Cones(centre, radius, axis, *_opening(np.maximum.reduceat(half, start), norm(total) < 1e-6))
 
 
 @dataclass(frozen=True)
@@ -73,3 +83,9 @@ class Balls:
     def touch(self, ball: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
         """Whether the spheres `ball` (n,) and those with `centre` (3, n) and `radius` (n,) overlap."""
         return norm(columns(self.centre, ball) - centre) <= self.radius[ball] + radius
+
+
+def _opening(half: np.ndarray, everywhere: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Sine and cosine of opening angles of whose halves the sines are given."""
+    wide = (half >= 0.7) | everywhere
+    return 2.0 * half * np.sqrt(np.maximum(1.0 - half**2, 0.0)), np.where(wide, -1.0, 1.0 - 2.0 * half**2)

@@ -5,22 +5,25 @@ asked for it is the next mirror. Convex mirrors never see themselves: their tria
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from copy import copy
 from functools import cached_property
 
 import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
-from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, opposite_corners, rows, unit
+from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, in_order, opposite_corners, rows, unit
 from .bounded_trace import bounded_trace
 from .candidates import Candidates
 from .cones import Cones
 from .first_crossed import first_crossed
+from .node_tree import curve_leaves, depth_for
 from .point_tree import PointTree
 from .scene_pieces import ScenePieces
 from .scene_tree import SceneTree
 
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
+FAMILY = 16  # cameras that are looked at together at the most, or about half as many
 DIRECTIONS = 64  # in which a body's farthest corner is looked for
 RISEN = 1e-5  # of the mirrors' size: what rises less is seen by rays along the mirror alone
 
@@ -116,13 +119,14 @@ class SceneAndMirrors:
         assert isinstance(self.tree, SceneTree)  # points have a trace of their own
         pieces = self.pieces
         if pieces is None:
-            return bounded_trace(self.tree, Cones.around(cameras), most, worth)
-        on_patch, pairs, visited = pieces.holds(cameras), [], 0
-        given_up = np.zeros(len(cameras), dtype=bool)
-        for tree, first, own in ((self.tree, 0, ~on_patch), (pieces.tree, len(self.tree.mesh.triangles), on_patch)):
+            parts = [(self.tree, 0, np.ones(len(cameras), dtype=bool))]
+        else:
+            on_patch = pieces.holds(cameras)
+            parts = [(self.tree, 0, ~on_patch), (pieces.tree, len(self.tree.mesh.triangles), on_patch)]
+        pairs, visited, given_up = [], 0, np.zeros(len(cameras), dtype=bool)
+        for tree, first, own in parts:
             chosen = np.flatnonzero(own)
-            camera, triangle, more, crowd = bounded_trace(tree, Cones.around(cameras.select(chosen)), most,
-                                                          worth[chosen])
+            camera, triangle, more, crowd = _traced(tree, cameras.select(chosen), most, worth[chosen])
             pairs.append((chosen[camera], first + triangle))
             given_up[chosen[crowd]] = True
             visited += more
@@ -140,12 +144,12 @@ class SceneAndMirrors:
         else:
             return 0.0
         # a surface that winds about itself is convex everywhere but as a whole
-        corners = self.mirror_corners.reshape(3, -1)
+        corners = rows(self.mirrors.positions[np.unique(self.mirrors.triangles)])
         turn = np.arange(DIRECTIONS) + 0.5
         height, angle = 1.0 - 2.0 * turn / DIRECTIONS, np.pi * (1.0 + np.sqrt(5.0)) * turn
         ring = np.sqrt(1.0 - height * height)
         for direction in np.stack((ring * np.cos(angle), ring * np.sin(angle), height), axis=1):
-            farthest = corners[:, np.argmax(direction @ corners)]
+            farthest = corners[:, np.argmax(dot(direction, corners))]
             if (side * dot(farthest[:, None] - self.surface.a, self.surface.face_normal) > room).any():
                 return 0.0
         return side
@@ -160,8 +164,8 @@ class SceneAndMirrors:
             if (self._outside * dot(sides[1], surface.face_normal[:, face]) > 0.0).all():
                 none = np.zeros(0, dtype=np.int64)
                 return none, none, 0, np.zeros(len(cameras), dtype=bool)
-        return bounded_trace(self.mirror_tree, Cones.around(cameras), most, worth,
-                             lambda camera, triangle: self._above(sides, camera, triangle))
+        return _traced(self.mirror_tree, cameras, most, worth,
+                       lambda camera, triangle: self._above(sides, camera, triangle))
 
     def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
         """The triangle (n,) that each ray, from `origin` along unit vectors `ray` (3, n), meets first, -1 where none.
@@ -171,9 +175,11 @@ class SceneAndMirrors:
                                        lambda own, triangle: self._above(sides, own, triangle))
         return np.where(nearer < near, mirror + self.diffuse, diffuse)
 
-    def first_distances(self, origin: np.ndarray, ray: np.ndarray) -> list[np.ndarray]:
-        """How far along rays (3, n), unit vectors, the diffuse scene and the mirrors lie, infinite where not at all."""
-        return [first_crossed(tree, origin, ray)[1] for tree in (self.tree, self.mirror_tree)]
+    def first_distances(self, origin: np.ndarray, ray: np.ndarray, diffuse: bool) -> np.ndarray:
+        """How far along rays (3, n), unit vectors, the diffuse scene, or this and the mirrors lie, infinite where not
+        at all."""
+        trees = [self.tree] if diffuse else [self.tree, self.mirror_tree]
+        return np.minimum.reduce([first_crossed(tree, origin, ray)[1] for tree in trees])
 
     def shown_in_middles(self, cameras: Cameras) -> np.ndarray:
         """The triangle (n,) that the ray through the middle of each camera meets first, -1 where it meets none."""
@@ -239,3 +245,28 @@ class SceneAndMirrors:
                          for corner in (own[side], beyond))
             inner[side, pair] = near * far == -9.0
         return inner
+
+
+def _traced(tree: SceneTree, cameras: Cameras, most: int, worth: np.ndarray,
+            asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
+            ) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+    """`bounded_trace` of cameras, those side by side that look nearly the same way."""
+    family = _families(cameras)
+    order = in_order(family)
+    by_order = None if asked is None else lambda camera, triangle: asked(order[camera], triangle)
+    camera, triangle, visited, crowd = bounded_trace(tree, Cones.around(cameras.select(order)), most, worth[order],
+                                                     by_order, family[order])
+    given_up = np.zeros(len(order), dtype=bool)
+    given_up[order[crowd]] = True
+    return order[camera], triangle, visited, given_up
+
+
+def _families(cameras: Cameras) -> np.ndarray:
+    """(n,): cameras with the same number lie on one mirror triangle, and where these are many, close together."""
+    face = cameras.face
+    many = np.flatnonzero(np.bincount(face)[face] > FAMILY)
+    depth = depth_for(len(many), FAMILY // 2)
+    family = face << depth
+    if len(many):
+        family[many] += curve_leaves(cameras.places[:, cameras.corners[many]].mean(axis=2).T, depth)
+    return family

@@ -32,10 +32,13 @@ def missed_probes(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, met: 
     low, step = _lattice(view, mirror)
     y, x = np.divmod(np.arange(ACROSS * ACROSS), ACROSS)
     origin, ray = (given.T for given in view.rays(low + step * (np.stack((x, y), axis=1) + 0.5)))
-    face, distance = first_crossed(SceneTree.of_ordered(mirror), origin, ray)
+    alone = np.array_equal(mirror.positions, met.mirrors.positions) and np.array_equal(mirror.triangles,
+                                                                                       met.mirrors.triangles)
+    face, distance = first_crossed(met.mirror_tree if alone else SceneTree.of_ordered(mirror), origin, ray)
+    asked = np.flatnonzero(face >= 0)
     # what lies right behind an object that cuts through the mirror is not shown
-    nearest = np.minimum(*met.first_distances(origin, ray))
-    seen = np.flatnonzero((face >= 0) & (distance <= (1.0 + SAME_PLACE) * nearest))
+    nearest = met.first_distances(origin[:, asked], ray[:, asked], alone)
+    seen = asked[distance[asked] <= (1.0 + SAME_PLACE) * nearest]
     place = origin[:, seen] + distance[seen] * ray[:, seen]
     face = face[seen]
     leaving = mirror_map.rays(face, mirror_map.coordinates(face, place))

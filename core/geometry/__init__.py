@@ -5,6 +5,7 @@ their places decide, and which triangles lie beyond each other's sides.
 """
 from .adjacency import connected, corners_beyond, neighbours, opposite_corners
 from .canonical_order import TURNS, Order, ordered
+from .distinct import distinct, first_of, in_order
 from .lamp_view import LampView
 from .scene_frames import SceneFrames, falling
 from .subdivision import doubled_areas, edge_lengths, parent_side, shared_edges, split
@@ -14,6 +15,7 @@ from .view import View
 from .z_buffer import Drawn, draw
 
 __all__ = ["Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns",
-           "connected", "corners_beyond", "cross", "dot", "doubled_areas", "draw", "edge_lengths", "falling", "groups",
-           "has_area", "largest", "neighbours", "norm", "opposite_corners", "ordered", "parent_side", "ranges", "rows",
-           "shared_edges", "shares", "smallest", "solve", "split", "unit"]
+           "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas", "draw", "edge_lengths",
+           "falling", "first_of", "groups", "has_area", "in_order", "largest", "neighbours", "norm",
+           "opposite_corners", "ordered", "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest",
+           "solve", "split", "unit"]

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .distinct import in_order
 from .subdivision import shared_edges
 from .triangle_mesh import TriangleMesh
 
@@ -31,7 +32,7 @@ def corners_beyond(triangles: np.ndarray) -> np.ndarray:
     _, _, edge = shared_edges(triangles)
     # edge k runs from corner k to the next; the side opposite to corner j is edge j + 1
     edge = edge[:, [1, 2, 0]].ravel()
-    order = np.argsort(edge, kind="stable")
+    order = in_order(edge)
     one, other = order[np.bincount(edge)[edge[order]] == 2].reshape(-1, 2).T
     beyond = np.full(len(edge), -1)
     beyond[one], beyond[other] = other, one

@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .distinct import first_of
+
 # Corners 0 1 2 and the middles 3 4 5 of edges 01, 12, 20: the children for each set of marked edges (bit k: edge k).
 _TEMPLATES = {
     0b001: [(0, 3, 2), (3, 1, 2)],
@@ -30,7 +32,7 @@ def split(marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     local : (m, 3) int64
         The child's corners in its parent: 0 1 2 the parent's corners, 3 4 5 the middles of its edges 01, 12, 20.
     """
-    case = marked @ np.array([1, 2, 4])
+    case = marked[:, 0] + 2 * marked[:, 1] + 4 * marked[:, 2]
     whole = np.flatnonzero(case == 0)
     parents, locals_ = [whole], [np.broadcast_to(np.arange(3), (len(whole), 3))]
     for bits, children in _TEMPLATES.items():
@@ -77,5 +79,5 @@ def shared_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndar
     a, b = triangles, np.roll(triangles, -1, axis=1)
     low, high = np.minimum(a, b).ravel(), np.maximum(a, b).ravel()
     count = int(high.max()) + 1 if len(high) else 1
-    keys, first, edge = np.unique(low * count + high, return_index=True, return_inverse=True)
+    keys, first, edge = first_of(low * count + high)
     return np.stack((keys // count, keys % count), axis=1), first, edge.reshape(-1, 3)

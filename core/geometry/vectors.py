@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .distinct import distinct, first_of
+
 
 def rows(points: np.ndarray) -> np.ndarray:
     """Component-first copy (3, ...) of points (..., 3)."""
@@ -81,7 +83,7 @@ def groups(*keys: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Rows of several keys (n,) of integers >= 0, each distinct one once: where it first occurs; each row's group."""
     group = keys[0]
     for key in keys[1:]:
-        _, group = np.unique(group, return_inverse=True)
+        _, group = distinct(group)
         group = group * (int(key.max(initial=0)) + 1) + key
-    _, first, group = np.unique(group, return_index=True, return_inverse=True)
+    _, first, group = first_of(group)
     return first, group

@@ -1,6 +1,7 @@
 """The eye: where view rays start, and where a point of the scene lands in the picture."""
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -139,26 +140,43 @@ class View:
         own axis."""
         axes = self.camera_to_world[:3, :3]
         sheared = np.abs(axes.T @ axes - np.eye(3)).max() > 4.0 * _LOOSE
-        return (points - self.eye) @ (-self._inverse[2] if sheared else self.forward)
+        return dot(-self._inverse[2] if sheared else self.forward, (points - self.eye).T)
 
     def clip(self, points: np.ndarray) -> np.ndarray:
         """Homogeneous clip coordinates (n, 4) of `points` (n, 3)."""
-        local = (points - self.eye) @ self._inverse.T
-        return local @ self.projection[:, :3].T + self.projection[:, 3]
+        return np.stack(self._seen(points, range(4)), axis=1)
+
+    @cached_property
+    def _towards(self) -> np.ndarray:
+        """(4, 3): from ways in the world to changes of the homogeneous clip coordinates."""
+        return self.projection[:, :3] @ self._inverse
+
+    def _seen(self, points: np.ndarray, wanted: Iterable[int]) -> list[np.ndarray]:
+        """The `wanted` clip coordinates of `points` (n, 3). Products with so small a matrix are not worth the threads
+        that NumPy's own start for them."""
+        offset = np.subtract(points.T, self.eye[:, None], out=np.empty(points.T.shape))
+        local = np.stack([dot(row, offset) for row in self._inverse])
+        return [dot(self.projection[row], local) + self.projection[row, 3] for row in wanted]
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
         """Picture positions (n, 2) of `points` (n, 3) in pixels, from the lower left corner, right and up.
 
         Points on the plane of a perspective eye have no picture: their positions are not finite.
         """
-        clip = self.clip(points)
+        *spots, depth = self._seen(points, (0, 1, 3))
+        pixels = np.empty((len(points), 2))
         with np.errstate(divide="ignore", invalid="ignore"):
-            return (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * self.resolution
+            for k, spot in enumerate(spots):
+                spot /= depth
+                spot *= 0.5
+                spot += 0.5
+                np.multiply(spot, self.resolution[k], out=pixels[:, k])
+        return pixels
 
     def pixel_gradients(self, points: np.ndarray) -> np.ndarray:
         """Pixels (2, 3, n), as [right or up, component], that the pictures of `points` (3, n) move by where the points
         move by a scene unit along an axis, in the first order."""
-        towards = self.projection[:, :3] @ self._inverse
+        towards = self._towards
         offset = points - self.eye[:, None]
         right, up, depth = (dot(towards[row], offset) + self.projection[row, 3] for row in (0, 1, 3))
         gradients = np.empty((2, *points.shape))

@@ -96,12 +96,14 @@ def _find(patch: Patch, member, uv, s, points, looks: int) -> np.ndarray:
     found = np.zeros(len(member), dtype=bool)
     active, before = np.arange(len(member)), np.full(len(member), -1)
     for _ in range(looks):
-        uv[:, active], s[active], moved = newton(patch, member[active], uv[:, active], s[active], points[:, active])
-        inside = least_weight(uv[:, active]) >= -INSIDE
+        on, far, moved = newton(patch, member[active], columns(uv, active), s[active], columns(points, active))
+        uv[:, active], s[active] = on, far
+        inside = least_weight(on) >= -INSIDE
         done = inside & (moved < ARRIVED)
-        found[active[done]] = s[active[done]] > 0.0
-        active, moved, inside = active[~done], moved[~done], inside[~done]
-        u, v = uv[:, active]
+        found[active[done]] = far[done] > 0.0
+        rest = np.flatnonzero(~done)
+        active, moved, inside = active[rest], moved[rest], inside[rest]
+        u, v = columns(on, rest)
         weights = np.stack((1.0 - u - v, u, v))
         beyond = patch.across[member[active], weights.argmin(axis=0)]
         # left by either of two triangles to the other, or to none: it is not there yet, or nowhere
@@ -125,37 +127,48 @@ def newton(patch: Patch, member, uv, s, points) -> tuple[np.ndarray, np.ndarray,
     shape = columns(patch.shape, member).reshape(6, 3, -1)
     for _ in range(STEPS):
         place, c0, c1, ray = _moved(patch, shape, uv, s)
-        du, dv, ds = _solved(c0, c1, ray, points - place - s * ray)
-        short = 1.0 / np.maximum(1.0, np.maximum(np.abs(du), np.abs(dv)) / LONGEST)
-        uv, s = np.stack((uv[0] + short * du, uv[1] + short * dv)), s + short * ds
-    return uv, s, np.maximum(np.abs(du), np.abs(dv))
+        right = np.subtract(points, place, out=place)
+        right -= s * ray
+        step = _solved(c0, c1, ray, right)
+        moved = np.maximum(np.abs(step[0]), np.abs(step[1]))
+        step /= np.maximum(1.0, moved / LONGEST)
+        uv, s = uv + step[:2], s + step[2]
+    return uv, s, moved
 
 
 def _moved(patch: Patch, shape, uv, s) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Places (3, n), the derivatives of Q + s R along u and v, and the rays R."""
     a, u, v, n0, nu, nv = shape
-    place = a + uv[0] * u + uv[1] * v
-    arriving = patch.arriving(place)
-    n = n0 + uv[0] * nu + uv[1] * nv
-    inverse = 1.0 / dot(n, n)
-    slope = 2.0 * dot(arriving, n) * inverse
-    sides = []
+    place, n = uv[0] * u, uv[0] * nu
+    place += a
+    place += uv[1] * v
+    n += n0
+    n += uv[1] * nv
+    arriving, orthographic = patch.arriving(place), patch.mirror_map.orthographic
+    twice = 2.0 / dot(n, n)
+    slope = dot(arriving, n) * twice
+    farther, sides = s * slope, []
+    twice *= s
     for along, turn in ((u, nu), (v, nv)):
         # R = d - slope n, where the direction d moves with the place but in orthographic views
         change = dot(arriving, turn) - slope * dot(n, turn)
-        if patch.mirror_map.orthographic:
-            sides.append(along - s * (2.0 * change * inverse * n + slope * turn))
-        else:
-            sides.append(along + s * (along - 2.0 * (dot(along, n) + change) * inverse * n - slope * turn))
+        side = along * (1.0 if orthographic else 1.0 + s)
+        if not orthographic:
+            change += dot(along, n)
+        change *= twice
+        side -= change * n
+        side -= farther * turn
+        sides.append(side)
     return place, sides[0], sides[1], arriving - slope * n
 
 
-def _solved(c0, c1, ray, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """u, v, s with u c0 + v c1 + s R = right."""
-    normal, turned = cross(c1, ray), cross(right, c0)
+def _solved(c0, c1, ray, right) -> np.ndarray:
+    """u, v, s (3, n) with u c0 + v c1 + s R = right."""
+    normal, turned = cross(c1, ray), cross(c0, right)
     determinant = dot(c0, normal)
-    inverse = 1.0 / np.where(np.abs(determinant) > 1e-300, determinant, 1e-300)
-    return dot(right, normal) * inverse, -dot(turned, ray) * inverse, dot(turned, c1) * inverse
+    found = np.stack((dot(right, normal), dot(turned, ray), -dot(turned, c1)))
+    found /= np.where(np.abs(determinant) > 1e-300, determinant, 1e-300)
+    return found
 
 
 def jacobians(patch: Patch, member, uv, s) -> np.ndarray:

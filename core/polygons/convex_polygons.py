@@ -154,25 +154,34 @@ def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_valu
         return weights, after, polygon
     values = columns(corner_values, polygon)
     values *= weights
-    value = values.sum(axis=0)
+    value = np.add(values[0], values[1], out=values[0])
+    value += values[2]
     inside = value >= 0.0
     if inside.all():
         return weights, after, polygon
-    following = np.arange(1, len(polygon) + 1)
-    ends = np.flatnonzero(np.append(polygon[1:] != polygon[:-1], True))
-    following[ends] = np.append(0, ends[:-1] + 1)
-    crossing = inside != inside[following]
+    end = np.ones(len(polygon), dtype=bool)
+    np.not_equal(polygon[1:], polygon[:-1], out=end[:-1])
+    ends = np.flatnonzero(end)
+    starts = np.append(0, ends[:-1] + 1)
+    crossing = np.empty(len(inside), dtype=bool)
+    np.not_equal(inside[1:], inside[:-1], out=crossing[:-1])
+    crossing[ends] = inside[ends] != inside[starts]
     stay, part = np.flatnonzero(inside), np.flatnonzero(crossing)
-    share = value[part] / (value[part] - value[following[part]])
-    start = columns(weights, part)
+    beyond = part + 1
+    last = np.flatnonzero(end[part])
+    beyond[last] = starts[np.searchsorted(ends, part[last])]
+    start, share = columns(weights, part), value[part]
+    share /= share - value[beyond]
+    way = columns(weights, beyond)
+    way -= start
+    way *= share
+    way += start
     # each corner that stays is followed by the crossing on the way to the next
-    place = np.cumsum(inside.view(np.int8) + crossing, dtype=np.int64)
-    new_weights, new_after = np.empty((3, place[-1])), np.empty(place[-1], dtype=np.int8)
-    new_polygon = np.empty(place[-1], dtype=np.int64)
-    old, new = place[stay] - 1 - crossing[stay], place[part] - 1
-    new_weights[:, old], new_after[old], new_polygon[old] = columns(weights, stay), after[stay], polygon[stay]
-    new_weights[:, new] = start + share * (columns(weights, following[part]) - start)
+    place = np.cumsum(inside.view(np.int8) + crossing.view(np.int8), dtype=np.int64)
+    source = np.empty(place[-1], dtype=np.int64)
+    source[place[stay] - 1 - crossing[stay]] = stay
+    source[place[part] - 1] = np.arange(len(polygon), len(polygon) + len(part))
     # a leaving polygon goes on along the cut, an entering one along the edge that it was on
-    new_after[new] = np.where(inside[part], np.int8(label), after[part])
-    new_polygon[new] = polygon[part]
-    return new_weights, new_after, new_polygon
+    after = np.concatenate((after, np.where(inside[part], np.int8(label), after[part])))
+    return (columns(np.concatenate((weights, way), axis=1), source), columns(after, source),
+            columns(np.concatenate((polygon, polygon[part])), source))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import dot, ranges
+from ..geometry import dot, first_of, in_order, ranges
 from ..support import breathe
 from .convex_polygons import ConvexPolygons, Kind
 
@@ -43,8 +43,8 @@ def divide(pieces: Kind, lines: Lines, line: np.ndarray, piece: np.ndarray, most
         line, piece = line[crossing], piece[crossing]
         if not len(line) or len(pieces) + sum(map(len, whole)) > most or number == PASSES:
             break
-        order = np.argsort(piece, kind="stable")
-        line, (chosen, first, piece) = line[order], np.unique(piece[order], return_index=True, return_inverse=True)
+        order = in_order(piece)
+        line, (chosen, first, piece) = line[order], first_of(piece[order])
         whole.append(pieces.select(np.delete(np.arange(len(pieces)), chosen)))
         pieces = pieces.select(chosen).halved(np.arange(len(chosen)), lines.values[:, line[first]])
         line, piece = np.delete(line, first), np.delete(piece, first)

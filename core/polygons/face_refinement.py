@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..cameras import Cameras, ReflectionMap
-from ..geometry import SceneFrames, View, dot, falling, norm, shared_edges
+from ..cameras import ALONG_UV, Cameras, ReflectionMap
+from ..geometry import SceneFrames, View, columns, dot, falling, norm, shared_edges
 from ..support import breathe
 from .polygon_corners import Nodes
 from .triangulation import Faces
@@ -58,11 +58,12 @@ class FaceRefinement:
         finished: list[Faces] = []
         left: list[np.ndarray] = []
         done = np.zeros((len(faces), 3), dtype=bool)
+        pixels = self._view.pixels(nodes.place.T)
         for level in range(LEVELS + 1):
             if not len(faces):
                 break
             breathe()
-            marked, straying, chosen, middle = self._marked(nodes, faces, done, tolerance)
+            marked, straying, chosen, middle = self._marked(nodes, pixels, faces, done, tolerance)
             ends, edge, choice, middle_nodes = middle
             stop = level == LEVELS or sum(map(len, finished)) + len(faces) + 2 * marked.sum() > maximum
             if stop or not marked.any():
@@ -72,6 +73,7 @@ class FaceRefinement:
             new = np.full(len(ends), -1)
             new[choice] = np.arange(marked.sum()) + len(nodes.distance)
             nodes = nodes.joined(*middle_nodes)
+            pixels = np.concatenate((pixels, self._view.pixels(middle_nodes[0].T)))
             faces, done = faces.split(new[edge])
             resting = np.all(done, axis=1)
             finished.append(faces.select(resting))
@@ -79,9 +81,9 @@ class FaceRefinement:
         resting_left = np.concatenate((*left, np.zeros((2, 1))), axis=1)
         return nodes, Faces.joined(finished) if finished else faces, resting_left, 0
 
-    def _marked(self, nodes: Nodes, faces: Faces, done: np.ndarray, tolerance: float):
-        """Edges to split; of those that no neighbour has settled yet, what they stray by, their lengths, and whether
-        they are to be split; and the nodes in their middles."""
+    def _marked(self, nodes: Nodes, pixels: np.ndarray, faces: Faces, done: np.ndarray, tolerance: float):
+        """Edges to split between nodes at `pixels` (n, 2); of those that no neighbour has settled yet, what they stray
+        by, their lengths, and whether they are to be split; and the nodes in their middles."""
         ends, first, edge = shared_edges(faces.nodes)
         face = first // 3
         open_ = np.flatnonzero(~done.reshape(-1)[first])
@@ -100,11 +102,12 @@ class FaceRefinement:
         drift, error, point, distance = (np.concatenate(side, axis=-1) for side in zip(*parts))
         worth = np.zeros(len(ends), dtype=bool)
         worth[edge[~self.beyond[faces.camera]]] = True
-        pixels = self._view.pixels(nodes.place.T)
-        beyond = np.concatenate((pixels < -MARGIN, pixels > np.add(self._view.resolution, MARGIN)), axis=1)
-        worth[open_] &= ~(beyond[a] & beyond[b]).any(axis=1)
+        (right, up), (other_right, other_up) = (columns(pixels.T, end) for end in (a, b))
+        for one, other, size in ((right, other_right, self._view.resolution[0]),
+                                 (up, other_up, self._view.resolution[1])):
+            worth[open_] &= ~((np.maximum(one, other) < -MARGIN) | (np.minimum(one, other) > size + MARGIN))
         drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
-        length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
+        length = np.sqrt((right - other_right)**2 + (up - other_up)**2)
         # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight
         outline = np.zeros(len(ends), dtype=bool)
         outline[edge[faces.on_scene_edge]] = True
@@ -147,18 +150,19 @@ class FaceRefinement:
         Near a caustic the picture of a point is drawn out in one direction, and a shift in that direction shows
         nothing: none counts for more than `STRETCH` times the pixels it would be where the picture is drawn out least.
         """
-        one, zero = np.ones(len(face)), np.zeros(len(face))
-        origin, ray, moves = self._map.linearise(face, uv, np.stack((one, zero)), np.stack((zero, one)))
-        s = np.maximum(self.frames.distance(column, origin, ray), 0.0)
-        point = origin + s * ray
-        normal = np.take(self.frames.normal, column, axis=1)
+        origin, ray, moves = self._map.linearise(face, uv, *ALONG_UV)
+        frames = self.frames
+        base, first, second, normal = (columns(row, column) for row in
+                                       (frames.origin, frames.first, frames.second, frames.normal))
         speed = falling(normal, ray)
+        s = np.maximum(dot(normal, base - origin) / speed, 0.0)
+        point = origin + s * ray
         moving = []
         for move, change in moves:
             free = move + s * change
             moving.append(free - dot(normal, free) / speed * ray)
-        (a, c), (b, d) = (self.frames.directions(column, along)[:2] for along in moving)
-        right = self.frames.directions(column, shown - point)[:2]
+        off = shown - point
+        (a, c), (b, d), right = ((dot(first, along), dot(second, along)) for along in (*moving, off))
         x, y = _solve(a, b, c, d, *right)
         place = self._map.places(face, uv)
         gradients = self._view.pixel_gradients(place)
@@ -167,7 +171,7 @@ class FaceRefinement:
         motion = [norm(x * moving[0] + y * moving[1]) for x, y in
                   (_solve(seen_u[0], seen_v[0], seen_u[1], seen_v[1], *step) for step in ((1.0, 0.0), (0.0, 1.0)))]
         with np.errstate(over="ignore"):
-            coarse = norm(shown - point) / np.maximum(np.maximum(*motion), 1e-300)
+            coarse = norm(off) / np.maximum(np.maximum(*motion), 1e-300)
             return drift, np.minimum(drift, STRETCH * coarse), point, s
 
 

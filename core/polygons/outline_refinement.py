@@ -12,7 +12,7 @@ import numpy as np
 
 from ..cameras import Cameras, beyond_horizon, split_cameras
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import doubled_areas, edge_lengths, ranges
+from ..geometry import columns, distinct, doubled_areas, edge_lengths, in_order, ranges
 from ..support import breathe
 from .covering import Overlaps
 
@@ -69,7 +69,7 @@ def _children(camera: np.ndarray, column: np.ndarray, parent: np.ndarray, new: n
     splitting = np.zeros(before, dtype=bool)
     splitting[parent[new]] = True
     own = np.flatnonzero((camera >= 0) & splitting[camera])
-    own = own[np.argsort(camera[own], kind="stable")]
+    own = own[in_order(camera[own])]
     start = np.searchsorted(camera[own], np.arange(before + 1))
     child = np.flatnonzero(new)
     entry, run = ranges(start[parent[child]], start[parent[child] + 1] - start[parent[child]])
@@ -88,18 +88,19 @@ def _bent_edges(candidates: Candidates, tolerance: np.ndarray) -> tuple[np.ndarr
     """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses more than the
     `tolerance` (p,) of its candidate, in pixels; and those that are long enough to be split."""
     cameras, some = candidates.cameras, np.flatnonzero(candidates.outlines.any(axis=0))
-    pixels = cameras.view.pixels(cameras.places.T)[cameras.corners]
+    asked, camera = distinct(candidates.camera[some])
+    pixels = cameras.view.pixels(cameras.places[:, cameras.corners[asked].ravel()].T).reshape(-1, 3, 2)
     across, up = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
-    area = np.abs(doubled_areas(pixels))
-    camera, sides = candidates.camera[some], candidates.sides[:, :, some]
+    area, sides = np.abs(doubled_areas(pixels)), columns(candidates.sides, some)
     rise, climb = sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]
     steepness = np.hypot(rise * up[camera, 1] - climb * across[camera, 1],
                          climb * across[camera, 0] - rise * up[camera, 0])
-    misses = np.abs(candidates.bend[:, :, some]) * area[camera] > tolerance[some] * steepness[:, None]
-    edge, pair = np.nonzero((misses & candidates.outlines[:, None, some]).any(axis=0))
-    bent = np.zeros((len(cameras), 3), dtype=bool)
-    bent[camera[pair], edge] = True
-    return bent & _worth_refining(cameras, bent), edge_lengths(pixels) > SHORTEST_EDGE
+    misses = np.abs(columns(candidates.bend, some)) * area[camera] > tolerance[some] * steepness[:, None]
+    edge, pair = np.nonzero((misses & columns(candidates.outlines, some)[:, None]).any(axis=0))
+    bent, long = (np.zeros((len(cameras), 3), dtype=bool) for _ in range(2))
+    bent[asked[camera[pair]], edge] = True
+    long[asked] = edge_lengths(pixels) > SHORTEST_EDGE
+    return bent & _worth_refining(cameras, bent), long
 
 
 def _worth_refining(cameras: Cameras, bent: np.ndarray) -> np.ndarray:

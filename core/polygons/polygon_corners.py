@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, ReflectionMap
-from ..geometry import SceneFrames, dot, groups
+from ..geometry import SceneFrames, columns, dot, groups
 from ..support import breathe
 from .clipping import Polygons
 from .convex_polygons import Line
@@ -77,14 +77,18 @@ class _Corners:
 
     def mirror_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
         """(n, 2) sorted camera corners of the mirror edge `label`."""
-        corners, row = self.cameras.corners[self.camera[chosen]], np.arange(len(chosen))
-        return np.sort(np.stack((corners[row, (label + 1) % 3], corners[row, (label + 2) % 3]), axis=1), axis=1)
+        first = 3 * self.camera[chosen]
+        return _rising(*(columns(self.cameras.corners.ravel(), first + (label + step) % 3) for step in (1, 2)))
 
     def scene_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
         """(n, 2) sorted scene vertices of the triangle's edge `label`."""
-        vertices, side = self.frames.vertices[:, self.column[chosen]], label - Line.SCENE_EDGE
-        row = np.arange(len(chosen))
-        return np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row]), axis=1), axis=1)
+        vertices, side, column = self.frames.vertices, label - Line.SCENE_EDGE, self.column[chosen]
+        return _rising(*(columns(vertices.ravel(), (side + step) % 3 * vertices.shape[1] + column) for step in (1, 2)))
+
+
+def _rising(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """(n, 2): both, the smaller first."""
+    return np.stack((np.minimum(one, other), np.maximum(one, other)), axis=1)
 
 
 def polygon_nodes(polygons: Polygons, images: VertexImages) -> tuple[Nodes, np.ndarray]:

@@ -78,8 +78,10 @@ def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Face
     before, after = start + (local - 1) % length, start + (local + 1) % length
     spread = length * squares - 2.0 * (spots * total).sum(axis=1) + square_total
     spread -= ((spots - spots[before]) ** 2).sum(axis=1) + ((spots - spots[after]) ** 2).sum(axis=1)
-    order = np.lexsort((spread, polygon))
-    apex = local[order[polygons.start[:-1]]]
+    spread = np.where(np.isnan(spread), np.inf, spread)
+    bound = np.minimum.reduceat(spread, polygons.start[:-1])[polygon] if len(size) else spread
+    least = np.flatnonzero(spread <= bound)
+    apex = local[least[np.flatnonzero(np.diff(polygon[least], prepend=-1))]]
 
     step, fan = ranges(np.ones(len(size), dtype=np.int64), size - 2)
     base, length = polygons.start[:-1][fan], size[fan]

@@ -98,10 +98,11 @@ class ReflectionMesh:
         """(m, 3) int8: the side of the source triangle, from corner k to the next, whose image each side of each face
         is a part of; -1 for sides that only cut the image, along a mirror's triangle or what hides it."""
         beside = self.source_weights < ON_SIDE
-        opposite = beside & np.roll(beside, -1, axis=1)
+        opposite, side = beside & beside[:, [1, 2, 0]], np.full(beside.shape[:2], -1, dtype=np.int8)
         # side k lies opposite to corner k + 2
-        side = np.roll(opposite, -2, axis=2)
-        return np.where(side.any(axis=2), side.argmax(axis=2), -1).astype(np.int8)
+        for k in (2, 1, 0):
+            side[opposite[:, :, (k + 2) % 3]] = k
+        return side
 
     def image_normals(self, normals: np.ndarray) -> np.ndarray:
         """Normals as the mirrors show them, (m, 3, 3) at the corners of the faces.

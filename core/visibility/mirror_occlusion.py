@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import columns, dot, groups, largest, ranges, shares, smallest
+from ..geometry import columns, dot, groups, in_order, largest, ranges, shares, smallest
 from ..polygons import Line, Lines, Polygons, clip, divide, scene_edges
 from ..support import breathe
 
@@ -74,7 +74,7 @@ def _outlines(met: SceneAndMirrors, seen: Candidates) -> Lines:
 def _before_mirrors(mirror: np.ndarray, polygons: Polygons) -> tuple[Polygons, int, np.ndarray]:
     """The polygons that no mirror hides, of the candidates `mirror`; those that pass through one are cut in the line of
     contact. How many were hidden or cut, and the cameras of those that pass through too many."""
-    order = mirror[np.argsort(polygons.candidates.camera[mirror], kind="stable")]
+    order = mirror[in_order(polygons.candidates.camera[mirror])]
     seen, hidden = [polygons.select(slice(0, 0))], 0
     for _ in range(CONTACTS):
         if not len(polygons):

@@ -6,7 +6,7 @@ from collections.abc import Generator, Iterable
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import TriangleMesh, View, ranges, rows, shares
+from ..geometry import TriangleMesh, View, in_order, ranges, rows, shares
 from ..support import breathe
 from .mirror_visibility import DepthGrid
 
@@ -51,9 +51,9 @@ def _meeting(cameras: Cameras, owner: np.ndarray, boxes: tuple, cells: list,
     (cell, camera), (other_cell, column) = cells
     boxes, others = boxes
     breathe()
-    order = np.argsort(camera, kind="stable")  # all that is said of one camera comes together
+    order = in_order(camera)  # all that is said of one camera comes together
     cell, camera = cell[order], camera[order]
-    order = np.argsort(other_cell, kind="stable")
+    order = in_order(other_cell)
     other_cell, column = other_cell[order], column[order]
     start, stop = (np.searchsorted(other_cell, cell, side=side) for side in ("left", "right"))
     ends = np.append(0, np.flatnonzero(np.diff(camera, append=-1)) + 1)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..cameras import Cameras, picture_areas, with_pieces
 from ..culling import Candidates
-from ..geometry import SceneFrames, cross, dot, largest, ranges, rows, smallest
+from ..geometry import SceneFrames, cross, dot, in_order, largest, ranges, rows, smallest
 from ..polygons import ConvexPolygons, Line
 from ..support import breathe, crowded
 
@@ -49,9 +49,10 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
     origin, cut, count = np.arange(len(cameras)), np.zeros(len(cameras), dtype=bool), 0
     for number in range(PASSES + 1):
         breathe()
+        meeting = np.flatnonzero(_meets(cameras, frames, camera, column))
+        camera, column = camera[meeting], column[meeting]
         sides, solid = hidden_sides(cameras, frames, camera, column)
-        meeting = _meets(cameras, frames, camera, column) & solid
-        camera, column, sides = camera[meeting], column[meeting], sides[:, :, meeting]
+        camera, column, sides = camera[solid], column[solid], sides[:, :, solid]
         if not len(camera) or len(cameras) > maximum or number == PASSES:
             break
         chosen, first = np.unique(camera, return_index=True)
@@ -77,7 +78,7 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
     now = np.full(len(cut), -1)
     now[np.delete(origin, piece)] = np.delete(np.arange(len(cameras)), piece)
     asked = np.flatnonzero(cut[candidates.camera])
-    asked = asked[np.argsort(candidates.camera[asked], kind="stable")]
+    asked = asked[in_order(candidates.camera[asked])]
     start, stop = (np.searchsorted(candidates.camera[asked], origin[piece], side=side) for side in ("left", "right"))
     crowd = np.zeros(len(cameras), dtype=bool)
     crowd[piece] = crowded(stop - start, picture_areas(cameras.select(piece)), AGAIN * maximum)

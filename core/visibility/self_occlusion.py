@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import Cameras, picture_areas, with_pieces
-from ..geometry import SceneFrames, TriangleMesh, cross, dot, groups, norm, ranges, rows, shares
+from ..geometry import SceneFrames, TriangleMesh, cross, dot, groups, in_order, norm, ranges, rows, shares
 from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
 from ..support import breathe, crowded
 from .eye_plane import triangles_before_eye
@@ -130,7 +130,7 @@ def _outlines(view, frames, hidden: ConvexPolygons, sides, camera, column) -> Li
 def _seen_pieces(cameras, pieces: ConvexPolygons, camera, sides) -> tuple[np.ndarray, np.ndarray]:
     """The pieces that no triangle hides, as triangles: the camera each lies in and its corners' weights (3, 3, n)."""
     middle = pieces.middles
-    order = np.argsort(camera, kind="stable")
+    order = in_order(camera)
     start, stop = (np.searchsorted(camera[order], cameras[pieces.owner], side=side) for side in ("left", "right"))
     seen = np.ones(len(pieces), dtype=bool)
     for part in shares(stop - start, PAIRS_AT_ONCE):

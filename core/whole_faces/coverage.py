@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import ranges, shares
+from ..geometry import columns, largest, ranges, shares
 from ..patches import Patch
 from ..support import breathe
 
 ROWS_AT_ONCE = 1 << 14
 MOST_SAMPLES = 1 << 23
+LEVEL = 1e-30  # pixels: a side that rises less is level
 
 
 def box(spots: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -70,15 +71,17 @@ class Covered:
             own, order_there = corners[:, :, part], order[:, part]
             slope, base, steep = _planes(own, order_there)
             y, face = ranges(start[part], rows_of[part])
-            left, right = _spans(own[:, :, face], y, touched)
+            left, right = _spans(own, face, y, touched)
             left, right = (np.clip(bound, 0, size[0]).astype(np.int64) for bound in (left, right))
             x, run = ranges(left, np.maximum(right - left, 0))
-            face, y = face[run], y[run]
-            near = base[face] + slope[0, face] * (x + 0.5) + slope[1, face] * (y + 0.5)
+            near = columns(columns(slope[0], face), run)
+            near *= x + 0.5
+            in_row = columns(slope[1], face) * (y + 0.5) + columns(base, face)
+            near += columns(in_row + columns(steep, face) if touched else in_row, run)
             if touched:
-                greatest = np.maximum(np.maximum(order_there[0], order_there[1]), order_there[2])
-                near = np.minimum(near + steep[face], greatest[face])
-            parts.append((face + part.start, y * size[0] + x, near))
+                np.minimum(near, columns(columns(largest(order_there), face), run), out=near)
+            x += columns(y * size[0], run)
+            parts.append((columns(face + part.start, run), x, near))
         return cls(*(np.concatenate(side) for side in zip(*parts)))
 
 
@@ -92,32 +95,41 @@ def _planes(corners: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, np.ndar
     return slope, order[0] - (slope * corners[:, 0]).sum(axis=0), 0.5 * np.abs(slope).sum(axis=0)
 
 
-def _spans(corners: np.ndarray, y: np.ndarray, touched: bool) -> tuple[np.ndarray, np.ndarray]:
-    """The first pixel, and the one after the last, of the runs of triangles (2, 3, r) in rows y (r,)."""
-    left, right = np.full(len(y), np.inf), np.full(len(y), -np.inf)
-    heights = [y, y + 1.0] if touched else [y + 0.5]
-    for k in range(3):
-        (x0, y0), (x1, y1) = corners[:, k], corners[:, (k + 1) % 3]
-        low, high = np.minimum(y0, y1), np.maximum(y0, y1)
-        rise = y1 - y0
-        turn = (x1 - x0) / np.where(rise != 0.0, rise, np.inf)
-        for height in heights:
-            if touched:
-                meets = (high >= heights[0]) & (low <= heights[-1])
-                at = np.clip(height, low, high)
-            else:
-                meets, at = (low <= height) & (height < high), height
-            x = x0 + (at - y0) * turn
-            left = np.where(meets, np.minimum(left, x), left)
-            right = np.where(meets, np.maximum(right, x), right)
-            if touched:  # a level edge has its ends
-                level = meets & (rise == 0.0)
-                left = np.where(level, np.minimum(left, np.minimum(x0, x1)), left)
-                right = np.where(level, np.maximum(right, np.maximum(x0, x1)), right)
-    none = left > right
-    left, right = np.where(none, 0.0, left), np.where(none, 0.0, right)
-    return (np.floor(left), np.where(none, 0.0, np.floor(right) + 1.0)) if touched else \
-        (np.ceil(left - 0.5), np.ceil(right - 0.5))
+def _spans(corners: np.ndarray, face: np.ndarray, y: np.ndarray, touched: bool) -> tuple[np.ndarray, np.ndarray]:
+    """The first pixel, and the one after the last, of the runs in rows y (r,) that triangles `face` (r,) of those with
+    `corners` (2, 3, f) have there: between the side from the lowest corner to the highest and the two others."""
+    x0, x1, x2, y0, y1, y2, *slopes = columns(_risen(corners), face)
+
+    def beside(height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        from_middle = height - y1
+        return slopes[0] * (height - y0) + x0, np.where(from_middle < 0.0, *slopes[1:]) * from_middle + x1
+
+    if not touched:
+        one, other = beside(y + 0.5)
+        return np.ceil(np.minimum(one, other) - 0.5), np.ceil(np.maximum(one, other) - 0.5)
+    low, high = np.maximum(y, y0), np.minimum(y + 1.0, y2)
+    spots = [*beside(low), *beside(high), np.where((low <= y1) & (y1 <= high), x1, x0 + slopes[0] * (low - y0))]
+    # of a triangle without a height, the other end of its longest side
+    spots.append(np.where(high >= y2, x2, spots[0]))
+    left, right = spots[0], spots[0]
+    for spot in spots[1:]:
+        left, right = np.minimum(left, spot), np.maximum(right, spot)
+    return np.floor(left), np.floor(right) + 1.0
+
+
+def _risen(corners: np.ndarray) -> np.ndarray:
+    """(9, f): x and y of the corners (2, 3, f), the lowest first; and by how much x changes with y along the sides from
+    the lowest to the highest, to the middle one, and between these."""
+    x, y = list(corners[0]), list(corners[1])
+    for one, other in ((0, 1), (1, 2), (0, 1)):
+        turned = y[one] > y[other]
+        x[one], x[other] = np.where(turned, x[other], x[one]), np.where(turned, x[one], x[other])
+        y[one], y[other] = np.minimum(y[one], y[other]), np.maximum(y[one], y[other])
+    slopes = []
+    for start, end in ((0, 2), (0, 1), (1, 2)):
+        rise = y[end] - y[start]
+        slopes.append((x[end] - x[start]) / np.where(rise > LEVEL, rise, np.inf))
+    return np.stack((*x, *y, *slopes))
 
 
 def least_around(front: np.ndarray) -> np.ndarray:

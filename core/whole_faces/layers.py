@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import rows
+from ..geometry import distinct, rows
 from ..patches import Patch
 from ..result import DEPTH, GAP
 from .coverage import Covered, Grid, least_around
@@ -77,9 +77,9 @@ class Layers:
         # what lies behind may sink
         ahead &= second[pixel] >= 0.0
         face, pixel = face[ahead], pixel[ahead]
-        over, column = np.unique(face, return_inverse=True)
+        over, column = distinct(face)
         sagitta = INSIDE * self.sinking.deepest(self.patch, self.images, nodes[:, over])
-        return face[DEPTH * (first - second)[pixel] <= sagitta[column.reshape(-1)]]
+        return face[DEPTH * (first - second)[pixel] <= sagitta[column]]
 
     def _behind_contacts(self, nodes, face, pixel, grid: Grid, near: np.ndarray) -> np.ndarray:
         """Faces that the scene hides from the eye from so near that they would slide through it."""
@@ -96,10 +96,9 @@ class Layers:
         np.maximum.at(front, scene.pixel, scene.order)
         some = np.isfinite(front[pixel])
         face, pixel = face[some], pixel[some]
-        over, column = np.unique(face, return_inverse=True)
+        over, column = distinct(face)
         depth = patch.view.depths((self.images.place[:, nodes[:, over].ravel()] + patch.eye).T).reshape(3, -1)
         slid = (GAP + DEPTH) * (self.sinking.size if patch.mirror_map.orthographic else depth.max(axis=0))
         lowest, highest = depth.min(axis=0) - 2.0 * slid, depth.max(axis=0)
         lowest, highest = (-end if patch.mirror_map.orthographic else 1.0 / end for end in (lowest, highest))
-        column = column.reshape(-1)
         return face[(front[pixel] >= highest[column]) & (front[pixel] <= lowest[column])]

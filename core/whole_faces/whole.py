@@ -87,7 +87,7 @@ def _over_what_goes_through(patch: Patch, images: Images, nodes: np.ndarray, fac
     """Which of the `faces` (n,) among pieces (3, f) lie over several triangles of the mirror where pieces are seen that
     go through it: these may lie closer behind them than they sink."""
     found, ahead = images.found[nodes], images.distance[nodes] > 0.0
-    cells, some = patch.border.unmarked(), False
+    boxes: list[tuple[np.ndarray, np.ndarray]] = []
     for a, b in WAYS:
         through = np.flatnonzero(found[a] & ~found[b] & ~ahead[b])
         if not len(through):
@@ -97,9 +97,10 @@ def _over_what_goes_through(patch: Patch, images: Images, nodes: np.ndarray, fac
         way = images.point[:, end] - images.point[:, start]
         spot = images.pixel[:, start]
         other = spot + np.clip((images.moving[:, :, start] * way).sum(axis=1), -FAR, FAR)
-        cells, some = cells.with_boxes(np.minimum(spot, other) - ROOM, np.maximum(spot, other) + ROOM), True
-    if not some:
+        boxes.append((np.minimum(spot, other) - ROOM, np.maximum(spot, other) + ROOM))
+    if not boxes:
         return np.zeros(len(faces), dtype=bool)
+    cells = patch.border.unmarked().with_boxes(*(np.concatenate(side, axis=1) for side in zip(*boxes)))
     return images.several(nodes[:, faces]) & cells.touched(*box(images.pixel[:, nodes[:, faces]]))
 
 

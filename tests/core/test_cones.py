@@ -81,3 +81,28 @@ def test_a_camera_whose_rays_go_all_ways_holds_everything():
     cones = Cones.around(cameras_of(places.T[None], spread.T[None]))
     points = np.random.default_rng(59).normal(size=(3, 500)) * 10.0
     assert cones.touch(np.zeros(500, dtype=np.int64), points, np.zeros(500)).all()
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.05, 0.4, 2.0])
+def test_a_cone_round_several_holds_the_rays_of_all(turn):
+    rng = np.random.default_rng(59)
+    cameras = random_cameras(rng, 200, turn=turn)
+    # cameras that look nearly the same way come together, as on one triangle of a mirror
+    direction = cameras.rays[:, cameras.corners].sum(axis=2)
+    cameras = cameras.select(np.lexsort(np.round(direction / np.linalg.norm(direction, axis=0))))
+    start = np.flatnonzero(np.append(True, rng.uniform(size=199) < 0.3))
+    cone, points = samples(cameras, rng, 40)
+    together = Cones.around(cameras).together(start)
+    family = np.searchsorted(start, cone, side="right") - 1
+    assert len(together.radius) == len(start) < 100
+    assert together.touch(family, points, 1e-14 * np.linalg.norm(points, axis=0)).all()
+
+
+def test_a_cone_round_several_is_no_wider_than_they_need():
+    rng = np.random.default_rng(61)
+    cameras = random_cameras(rng, 1, size=0.1, turn=0.01)
+    alone = Cones.around(cameras)
+    several = Cones.around(cameras.select(np.zeros(5, dtype=np.int64))).together(np.array([0]))
+    np.testing.assert_allclose(several.centre, alone.centre, atol=1e-12)
+    np.testing.assert_allclose(several.axis, alone.axis, atol=1e-12)
+    np.testing.assert_allclose((several.radius, several.sine), (alone.radius, alone.sine), rtol=1e-9)

@@ -4,8 +4,9 @@ import pytest
 
 from core import SceneTree, TriangleMesh, project
 from core.culling.cones import Cones
-from tests.inputs.random_cameras import moved, random_cameras
+from tests.inputs.random_cameras import cameras_of, moved, random_cameras
 from tests.oracles.every_pair import every_pair
+from tests.oracles.ray_hits import plane_hits
 
 RNG = np.random.default_rng(17)
 
@@ -132,3 +133,33 @@ def test_no_cones_meet_nothing():
     mesh, cameras = case("random", "here")
     cone, triangle, visited = SceneTree.build(mesh).trace(Cones.around(cameras.select(np.zeros(0, dtype=np.int64))))
     assert len(cone) == len(triangle) == visited == 0
+
+
+@pytest.mark.parametrize("data", DATA)
+def test_cones_that_descend_together_meet_what_they_meet_alone(data):
+    mesh, _ = case(data, "here")
+    rng = np.random.default_rng(37)
+    # ten parts of each of twelve cameras
+    whole = random_cameras(rng, 12)
+    weights = rng.dirichlet((1.0, 1.0, 1.0), (12, 10, 3))
+    places, rays = (np.einsum("xfc,fmkc->fmkx", given[:, whole.corners], weights).reshape(-1, 3, 3)
+                    for given in (whole.places, whole.rays))
+    cones, tree = Cones.around(cameras_of(places, rays)), SceneTree.build(mesh)
+    wanted = np.arange(120) % 7 != 3
+    pairs, visits = [], []
+    for family in (None, np.repeat(np.arange(12), 10)):
+        shares = list(tree.traced(cones, wanted, family))
+        pairs.append({pair for cone, triangle, _ in shares for pair in zip(cone.tolist(), triangle.tolist())})
+        visits.append(sum(visited for *_, visited in shares))
+    alone, together = pairs
+    # spheres behind a camera may touch its own cone alone: no ray goes there
+    missed = np.array(sorted(alone - together), dtype=np.int64).reshape(-1, 2)
+    assert len(missed) <= 0.05 * len(alone)
+    weights = rng.dirichlet((0.5, 0.5, 0.5), (len(missed), 200))
+    origins, directions = (np.einsum("nwk,nkx->nwx", weights, given[missed[:, 0]]).reshape(-1, 3)
+                           for given in (places, rays))
+    distance, inside = plane_hits(tree.mesh, np.repeat(missed[:, 1], 200), origins, directions)
+    assert not ((distance > 0.0) & (inside >= 0.0).all(axis=1)).any()
+    assert len(together) <= 1.05 * len(alone) + 5
+    assert not {cone for cone, _ in together} & set(np.flatnonzero(~wanted).tolist())
+    assert visits[1] < 0.3 * visits[0]
