@@ -1,62 +1,32 @@
 """Live in a real window: what it does while keys and the mouse move the camera, and the viewport itself.
 
-    blender --enable-event-simulate sample_blends/sphere.blend --python tests/window/live.py
+    blender --enable-event-simulate --python tests/window/live.py
 
 from the folder of this repository; the extension is taken from there, and not from the preferences. The script
 
-1. generates by the operator, opens the sidebar at the tab Reflection, and presses Live (the operator of the button);
+1. opens the sphere, generates by the operator, opens the sidebar, and switches Live on (the operator of the button);
 2. presses G and drags the camera with the mouse, takes a picture in the middle and one after the click, one at rest;
 3. presses Ctrl-Z and takes one at rest, then plays frames over a sphere that has been given keys;
 4. keeps the viewport's view right and orbits with the numpad's keys;
 5. opens the file anew with Live on, and quits.
 
-Pictures (`import`, of ImageMagick) and `live.json` with what was counted go to the folder WINDOW_SHOTS, `shots` where
-that is not set. The exit status is 0 where all of it held.
+Pictures and `live.json` with what was counted go to the folder WINDOW_SHOTS, build/window where that is not set.
 """
 import importlib
 import json
-import os
-import subprocess
 import sys
 import time
-import traceback
 from pathlib import Path
 
-import bpy
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-ROOT = Path(__file__).resolve().parents[2]
-SHOTS = Path(os.environ.get("WINDOW_SHOTS", "shots")).resolve()
+import bpy
+from hands import ROOT, SHOTS, Screen, run, shot
+
 sys.path.insert(0, str(ROOT.parent))
 package = importlib.import_module(ROOT.name)
 switch = importlib.import_module(f"{ROOT.name}.addon.live.switch")
 told: dict = {}
-
-
-class Screen:
-    """The largest 3D viewport of the first window, and the hands before it."""
-
-    def __init__(self):
-        self.window = bpy.context.window_manager.windows[0]
-        self.area = max((area for area in self.window.screen.areas if area.type == "VIEW_3D"),
-                        key=lambda area: area.width * area.height)
-        self.at = {"x": self.area.x + self.area.width // 2, "y": self.area.y + self.area.height // 2}
-
-    def move(self, x=0, y=0):
-        self.at = {"x": self.at["x"] + x, "y": self.at["y"] + y}
-        self.window.event_simulate("MOUSEMOVE", "NOTHING", **self.at)
-
-    def press(self, key, **held):
-        self.window.event_simulate(key, "PRESS", **self.at, **held)
-        self.window.event_simulate(key, "RELEASE", **self.at, **held)
-
-    def context(self):
-        region = next(region for region in self.area.regions if region.type == "WINDOW")
-        return bpy.context.temp_override(window=self.window, area=self.area, region=region)
-
-
-def shot(name):
-    SHOTS.mkdir(parents=True, exist_ok=True)
-    subprocess.run(["import", "-window", "root", str(SHOTS / f"{name}.png")], check=True)
 
 
 def note(name, started):
@@ -78,13 +48,19 @@ def resting(limit=20.0):
 
 
 def steps():
+    package.register()
+    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "sample_blends" / "sphere.blend"), load_ui=False)
+    yield 2.0
     screen = Screen()
     yield from begun(screen)
     yield from dragged(screen)
     yield from played()
     yield from orbited(screen)
+    (SHOTS / "live.json").write_text(json.dumps(told, indent=1))
     # the timer that is to go on is one that lives through the opening of files
     bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
+    yield 2.0
+    assert switch.updater is None and not bpy.app.timers.is_registered(switch._tick)
 
 
 def begun(screen):
@@ -106,7 +82,7 @@ def begun(screen):
     bpy.ops.reflection_mesh.live()
     yield from resting()
     note("begun", time.monotonic())
-    shot("1_begun")
+    shot("live_1_begun")
 
 
 def dragged(screen):
@@ -124,23 +100,23 @@ def dragged(screen):
         screen.move(x=4, y=1)
         yield 0.05
         if number == 25:
-            shot("2_dragging")
+            shot("live_2_dragging")
     screen.press("LEFTMOUSE")
     found = note("dragged", started)
     found["followed_a_second"] = (found["updates"]["followed"] - before) / found["seconds"]
     # how many there were a second is told, not judged: the window of this machine may draw slowly
     assert camera.location != place and found["updates"]["followed"] > before + 5
-    shot("3_dropped")
+    shot("live_3_dropped")
     yield from resting()
     note("rest", started)
-    shot("4_rest")
+    shot("live_4_rest")
 
     screen.press("Z", ctrl=True)
     yield from resting()
     camera = bpy.context.scene.camera
     assert (camera.location - place).length < 1e-5, "Ctrl-Z has not brought the camera back."
     note("undone", time.monotonic())
-    shot("5_undone")
+    shot("live_5_undone")
 
 
 def played():
@@ -156,10 +132,10 @@ def played():
         bpy.context.scene.frame_set(frame)
         yield 0.05
         if frame == 15:
-            shot("6_playing")
+            shot("live_6_playing")
     assert note("played", started)["updates"]["followed"] > before
     yield from resting()
-    shot("7_played")
+    shot("live_7_played")
 
 
 def orbited(screen):
@@ -171,35 +147,10 @@ def orbited(screen):
         screen.press("NUMPAD_6")
         yield 0.3
         if number == 4:
-            shot("8_orbiting")
+            shot("live_8_orbiting")
     assert note("orbited", started)["updates"]["followed"] > before
     yield from resting()
-    shot("9_orbited")
+    shot("live_9_orbited")
 
 
-def after_opening(*_):
-    held = switch.updater is None and not bpy.app.timers.is_registered(switch._tick)
-    print("opened anew: Live is", "off" if held else "on", flush=True)
-    finish(0 if held else 1)
-
-
-def finish(status):
-    (SHOTS / "live.json").write_text(json.dumps(told, indent=1))
-    sys.stdout.flush()
-    os._exit(status)
-
-
-def step():
-    try:
-        return next(run)
-    except StopIteration:
-        after_opening()
-    except BaseException:
-        traceback.print_exc()
-        shot("failed")
-        finish(1)
-
-
-package.register()
-run = steps()
-bpy.app.timers.register(step, first_interval=2.0, persistent=True)
+run(steps)
