@@ -13,11 +13,11 @@ from . import (
 )
 from .gltf_attributes import AttributesOfResults
 from .lighting import stale_light
-from .writing import windows
+from .writing import cameras, windows
 
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
-MODULES = (properties, windows, stale_light, generate, light, bake, mirror_uvs, print_sheet, compare, clear, panel,
+MODULES = (properties, windows, cameras, stale_light, generate, light, bake, mirror_uvs, print_sheet, compare, clear, panel,
            command_line)
 
 

@@ -10,21 +10,61 @@ from .. import core
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .frames import stop_playing
 from .lighting import keep_light
-from .properties import SettingsProperties, settings_of
+from .properties import ATTRIBUTES, SettingsProperties, settings_of
 from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view
 from .shortcomings import shortcomings, window_shortcomings
-from .writing import Reflection, mesh_arrays, point_arrays, write_object
+from .writing import (
+    Reflection,
+    gather,
+    mesh_arrays,
+    mesh_bytes,
+    point_arrays,
+    put_back_materials,
+    show_for_camera,
+    size_text,
+    write_object,
+)
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
 
 
 @dataclass(frozen=True)
+class Manners:
+    """How results are written and handed over, besides the method.
+
+    Attributes
+    ----------
+    attributes : {'ALL', 'SHOWN'} or None
+        What their points and faces know; None keeps it as each result has it.
+    collect : bool
+        New ones go into the scene's collection of results, instead of beside their mirrors.
+    """
+
+    attributes: str | None = None
+    collect: bool = False
+
+
+@dataclass(frozen=True)
 class Outcome:
-    """What a generation made: (object, core.ReflectionMesh) of each mirror, and sentences on what was left out."""
+    """What a generation made.
+
+    Attributes
+    ----------
+    results : list of (bpy.types.Object, core.ReflectionMesh)
+        Of each mirror.
+    remarks : list of str
+        Sentences on what was left out or lost.
+    news : list of str
+        Sentences on what else is good to know.
+    copies : list of bpy.types.Object
+        Of results, which the user made and which were updated with them.
+    """
 
     results: list
     remarks: list
+    news: list
+    copies: list
 
     def summary(self, seconds: float) -> str:
         """One line on what was generated."""
@@ -34,11 +74,14 @@ class Outcome:
         error = max(result.estimated_error for _, result in self.results)
         filled = max(result.filled_share for _, result in self.results)
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
-        return (f"{names}: {size}, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
+        memory = size_text(sum(mesh_bytes(mesh) for mesh in {obj.data for obj, _ in self.results}
+                               | {copy.data for copy in self.copies}))
+        return (f"{names}: {size}, {memory}, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
                 f"{seconds:.2f} s")
 
 
-def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings) -> Steps[Outcome]:
+def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings,
+               manners: Manners = Manners()) -> Steps[Outcome]:
     """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
 
     Nothing in the file changes before the last step, which writes all results, or none where one of them fails; a
@@ -83,17 +126,38 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             continue
         remarks += shortcomings(mirror.name, result)
         arrays = (mesh_arrays if result.discs is None else point_arrays)(result, scene, surface, view)
-        prepared.append(Reflection(mirror, chosen.diffuse, result, arrays, view.resolution))
+        prepared.append(Reflection(mirror, context.scene.camera, chosen.diffuse, result, arrays, view.resolution,
+                                   manners.attributes))
     if not prepared:
         raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
     yield 1.0, "Writing"
     with AllOrNothing() as whole:
-        results = [(write_object(context, made, settings.placement, whole), made.result) for made in prepared]
+        there = set(context.scene.objects)
+        written = [write_object(context, made, settings.placement, whole) for made in prepared]
+        for made, group in zip(prepared, written):
+            for entry in group:
+                keep_light(entry.obj, view, scene)
+                remarks += put_back_materials(entry.obj, made.arrays.materials, entry.changes)
+                whole.after(stop_playing, entry.obj)
+        results = [(group[0].obj, made.result) for group, made in zip(written, prepared)]
         for obj, _ in results:
-            keep_light(obj, view, scene)
-            whole.after(stop_playing, obj)
             obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
-    return Outcome(results, remarks + refused)
+        if manners.collect:
+            gather(context, [obj for obj, _ in results if obj not in there], whole)
+        whole.after(show_for_camera, context.scene)
+    entries = [entry for group in written for entry in group]
+    return Outcome(results, remarks + refused, told(entries), [entry.obj for entry in entries if entry.copy])
+
+
+def told(written: list) -> list[str]:
+    """Sentences on results that the user had moved, and on the copies that were made of them."""
+    moved = [entry.obj.name for entry in written if entry.changes.moved is not None and not entry.copy]
+    news = [f"'{name}' stays moved, as you left it: clear it and generate again to have it on its mirror."
+            for name in moved]
+    copies = [entry.obj.name for entry in written if entry.copy]
+    if copies:
+        news.append(f"Updated too, as a copy: {', '.join(map(repr, copies))}.")
+    return news
 
 
 class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types.Operator):
@@ -103,17 +167,40 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
     bl_label = "Generate Reflection"
     bl_options = {"REGISTER", "UNDO"}
 
+    attributes: bpy.props.EnumProperty(name="Attributes", items=ATTRIBUTES, default="ALL", options={"SKIP_SAVE"},
+                                       description="What the points and faces of the result know; as it was, where this "
+                                       "is not given")
+    collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
+                                    description="A new result goes into the collection Reflections, instead of those of "
+                                    "its mirror")
+    select_alone: bpy.props.BoolProperty(name="Select Alone", default=False, options={"SKIP_SAVE"},
+                                         description="Only the result is selected afterwards")
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
+        # so that whoever pressed a button sees the result; scripts get what they ask for
+        for name in ("collect", "select_alone"):
+            if not self.properties.is_property_set(name):
+                setattr(self, name, True)
+        return super().invoke(context, event)
+
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        outcome = yield from generation(context, choose(context), settings_of(self))
+        chosen = choose(context)
+        attributes = self.attributes if self.properties.is_property_set("attributes") else None
+        outcome = yield from generation(context, chosen, settings_of(self), Manners(attributes, self.collect))
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
+        if self.select_alone:
+            for obj in context.selected_objects:
+                obj.select_set(False)
         for obj, _ in outcome.results:
             if obj.name in context.view_layer.objects:
                 obj.select_set(True)
                 context.view_layer.objects.active = obj
         for remark in outcome.remarks:
             self.report({"WARNING"}, remark)
+        for sentence in outcome.news:
+            self.report({"INFO"}, sentence)
         self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
 
 

@@ -4,8 +4,19 @@ from .mirror_materials import is_mirror
 from .opaque_materials import is_opaque
 from .read_meshes import SURFACES
 from .read_view import read_view, render_size
-from .roles import NothingSeen, Participants, candidates, choose, participants, results_of, visible
+from .roles import (
+    NothingSeen,
+    Participants,
+    camera_of,
+    candidates,
+    choose,
+    every_result_of,
+    participants,
+    rendered_collections,
+    results_of,
+    visible,
+)
 
-__all__ = ["DiffuseScene", "MirrorSurface", "NothingSeen", "Participants", "SURFACES", "candidates",
-           "choose", "is_mirror", "is_opaque", "participants", "read_mirror", "read_scene", "read_view", "render_size",
-           "results_of", "visible"]
+__all__ = ["DiffuseScene", "MirrorSurface", "NothingSeen", "Participants", "SURFACES", "camera_of",
+           "candidates", "choose", "every_result_of", "is_mirror", "is_opaque", "participants", "read_mirror",
+           "read_scene", "read_view", "rendered_collections", "render_size", "results_of", "visible"]

@@ -39,8 +39,8 @@ def participants(context: bpy.types.Context) -> tuple[list, list]:
 def choose(context: bpy.types.Context) -> Participants:
     """As `participants`, with the objects that were left out because they are hidden.
 
-    The selection decides by role. Where it gives no mirror or no diffuse object, an active result's own mirror and
-    sources take part, else the objects of the view layer whose role is explicit.
+    The selection decides by role. Where it gives no mirror or no diffuse object, the mirrors and sources of the results
+    in it, and of the mirrors in it that have results, take part; else the objects of the view layer whose role is explicit.
     """
     return visible(context, *candidates(context))
 
@@ -49,14 +49,64 @@ def candidates(context: bpy.types.Context) -> tuple[list, list]:
     """The mirrors and the diffuse objects that `choose` chooses from, hidden ones among them."""
     active = context.view_layer.objects.active
     objects = [obj for obj in context.view_layer.objects if can_take_part(obj)]
-    mirrors, diffuse = _by_role([obj for obj in objects if obj.select_get()], active)
-    if not (mirrors and diffuse):
-        if active is not None and active.reflection_mesh.role == "REFLECTION" and active.reflection_mesh.mirror:
-            mirrors, diffuse = _of_result(active)
-        else:
-            explicit = [obj for obj in objects if obj.reflection_mesh.role in {"MIRROR", "DIFFUSE"}]
-            mirrors, diffuse = _by_role(explicit, None)
+    chosen = [obj for obj in objects if obj.select_get()]
+    mirrors, diffuse = _by_role(chosen, active)
+    if mirrors and diffuse:
+        return mirrors, diffuse
+    results = _meant(context, active)
+    if results:
+        return _of_results(results)
+    explicit = [obj for obj in objects if obj.reflection_mesh.role in {"MIRROR", "DIFFUSE"}]
+    mirrors = [obj for obj in chosen if _says_mirror(obj)]
+    if mirrors:
+        # what is a mirror without any doubt is meant, and the roles say what it shows
+        return mirrors, [obj for obj in explicit if obj.reflection_mesh.role == "DIFFUSE" and obj not in mirrors]
+    return _by_role(explicit, None)
+
+
+def _says_mirror(obj: bpy.types.Object) -> bool:
+    """Whether an object is a mirror by its role or its material."""
+    return obj.reflection_mesh.role == "MIRROR" or (
+        obj.reflection_mesh.role == "AUTO" and any(is_mirror(slot.material) for slot in obj.material_slots))
+
+
+def _meant(context: bpy.types.Context, active: bpy.types.Object | None) -> list:
+    """The results that a selection without objects to reflect means, the active one's first: those in it, the active one
+    even where it is not, and those of mirrors in it."""
+    selected = [obj for obj in context.view_layer.objects
+                if obj.select_get() or (obj == active and obj.reflection_mesh.role == "REFLECTION")]
+    selected.sort(key=lambda obj: obj != active)
+    reflected = {obj.reflection_mesh.mirror for obj in context.scene.objects if obj.reflection_mesh.role == "REFLECTION"}
+    found: dict = {}
+    for obj in selected:
+        own = [obj] if obj.reflection_mesh.role == "REFLECTION" else results_of(context, obj) if obj in reflected else []
+        found.update(dict.fromkeys(result for result in own if result.reflection_mesh.mirror is not None))
+    return list(found)
+
+
+def _of_results(results: list) -> tuple[list, list]:
+    """The mirrors of results, and what all of these show.
+
+    Raises
+    ------
+    ReflectionError
+        Where they do not show the same, or a mirror is among what it shows.
+    """
+    diffuse = _sources(results[0])
+    other = next((result for result in results if set(_sources(result)) != set(diffuse)), None)
+    if other is not None:
+        raise ReflectionError(f"'{results[0].name}' and '{other.name}' show different objects: select one of them, or "
+                              "the mirrors together with what they shall show.")
+    mirrors = list(dict.fromkeys(result.reflection_mesh.mirror for result in results))
+    both = next((mirror for mirror in mirrors if mirror in diffuse), None)
+    if both is not None:
+        raise ReflectionError(f"'{both.name}' is both the mirror and a source of '{results[0].name}': choose another "
+                              "mirror or remove it from the sources.")
     return mirrors, diffuse
+
+
+def _sources(result: bpy.types.Object) -> list:
+    return [source.object for source in result.reflection_mesh.sources if source.object is not None]
 
 
 def can_take_part(obj: bpy.types.Object) -> bool:
@@ -69,19 +119,10 @@ def can_take_part(obj: bpy.types.Object) -> bool:
 def _by_role(objects: list, active: bpy.types.Object | None) -> tuple[list, list]:
     automatic = [obj for obj in objects if obj.reflection_mesh.role == "AUTO"]
     mirrors = [obj for obj in objects if obj.reflection_mesh.role == "MIRROR"]
-    mirrors += [obj for obj in automatic if any(is_mirror(slot.material) for slot in obj.material_slots)]
+    mirrors += [obj for obj in automatic if _says_mirror(obj)]
     if not mirrors and active in automatic:
         mirrors = [active]
     return mirrors, [obj for obj in objects if obj not in mirrors]
-
-
-def _of_result(result: bpy.types.Object) -> tuple[list, list]:
-    mirror = result.reflection_mesh.mirror
-    diffuse = [source.object for source in result.reflection_mesh.sources if source.object is not None]
-    if mirror in diffuse:
-        raise ReflectionError(f"'{mirror.name}' is both the mirror and a source of '{result.name}': choose another "
-                              "mirror or remove it from the sources.")
-    return [mirror], diffuse
 
 
 def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Participants:
@@ -94,7 +135,7 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
     ReflectionError
         Where there are none.
     """
-    shown = _rendered_collections(context.view_layer.layer_collection)
+    shown = rendered_collections(context.view_layer.layer_collection)
     in_layer = set(context.view_layer.objects)
 
     def is_seen(obj: bpy.types.Object) -> bool:
@@ -113,12 +154,12 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
         if diffuse:
             raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport and in "
                               "renders.")
-        raise ReflectionError("Nothing to reflect: select the objects to reflect together with the mirror, or set "
-                              "their role to Diffuse in the Reflection tab.")
+        raise ReflectionError(f"Nothing to reflect in '{seen.mirrors[0].name}': select the objects to reflect together "
+                              "with it, or set their role to Diffuse in the Reflection tab.")
     return seen
 
 
-def _rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:
+def rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:
     """The view layer's collections that are in renders: neither excluded nor hidden, themselves or through a parent."""
     found, waiting = set(), [layer_collection]
     while waiting:
@@ -131,6 +172,23 @@ def _rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:
 
 
 def results_of(context: bpy.types.Context, mirror: bpy.types.Object) -> list:
-    """Results in the scene that show the reflection in `mirror` and can be changed."""
+    """Results in the scene that show the reflection in `mirror` to the scene's camera, and can be changed.
+
+    Where none is that camera's own, those of no camera in particular are, which earlier versions made.
+    """
+    every = every_result_of(context, mirror)
+    own = [obj for obj in every if camera_of(obj) == context.scene.camera]
+    return own or [obj for obj in every if camera_of(obj) is None]
+
+
+def every_result_of(context: bpy.types.Context, mirror: bpy.types.Object) -> list:
+    """As `results_of`, for every camera."""
     return [obj for obj in context.scene.objects if obj.reflection_mesh.role == "REFLECTION"
             and obj.reflection_mesh.mirror == mirror and obj.type == "MESH" and obj.library is None]
+
+
+def camera_of(result: bpy.types.Object) -> bpy.types.Object | None:
+    """The camera that a result is right for; None where that is whichever looks, or has been deleted."""
+    camera = result.reflection_mesh.camera
+    # what is deleted may live on where something still points to it, but in no scene
+    return camera if camera is not None and camera.users_scene else None
