@@ -6,7 +6,7 @@ import bpy
 from .faults import in_one_sentence
 from .frames import stop_playing
 from .lighting import forget_light, forget_map
-from .writing import close_abandoned_windows, disc_nodes, forget_nodes
+from .writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
 
 
 def chosen_results(context: bpy.types.Context) -> list:
@@ -43,6 +43,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
     for mesh in maps:
         forget_map(mesh)
     close_abandoned_windows()
+    forget_collection(context.scene)
 
 
 class REFLECTION_MESH_OT_clear(bpy.types.Operator):

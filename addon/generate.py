@@ -181,7 +181,7 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
         for name in ("collect", "select_alone"):
             if not self.properties.is_property_set(name):
                 setattr(self, name, True)
-        return super().invoke(context, event)
+        return SteppedOperator.invoke(self, context, event)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()

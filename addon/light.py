@@ -26,7 +26,8 @@ from .lighting import (
     white_of,
 )
 from .properties import LIGHTS
-from .reading import is_mirror, is_opaque, read_scene, read_view
+from .reading import camera_of, is_mirror, is_opaque, read_scene, read_view
+from .writing import place_of
 
 SAMPLES = 64
 NAME = "Reflection Light"
@@ -65,6 +66,12 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, 
         raise ReflectionError("The scene has no reflection to light: generate one first.")
     yield 0.0, "Reading the scene"
     view = read_view(context)
+    camera = context.scene.camera
+    seen = [result for result in results if camera_of(result) in (None, camera)]
+    if not seen:
+        raise ReflectionError(f"'{results[0].name}' is for the camera '{camera_of(results[0]).name}': make that the "
+                              f"scene's camera, or generate the reflection for '{camera.name}' too.")
+    results = seen
     lit = [result for result in results if every or needs_light(result)]
     if not lit:
         return lit
@@ -75,7 +82,7 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, 
 
 
 def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int) -> Steps[None]:
-    window = Window.around(view, np.concatenate([vectors(result.data, "mirror_position") for result in lit]))
+    window = Window.around(view, np.concatenate([_on_the_mirror(result) for result in lit]))
     if window is None:
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
     with light_scene(context, lit, window) as scene:
@@ -98,10 +105,17 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int)
             show_light(result, material, view, window, whole)
 
 
+def _on_the_mirror(result: bpy.types.Object) -> np.ndarray:
+    """Places (n, 3) of a result's points where the camera sees them in the mirror: any on the same line of sight do."""
+    if "mirror_position" in result.data.attributes:
+        return vectors(result.data, "mirror_position")
+    return vectors(result.data, "position") + np.array(place_of(result).translation)
+
+
 def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int) -> Steps[None]:
     if not can_be_baked(lit):
-        raise ReflectionError("A reflection of points, or of objects that have been deleted, has no light on objects: "
-                              "light it in the picture.")
+        raise ReflectionError("A reflection of points, or of objects that have been deleted, or one that knows only "
+                              "what is seen, has no light on objects: light it in the picture.")
     sources = list(dict.fromkeys(entry.object for result in lit for entry in result.reflection_mesh.sources))
     scene = read_scene(context.evaluated_depsgraph_get(), sources)
     light = yield from part(baked(context, lit, view, scene, samples), 0.02, 0.93)
