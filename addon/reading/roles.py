@@ -122,7 +122,8 @@ def _by_role(objects: list, active: bpy.types.Object | None) -> tuple[list, list
     mirrors += [obj for obj in automatic if _says_mirror(obj)]
     if not mirrors and active in automatic:
         mirrors = [active]
-    return mirrors, [obj for obj in objects if obj not in mirrors]
+    reflecting = set(mirrors)
+    return mirrors, [obj for obj in objects if obj not in reflecting]
 
 
 def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Participants:
@@ -135,16 +136,18 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
     ReflectionError
         Where there are none.
     """
-    shown = rendered_collections(context.view_layer.layer_collection)
     in_layer = set(context.view_layer.objects)
+    # what each object's own list of collections says, which is worked out anew whenever it is asked
+    rendered = {obj for collection in rendered_collections(context.view_layer.layer_collection)
+                for obj in collection.objects}
 
     def is_seen(obj: bpy.types.Object) -> bool:
         return (obj in in_layer and obj.visible_get() and not obj.hide_render
-                and any(collection in shown for collection in obj.users_collection))
+                and obj in rendered)
 
     hidden = [obj for obj in mirrors + diffuse if not is_seen(obj)]
-    seen = Participants([obj for obj in mirrors if obj not in hidden], [obj for obj in diffuse if obj not in hidden],
-                        hidden)
+    out = set(hidden)
+    seen = Participants([obj for obj in mirrors if obj not in out], [obj for obj in diffuse if obj not in out], hidden)
     if not seen.mirrors:
         if mirrors:
             raise NothingSeen(f"The mirror '{mirrors[0].name}' is hidden: show it in the viewport and in renders.")
