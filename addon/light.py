@@ -86,14 +86,16 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int)
     if window is None:
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
     with light_scene(context, lit, window) as scene:
-        yield 0.02, Undivided("Cycles renders the light, 1 of 2")
+        yield 0.02, Undivided("Cycles renders the light")
         light = scene.light(samples)
-        yield 0.9, Undivided("Cycles renders what reflections cover, 2 of 2")
-        coverage = scene.coverage()
+        coverage = light[..., 3]
+        if not scene.alone:
+            yield 0.9, Undivided("Cycles renders what reflections cover")
+            coverage = scene.coverage()
     yield 0.95, "Writing"
     cycles = context.scene.cycles
     kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
-    texels = texels_of(light, coverage, kernel, white_of(context.scene))
+    texels = texels_of(light[..., :3], coverage, kernel, white_of(context.scene))
     with AllOrNothing() as whole:
         image = new_image(NAME, texels)
         whole.undo(bpy.data.images.remove, image)

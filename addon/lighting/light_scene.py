@@ -1,6 +1,7 @@
 """A temporary scene in which the mirrors show their own light: the user's, with settings that may be changed."""
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -45,19 +46,23 @@ class Window:
 
 @dataclass(frozen=True)
 class LightScene:
-    """A copy of the user's scene that renders one window of its picture."""
+    """A copy of the user's scene that renders one window of its picture; `alone` where the camera sees no more in it
+    than the mirrors."""
 
     scene: bpy.types.Scene
     results: list
+    alone: bool
 
     def light(self, samples: int) -> np.ndarray:
-        """What the mirrors show in the window, (height, width, 3) float32 in linear light from the lowest row up."""
+        """What the mirrors show in the window, (height, width, 4) float32 in linear light from the lowest row up; where
+        they are alone, with how much of each pixel they cover, else with nothing in the fourth place."""
         self.scene.cycles.samples = samples
-        return rendered(self.scene)[..., :3]
+        self.scene.render.film_transparent = self.alone
+        return rendered(self.scene)
 
     def coverage(self) -> np.ndarray:
         """How much of each pixel the results cover, (height, width) float32, by the picture's own filter: nothing where
-        something stands before them."""
+        something stands before them. What mirrors are not alone in has to be asked."""
         scene, layer = self.scene, self.scene.view_layers[0]
         stage, others = (bpy.data.collections.new(name) for name in ("Reflection Light", "Reflection Light Others"))
         opaque = bpy.data.materials.new("Reflection Light Opaque")
@@ -97,19 +102,28 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
             if mirror is not None and mirror.reflection_mesh.camera_hidden:
                 back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
                 mirror.visible_camera = True
-        for obj in _seen_through(context, {*results, *(result.reflection_mesh.mirror for result in results)}):
+        mirrors = {result.reflection_mesh.mirror for result in results} - {None}
+        others = _seen_others(context, {*results, *mirrors})
+        hidden = [obj for obj in others if obj.library is None]
+        alone = len(hidden) == len(others) and len(mirrors) == len(results) and all(map(_is_opaque, mirrors))
+        for obj in hidden if alone else itertools.filterfalse(_is_opaque, hidden):
             back.callback(setattr, obj, "visible_camera", True)
             obj.visible_camera = False
-        yield LightScene(scene, results)
+        yield LightScene(scene, results, alone)
 
 
-def _seen_through(context: bpy.types.Context, lit: set) -> list:
-    """Objects that let light through, but for results and mirrors that are `lit`: the camera sees them before a result
-    as before its mirror, and were they in the picture of light too, they would be seen twice. Mirrors show them as
-    ever."""
+def _seen_others(context: bpy.types.Context, lit: set) -> list:
+    """What the camera sees beside results and mirrors that are `lit`: it is seen before a result as before its mirror.
+
+    Were what lets light through in the picture of light too, it would be seen twice. The rest only costs samples, but
+    where a mirror lets light through, that is what is seen there. Mirrors show all of it as ever.
+    """
     shown = {instance.object.original for instance in context.evaluated_depsgraph_get().object_instances}
-    return [obj for obj in shown - lit if obj.library is None and obj.visible_camera
-            and not all(is_opaque(slot.material) for slot in obj.material_slots)]
+    return [obj for obj in shown - lit if obj.visible_camera]
+
+
+def _is_opaque(obj: bpy.types.Object) -> bool:
+    return all(is_opaque(slot.material) for slot in obj.material_slots)
 
 
 def white_of(scene: bpy.types.Scene) -> float:
@@ -129,7 +143,7 @@ def _prepare(scene: bpy.types.Scene, window: Window) -> None:
     render.use_border = render.use_crop_to_border = True
     render.border_min_x, render.border_max_x = window.column / width, (window.column + window.width) / width
     render.border_min_y, render.border_max_y = window.row / height, (window.row + window.height) / height
-    cycles.film_exposure = 1.0
+    cycles.film_exposure, cycles.film_transparent_glass = 1.0, False
     cycles.use_denoising = True
     cycles.denoiser = "OPENIMAGEDENOISE"
     cycles.denoising_input_passes, cycles.denoising_prefilter = "RGB_ALBEDO_NORMAL", "ACCURATE"

@@ -86,6 +86,8 @@ def mirror_material(kind: str) -> bpy.types.Material:
         link(tree, checks.outputs["Color"], shader_of(silver).inputs["Base Color"])
     elif kind == "Rough":
         shader_of(silver).inputs["Roughness"].default_value = 0.1
+    elif kind == "Half open":
+        shader_of(silver).inputs["Alpha"].default_value = 0.7
     elif kind in ("Fresnel", "Layer weight"):
         share = tree.nodes.new("ShaderNodeFresnel" if kind == "Fresnel" else "ShaderNodeLayerWeight")
         ground, gloss, both = (tree.nodes.new(f"ShaderNode{name}") for name in ("BsdfDiffuse", "BsdfAnisotropic",

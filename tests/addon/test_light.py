@@ -2,6 +2,7 @@
 changed."""
 from __future__ import annotations
 
+import itertools
 import json
 
 import bpy
@@ -71,6 +72,40 @@ def test_what_is_transparent_before_the_mirror_is_seen_once(blank, room, kind):
     assert pane.visible_camera
 
 
+def test_what_stands_behind_a_mirror_that_is_half_open_is_seen_through_it(blank, room):
+    scene_of(blank, "UV", "Half open")
+    behind = parts.add("cube", "Behind", size=1.2, location=(-0.6, 2.0, 1.0))
+    behind.data.materials.append(principled("Red", (0.9, 0.1, 0.05), **{
+        "Emission Color": (1.0, 0.2, 0.1, 1.0), "Emission Strength": 2.0}))
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    reference, other = picture(room), picture(room, seed=7)
+    behind.hide_render = True
+    assert psnr(picture(room), reference) < 30.0
+    behind.hide_render = False
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
+@pytest.mark.parametrize("kind", ["", "Tint"])
+def test_light_lies_behind_what_stands_before_the_mirror_too(blank, room, kind):
+    """A post before the mirror is taken away after lighting: what it hid is lit as all else."""
+    scene_of(blank, "UV", kind)
+    post = parts.add("cube", "Post", size=1.0, location=(0.8, -0.5, 1.0))
+    post.scale = (0.3, 0.02, 3.0)
+    post.visible_glossy = post.visible_diffuse = post.visible_shadow = False
+    post.data.materials.append(principled("Red", (0.9, 0.1, 0.05)))
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert post.visible_camera
+    post.hide_render = True
+    lit = picture(room)
+    bpy.data.objects["Mirror Reflection"].hide_render = True
+    reference, other = picture(room), picture(room, seed=7)
+    assert psnr(lit, reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
 def test_compare_tells_how_lit_pictures_differ(blank, tmp_path):
     """Against the mirror as it is, tint and all, beside what Cycles differs from itself by."""
     scene_of(blank, "UV", "Fresnel")
@@ -83,19 +118,19 @@ def test_compare_tells_how_lit_pictures_differ(blank, tmp_path):
     assert "where Cycles equals itself to" in (tmp_path / "report.html").read_text()
 
 
-@pytest.mark.parametrize("placement", ["LAYERED", "VIRTUAL"])
-def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement):
-    scene_of(blank)
+@pytest.mark.parametrize(("placement", "opaque"), [("LAYERED", True), ("VIRTUAL", True), ("LAYERED", False)])
+def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaque):
+    scene_of(blank, "UV", "" if opaque else "Half open")
     result = parts.generate(placement=placement)
     before, lighting = lit_state(), room("addon.light").lighting
-    for stop in range(1, 6):
+    for stop in itertools.count(1):
         steps = lighting(blank, [result], 1)
-        for _ in range(stop):
-            next(steps, None)
+        ended = not all(next(steps, None) for _ in range(stop))
         steps.close()
-        if stop < 5:
-            assert lit_state() == before
-    assert lit_state() != before
+        if ended:
+            break
+        assert lit_state() == before
+    assert stop == (4 if opaque else 5) and lit_state() != before
 
 
 @pytest.mark.parametrize("failing", ["rendered", "new_material", "show_light"])
