@@ -145,7 +145,9 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
         return (obj in in_layer and obj.visible_get() and not obj.hide_render
                 and obj in rendered)
 
-    hidden = [obj for obj in mirrors + diffuse if not is_seen(obj)]
+    # mirrors show what glossy rays meet, as in Cycles
+    hidden = [obj for obj in mirrors if not is_seen(obj)]
+    hidden += [obj for obj in diffuse if not (is_seen(obj) and obj.visible_glossy)]
     out = set(hidden)
     seen = Participants([obj for obj in mirrors if obj not in out], [obj for obj in diffuse if obj not in out], hidden)
     if not seen.mirrors:
@@ -155,8 +157,8 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
                               "set roles in the Reflection tab.")
     if not seen.diffuse:
         if diffuse:
-            raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport and in "
-                              "renders.")
+            raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport, in renders and "
+                              "to glossy rays.")
         raise ReflectionError(f"Nothing to reflect in '{seen.mirrors[0].name}': select the objects to reflect together "
                               "with it, or set their role to Diffuse in the Reflection tab.")
     return seen
