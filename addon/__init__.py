@@ -17,8 +17,8 @@ from .writing import cameras, windows
 
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
-MODULES = (properties, windows, cameras, stale_light, generate, light, bake, mirror_uvs, print_sheet, compare, clear, panel,
-           command_line)
+MODULES = (properties, windows, cameras, stale_light, generate, light, bake, mirror_uvs, print_sheet, compare, clear,
+           panel, command_line)
 
 
 def register() -> None:

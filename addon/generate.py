@@ -168,11 +168,11 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
     bl_options = {"REGISTER", "UNDO"}
 
     attributes: bpy.props.EnumProperty(name="Attributes", items=ATTRIBUTES, default="ALL", options={"SKIP_SAVE"},
-                                       description="What the points and faces of the result know; as it was, where this "
-                                       "is not given")
+                                       description="What the points and faces of the result know; as it was, where "
+                                       "this is not given")
     collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
-                                    description="A new result goes into the collection Reflections, instead of those of "
-                                    "its mirror")
+                                    description="A new result goes into the collection Reflections, instead of those "
+                                    "of its mirror")
     select_alone: bpy.props.BoolProperty(name="Select Alone", default=False, options={"SKIP_SAVE"},
                                          description="Only the result is selected afterwards")
 

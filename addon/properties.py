@@ -127,10 +127,10 @@ class ReflectionObject(bpy.types.PropertyGroup):
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object)
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
-    camera: PointerProperty(name="Camera", description="The camera that this reflection is right for; none: the scene's",
-                            type=bpy.types.Object)
-    aside: BoolVectorProperty(name="Aside", size=2, description="Hidden in renders, and in the viewport, for as long as "
-                              "another camera looks that has reflections of its own")
+    camera: PointerProperty(name="Camera", description="The camera that this reflection is right for; none: the "
+                            "scene's", type=bpy.types.Object)
+    aside: BoolVectorProperty(name="Aside", size=2, description="Hidden in renders, and in the viewport, while another "
+                              "camera looks that has reflections of its own")
     window: BoolProperty(name="Window", description="Its mirror is a window where this reflection's camera looks")
     origin: FloatVectorProperty(name="Origin", size=3, description="Where it was generated, in world space")
     basis: FloatVectorProperty(name="Basis", size=16, description="Its own transform when it was generated; zero where "

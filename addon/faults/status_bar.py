@@ -1,7 +1,7 @@
 """How far the work is, in the status bar: a bar with per cent, what comes next, and the time that is left.
 
-Blender lets a function draw its status bar in place of its own (`WorkSpace.status_text_set`, from 2.83 on) and has bars for
-layouts from 4.0 on (`UILayout.progress`).
+Blender lets a function draw its status bar in place of its own (`WorkSpace.status_text_set`, from 2.83 on) and has bars
+for layouts from 4.0 on (`UILayout.progress`).
 """
 from __future__ import annotations
 

@@ -4,18 +4,8 @@ from .mirror_materials import is_mirror
 from .opaque_materials import is_opaque
 from .read_meshes import SURFACES
 from .read_view import read_view, render_size
-from .roles import (
-    NothingSeen,
-    Participants,
-    camera_of,
-    candidates,
-    choose,
-    every_result_of,
-    participants,
-    rendered_collections,
-    results_of,
-    visible,
-)
+from .results import camera_of, every_result_of, results_of
+from .roles import NothingSeen, Participants, candidates, choose, participants, rendered_collections, visible
 
 __all__ = ["DiffuseScene", "MirrorSurface", "NothingSeen", "Participants", "SURFACES", "camera_of",
            "candidates", "choose", "every_result_of", "is_mirror", "is_opaque", "participants", "read_mirror",

@@ -1,10 +1,10 @@
-"""Values at the triangles of a scene that are worked out where they are asked for: a mesh that stands in a thousand places
-is kept once, and few of its triangles are seen."""
+"""Values at the triangles of a scene, worked out where they are asked for: a mesh that stands in a thousand places is
+kept once, and few of its triangles are seen."""
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from .read_meshes import LocalMesh, Placed
 
 @dataclass(frozen=True)
 class Part:
-    """Triangles of a scene that are of one mesh: its `triangle` (n,), and the number (n,) of the place where each stands."""
+    """Triangles of a scene that are of one mesh: its `triangle` (n,), and the number (n,) of the place of each."""
 
     placed: Placed
     place: np.ndarray
@@ -25,7 +25,7 @@ class Part:
 
     @cached_property
     def turned_over(self) -> np.ndarray:
-        """Which of the triangles (n,) are turned inside out where they stand, and have their corners in another order."""
+        """Which of the triangles (n,) are turned inside out where they stand; their corners are in another order."""
         return turned_over(self.placed.matrices)[self.place]
 
     @cached_property
@@ -106,5 +106,5 @@ def lines_of(placed: list[Placed]) -> tuple[PlacedValues, ...]:
     def faces(part: Part, kind: str) -> np.ndarray:
         lines = part.mesh.lines
         return (lines.sharp_faces if kind == "sharp" else lines.marked_faces)[lines.face[part.triangle]]
-    return (*(PlacedValues(placed, (), bool, lambda part, kind=kind: faces(part, kind)) for kind in ("sharp", "marked")),
-            *(PlacedValues(placed, (3,), bool, lambda part, kind=kind: sides(part, kind)) for kind in ("sharp", "marked")))
+    return tuple(PlacedValues(placed, shape, bool, partial(flags, kind=kind))
+                 for flags, shape in ((faces, ()), (sides, (3,))) for kind in ("sharp", "marked"))

@@ -7,6 +7,7 @@ import bpy
 
 from ...core import ReflectionError
 from .mirror_materials import is_mirror
+from .results import meant, of_results
 
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
@@ -40,7 +41,8 @@ def choose(context: bpy.types.Context) -> Participants:
     """As `participants`, with the objects that were left out because they are hidden.
 
     The selection decides by role. Where it gives no mirror or no diffuse object, the mirrors and sources of the results
-    in it, and of the mirrors in it that have results, take part; else the objects of the view layer whose role is explicit.
+    in it, and of the mirrors in it that have results, take part; else the objects of the view layer whose role is
+    explicit.
     """
     return visible(context, *candidates(context))
 
@@ -53,9 +55,9 @@ def candidates(context: bpy.types.Context) -> tuple[list, list]:
     mirrors, diffuse = _by_role(chosen, active)
     if mirrors and diffuse:
         return mirrors, diffuse
-    results = _meant(context, active)
+    results = meant(context, active)
     if results:
-        return _of_results(results)
+        return of_results(results)
     explicit = [obj for obj in objects if obj.reflection_mesh.role in {"MIRROR", "DIFFUSE"}]
     mirrors = [obj for obj in chosen if _says_mirror(obj)]
     if mirrors:
@@ -68,45 +70,6 @@ def _says_mirror(obj: bpy.types.Object) -> bool:
     """Whether an object is a mirror by its role or its material."""
     return obj.reflection_mesh.role == "MIRROR" or (
         obj.reflection_mesh.role == "AUTO" and any(is_mirror(slot.material) for slot in obj.material_slots))
-
-
-def _meant(context: bpy.types.Context, active: bpy.types.Object | None) -> list:
-    """The results that a selection without objects to reflect means, the active one's first: those in it, the active one
-    even where it is not, and those of mirrors in it."""
-    selected = [obj for obj in context.view_layer.objects
-                if obj.select_get() or (obj == active and obj.reflection_mesh.role == "REFLECTION")]
-    selected.sort(key=lambda obj: obj != active)
-    reflected = {obj.reflection_mesh.mirror for obj in context.scene.objects if obj.reflection_mesh.role == "REFLECTION"}
-    found: dict = {}
-    for obj in selected:
-        own = [obj] if obj.reflection_mesh.role == "REFLECTION" else results_of(context, obj) if obj in reflected else []
-        found.update(dict.fromkeys(result for result in own if result.reflection_mesh.mirror is not None))
-    return list(found)
-
-
-def _of_results(results: list) -> tuple[list, list]:
-    """The mirrors of results, and what all of these show.
-
-    Raises
-    ------
-    ReflectionError
-        Where they do not show the same, or a mirror is among what it shows.
-    """
-    diffuse = _sources(results[0])
-    other = next((result for result in results if set(_sources(result)) != set(diffuse)), None)
-    if other is not None:
-        raise ReflectionError(f"'{results[0].name}' and '{other.name}' show different objects: select one of them, or "
-                              "the mirrors together with what they shall show.")
-    mirrors = list(dict.fromkeys(result.reflection_mesh.mirror for result in results))
-    both = next((mirror for mirror in mirrors if mirror in diffuse), None)
-    if both is not None:
-        raise ReflectionError(f"'{both.name}' is both the mirror and a source of '{results[0].name}': choose another "
-                              "mirror or remove it from the sources.")
-    return mirrors, diffuse
-
-
-def _sources(result: bpy.types.Object) -> list:
-    return [source.object for source in result.reflection_mesh.sources if source.object is not None]
 
 
 def can_take_part(obj: bpy.types.Object) -> bool:
@@ -157,8 +120,8 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
                               "set roles in the Reflection tab.")
     if not seen.diffuse:
         if diffuse:
-            raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport, in renders and "
-                              "to glossy rays.")
+            raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport, in renders "
+                              "and to glossy rays.")
         raise ReflectionError(f"Nothing to reflect in '{seen.mirrors[0].name}': select the objects to reflect together "
                               "with it, or set their role to Diffuse in the Reflection tab.")
     return seen
@@ -174,26 +137,3 @@ def rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:
             if not branch.exclude:
                 found.add(branch.collection)
     return found
-
-
-def results_of(context: bpy.types.Context, mirror: bpy.types.Object) -> list:
-    """Results in the scene that show the reflection in `mirror` to the scene's camera, and can be changed.
-
-    Where none is that camera's own, those of no camera in particular are, which earlier versions made.
-    """
-    every = every_result_of(context, mirror)
-    own = [obj for obj in every if camera_of(obj) == context.scene.camera]
-    return own or [obj for obj in every if camera_of(obj) is None]
-
-
-def every_result_of(context: bpy.types.Context, mirror: bpy.types.Object) -> list:
-    """As `results_of`, for every camera."""
-    return [obj for obj in context.scene.objects if obj.reflection_mesh.role == "REFLECTION"
-            and obj.reflection_mesh.mirror == mirror and obj.type == "MESH" and obj.library is None]
-
-
-def camera_of(result: bpy.types.Object) -> bpy.types.Object | None:
-    """The camera that a result is right for; None where that is whichever looks, or has been deleted."""
-    camera = result.reflection_mesh.camera
-    # what is deleted may live on where something still points to it, but in no scene
-    return camera if camera is not None and camera.users_scene else None

@@ -68,8 +68,8 @@ class SourceLines:
                    meeting[:, two], meeting_of, normals)
 
     def sharp_sides(self, triangle: np.ndarray, cofactors: np.ndarray) -> np.ndarray:
-        """Which sides (n, 3) of triangles (n,) are sharp or creased, where the mesh stands in places with the `cofactors`
-        (n, 3, 3) that take its normals there."""
+        """Which sides (n, 3) of triangles (n,) are sharp or creased, where the mesh stands in places with the
+        `cofactors` (n, 3, 3) that take its normals there."""
         side = self.side[triangle]
         sharp = self.sharp_edges[side]
         row, at = np.nonzero((side >= 0) & ~sharp & (self.meeting_of[side] >= 0))

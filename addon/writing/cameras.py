@@ -1,14 +1,14 @@
 """Results of several cameras: where the camera that looks has results of its own, those of others are put aside.
 
-Blender knows objects for every camera alike; a handler hides and shows them when another camera becomes the scene's. What the
-user hides stays hidden, what the user shows stays shown until the camera changes again.
+To Blender an object is there for every camera alike; a handler hides and shows them when another camera becomes the
+scene's. What the user hides stays hidden, what the user shows stays shown until the camera changes again.
 """
 from __future__ import annotations
 
 import bpy
 from bpy.app.handlers import persistent
 
-from ..reading.roles import camera_of
+from ..reading.results import camera_of
 from .windows import close_window, open_window
 
 SWITCHES = ("hide_render", "hide_viewport")

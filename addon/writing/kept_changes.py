@@ -76,8 +76,8 @@ def place(obj: bpy.types.Object, origin: np.ndarray, changes: Changes) -> None:
 
 
 def put_back_materials(obj: bpy.types.Object, materials: list, changes: Changes) -> list[str]:
-    """Note the materials of a result's new mesh and replace them again as the user did; returns a sentence on what could
-    not be kept, or none."""
+    """Note the materials of a result's new mesh and replace them again as the user did; returns a sentence on what
+    could not be kept, or none."""
     record = obj.reflection_mesh
     record.materials.clear()
     for material in materials:
@@ -101,4 +101,5 @@ def put_back_materials(obj: bpy.types.Object, materials: list, changes: Changes)
 
 def place_of(obj: bpy.types.Object) -> Matrix:
     """Where a result was generated, in world space, wherever it was moved since."""
-    return Matrix.Translation(Vector(obj.reflection_mesh.origin)) if any(obj.reflection_mesh.basis) else obj.matrix_world
+    record = obj.reflection_mesh
+    return Matrix.Translation(Vector(record.origin)) if any(record.basis) else obj.matrix_world

@@ -10,9 +10,9 @@ NAME = "Reflections"
 
 
 def gather(context: bpy.types.Context, objects: list, whole: AllOrNothing) -> None:
-    """Move new results, which nothing else in the file knows yet, into the scene's collection of results; they stay where
-    they are where that is hidden, and where their mirror is held out or seen by indirect rays alone, as they then are
-    too."""
+    """Move new results, which nothing else in the file knows yet, into the scene's collection of results; they stay
+    where they are where that is hidden, and where their mirror is held out or seen by indirect rays alone, as they then
+    are too."""
     scene = context.scene
     target = _own(scene) or scene.collection.children.get(NAME) or _new(scene, whole)
     if target.library is not None or target not in rendered_collections(context.view_layer.layer_collection):

@@ -1,6 +1,8 @@
 """How much memory a result takes, which is about what its file grows by."""
 from __future__ import annotations
 
+import math
+
 import bpy
 
 # bytes of one value of an attribute, by its type
@@ -16,10 +18,8 @@ def mesh_bytes(mesh: bpy.types.Mesh) -> int:
 
 def size_text(size: int) -> str:
     """A size as it is read: "12 MB"."""
-    for unit in ("bytes", "KB", "MB"):
-        if size < 1000:
-            break
-        size /= 1000
-    else:
-        unit = "GB"
-    return f"{size:.1f} {unit}" if unit != "bytes" and size < 10 else f"{size:.0f} {unit}"
+    if size < 1000:
+        return f"{size} bytes"
+    power = min(int(math.log10(size)) // 3, 3)
+    value = size / 1000 ** power
+    return f"{value:.{1 if value < 10 else 0}f} {('KB', 'MB', 'GB')[power - 1]}"

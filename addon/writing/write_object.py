@@ -8,7 +8,7 @@ import bpy
 
 from ...core import ReflectionMesh
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object, still_there
-from ..reading.roles import every_result_of, results_of
+from ..reading.results import every_result_of, results_of
 from .cameras import bring_back
 from .disc_nodes import hide_discs, show_discs
 from .kept_changes import Changes, changes_of, place
@@ -59,8 +59,8 @@ class Written:
 
 def write_object(context: bpy.types.Context, made: Reflection, placement: str,
                  whole: AllOrNothing) -> list[Written]:
-    """The reflection in a mirror as an object: a new one, or the one that the mirror already has for the scene's camera,
-    updated in place, and with it the copies that the user has made of it.
+    """The reflection in a mirror as an object: a new one, or the one that the mirror already has for the scene's
+    camera, updated in place, and with it the copies that the user has made of it.
 
     Where something fails, be it at a later object, `whole` takes back all that is changed here.
 
@@ -121,8 +121,8 @@ def _fill(obj: bpy.types.Object, made: Reflection, whole: AllOrNothing, changes:
 
 
 def new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
-    """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet; its name tells its
-    camera where the mirror has results for others."""
+    """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet; its name tells
+    its camera where the mirror has results for others."""
     name = f"{mirror.name} Reflection"
     if every_result_of(context, mirror):
         name = f"{name} {context.scene.camera.name}"

@@ -1,5 +1,5 @@
-"""Scenes as they come: thousands of instances, libraries and overrides, view layers, collections that are held out or only
-seen in mirrors, every size. Mirrors show what they show in Cycles."""
+"""Scenes as they come: thousands of instances, libraries and overrides, view layers, collections that are held out or
+seen in mirrors alone, every size. Mirrors show what they show in Cycles."""
 from __future__ import annotations
 
 import bpy
@@ -17,7 +17,8 @@ def bent_leaf() -> bpy.types.Object:
                      [(0, 1, 2, 3), (3, 2, 4, 5), (5, 4, 6)])
     rng = np.random.default_rng(5)
     mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", rng.random(22, dtype=np.float32))
-    mesh.color_attributes.new("Tone", "FLOAT_COLOR", "CORNER").data.foreach_set("color", rng.random(44, dtype=np.float32))
+    tone = mesh.color_attributes.new("Tone", "FLOAT_COLOR", "CORNER")
+    tone.data.foreach_set("color", rng.random(44, dtype=np.float32))
     mesh.polygons.foreach_set("use_smooth", [True, False, True])
     mesh.edges[2].use_edge_sharp = True
     mesh.update()
@@ -47,7 +48,7 @@ def unit(vectors):
 
 
 def test_a_mesh_in_many_places_is_as_many_meshes_in_theirs(blank, room):
-    """One mesh placed by matrices against meshes that Blender itself has transformed, at some triangles, in any order."""
+    """One mesh placed by matrices against meshes that Blender itself has transformed, at some triangles."""
     leaf, matrices = bent_leaf(), placings(40)
     shared, own = [], []
     for matrix in matrices:
@@ -67,8 +68,8 @@ def test_a_mesh_in_many_places_is_as_many_meshes_in_theirs(blank, room):
     # the same triangles in both, corner by corner
     corners = [scene.mesh.positions[scene.mesh.triangles] for scene in (one, other)]
     for triangle in rng.permutation(200)[:120]:
-        same = np.abs(corners[1][:, None, :, :] - np.stack([np.roll(corners[0][triangle], -k, axis=0) for k in range(3)])
-                      ).max(axis=(2, 3))
+        turns = np.stack([np.roll(corners[0][triangle], -k, axis=0) for k in range(3)])
+        same = np.abs(corners[1][:, None] - turns).max(axis=(2, 3))
         match, turn = np.unravel_index(np.argmin(same), same.shape)
         assert same[match, turn] < 1e-4
         ours, theirs = np.array([triangle]), np.array([match])
@@ -119,7 +120,8 @@ def test_a_hidden_one_of_thousands_is_found_soon(blank, room, monkeypatch):
     bpy.context.view_layer.update()
     parts.select(cube, *many, mirror)
     asked, plain = [], bpy.types.Object.users_collection
-    monkeypatch.setattr(bpy.types.Object, "users_collection", property(lambda obj: asked.append(obj) or plain.fget(obj)))
+    monkeypatch.setattr(bpy.types.Object, "users_collection",
+                        property(lambda obj: asked.append(obj) or plain.fget(obj)))
     chosen = room("addon.reading").choose(bpy.context)
     assert (len(chosen.mirrors), len(chosen.diffuse), len(asked)) == (1, 3001, 0)
 
@@ -151,8 +153,8 @@ def in_collection(obj, **settings) -> None:
 
 
 def difference(result) -> tuple:
-    """Pixels of Cycles' pictures with the mirror and with the result: share that differs, and share of the mirror's that
-    shows anything."""
+    """Of the pixels of Cycles' pictures with the mirror and with the result: the share that differs, and the share
+    that shows anything."""
     scene = bpy.context.scene
     scene.render.engine, scene.cycles.samples, scene.render.film_transparent = "CYCLES", 1, True
     scene.cycles.pixel_filter_type, scene.view_settings.view_transform = "BOX", "Raw"

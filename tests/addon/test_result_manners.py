@@ -1,4 +1,4 @@
-"""How a result is handed over in a window and what it weighs: its collection, the selection, its size, its attributes."""
+"""How a result is handed over in a window, and what it weighs: collection, selection, size, attributes."""
 from __future__ import annotations
 
 import os
@@ -108,7 +108,8 @@ def bytes_by_hand(mesh) -> int:
 
 
 @pytest.mark.parametrize(("size", "told"), [(0, "0 bytes"), (999, "999 bytes"), (1000, "1.0 KB"), (25_400, "25 KB"),
-                                            (9_940_000, "9.9 MB"), (12e6, "12 MB"), (3.21e9, "3.2 GB"), (4e12, "4000 GB")])
+                                            (9_940_000, "9.9 MB"), (12_000_000, "12 MB"), (3_210_000_000, "3.2 GB"),
+                                            (4 * 10 ** 12, "4000 GB")])
 def test_sizes_are_read_easily(room, size, told):
     assert room("addon.writing.result_size").size_text(size) == told
 

@@ -1,4 +1,4 @@
-"""Pressing the button again: on the mirror, on results, on copies of them, from another camera, after changes by hand."""
+"""Pressing the button again: on the mirror, on results, on copies of them, by another camera, after changes by hand."""
 from __future__ import annotations
 
 import bpy
@@ -246,7 +246,8 @@ def test_a_moved_result_stays_moved(scene, room, parented):
         expected = Matrix.Translation((0.25, 0.0, 0.0)) @ by_hand @ place
     assert np.allclose(result.matrix_world, expected, atol=1e-5)
     assert result.hide_select and [modifier.name for modifier in result.modifiers] == ["Thick"]
-    assert outcome.news == ["'My Own' stays moved, as you left it: clear it and generate again to have it on its mirror."]
+    assert outcome.news == [
+        "'My Own' stays moved, as you left it: clear it and generate again to have it on its mirror."]
 
 
 @pytest.mark.parametrize("linked", [False, True])
