@@ -5,7 +5,7 @@ import bpy
 
 from .faults import in_one_sentence
 from .frames import stop_playing
-from .lighting import forget_light, forget_map
+from .lighting import forget_light, forget_map, forget_previews
 from .writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
 
 
@@ -42,6 +42,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
         forget_light(material)
     for mesh in maps:
         forget_map(mesh)
+    forget_previews()
     close_abandoned_windows()
     forget_collection(context.scene)
 

@@ -149,7 +149,7 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     if options.light < 0:
         raise core.ReflectionError("Light takes at least one sample: raise --light.")
     started = time.perf_counter()
-    outcome = announced(generation(context, _chosen(context, options), settings_of(options)))
+    outcome = announced(generation(context, _chosen(context, options), settings_of(options), preview=True))
     told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
     if options.light:
         # the view layer knows new objects only from its next update on

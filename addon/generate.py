@@ -9,9 +9,9 @@ import bpy
 from .. import core
 from .faults import AllOrNothing, SteppedOperator, Steps, part
 from .frames import stop_playing
-from .lighting import keep_light
+from .lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
 from .properties import ATTRIBUTES, SettingsProperties, settings_of
-from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view
+from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view, results_of
 from .shortcomings import shortcomings, window_shortcomings
 from .writing import (
     Reflection,
@@ -27,6 +27,8 @@ from .writing import (
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
+# what whoever presses a button gets unless it is set otherwise
+FOR_THE_EYE = ("preview", "collect", "select_alone")
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,8 @@ class Outcome:
         Of each mirror.
     remarks : list of str
         Sentences on what was left out or lost.
+    unlit : list of bpy.types.Object
+        Those of which the light is still to come.
     news : list of str
         Sentences on what else is good to know.
     copies : list of bpy.types.Object
@@ -63,6 +67,7 @@ class Outcome:
 
     results: list
     remarks: list
+    unlit: list
     news: list
     copies: list
 
@@ -76,12 +81,13 @@ class Outcome:
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
         memory = size_text(sum(mesh_bytes(mesh) for mesh in {obj.data for obj, _ in self.results}
                                | {copy.data for copy in self.copies}))
+        light = "; the light is still to come, by Light Reflection" if self.unlit else ""
         return (f"{names}: {size}, {memory}, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
-                f"{seconds:.2f} s")
+                f"{seconds:.2f} s{light}")
 
 
 def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings,
-               manners: Manners = Manners()) -> Steps[Outcome]:
+               preview: bool = False, manners: Manners = Manners()) -> Steps[Outcome]:
     """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
 
     Nothing in the file changes before the last step, which writes all results, or none where one of them fails; a
@@ -131,22 +137,34 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     if not prepared:
         raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
     yield 1.0, "Writing"
+    outcome = _write(context, prepared, (view, scene, settings.placement), preview, manners)
+    for obj, _ in outcome.results:
+        obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(outcome.results)
+    return replace(outcome, remarks=remarks + outcome.remarks + refused)
+
+
+def _write(context: bpy.types.Context, prepared: list[Reflection], made_from: tuple, preview: bool,
+           manners: Manners) -> Outcome:
+    """Write all results or none; `made_from` are their view, their scene and their placement."""
+    view, scene, placement = made_from
+    there, remarks = set(context.scene.objects), []
+    previewed = {obj for made in prepared for obj in results_of(context, made.mirror) if shows_preview(obj)}
     with AllOrNothing() as whole:
-        there = set(context.scene.objects)
-        written = [write_object(context, made, settings.placement, whole) for made in prepared]
+        written = [write_object(context, made, placement, whole) for made in prepared]
         for made, group in zip(prepared, written):
             for entry in group:
                 keep_light(entry.obj, view, scene)
                 remarks += put_back_materials(entry.obj, made.arrays.materials, entry.changes)
                 whole.after(stop_playing, entry.obj)
         results = [(group[0].obj, made.result) for group, made in zip(written, prepared)]
-        for obj, _ in results:
-            obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
+        entries = [entry for group in written for entry in group]
+        unlit = [entry.obj for entry in entries if not is_lit(entry.obj) and needs_light(entry.obj)]
+        show_previews([obj for obj in unlit if preview or obj in previewed], whole)
         if manners.collect:
             gather(context, [obj for obj, _ in results if obj not in there], whole)
+        whole.after(forget_previews)
         whole.after(show_for_camera, context.scene)
-    entries = [entry for group in written for entry in group]
-    return Outcome(results, remarks + refused, told(entries), [entry.obj for entry in entries if entry.copy])
+    return Outcome(results, remarks, unlit, told(entries), [entry.obj for entry in entries if entry.copy])
 
 
 def told(written: list) -> list[str]:
@@ -167,18 +185,22 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
     bl_label = "Generate Reflection"
     bl_options = {"REGISTER", "UNDO"}
 
+    preview: bpy.props.BoolProperty(name="Preview", default=False, options={"SKIP_SAVE"},
+                                    description="Until it is lit, show the colours of what is reflected in the "
+                                    "mirror's tint, untouched by lamps: on where the operator is invoked")
     attributes: bpy.props.EnumProperty(name="Attributes", items=ATTRIBUTES, default="ALL", options={"SKIP_SAVE"},
                                        description="What the points and faces of the result know; as it was, where "
                                        "this is not given")
     collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
                                     description="A new result goes into the collection Reflections, instead of those "
-                                    "of its mirror")
+                                    "of its mirror: on where the operator is invoked")
     select_alone: bpy.props.BoolProperty(name="Select Alone", default=False, options={"SKIP_SAVE"},
-                                         description="Only the result is selected afterwards")
+                                         description="Only the result is selected afterwards: on where the operator "
+                                         "is invoked")
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
         # so that whoever pressed a button sees the result; scripts get what they ask for
-        for name in ("collect", "select_alone"):
+        for name in FOR_THE_EYE:
             if not self.properties.is_property_set(name):
                 setattr(self, name, True)
         return SteppedOperator.invoke(self, context, event)
@@ -187,7 +209,8 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
         started = time.perf_counter()
         chosen = choose(context)
         attributes = self.attributes if self.properties.is_property_set("attributes") else None
-        outcome = yield from generation(context, chosen, settings_of(self), Manners(attributes, self.collect))
+        outcome = yield from generation(context, chosen, settings_of(self), self.preview,
+                                        Manners(attributes, self.collect))
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
         if self.select_alone:

@@ -5,7 +5,8 @@ import bpy
 
 from .. import compat
 from ..reading.mirror_materials import surface_shader
-from ..writing import UV_MAP, Builder
+from ..writing import UV_MAP
+from ..writing.shader_builder import ShaderBuilder, cut, given, node_behind
 
 NORMAL = "mirror_normal"
 GLOSSY = {"BSDF_GLOSSY", "BSDF_METALLIC"}
@@ -49,7 +50,7 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
     return material
 
 
-class _Builder(Builder):
+class _Builder(ShaderBuilder):
     """Adds nodes to a tree; `light` is the picture of the light."""
 
     def __init__(self, tree: bpy.types.NodeTree, image: bpy.types.Image) -> None:
@@ -58,34 +59,6 @@ class _Builder(Builder):
         self.light = self.add("ShaderNodeTexImage", name=image.name, image=image, interpolation="Linear",
                               extension="EXTEND")
         tree.links.new(where.outputs[0], self.light.inputs["Vector"])
-
-    def feed(self, value, socket: bpy.types.NodeSocket) -> None:
-        """A socket's value, a number or a colour into a socket."""
-        if isinstance(value, bpy.types.NodeSocket):
-            self.tree.links.new(value, socket)
-        elif socket.type == "RGBA":
-            socket.default_value = (value,) * 3 + (1.0,) if isinstance(value, float) else value
-        else:
-            socket.default_value = value
-
-    def glow(self, colour) -> bpy.types.NodeSocket:
-        node = self.add("ShaderNodeEmission")
-        self.feed(colour, node.inputs["Color"])
-        return node.outputs[0]
-
-    def mixed(self, factor, first, second) -> bpy.types.NodeSocket:
-        node = self.add("ShaderNodeMixShader")
-        for value, socket in zip((factor, first, second), node.inputs, strict=True):
-            if value is not None:
-                self.feed(value, socket)
-        return node.outputs[0]
-
-    def blended(self, how: str, factor, first, second) -> bpy.types.NodeSocket:
-        """Colours mixed or multiplied."""
-        node = self.add("ShaderNodeMix", data_type="RGBA", blend_type=how)
-        for value, socket in ((factor, node.inputs[0]), (first, node.inputs[6]), (second, node.inputs[7])):
-            self.feed(value, socket)
-        return node.outputs[2]
 
     def shown(self, shader: bpy.types.Node) -> bpy.types.NodeSocket | None:
         """What a shader node becomes: light where it is glossy, itself where it is not."""
@@ -177,32 +150,3 @@ class _Builder(Builder):
                                   (self.calculated("DIVIDE", 1.0, index), choice.inputs[3])):
                 self.feed(value, socket)
             self.feed(choice.outputs[0], node.inputs["IOR"])
-
-    def calculated(self, how: str, first, second) -> bpy.types.NodeSocket:
-        """A number from two."""
-        node = self.add("ShaderNodeMath", operation=how)
-        self.feed(first, node.inputs[0])
-        self.feed(second, node.inputs[1])
-        return node.outputs[0]
-
-
-def given(socket: bpy.types.NodeSocket):
-    """What a socket is given: another socket, or its own value."""
-    if socket.is_linked:
-        return socket.links[0].from_socket
-    value = socket.default_value
-    return float(value) if isinstance(value, (int, float)) else tuple(value)
-
-
-def cut(tree: bpy.types.NodeTree, socket: bpy.types.NodeSocket, value: float) -> None:
-    """Give a socket a value of its own."""
-    for link in list(socket.links):
-        tree.links.remove(link)
-    socket.default_value = value
-
-
-def node_behind(socket: bpy.types.NodeSocket) -> bpy.types.Node | None:
-    """The node that feeds a socket, past reroutes."""
-    while socket.is_linked and socket.links[0].from_node.type == "REROUTE":
-        socket = socket.links[0].from_node.inputs[0]
-    return socket.links[0].from_node if socket.is_linked else None

@@ -17,6 +17,7 @@ from .light_scene import Window
 from .needs_light import needs_light
 from .picture_layout import lay_out as lay_out_picture
 from .picture_light import record_of, window_of
+from .preview import forget_previews
 
 
 def show_light(result: bpy.types.Object, material: bpy.types.Material, view: View, window: Window,
@@ -54,6 +55,12 @@ def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> Non
         _put_on(result, material)
 
 
+def is_lit(result: bpy.types.Object) -> bool:
+    """Whether a result shows its light."""
+    light = result.reflection_mesh.light_material
+    return light is not None and any(slot.material == light for slot in result.material_slots)
+
+
 def forget_light(material: bpy.types.Material) -> None:
     """Remove a material of light and its images, where nothing else uses them."""
     if not still_there([material]) or material.users or material.library is not None:
@@ -89,6 +96,7 @@ def _show(result: bpy.types.Object, material: bpy.types.Material, told: str, lig
     earlier, earlier_map = record.light_material, record.light_map
     lay()
     show_own_materials(result)
+    whole.after(forget_previews)
     _put_on(result, material)
     record.light, record.light_stale = told, False
     record.light_material, record.light_map = material, light_map

@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
+PREVIEW = "reflection_mesh_preview"  # custom property of the materials that are shown before there is light
 NEARLY = 1e-6   # of a transform's numbers, which Blender rounds
 
 
@@ -57,7 +58,8 @@ def _same(one, other) -> bool:
 def _replaced(obj: bpy.types.Object) -> list:
     record, found = obj.reflection_mesh, []
     for slot, material, made in zip(obj.material_slots, obj.data.materials, record.materials):
-        if slot.link == "OBJECT" and slot.material not in (None, record.light_material, made.material):
+        if (slot.link == "OBJECT" and slot.material not in (None, record.light_material, made.material)
+                and PREVIEW not in slot.material):
             found.append((made.material, "OBJECT", slot.material))
         if material != made.material:
             found.append((made.material, "DATA", material))

@@ -90,7 +90,7 @@ def test_failures(saved, room, capfd, tmp_path, arguments, status, words):
 
 @pytest.mark.parametrize("verb", ["generate", "compare"])
 def test_all_settings_reach_the_core(saved, room, tmp_path, capsys, monkeypatch, verb):
-    def told(context, participants, settings, *_):
+    def told(context, participants, settings, *_, **__):
         raise room("core").ReflectionError(f"{settings}.")
     monkeypatch.setattr(room(f"addon.{verb}"), "generation", told)
     monkeypatch.setattr(room("addon.command_line"), "generation", told)

@@ -29,11 +29,11 @@ def pressed(**options) -> bpy.types.Object:
 
 def test_a_button_asks_for_what_was_not_given(room):
     operator = room("addon.generate").REFLECTION_MESH_OT_generate
-    for given in (set(), {"collect"}, {"collect", "select_alone"}):
-        button = SimpleNamespace(collect=False, select_alone=False, execute=lambda context: {"FINISHED"},
+    for given in (set(), {"collect"}, {"collect", "select_alone", "preview"}):
+        button = SimpleNamespace(collect=False, select_alone=False, preview=False, execute=lambda context: {"FINISHED"},
                                  properties=SimpleNamespace(is_property_set=given.__contains__))
         assert operator.invoke(button, bpy.context, None) == {"FINISHED"}
-        assert (button.collect, button.select_alone) == ("collect" not in given, "select_alone" not in given)
+        assert {name for name in ("collect", "select_alone", "preview") if not getattr(button, name)} == given
 
 
 def selected() -> list:

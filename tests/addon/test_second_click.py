@@ -196,6 +196,19 @@ def test_replaced_materials_stay(scene):
     assert list(result.data.materials) == [made] and result.material_slots[0].link == "DATA"
 
 
+def test_a_replaced_preview_stays(scene):
+    mirror, cube, result = scene
+    cube.data.materials.append(parts.material("Second", "DIFFUSE"))
+    cube.data.polygons[0].material_index = 1
+    parts.select(cube, mirror)
+    parts.generate(preview=True)
+    slots = result.material_slots
+    assert [slot.link for slot in slots] == ["OBJECT", "OBJECT"]
+    slots[1].material = red = parts.material("Red")
+    parts.generate()
+    assert "Preview" in slots[0].material.name and (slots[1].link, slots[1].material) == ("OBJECT", red)
+
+
 def test_a_replaced_material_that_has_no_place_any_more_is_told(scene, room):
     mirror, cube, result = scene
     result.data.materials[0] = parts.material("Red")

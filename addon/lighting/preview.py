@@ -1,0 +1,132 @@
+"""Results before they are lit: the colours of what they show, which no lamp touches, in the mirror's tint."""
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import bpy
+
+from .. import compat
+from ..faults import AllOrNothing
+from ..reading.mirror_materials import is_mirror, surface_shader
+from ..writing.kept_changes import PREVIEW as MARK
+from ..writing.shader_builder import ShaderBuilder, given, node_behind
+
+WHITE = (1.0, 1.0, 1.0, 1.0)
+GREY = (0.8, 0.8, 0.8, 1.0)  # of what has no material
+AS_THEY_ARE = {"BSDF_TRANSPARENT", "HOLDOUT"}
+SIDEWAYS = 0.45  # of the colour of what faces the eye, shown where it does not: a head light, so that shapes are seen
+
+
+def shows_preview(result: bpy.types.Object) -> bool:
+    """Whether a result shows a preview of what it would be with light."""
+    return any(slot.link == "OBJECT" and slot.material is not None and MARK in slot.material
+               for slot in result.material_slots)
+
+
+def show_previews(results: Iterable[bpy.types.Object], whole: AllOrNothing) -> None:
+    """Let results that show the materials of their meshes show previews of them; the meshes keep theirs."""
+    made: dict = {}
+    for result in results:
+        tint = _tint_of(result.reflection_mesh.mirror)
+        # a slot that has a material of its own has it from the user
+        for slot in [slot for slot in result.material_slots if slot.link == "DATA"]:
+            key = (slot.material, tint)
+            if key not in made:
+                made[key] = _preview(slot.material, tint)
+                whole.undo(bpy.data.materials.remove, made[key])
+            slot.link = "OBJECT"
+            slot.material = made[key]
+
+
+def forget_previews() -> None:
+    """Remove the previews that nothing shows any more."""
+    bpy.data.batch_remove([material for material in bpy.data.materials
+                           if MARK in material and not material.users and material.library is None])
+
+
+def _tint_of(mirror: bpy.types.Object) -> tuple:
+    """The colour in which a mirror shows all light alike; white where it has none, or one that changes over it."""
+    materials = [] if mirror is None else [slot.material for slot in mirror.material_slots if is_mirror(slot.material)]
+    if not materials or not compat.uses_nodes(materials[0]):
+        return WHITE
+    inputs = surface_shader(materials[0].node_tree).inputs
+    tint = inputs.get("Color") or inputs["Base Color"]
+    return WHITE if tint.is_linked else tuple(tint.default_value)
+
+
+def _preview(source: bpy.types.Material | None, tint: tuple) -> bpy.types.Material:
+    if source is not None and compat.uses_nodes(source):
+        material = source.copy()
+        tree = material.node_tree
+    else:
+        material = bpy.data.materials.new("Reflection")
+        tree = compat.use_nodes(material)
+        tree.nodes.clear()
+        tree.nodes.new("ShaderNodeOutputMaterial")
+    material.name = f"{'Reflection' if source is None else source.name} Preview"
+    material[MARK] = True
+    plain = GREY if source is None else tuple(source.diffuse_color)
+    build = _Builder(tree, tint, plain)
+    shader, output = surface_shader(tree), tree.get_output_node("ALL")
+    if shader is not None:
+        tree.links.new(build.shown(shader), output.inputs["Surface"])
+    elif source is None or not compat.uses_nodes(source):
+        tree.links.new(build.shaded(plain), output.inputs["Surface"])
+    return material
+
+
+class _Builder(ShaderBuilder):
+    """Puts what shines in its own colour into the place of what lamps shine on."""
+
+    def __init__(self, tree: bpy.types.NodeTree, tint: tuple, plain: tuple) -> None:
+        super().__init__(tree)
+        self.tint, self.plain = tint, plain
+
+    def tinted(self, colour):
+        return colour if self.tint == WHITE else self.blended("MULTIPLY", 1.0, colour, self.tint)
+
+    def shaded(self, colour) -> bpy.types.NodeSocket:
+        """A colour that shines, less where the surface turns away from the eye."""
+        at = self.add("ShaderNodeNewGeometry")
+        facing = self.add("ShaderNodeVectorMath", operation="DOT_PRODUCT")
+        self.feed(at.outputs["Normal"], facing.inputs[0])
+        self.feed(at.outputs["Incoming"], facing.inputs[1])
+        share = self.add("ShaderNodeMapRange")
+        self.feed(self.calculated("ABSOLUTE", facing.outputs["Value"], 0.0), share.inputs["Value"])
+        share.inputs["To Min"].default_value = SIDEWAYS
+        shown = self.glow(self.tinted(colour))
+        self.feed(share.outputs[0], shown.node.inputs["Strength"])
+        return shown
+
+    def shown(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+        """What a shader node becomes."""
+        if shader.type in AS_THEY_ARE:
+            return shader.outputs[0]
+        if shader.type in {"MIX_SHADER", "ADD_SHADER"}:
+            for socket in [socket for socket in shader.inputs if socket.type == "SHADER"]:
+                behind = node_behind(socket)
+                if behind is not None:
+                    self.feed(self.shown(behind), socket)
+            return shader.outputs[0]
+        if shader.type == "EMISSION":
+            if self.tint != WHITE:
+                self.feed(self.tinted(given(shader.inputs["Color"])), shader.inputs["Color"])
+            return shader.outputs[0]
+        colour = shader.inputs.get("Base Color") or shader.inputs.get("Color")
+        shown = self.shaded(self.plain if colour is None else given(colour))
+        return self.principled(shader, shown) if shader.type == "BSDF_PRINCIPLED" else shown
+
+    def principled(self, shader: bpy.types.Node, shown: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+        """With what a Principled BSDF emits, and open where it is."""
+        strength = given(shader.inputs["Emission Strength"])
+        if strength != 0.0:
+            own = self.glow(self.tinted(given(shader.inputs["Emission Color"])))
+            self.feed(strength, own.node.inputs["Strength"])
+            both = self.add("ShaderNodeAddShader")
+            self.feed(shown, both.inputs[0])
+            self.feed(own, both.inputs[1])
+            shown = both.outputs[0]
+        alpha = given(shader.inputs["Alpha"])
+        if alpha == 1.0:
+            return shown
+        return self.mixed(alpha, self.add("ShaderNodeBsdfTransparent").outputs[0], shown)

@@ -1,0 +1,67 @@
+"""Builds trees of shader nodes, from what a tree already has."""
+from __future__ import annotations
+
+import bpy
+
+from .node_builder import Builder
+
+
+class ShaderBuilder(Builder):
+    """Adds shader nodes to a tree; where it takes a value, that may be a socket, a number or a colour."""
+
+    def feed(self, value, socket: bpy.types.NodeSocket) -> None:
+        """A socket's value, a number or a colour into a socket."""
+        if isinstance(value, bpy.types.NodeSocket):
+            self.tree.links.new(value, socket)
+        elif socket.type == "RGBA":
+            socket.default_value = (value,) * 3 + (1.0,) if isinstance(value, float) else value
+        else:
+            socket.default_value = value
+
+    def glow(self, colour) -> bpy.types.NodeSocket:
+        node = self.add("ShaderNodeEmission")
+        self.feed(colour, node.inputs["Color"])
+        return node.outputs[0]
+
+    def mixed(self, factor, first, second) -> bpy.types.NodeSocket:
+        node = self.add("ShaderNodeMixShader")
+        for value, socket in zip((factor, first, second), node.inputs, strict=True):
+            if value is not None:
+                self.feed(value, socket)
+        return node.outputs[0]
+
+    def blended(self, how: str, factor, first, second) -> bpy.types.NodeSocket:
+        """Colours mixed or multiplied."""
+        node = self.add("ShaderNodeMix", data_type="RGBA", blend_type=how)
+        for value, socket in ((factor, node.inputs[0]), (first, node.inputs[6]), (second, node.inputs[7])):
+            self.feed(value, socket)
+        return node.outputs[2]
+
+    def calculated(self, how: str, first, second) -> bpy.types.NodeSocket:
+        """A number from two."""
+        node = self.add("ShaderNodeMath", operation=how)
+        self.feed(first, node.inputs[0])
+        self.feed(second, node.inputs[1])
+        return node.outputs[0]
+
+
+def given(socket: bpy.types.NodeSocket):
+    """What a socket is given: another socket, or its own value."""
+    if socket.is_linked:
+        return socket.links[0].from_socket
+    value = socket.default_value
+    return float(value) if isinstance(value, (int, float)) else tuple(value)
+
+
+def cut(tree: bpy.types.NodeTree, socket: bpy.types.NodeSocket, value: float) -> None:
+    """Give a socket a value of its own."""
+    for link in list(socket.links):
+        tree.links.remove(link)
+    socket.default_value = value
+
+
+def node_behind(socket: bpy.types.NodeSocket) -> bpy.types.Node | None:
+    """The node that feeds a socket, past reroutes."""
+    while socket.is_linked and socket.links[0].from_node.type == "REROUTE":
+        socket = socket.links[0].from_node.inputs[0]
+    return socket.links[0].from_node if socket.is_linked else None

@@ -1,0 +1,122 @@
+"""Results that are not lit yet: the colours of what they show, in the mirror's tint, whatever lamps there are."""
+import bpy
+import numpy as np
+import parts
+import pytest
+from lamp_scenes import lit_state, picture, principled, scene_of, shader_of
+
+MARK = "reflection_mesh_preview"
+TINT = (0.95, 0.7, 0.35)
+
+
+def previews() -> list:
+    return [material for material in bpy.data.materials if MARK in material]
+
+
+def facing_card(blank, colour=(0.2, 0.5, 0.8), **inputs) -> bpy.types.Object:
+    """A card before a tinted mirror that the camera faces, which the mirror shows in its middle."""
+    wall = scene_of(blank, "", "Tint")
+    card = parts.add("plane", "Card", size=3.0, location=(0.0, -8.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
+    card.data.materials.append(principled("Card", colour, **inputs))
+    parts.select(card, wall)
+    return wall
+
+
+@pytest.mark.parametrize("energy", [0.0, 250.0])
+def test_it_shows_colours_in_the_mirrors_tint_whatever_lamps_there_are(blank, room, energy):
+    facing_card(blank)
+    next(obj for obj in blank.scene.objects if obj.type == "LIGHT").data.energy = energy
+    parts.generate(preview=True)
+    shown = picture(room)[60:68, 44:52].mean(axis=(0, 1))
+    linear = np.array((0.2, 0.5, 0.8)) * TINT
+    expected = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    assert np.abs(shown - expected).max() < 0.01
+
+
+def test_what_emits_shines_in_it_and_what_is_open_is_open(blank, room):
+    facing_card(blank, (0.0, 0.0, 0.0), Alpha=0.5, **{"Emission Color": (1.0, 0.5, 0.25, 1.0),
+                                                      "Emission Strength": 0.5})
+    bpy.data.objects["Mirror"].visible_camera = False
+    blank.scene.world.color = (0.0, 0.0, 0.0)
+    parts.generate(preview=True)
+    shown = picture(room)[60:68, 44:52].mean(axis=(0, 1))
+    linear = 0.25 * np.array((1.0, 0.5, 0.25)) * TINT
+    assert np.abs(shown - (1.055 * linear ** (1 / 2.4) - 0.055)).max() < 0.01
+
+
+def test_scripts_get_it_only_where_they_ask(blank):
+    scene_of(blank)
+    parts.generate()
+    assert not previews()
+    parts.generate(preview=True)
+    assert len(previews()) == 2
+
+
+def test_light_takes_its_place_and_clear_takes_it_away(blank):
+    scene_of(blank)
+    before = set(bpy.data.materials)
+    result = parts.generate(preview=True)
+    assert {slot.material for slot in result.material_slots} == set(previews())
+    assert set(result.data.materials) <= before
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert not previews() and {slot.material for slot in result.material_slots} == {
+        result.reflection_mesh.light_material}
+    parts.generate(preview=True)
+    # its light still fits
+    assert not previews()
+    bpy.ops.reflection_mesh.clear()
+    parts.generate(preview=True)
+    bpy.ops.reflection_mesh.clear()
+    assert set(bpy.data.materials) == before
+
+
+def test_it_stays_and_follows_the_tint_when_generated_again(blank):
+    wall = scene_of(blank)
+    result = parts.generate(preview=True)
+    shader_of(wall.data.materials[0]).inputs["Base Color"].default_value = (0.3, 0.6, 0.9, 1.0)
+    result = parts.generate()
+    assert len(previews()) == 2 and all(slot.link == "OBJECT" for slot in result.material_slots)
+    tints = [tuple(np.round(node.inputs[7].default_value[:3], 3)) for material in previews()
+             for node in material.node_tree.nodes if node.type == "MIX"]
+    assert set(tints) == {(0.3, 0.6, 0.9)}
+
+
+def test_what_looks_right_as_it_is_needs_none(blank):
+    box = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0))
+    box.data.materials.append(parts.material("Paint"))
+    mirror = parts.add_wall_mirror()
+    mirror.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    mirror.data.materials[0].node_tree.nodes[0].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    parts.select(box, mirror)
+    parts.generate(preview=True)
+    assert not previews()
+
+
+def test_an_error_while_writing_leaves_none(blank, room, monkeypatch):
+    scene_of(blank)
+    before = lit_state()
+
+    def fail(*_):
+        raise ZeroDivisionError("a number is zero")
+    preview = room("addon.lighting.preview")
+    made, work = [], preview._preview
+
+    def second_fails(*arguments):
+        if made:
+            fail()
+        made.append(work(*arguments))
+        return made[0]
+    monkeypatch.setattr(preview, "_preview", second_fails)
+    with pytest.raises(RuntimeError):
+        parts.generate(preview=True)
+    assert made and lit_state() == before
+
+
+def test_a_source_without_material_is_grey(blank, room):
+    facing_card(blank)
+    bpy.data.objects["Card"].data.materials.clear()
+    parts.generate(preview=True)
+    shown = picture(room)[60:68, 44:52].mean(axis=(0, 1))
+    linear = 0.8 * np.array(TINT)
+    assert np.abs(shown - (1.055 * linear ** (1 / 2.4) - 0.055)).max() < 0.01
+
