@@ -2,88 +2,22 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import bpy
 
 from .. import core
-from .faults import AllOrNothing, SteppedOperator, Steps, part
-from .frames import stop_playing
-from .lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
+from .faults import SteppedOperator, Steps, part
 from .properties import ATTRIBUTES, SettingsProperties, settings_of
-from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view, results_of
+from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view
 from .shortcomings import shortcomings, window_shortcomings
-from .writing import (
-    Reflection,
-    gather,
-    mesh_arrays,
-    mesh_bytes,
-    point_arrays,
-    put_back_materials,
-    show_for_camera,
-    size_text,
-    write_object,
-)
+from .write_results import Manners, Outcome, write_results
+from .writing import Reflection, mesh_arrays, point_arrays
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
 # what whoever presses a button gets unless it is set otherwise
 FOR_THE_EYE = ("preview", "collect", "select_alone")
-
-
-@dataclass(frozen=True)
-class Manners:
-    """How results are written and handed over, besides the method.
-
-    Attributes
-    ----------
-    attributes : {'ALL', 'SHOWN'} or None
-        What their points and faces know; None keeps it as each result has it.
-    collect : bool
-        New ones go into the scene's collection of results, instead of beside their mirrors.
-    """
-
-    attributes: str | None = None
-    collect: bool = False
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What a generation made.
-
-    Attributes
-    ----------
-    results : list of (bpy.types.Object, core.ReflectionMesh)
-        Of each mirror.
-    remarks : list of str
-        Sentences on what was left out or lost.
-    unlit : list of bpy.types.Object
-        Those of which the light is still to come.
-    news : list of str
-        Sentences on what else is good to know.
-    copies : list of bpy.types.Object
-        Of results, which the user made and which were updated with them.
-    """
-
-    results: list
-    remarks: list
-    unlit: list
-    news: list
-    copies: list
-
-    def summary(self, seconds: float) -> str:
-        """One line on what was generated."""
-        points = sum(obj.reflection_mesh.points for obj, _ in self.results)
-        faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
-        size = f"{points} points" if points else f"{faces} faces"
-        error = max(result.estimated_error for _, result in self.results)
-        filled = max(result.filled_share for _, result in self.results)
-        names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
-        memory = size_text(sum(mesh_bytes(mesh) for mesh in {obj.data for obj, _ in self.results}
-                               | {copy.data for copy in self.copies}))
-        light = "; the light is still to come, by Light Reflection" if self.unlit else ""
-        return (f"{names}: {size}, {memory}, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
-                f"{seconds:.2f} s{light}")
 
 
 def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings,
@@ -137,45 +71,10 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     if not prepared:
         raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
     yield 1.0, "Writing"
-    outcome = _write(context, prepared, (view, scene, settings.placement), preview, manners)
+    outcome = write_results(context, prepared, (view, scene, settings.placement), preview, manners)
     for obj, _ in outcome.results:
         obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(outcome.results)
     return replace(outcome, remarks=remarks + outcome.remarks + refused)
-
-
-def _write(context: bpy.types.Context, prepared: list[Reflection], made_from: tuple, preview: bool,
-           manners: Manners) -> Outcome:
-    """Write all results or none; `made_from` are their view, their scene and their placement."""
-    view, scene, placement = made_from
-    there, remarks = set(context.scene.objects), []
-    previewed = {obj for made in prepared for obj in results_of(context, made.mirror) if shows_preview(obj)}
-    with AllOrNothing() as whole:
-        written = [write_object(context, made, placement, whole) for made in prepared]
-        for made, group in zip(prepared, written):
-            for entry in group:
-                keep_light(entry.obj, view, scene)
-                remarks += put_back_materials(entry.obj, made.arrays.materials, entry.changes)
-                whole.after(stop_playing, entry.obj)
-        results = [(group[0].obj, made.result) for group, made in zip(written, prepared)]
-        entries = [entry for group in written for entry in group]
-        unlit = [entry.obj for entry in entries if not is_lit(entry.obj) and needs_light(entry.obj)]
-        show_previews([obj for obj in unlit if preview or obj in previewed], whole)
-        if manners.collect:
-            gather(context, [obj for obj, _ in results if obj not in there], whole)
-        whole.after(forget_previews)
-        whole.after(show_for_camera, context.scene)
-    return Outcome(results, remarks, unlit, told(entries), [entry.obj for entry in entries if entry.copy])
-
-
-def told(written: list) -> list[str]:
-    """Sentences on results that the user had moved, and on the copies that were made of them."""
-    moved = [entry.obj.name for entry in written if entry.changes.moved is not None and not entry.copy]
-    news = [f"'{name}' stays moved, as you left it: clear it and generate again to have it on its mirror."
-            for name in moved]
-    copies = [entry.obj.name for entry in written if entry.copy]
-    if copies:
-        news.append(f"Updated too, as a copy: {', '.join(map(repr, copies))}.")
-    return news
 
 
 class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types.Operator):

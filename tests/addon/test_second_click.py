@@ -296,8 +296,8 @@ def test_a_failure_brings_everything_back(scene, room, monkeypatch):
     def failing(*_):
         raise OSError("no room")
     before = parts.state(), [obj.matrix_basis.copy() for obj in (result, copy)], middle(result).tolist()
-    monkeypatch.setattr(room("addon.generate"), "show_for_camera", failing)
-    monkeypatch.setattr(room("addon.generate"), "put_back_materials", failing)
+    monkeypatch.setattr(room("addon.write_results"), "show_for_camera", failing)
+    monkeypatch.setattr(room("addon.write_results"), "put_back_materials", failing)
     parts.refusal()
     after = parts.state(), [obj.matrix_basis.copy() for obj in (result, copy)], middle(result).tolist()
     assert after == before and copy.data == result.data and copy.data.materials[0].name == "Red"
