@@ -36,7 +36,7 @@ METHODS = (
 ATTRIBUTES = (
     ("ALL", "All", "Where each point lies on the mirror and on what it shows, how long its path is, which face it "
      "shows: for light on objects, comparisons and shaders"),
-    ("SHOWN", "Shown", "Only what is seen: positions, materials, normals, UV maps and colours; files are smaller"),
+    ("SHOWN", "Shown", "Only what is seen: positions, materials, and what these read: about a third smaller"),
 )
 LIGHTS = (
     ("AUTO", "Automatic", "On the objects where the camera or a mirror is animated, else in the picture"),

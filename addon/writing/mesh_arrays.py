@@ -9,12 +9,9 @@ import numpy as np
 from ...core import ReflectionMesh, TriangleMesh, View
 from .. import compat
 from ..reading.join_meshes import DiffuseScene, MirrorSurface
-from ..reading.material_nodes import asked_attributes
+from .shown_attributes import shown_attributes
 from .single_precision import in_single_precision
 
-# what results know of how they came about, and nothing that is seen asks for; discs are drawn by the numbers of faces
-OF_METHOD = frozenset({"reflected_position", "mirror_position", "path_length", "image_parity", "source_object",
-                       "source_face", "bounces", "mirror_face"})
 # a Blender mesh holds no more
 MOST_UV_MAPS = 8
 UP = np.array((0.0, 0.0, 1.0))  # the normal of what has none
@@ -66,10 +63,8 @@ class MeshArrays:
     lines: Lines | None = None
 
     def seen_in(self, materials: list) -> MeshArrays:
-        """The same without what is not seen; where one of `materials` asks for it by name it is."""
-        asked = asked_attributes(materials)
-        return replace(self, attributes=tuple(entry for entry in self.attributes
-                                              if entry.name not in OF_METHOD or entry.name in asked))
+        """The same with no more attributes than `materials` read."""
+        return replace(self, attributes=shown_attributes(self.attributes, materials))
 
     @property
     def uv_maps(self) -> list[str]:

@@ -108,16 +108,17 @@ def _fill(obj: bpy.types.Object, made: Reflection, whole: AllOrNothing, changes:
     show_own_materials(obj)
     if obj.data.shape_keys is not None:
         obj.shape_key_clear()
+    arrays = made.arrays
+    if obj.reflection_mesh.attributes == "SHOWN":
+        arrays = arrays.seen_in([*arrays.materials, *(material for _, _, material in changes.materials)])
     if mesh is not None:
-        replaced = [material for _, _, material in changes.materials]
-        write_mesh(mesh, made.arrays if obj.reflection_mesh.attributes == "ALL"
-                   else made.arrays.seen_in([*made.arrays.materials, *replaced]))
+        write_mesh(mesh, arrays)
     if made.result.discs is None:
         whole.after(hide_discs, obj)
     else:
-        show_discs(obj, made.arrays.uv_maps, whole)
+        show_discs(obj, arrays.uv_maps, whole)
     _count(obj, made)
-    place(obj, made.arrays.origin, changes)
+    place(obj, arrays.origin, changes)
 
 
 def new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:

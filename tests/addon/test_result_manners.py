@@ -139,25 +139,44 @@ METHODS_OWN = {"reflected_position", "mirror_position", "path_length", "image_pa
 @pytest.mark.parametrize("method", ["GENERAL", "POINTS"])
 def test_only_what_is_seen(scene, method):
     mirror, cube = scene
+    tree = cube.data.materials[0].node_tree
+    picture = tree.nodes.new("ShaderNodeTexImage")
     result = parts.generate(method=method)
     whole = {entry.name: [round(value, 6) for value in parts.attribute(result, entry.name).ravel().tolist()]
              for entry in result.data.attributes if entry.data_type in {"FLOAT_VECTOR", "FLOAT2", "FLOAT"}}
     names = set(result.data.attributes.keys())
+    unseen = METHODS_OWN & names | {"Second"}
     parts.generate(method=method, attributes="SHOWN")
-    assert names - set(result.data.attributes.keys()) == METHODS_OWN & names >= {"mirror_position", "source_face"}
-    for name in whole.keys() - METHODS_OWN:
+    assert names - set(result.data.attributes.keys()) == unseen >= {"mirror_position", "source_face"}
+    for name in whole.keys() - unseen:
         assert [round(value, 6) for value in parts.attribute(result, name).ravel().tolist()] == whole[name]
     # it stays so until something else is asked for
     parts.generate(method=method)
     assert "path_length" not in result.data.attributes
-    # what a material reads by name is seen
-    tree = cube.data.materials[0].node_tree
+    # what a material reads by name is seen, and a picture without coordinates lies by the active map
     node = tree.nodes.new("ShaderNodeAttribute")
     node.attribute_name = "path_length"
+    tree.nodes.new("ShaderNodeUVMap").uv_map = "Second"
     parts.generate(method=method)
-    assert METHODS_OWN & set(result.data.attributes.keys()) == {"path_length"}
+    assert unseen & set(result.data.attributes.keys()) == {"path_length", "Second"}
+    tree.nodes.remove(picture)
+    tree.nodes.remove(next(node for node in tree.nodes if node.type == "UVMAP"))
+    parts.generate(method=method)
+    assert not {"UVMap", "Second"} & set(result.data.attributes.keys())
     parts.generate(method=method, attributes="ALL")
     assert set(result.data.attributes.keys()) == names
+
+
+def test_normals_are_seen_where_lamps_shine(scene):
+    mirror, cube = scene
+    result = parts.generate(attributes="SHOWN")
+    shaded = "custom_normal" in result.data.attributes
+    cube.data.materials[0] = glowing = parts.material("Glowing")
+    parts.generate()
+    assert "custom_normal" not in result.data.attributes and shaded == (bpy.app.version >= (4, 5, 0))
+    glowing.node_tree.nodes.new("ShaderNodeLayerWeight")
+    parts.generate()
+    assert ("custom_normal" in result.data.attributes) == shaded
 
 
 def test_what_knows_only_what_is_seen_is_lit_in_the_picture(scene, room):
