@@ -6,6 +6,7 @@ for layouts from 4.0 on (`UILayout.progress`).
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 import bpy
 
@@ -20,13 +21,13 @@ class StatusBar:
         self._started = time.perf_counter()
         self.fraction, self.stage, self.stopping = 0.0, "", ""
 
-    def told(self, fraction: float, stage: str, stopping: str) -> StatusBar:
-        """Take what is to be drawn: how far the work is, its stage, and how it is stopped."""
+    def told(self, fraction: float, stage: str, stopping: str) -> Callable:
+        """Take what is to be drawn, how far the work is, its stage, and how it is stopped; returns what draws it, which
+        Blender takes only as a plain function."""
         self.fraction, self.stage, self.stopping = fraction, stage, stopping
-        return self
+        return lambda header, context: self._draw(header.layout)
 
-    def __call__(self, header: bpy.types.Header, context: bpy.types.Context) -> None:
-        layout = header.layout
+    def _draw(self, layout: bpy.types.UILayout) -> None:
         row = layout.row()
         row.ui_units_x = 10
         row.progress(factor=self.fraction, text=f"{100.0 * self.fraction:.0f} %", translate=False)

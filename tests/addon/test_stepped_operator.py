@@ -1,7 +1,7 @@
 """Operators in a window, with stand-ins for it: what is shown before which step, ESC, errors, and the file browser."""
 from __future__ import annotations
 
-from types import SimpleNamespace
+from types import FunctionType, SimpleNamespace
 
 import pytest
 
@@ -43,6 +43,8 @@ class Window:
         if draw is None:
             self.notes.append("nothing shown")
             return
+        # Blender calls nothing else that can be called
+        assert isinstance(draw, FunctionType)
         header = Header()
         draw(header, self)
         self.notes.append("shown " + ", ".join(header.drawn))
