@@ -1,13 +1,13 @@
-"""What Blender sees of the extension: roles, operators, a panel and a command; the optics are in `core`."""
+"""What Blender sees of the extension: roles, operators, panels, a menu and a command; the optics are in `core`."""
 from . import (
     bake,
     clear,
     command_line,
     compare,
     generate,
+    interface,
     light,
     mirror_uvs,
-    panel,
     print_sheet,
     properties,
 )
@@ -18,7 +18,7 @@ from .writing import cameras, windows
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
 MODULES = (properties, windows, cameras, stale_light, generate, light, bake, mirror_uvs, print_sheet, compare, clear,
-           panel, command_line)
+           interface, command_line)
 
 
 def register() -> None:

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 import bpy
 
 from .. import core
-from . import compat
+from . import compat, polls
 from .clear import clear
 from .faults import AllOrNothing, BrowsingOperator, Steps, interrupt_held, part, still_there
 from .files import chosen_folder, staged
@@ -33,11 +33,12 @@ from .frames import (
     write_result,
 )
 from .generate import generation
-from .light import SAMPLES, lighting
-from .properties import SettingsProperties, settings_of
+from .light import lighting
 from .reading import NothingSeen, candidates, choose, read_view, render_size, visible
+from .settings import SAMPLES, SETTINGS, SettingsOfMirrors, SettingsOptions, UsesSettings, Wanted, of_each, option
 
 FOLDER = "//reflection frames"
+IN_OBJECT_MODE = "Reflections are baked in Object Mode: leave the present mode first."
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Plan:
     folder : str
         Absolute path.
     frames : list of int
-    settings : core.Settings
+    settings : core.Settings, or a function that gives those of a mirror
     samples : int
         Of light per pixel; 0 for none.
     cameras : list of bpy.types.Object
@@ -60,7 +61,7 @@ class Plan:
 
     folder: str
     frames: list[int]
-    settings: core.Settings
+    settings: core.Settings | SettingsOfMirrors
     samples: int = SAMPLES
     cameras: tuple = ()
     overwrite: bool = False
@@ -71,13 +72,19 @@ class Plan:
         names = [camera.name if len(self.cameras) > 1 else "" for camera in self.cameras]
         return list(zip(names, self.cameras, strict=True)) or [("", None)]
 
-    def made_with(self, context: bpy.types.Context, camera: bpy.types.Object | None) -> dict:
-        """What a frame depends on, besides what is in the file."""
-        settings = {name: value for name, value in asdict(self.settings).items()
-                    if isinstance(value, str | int | float)}
-        return {**settings, "samples": self.samples, "camera": camera.name if camera else "",
+    def made_with(self, context: bpy.types.Context, camera: bpy.types.Object | None, mirrors: list) -> dict:
+        """What a frame depends on, besides what is in the file; by name, the settings of mirrors with their own."""
+        settings = _plain(of_each(self.settings)(None))
+        each = {mirror.name: _plain(of_each(self.settings)(mirror)) for mirror in mirrors}
+        own = {name: values for name, values in each.items() if values != settings}
+        return {**settings, **({"own": own} if own else {}), "samples": self.samples,
+                "camera": camera.name if camera else "",
                 "scene": context.scene.name, "view_layer": context.view_layer.name,
                 "resolution": "{} x {}".format(*render_size(context.scene))}
+
+
+def _plain(settings: core.Settings) -> dict:
+    return {name: value for name, value in asdict(settings).items() if isinstance(value, str | int | float)}
 
 
 def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord], None] = lambda record: None
@@ -101,7 +108,7 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
         Where a frame cannot be baked.
     """
     if context.mode != "OBJECT":
-        raise core.ReflectionError("Reflections are baked in Object Mode: leave the present mode first.")
+        raise core.ReflectionError(IN_OBJECT_MODE)
     mirrors, diffuse = candidates(context)
     if not (mirrors and diffuse):
         choose(context)     # which says what is missing
@@ -123,7 +130,8 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
                     steps = _frame(context, plan, (name, camera), (mirrors, diffuse))
                     known[frame] = yield from part(steps, start, share, f"Frame {frame}")
                     tell(known[frame])
-    return [Sequence(plan.folder, [known[frame] for frame in plan.frames], name, plan.settings.placement)
+    placements = {mirror.name: of_each(plan.settings)(mirror).placement for mirror in mirrors}
+    return [Sequence(plan.folder, [known[frame] for frame in plan.frames], name, placements)
             for (name, _), known in zip(takes, found)]
 
 
@@ -133,7 +141,7 @@ def _found(context: bpy.types.Context, plan: Plan, take: tuple, mirrors: list) -
     known: dict = dict.fromkeys(plan.frames)
     if plan.overwrite:
         return known
-    made_with = plan.made_with(context, camera)
+    made_with = plan.made_with(context, camera, mirrors)
     for frame in plan.frames:
         record = read_record(record_path(plan.folder, name, frame))
         if not is_done(plan.folder, record):
@@ -171,7 +179,7 @@ def _frame(context: bpy.types.Context, plan: Plan, take: tuple, everything: tupl
             # from here on the frame is not done until it has a record again
             with suppress(FileNotFoundError):
                 os.unlink(place)
-        record = FrameRecord(frame, plan.made_with(context, camera), made, image)
+        record = FrameRecord(frame, plan.made_with(context, camera, mirrors), made, image)
         with staged(plan.folder) as scratch:
             write_record(os.path.join(scratch, os.path.basename(place)), record)
         _clear(context, results)
@@ -236,33 +244,44 @@ def summary(plan: Plan, made: int, seconds: float) -> str:
     return f"{made} of {frames} frame{'' if frames == 1 else 's'} baked into '{plan.folder}', {seconds:.2f} s"
 
 
-class REFLECTION_MESH_OT_bake(BrowsingOperator, SettingsProperties, bpy.types.Operator):
+class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, bpy.types.Operator):
     """Write the reflections of a range of frames to files, and let them play; they need no extension to be seen"""
 
     bl_idname = "reflection_mesh.bake"
     bl_label = "Bake Reflection Frames"
     bl_options = {"REGISTER", "UNDO"}
     unchanged = "the frames that are done are kept, the file has not changed"
+    uses, renamed = (*SETTINGS, "light_samples"), {"light_samples": "samples"}
 
     filepath: bpy.props.StringProperty(name="Folder", description="Folder for the files of the frames", default=FOLDER,
                                        subtype="FILE_PATH", options=compat.RELATIVE_PATH)
-    frames: bpy.props.StringProperty(name="Frames", default="", options=set(),
+    frames: bpy.props.StringProperty(name="Frames", default="", options={"SKIP_SAVE"},
                                      description="As 1-24, or 1-100:2 with a step; the scene's range where empty")
-    samples: bpy.props.IntProperty(name="Samples", default=SAMPLES, min=0, soft_max=4096, options=set(),
-                                   description="Light paths for each pixel of the mirrors; 0: no light")
-    overwrite: bpy.props.BoolProperty(name="Overwrite", default=False, options=set(),
+    samples: option("light_samples", min=0, description="Light paths for each pixel of the mirrors; 0: no light")
+    overwrite: bpy.props.BoolProperty(name="Overwrite", default=False, options={"SKIP_SAVE"},
                                       description="Make again the frames that are there already")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        plan = Plan(chosen_folder(self.filepath), chosen_frames(context.scene, self.frames), settings_of(self),
-                    self.samples, overwrite=self.overwrite)
+        wanted = self.wanted(context)
+        plan = plan_of(context, chosen_folder(self.filepath), self.frames, wanted, overwrite=self.overwrite)
         written: list = []
         sequences = yield from baking(context, plan, written.append)
         playing(context, sequences)
+        self.show_used(wanted, candidates(context)[0])
         for remark in blur_remarks(context.scene, plan.cameras):
             self.report({"WARNING"}, remark)
         self.report({"INFO"}, summary(plan, len(written), time.perf_counter() - started))
+
+
+def plan_of(context: bpy.types.Context, folder: str, frames: str, wanted: Wanted, **more) -> Plan:
+    """A plan for the frames that a text names, or the scene's range, by the settings of the mirrors that take part."""
+    numbers = chosen_frames(context.scene, frames)
+    return Plan(folder, numbers, wanted, wanted.samples(candidates(context)[0]), **more)
 
 
 def chosen_frames(scene: bpy.types.Scene, text: str) -> list[int]:
@@ -270,15 +289,9 @@ def chosen_frames(scene: bpy.types.Scene, text: str) -> list[int]:
     return frame_numbers(text or frame_text(scene.frame_start, scene.frame_end, scene.frame_step))
 
 
-def draw_menu(self, context: bpy.types.Context) -> None:
-    self.layout.operator(REFLECTION_MESH_OT_bake.bl_idname, icon="FILE_CACHE")
-
-
 def register() -> None:
     bpy.utils.register_class(REFLECTION_MESH_OT_bake)
-    bpy.types.VIEW3D_MT_object.append(draw_menu)
 
 
 def unregister() -> None:
-    bpy.types.VIEW3D_MT_object.remove(draw_menu)
     bpy.utils.unregister_class(REFLECTION_MESH_OT_bake)

@@ -3,10 +3,13 @@ from __future__ import annotations
 
 import bpy
 
+from . import polls
 from .faults import in_one_sentence
 from .frames import stop_playing
 from .lighting import forget_light, forget_map, forget_previews
 from .writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
+
+IN_OBJECT_MODE = "Reflections are cleared in Object Mode: leave the present mode first."
 
 
 def chosen_results(context: bpy.types.Context) -> list:
@@ -54,10 +57,14 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
     bl_label = "Clear Reflections"
     bl_options = {"REGISTER", "UNDO"}
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE))
+
     @in_one_sentence
     def execute(self, context: bpy.types.Context) -> set:
         if context.mode != "OBJECT":
-            self.report({"ERROR"}, "Reflections are cleared in Object Mode: leave the present mode first.")
+            self.report({"ERROR"}, IN_OBJECT_MODE)
             return {"CANCELLED"}
         results = chosen_results(context)
         if not results and not any(obj.reflection_mesh.camera_hidden for obj in context.scene.objects):

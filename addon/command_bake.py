@@ -8,13 +8,13 @@ import time
 import bpy
 
 from ..core import ReflectionError
-from .bake import FOLDER, Plan, baking, blur_remarks, chosen_frames, playing, summary
+from .bake import FOLDER, baking, blur_remarks, plan_of, playing, summary
 from .command_place import camera_of
 from .command_progress import announced
+from .command_settings import given, whole_number
 from .files import check_place, chosen_folder, save_blend
 from .frames import FrameRecord
-from .light import SAMPLES
-from .properties import settings_of
+from .settings import Wanted
 
 INTERRUPTED = "Interrupted: the frames that are done stay, and the same command goes on with the others."
 
@@ -25,8 +25,8 @@ def add_bake(parser: argparse.ArgumentParser) -> None:
                         help="as 1-24, or 1-100:2 with a step, or 3,5-10 (else the scene's range)")
     parser.add_argument("--camera", nargs="+", default=[], metavar="NAME",
                         help="the cameras, each with a sequence of its own (else the scene's, by its markers)")
-    parser.add_argument("--light", type=int, default=SAMPLES, metavar="N",
-                        help=f"samples per pixel of what needs light ({SAMPLES}); 0 for none")
+    parser.add_argument("--light", type=whole_number, metavar="N",
+                        help="samples per pixel of what needs light (else the file's); 0 for none")
     parser.add_argument("--overwrite", action="store_true", help="make again the frames that are there already")
     parser.add_argument("--frames-only", action="store_true", help="write no file that plays them")
     parser.add_argument("--progress", choices=("WORDS", "OPENJD"), default="WORDS",
@@ -38,13 +38,13 @@ def add_bake(parser: argparse.ArgumentParser) -> None:
 def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
     """Bake what is missing; then save a copy of the file that plays it, unless that is not wanted."""
     started = time.perf_counter()
-    if options.light < 0:
+    if options.light is not None and options.light < 0:
         raise ReflectionError("Light takes no less than 0 samples: raise --light.")
     folder = os.path.abspath(options.output) if options.output else chosen_folder(FOLDER)
     scene = context.scene
     cameras = tuple(camera_of(scene, name) for name in dict.fromkeys(options.camera))
-    plan = Plan(folder, chosen_frames(scene, options.frames), settings_of(options), options.light, cameras,
-                options.overwrite)
+    wanted = Wanted(scene, given(options, light_samples=options.light))
+    plan = plan_of(context, folder, options.frames, wanted, cameras=cameras, overwrite=options.overwrite)
     done: list = []
 
     def tell(record: FrameRecord) -> None:

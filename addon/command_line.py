@@ -16,18 +16,20 @@ from .clear import chosen_results
 from .command_bake import add_bake
 from .command_place import add_place, placed
 from .command_progress import announced
+from .command_settings import add_light, add_settings, given
 from .compare import comparison, summary
 from .faults import STATUS, sentence
 from .files import check_place, save_blend, staged
 from .generate import generation
-from .light import SAMPLES, lighting
+from .light import lighting_groups
 from .light import summary as lighting_summary
 from .mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
 from .print_sheet import DPI, check_print, printing
-from .properties import LIGHTS, METHODS, PLACEMENTS, settings_of
 from .reading import Participants, choose
+from .settings import Wanted
 
 COMMAND = "reflection_mesh"
+FILES = object()    # `--light` without a number: the samples that the file holds
 _commands = []
 
 
@@ -56,28 +58,28 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog=COMMAND, description="Mirror reflections computed forward, as meshes.")
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
     generate = verbs.add_parser("generate", help="generate the reflections and save the file")
-    _add_settings(generate)
+    add_settings(generate)
     _add_participants(generate)
-    generate.add_argument("--light", type=int, nargs="?", const=SAMPLES, default=0, metavar="N",
-                          help=f"light them too, with N samples per pixel ({SAMPLES})")
-    _add_light(generate, "--light-kind")
+    generate.add_argument("--light", type=int, nargs="?", const=FILES, default=0, metavar="N",
+                          help="light them too, with N samples per pixel (else the file's)")
+    add_light(generate, "--light-kind")
     _add_output(generate)
     generate.set_defaults(work=_generate)
     light = verbs.add_parser("light", help="let the reflections look as the mirrors do, and save the file")
-    light.add_argument("--samples", type=int, default=SAMPLES, metavar="N", help=f"samples per pixel ({SAMPLES})")
-    _add_light(light, "--kind")
+    light.add_argument("--samples", type=int, metavar="N", help="samples per pixel")
+    add_light(light, "--kind")
     light.add_argument("--every", action="store_true", help="also those that look right as they are, for glTF and USD")
     _add_output(light)
     light.set_defaults(work=_light)
     compare = verbs.add_parser("compare", help="compare with a Cycles render of the same view")
-    _add_settings(compare)
+    add_settings(compare)
     compare.add_argument("--samples", type=int, default=16, metavar="N", help="samples per pixel of the pictures")
     compare.add_argument("--scene-samples", action="store_true",
                          help="sampling, denoising and bounces of the pictures as the scene is set")
     compare.add_argument("--output", metavar="FOLDER", help="where pictures and numbers go (else beside the file)")
     compare.set_defaults(work=_compare)
     baked = verbs.add_parser("bake", help="write a range of frames to files, and a file that plays them")
-    _add_settings(baked)
+    add_settings(baked)
     add_bake(baked)
     maps = verbs.add_parser(
         "mirror-uvs", help="write UV maps by which a picture looks right in the mirror alone, and save the file")
@@ -97,8 +99,8 @@ def _add_anamorphosis(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--picture", default="", metavar="FILE", help="image file, or image of the file, for the copies")
     verb.add_argument("--print", dest="sheet", metavar="FILE", help="save the sheet, if it is one, as .png or .svg")
     verb.add_argument("--dpi", type=float, default=DPI, help=f"dots per inch of the print ({DPI:g})")
-    verb.add_argument("--tolerance", type=float, default=0.5, metavar="PIXELS")
-    verb.add_argument("--memory", type=float, default=2.0, metavar="GB")
+    verb.add_argument("--tolerance", type=float, metavar="PIXELS", help="how far off a point may be")
+    verb.add_argument("--memory", type=float, metavar="GB", help="what the work may take")
     _add_output(verb)
     verb.set_defaults(work=_mirror_uvs)
 
@@ -129,39 +131,26 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--output", metavar="FILE", help="save here, and leave the opened file as it is")
 
 
-def _add_settings(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--tolerance", type=float, default=0.5, metavar="PIXELS")
-    parser.add_argument("--placement", choices=[item[0] for item in PLACEMENTS], default="LAYERED")
-    parser.add_argument("--method", choices=[item[0] for item in METHODS], default="GENERAL")
-    parser.add_argument("--depth", type=int, default=1, metavar="BOUNCES", help="followed from mirror to mirror")
-    parser.add_argument("--memory", type=float, default=2.0, metavar="GB",
-                        help="what would need more is worked out more coarsely, or refused (2)")
-    parser.add_argument("--hidden-faces", action="store_true", help="also the faces that nearer ones hide whole")
-
-
-def _add_light(parser: argparse.ArgumentParser, option: str) -> None:
-    parser.add_argument(option, dest="kind", choices=[item[0] for item in LIGHTS], default="AUTO",
-                        help="light of the picture, or light that stays with the objects (what moves decides)")
-
-
 def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
-    if options.light < 0:
+    if options.light is not FILES and options.light < 0:
         raise core.ReflectionError("Light takes at least one sample: raise --light.")
     started = time.perf_counter()
-    outcome = announced(generation(context, _chosen(context, options), settings_of(options), preview=True))
+    wanted = Wanted(context.scene, given(options))
+    outcome = announced(generation(context, _chosen(context, options), wanted, preview=True))
     told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
     if options.light:
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
-        told.append(_lit(context, [obj for obj, _ in outcome.results], options.light, options.kind))
+        samples = None if options.light is FILES else options.light
+        told.append(_lit(context, [obj for obj, _ in outcome.results], samples, options.kind))
     save_blend(path)
     print(*told, sep="\n")
 
 
 def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
-    if options.samples < 1:
+    if options.samples is not None and options.samples < 1:
         raise core.ReflectionError("Light takes at least one sample: raise --samples.")
     told = _lit(context, chosen_results(context), options.samples, options.kind, options.every)
     save_blend(path)
@@ -174,9 +163,9 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     if sheet is not None:
         check_print(sheet, options.dpi)
     started = time.perf_counter()
-    settings = map_settings(options.tolerance, options.memory)
-    outcome = announced(mapping(context, _chosen(context, options), settings,
-                                 Choices(options.target, options.fills, options.picture)))
+    chosen = _chosen(context, options)
+    settings = map_settings(Wanted(context.scene, given(options)), chosen)
+    outcome = announced(mapping(context, chosen, settings, Choices(options.target, options.fills, options.picture)))
     told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
     if sheet is not None:
         if len(outcome.objects) > 1:
@@ -187,9 +176,11 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     print(*told, sep="\n")
 
 
-def _lit(context: bpy.types.Context, results: list, samples: int, kind: str, every: bool = False) -> str:
+def _lit(context: bpy.types.Context, results: list, samples: int | None, kind: str | None,
+         every: bool = False) -> str:
     started = time.perf_counter()
-    lit = announced(lighting(context, results, samples, kind, every))
+    wanted = Wanted(context.scene, given(argparse.Namespace(), light_samples=samples, light_kind=kind))
+    lit = announced(lighting_groups(context, wanted.lights(results), every))
     return lighting_summary(lit, time.perf_counter() - started)
 
 
@@ -226,7 +217,8 @@ def _compare(context: bpy.types.Context, options: argparse.Namespace) -> None:
         raise core.ReflectionError("A comparison takes at least one sample: raise --samples.")
     folder = os.path.abspath(folder)
     samples = 0 if options.scene_samples else options.samples
-    print(summary(announced(comparison(context, folder, samples, settings_of(options))), folder))
+    wanted = Wanted(context.scene, given(options))
+    print(summary(announced(comparison(context, folder, samples, wanted)), folder))
 
 
 def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ..core import ReflectionError, Settings, in_steps
-from . import compat
+from . import compat, polls
 from .clear import clear
 from .comparison import load_pictures, remember, render_comparison, show_picture, write_report
 from .faults import AllOrNothing, BrowsingOperator, Steps, part, still_there
@@ -15,15 +15,16 @@ from .files import chosen_folder, staged
 from .generate import generation
 from .judge import copied_scene
 from .metrics import measure, picture_errors, without_packing
-from .properties import SettingsProperties, settings_of
 from .reading import Participants, participants, read_view, results_of
+from .settings import SettingsOfMirrors, SettingsOptions, UsesSettings
 
+IN_OBJECT_MODE = "Reflections are compared in Object Mode: leave the present mode first."
 # shares of the work: of all of it what generating takes, where something is missing, and of the rest what follows
 GENERATING, COPYING, RENDERING, JUDGING = 0.3, 0.02, 0.88, 0.05
 
 
 def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
-               settings: Settings = Settings()) -> Steps[dict]:
+               settings: Settings | SettingsOfMirrors = Settings()) -> Steps[dict]:
     """Judge the reflection meshes of the mirrors that take part against Cycles, and write pictures and numbers.
 
     What stands in the file is judged; a mirror that has no reflection yet gets one first, by `settings`. Everything is
@@ -38,7 +39,7 @@ def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
         Absolute path; made where it does not exist.
     samples : int
         Samples per pixel of the two pictures; 0 takes the scene's own sampling, denoising, clamping and bounces.
-    settings : core.Settings
+    settings : core.Settings, or a function that gives those of a mirror
         For reflections that are still to be generated.
 
     Returns
@@ -52,7 +53,7 @@ def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
         Where nothing can be compared, or a render is cancelled; nothing has changed then.
     """
     if context.mode != "OBJECT":
-        raise ReflectionError("Reflections are compared in Object Mode: leave the present mode first.")
+        raise ReflectionError(IN_OBJECT_MODE)
     mirrors, diffuse = participants(context)
     read_view(context)
     earlier = _results(context, mirrors)
@@ -115,7 +116,7 @@ def _judged(context: bpy.types.Context, chosen: Participants, results: list, fol
     return report
 
 
-class REFLECTIONMESH_OT_compare(BrowsingOperator, SettingsProperties, bpy.types.Operator):
+class REFLECTIONMESH_OT_compare(UsesSettings, BrowsingOperator, SettingsOptions, bpy.types.Operator):
     """Compare the reflections with Cycles; leaves pictures and errors in pixels in a folder"""
 
     bl_idname = "reflection_mesh.compare"
@@ -128,9 +129,14 @@ class REFLECTIONMESH_OT_compare(BrowsingOperator, SettingsProperties, bpy.types.
     samples: bpy.props.IntProperty(name="Samples", default=16, min=0, soft_max=1024,
                                    description="Samples per pixel of the two pictures; 0: as the scene is set")
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
+
     def steps(self, context: bpy.types.Context) -> Steps[None]:
-        folder = chosen_folder(self.filepath)
-        report = yield from comparison(context, folder, self.samples, settings_of(self))
+        folder, wanted = chosen_folder(self.filepath), self.wanted(context)
+        report = yield from comparison(context, folder, self.samples, wanted)
+        self.show_used(wanted)
         remember(context.scene, report, folder)
         if not bpy.app.background:
             show_picture(context.window_manager, load_pictures(folder)[-1])

@@ -49,6 +49,11 @@ def has_free_normals() -> bool:
     return bpy.app.version >= (4, 5, 0)
 
 
+def values_stored(attribute: bpy.types.Attribute) -> int:
+    """How many values a mesh's attribute takes room for; from 5.0 on equal ones may be stored once."""
+    return 1 if getattr(attribute, "storage_type", "ARRAY") == "SINGLE" else len(attribute.data)
+
+
 def freestyle_marks(mesh: bpy.types.Mesh, domain: str) -> np.ndarray:
     """Which edges or faces, by `domain` EDGE or FACE, are marked for Freestyle; from 5.0 on attributes tell."""
     elements = mesh.edges if domain == "EDGE" else mesh.polygons

@@ -3,24 +3,28 @@ from __future__ import annotations
 
 import time
 from dataclasses import replace
+from functools import partial
 
 import bpy
 
 from .. import core
+from . import polls
 from .faults import SteppedOperator, Steps, part
-from .properties import ATTRIBUTES, SettingsProperties, settings_of
+from .properties import ATTRIBUTES
 from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view
+from .settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
 from .shortcomings import shortcomings, window_shortcomings
 from .write_results import Manners, Outcome, write_results
 from .writing import Reflection, mesh_arrays, point_arrays
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
+IN_OBJECT_MODE = "Reflections are generated in Object Mode: leave the present mode first."
 # what whoever presses a button gets unless it is set otherwise
 FOR_THE_EYE = ("preview", "collect", "select_alone")
 
 
-def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings,
+def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings | SettingsOfMirrors,
                preview: bool = False, manners: Manners = Manners()) -> Steps[Outcome]:
     """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
 
@@ -28,13 +32,18 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     generator that is closed before leaves no trace. Of several mirrors, those that cannot show anything are left out
     with a remark.
 
+    Parameters
+    ----------
+    settings : core.Settings, or a function that gives those of a mirror
+
     Raises
     ------
     core.ReflectionError
         Where the input cannot be reflected; its message is one sentence for the user.
     """
     if context.mode != "OBJECT":
-        raise core.ReflectionError("Reflections are generated in Object Mode: leave the present mode first.")
+        raise core.ReflectionError(IN_OBJECT_MODE)
+    own = list(map(of_each(settings), chosen.mirrors))
     started = time.perf_counter()
     yield 0.0, "Reading the scene"
     remarks = [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
@@ -43,18 +52,20 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     surfaces = [read_mirror(depsgraph, mirror) for mirror in chosen.mirrors]
     scene = read_scene(depsgraph, chosen.diffuse)
     if not all(map(is_opaque, scene.materials)):
-        settings = replace(settings, hidden_faces=True)
-    yield 0.5 * READING, "Building the tree"
-    kind = core.PointTree if settings.method == "POINTS" else core.SceneTree
-    tree = yield from part(core.in_steps(lambda: kind.build(scene.mesh)), 0.5 * READING, 0.5 * READING,
-                           "Building the tree")
+        own = [replace(one, hidden_faces=True) for one in own]
+    trees, kinds = {}, [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
+    for number, kind in enumerate(dict.fromkeys(kinds)):
+        start = READING * (0.5 + 0.25 * number)
+        yield start, "Building the tree"
+        trees[kind] = yield from part(core.in_steps(partial(kind.build, scene.mesh)), start, 0.25 * READING,
+                                      "Building the tree")
     mirrors = core.TriangleMesh.joined([surface.mesh for surface in surfaces])
     prepared, refused, unseen, share = [], [], 0, (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
-        steps = core.reflection_steps(view, surface.mesh, tree, settings, mirrors)
+        steps = core.reflection_steps(view, surface.mesh, trees[kinds[index]], own[index], mirrors)
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
-            if settings.placement == "VIRTUAL":
+            if own[index].placement == "VIRTUAL":
                 remarks += window_shortcomings(context, mirror, result, chosen.mirrors)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
@@ -67,18 +78,18 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         remarks += shortcomings(mirror.name, result)
         arrays = (mesh_arrays if result.discs is None else point_arrays)(result, scene, surface, view)
         prepared.append(Reflection(mirror, context.scene.camera, chosen.diffuse, result, arrays, view.resolution,
-                                   manners.attributes))
+                                   own[index].placement, manners.attributes))
     if not prepared:
         raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
     yield 1.0, "Writing"
-    outcome = write_results(context, prepared, (view, scene, settings.placement), preview, manners)
+    outcome = write_results(context, prepared, view, scene, preview, manners)
     for obj, _ in outcome.results:
         obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(outcome.results)
     return replace(outcome, remarks=remarks + outcome.remarks + refused)
 
 
-class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types.Operator):
-    """Compute the reflection of the diffuse objects in each mirror, as a mesh"""
+class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions, bpy.types.Operator):
+    """Make what each mirror shows as an object of its own, as the scene's camera sees it"""
 
     bl_idname = "reflection_mesh.generate"
     bl_label = "Generate Reflection"
@@ -97,6 +108,10 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
                                          description="Only the result is selected afterwards: on where the operator "
                                          "is invoked")
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
+
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
         # so that whoever pressed a button sees the result; scripts get what they ask for
         for name in FOR_THE_EYE:
@@ -106,10 +121,10 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        chosen = choose(context)
+        chosen, wanted = choose(context), self.wanted(context)
         attributes = self.attributes if self.properties.is_property_set("attributes") else None
-        outcome = yield from generation(context, chosen, settings_of(self), self.preview,
-                                        Manners(attributes, self.collect))
+        outcome = yield from generation(context, chosen, wanted, self.preview, Manners(attributes, self.collect))
+        self.show_used(wanted, chosen.mirrors)
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
         if self.select_alone:
@@ -126,16 +141,9 @@ class REFLECTION_MESH_OT_generate(SteppedOperator, SettingsProperties, bpy.types
         self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
 
 
-def draw_menu(self, context: bpy.types.Context) -> None:
-    self.layout.separator()
-    self.layout.operator(REFLECTION_MESH_OT_generate.bl_idname, icon="MOD_MIRROR")
-
-
 def register() -> None:
     bpy.utils.register_class(REFLECTION_MESH_OT_generate)
-    bpy.types.VIEW3D_MT_object.append(draw_menu)
 
 
 def unregister() -> None:
-    bpy.types.VIEW3D_MT_object.remove(draw_menu)
     bpy.utils.unregister_class(REFLECTION_MESH_OT_generate)

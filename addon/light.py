@@ -2,11 +2,13 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 import bpy
 import numpy as np
 
 from ..core import ReflectionError, View
+from . import polls
 from .baking import KeptMap, baked, can_be_baked, kept_map, new_object_material, vectors
 from .clear import chosen_results
 from .faults import AllOrNothing, SteppedOperator, Steps, Undivided, part
@@ -25,12 +27,13 @@ from .lighting import (
     texels_of,
     white_of,
 )
-from .properties import LIGHTS
 from .reading import camera_of, is_mirror, is_opaque, read_scene, read_view
+from .settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
 from .writing import place_of
 
-SAMPLES = 64
 NAME = "Reflection Light"
+IN_OBJECT_MODE = "Reflections are lit in Object Mode: leave the present mode first."
+NOTHING_TO_LIGHT = "The scene has no reflection to light: generate one first."
 
 
 def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, kind: str = "AUTO",
@@ -60,28 +63,49 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, 
     ReflectionError
         Where there is nothing to light, or a render is cancelled; nothing has changed then.
     """
+    return (yield from lighting_groups(context, [(results, samples, kind)], every))
+
+
+def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, str]], every: bool = False
+                    ) -> Steps[list]:
+    """As `lighting`, for several groups (results, samples, kind): all of them are lit, or none."""
     if context.mode != "OBJECT":
-        raise ReflectionError("Reflections are lit in Object Mode: leave the present mode first.")
-    if not results:
-        raise ReflectionError("The scene has no reflection to light: generate one first.")
+        raise ReflectionError(IN_OBJECT_MODE)
+    if not any(results for results, _, _ in groups):
+        raise ReflectionError(NOTHING_TO_LIGHT)
     yield 0.0, "Reading the scene"
     view = read_view(context)
-    camera = context.scene.camera
-    seen = [result for result in results if camera_of(result) in (None, camera)]
-    if not seen:
-        raise ReflectionError(f"'{results[0].name}' is for the camera '{camera_of(results[0]).name}': make that the "
-                              f"scene's camera, or generate the reflection for '{camera.name}' too.")
-    results = seen
-    lit = [result for result in results if every or needs_light(result)]
-    if not lit:
-        return lit
-    with_objects = kind == "OBJECTS" or (kind == "AUTO" and any(map(moves, [
-        context.scene.camera, *(result.reflection_mesh.mirror for result in lit)])) and can_be_baked(lit))
-    yield from (_on_objects if with_objects else _in_picture)(context, lit, view, samples)
-    return lit
+    groups = _for_the_camera(context.scene.camera, groups)
+    everything, shows = [], []
+    for number, (results, samples, kind) in enumerate(groups):
+        lit = [result for result in results if every or needs_light(result)]
+        if not lit:
+            continue
+        with_objects = kind == "OBJECTS" or (kind == "AUTO" and any(map(moves, [
+            context.scene.camera, *(result.reflection_mesh.mirror for result in lit)])) and can_be_baked(lit))
+        steps = (_on_objects if with_objects else _in_picture)(context, lit, view, samples)
+        shows.append((yield from part(steps, number / len(groups), 1.0 / len(groups))))
+        everything += lit
+    with AllOrNothing() as whole:
+        for show in shows:
+            show(whole)
+    return everything
 
 
-def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int) -> Steps[None]:
+def _for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
+    """The groups without the results of other cameras."""
+    own = [([result for result in results if camera_of(result) in (None, camera)], samples, kind)
+           for results, samples, kind in groups]
+    if not any(results for results, _, _ in own):
+        other = next(result for results, _, _ in groups for result in results)
+        raise ReflectionError(f"'{other.name}' is for the camera '{camera_of(other).name}': make that the scene's "
+                              f"camera, or generate the reflection for '{camera.name}' too.")
+    return own
+
+
+def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int
+                ) -> Steps[Callable[[AllOrNothing], None]]:
+    """Render what `lit` show of the picture; returns what lets them show it."""
     window = Window.around(view, np.concatenate([_on_the_mirror(result) for result in lit]))
     if window is None:
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
@@ -96,7 +120,8 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int)
     cycles = context.scene.cycles
     kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
     texels = texels_of(light[..., :3], coverage, kernel, white_of(context.scene))
-    with AllOrNothing() as whole:
+
+    def show(whole: AllOrNothing) -> None:
         image = new_image(NAME, texels)
         whole.undo(bpy.data.images.remove, image)
         export_image = new_export_image(f"{NAME} Export", texels)
@@ -105,6 +130,7 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int)
         whole.undo(bpy.data.materials.remove, material)
         for result in lit:
             show_light(result, material, view, window, whole)
+    return show
 
 
 def _on_the_mirror(result: bpy.types.Object) -> np.ndarray:
@@ -114,7 +140,9 @@ def _on_the_mirror(result: bpy.types.Object) -> np.ndarray:
     return vectors(result.data, "position") + np.array(place_of(result).translation)
 
 
-def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int) -> Steps[None]:
+def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int
+                ) -> Steps[Callable[[AllOrNothing], None]]:
+    """Bake the objects that `lit` show; returns what lets them show it."""
     if not can_be_baked(lit):
         raise ReflectionError("A reflection of points, or of objects that have been deleted, or one that knows only "
                               "what is seen, has no light on objects: light it in the picture.")
@@ -125,7 +153,8 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int)
     # what was hidden for a while counts as changed only now
     context.view_layer.update()
     opaque = all(map(is_opaque, scene.materials))
-    with AllOrNothing() as whole:
+
+    def show(whole: AllOrNothing) -> None:
         image = new_image(NAME, light.texels)
         whole.undo(bpy.data.images.remove, image)
         light_map = kept_map(NAME, light.uv)
@@ -134,6 +163,7 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int)
             material = new_object_material(NAME, image, _mirror_material(result), opaque)
             whole.undo(bpy.data.materials.remove, material)
             show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets), whole)
+    return show
 
 
 def _mirror_material(result: bpy.types.Object) -> bpy.types.Material | None:
@@ -150,37 +180,37 @@ def summary(lit: list, seconds: float) -> str:
     return f"{', '.join(repr(obj.name) for obj in lit)}: lit in {seconds:.2f} s"
 
 
-class REFLECTION_MESH_OT_light(SteppedOperator, bpy.types.Operator):
+class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator):
     """Let the reflections look as the mirrors do, with the scene's lamps, materials and the mirrors' own tint"""
 
     bl_idname = "reflection_mesh.light"
     bl_label = "Light Reflection"
     bl_options = {"REGISTER", "UNDO"}
 
-    samples: bpy.props.IntProperty(name="Samples", default=SAMPLES, min=1, soft_max=4096,
-                                   description="Light paths for each pixel of the mirrors, which are denoised, or for "
-                                   "each texel of the objects")
-    kind: bpy.props.EnumProperty(name="Light", items=LIGHTS, default="AUTO", description="Where the light is kept")
+    uses, renamed = LIGHT_SETTINGS, {"light_samples": "samples", "light_kind": "kind"}
+
+    samples: option("light_samples", name="Samples")
+    kind: option("light_kind")
     every: bpy.props.BoolProperty(name="Every", default=False, options=set(),
                                   description="Also reflections that look right as they are: for files that carry "
                                   "pictures but not all materials, as glTF and USD")
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE),
+                            polls.has_result(NOTHING_TO_LIGHT), polls.has_camera)
+
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        lit = yield from lighting(context, chosen_results(context), self.samples, self.kind,
-                                  self.every)
+        results, wanted = chosen_results(context), self.wanted(context)
+        lit = yield from lighting_groups(context, wanted.lights(results), self.every)
+        self.show_used(wanted, [result.reflection_mesh.mirror for result in results])
         self.report({"INFO"}, summary(lit, time.perf_counter() - started))
-
-
-def draw_menu(self, context: bpy.types.Context) -> None:
-    self.layout.operator(REFLECTION_MESH_OT_light.bl_idname, icon="LIGHT")
 
 
 def register() -> None:
     bpy.utils.register_class(REFLECTION_MESH_OT_light)
-    bpy.types.VIEW3D_MT_object.append(draw_menu)
 
 
 def unregister() -> None:
-    bpy.types.VIEW3D_MT_object.remove(draw_menu)
     bpy.utils.unregister_class(REFLECTION_MESH_OT_light)

@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from .. import core
+from . import polls
 from .anamorphosis import (
     SEEN,
     UV_MAP,
@@ -23,8 +24,8 @@ from .anamorphosis import (
     write_own_map,
 )
 from .faults import AllOrNothing, SteppedOperator, Steps, part
-from .properties import memory_property, tolerance_property
 from .reading import Participants, choose, read_mirror, read_scene, read_view
+from .settings import UsesSettings, Wanted, option
 
 TARGETS = (
     ("COPY", "A Copy", "Faces are cut where the map bends, on a copy that stands in for the object, which is hidden"),
@@ -37,6 +38,7 @@ FRAMES = (
      "without cutting it off"),
     ("MIRROR", "What the Mirror Shows", "The picture fills the box around what the mirror shows of the objects"),
 )
+IN_OBJECT_MODE = "Mirror UVs are written in Object Mode: leave the present mode first."
 # shares of the work
 READING, REFLECTING, CUTTING = 0.05, 0.5, 0.4
 TOLD = 1.0     # pixels
@@ -65,7 +67,7 @@ class Outcome:
         return f"{names}: UV map '{UV_MAP}', {faces} faces, those that are seen marked '{SEEN}', {seconds:.2f} s"
 
 
-def map_settings(tolerance: float, memory: float) -> core.Settings:
+def map_settings(wanted: Wanted, chosen: Participants) -> core.Settings:
     """The settings of a reflection whose faces tell a map: one bounce, on the mirror itself.
 
     Raises
@@ -73,10 +75,8 @@ def map_settings(tolerance: float, memory: float) -> core.Settings:
     core.ReflectionError
         Where one of them cannot be.
     """
-    try:
-        return core.Settings(tolerance=tolerance, maximum_memory=memory, placement="SURFACE")
-    except ValueError as error:
-        raise core.ReflectionError(str(error)) from error
+    own = wanted(chosen.mirrors[0])
+    return core.Settings(tolerance=own.tolerance, maximum_memory=own.maximum_memory, placement="SURFACE")
 
 
 def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Settings,
@@ -135,7 +135,7 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
 
 def _check(context: bpy.types.Context, chosen: Participants, choices: Choices) -> None:
     if context.mode != "OBJECT":
-        raise core.ReflectionError("Mirror UVs are written in Object Mode: leave the present mode first.")
+        raise core.ReflectionError(IN_OBJECT_MODE)
     if len(chosen.mirrors) > 1:
         raise core.ReflectionError(f"Mirror UVs are those of one mirror, and here are {len(chosen.mirrors)}: select "
                                    "one of them with the objects that it shows.")
@@ -144,15 +144,17 @@ def _check(context: bpy.types.Context, chosen: Participants, choices: Choices) -
                                    f"that shows the picture by the UV map '{UV_MAP}'.")
 
 
-class REFLECTION_MESH_OT_mirror_uvs(SteppedOperator, bpy.types.Operator):
+class REFLECTION_MESH_OT_mirror_uvs(UsesSettings, SteppedOperator, bpy.types.Operator):
     """Give the reflected objects a UV map by which a picture looks right in the mirror alone (anamorphosis)"""
 
     bl_idname = "reflection_mesh.mirror_uvs"
     bl_label = "Write Mirror UVs"
     bl_options = {"REGISTER", "UNDO"}
 
-    tolerance: tolerance_property()
-    memory: memory_property()
+    uses = ("tolerance", "memory")
+
+    tolerance: option("tolerance")
+    memory: option("memory")
     target: bpy.props.EnumProperty(name="Write On", description="What gets the UV map", items=TARGETS, default="COPY",
                                    options=set())
     frame: bpy.props.EnumProperty(name="Picture Fills", description="What the borders of the picture stand for",
@@ -160,11 +162,16 @@ class REFLECTION_MESH_OT_mirror_uvs(SteppedOperator, bpy.types.Operator):
     picture: bpy.props.StringProperty(name="Picture", description="Image in this file, or image file, to put on the "
                                       "copies; empty for the map alone", subtype="FILE_PATH", options=set())
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
+
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        settings = map_settings(self.tolerance, self.memory)
-        outcome = yield from mapping(context, choose(context), settings,
+        chosen, wanted = choose(context), self.wanted(context)
+        outcome = yield from mapping(context, chosen, map_settings(wanted, chosen),
                                      Choices(self.target, self.frame, self.picture))
+        self.show_used(wanted, chosen.mirrors)
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
         for obj in outcome.objects:
@@ -175,15 +182,9 @@ class REFLECTION_MESH_OT_mirror_uvs(SteppedOperator, bpy.types.Operator):
         self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
 
 
-def draw_menu(self, context: bpy.types.Context) -> None:
-    self.layout.operator(REFLECTION_MESH_OT_mirror_uvs.bl_idname, icon="UV")
-
-
 def register() -> None:
     bpy.utils.register_class(REFLECTION_MESH_OT_mirror_uvs)
-    bpy.types.VIEW3D_MT_object.append(draw_menu)
 
 
 def unregister() -> None:
-    bpy.types.VIEW3D_MT_object.remove(draw_menu)
     bpy.utils.unregister_class(REFLECTION_MESH_OT_mirror_uvs)

@@ -6,11 +6,12 @@ import os
 import bpy
 
 from ..core import ReflectionError
-from . import compat
+from . import compat, polls
 from .anamorphosis import encoded, flat_sheet, load_picture, picture_of, pixels_of, print_size, printed
 from .faults import AllOrNothing, BrowsingOperator, Steps, part
 from .files import check_place, staged
 
+NO_SHEET = "No sheet: make the object that carries the mirror UVs the active one."
 KINDS = (".png", ".svg")
 DPI, FEWEST, MOST = 150.0, 10.0, 2400.0
 
@@ -31,7 +32,7 @@ def printing(context: bpy.types.Context, obj: bpy.types.Object | None, path: str
     """
     yield 0.0, "Reading the sheet"
     if obj is None:
-        raise ReflectionError("No sheet: make the object that carries the mirror UVs the active one.")
+        raise ReflectionError(NO_SHEET)
     check_print(path, dpi)
     sheet = flat_sheet(obj, context.scene.unit_settings.scale_length)
     width, height = print_size(sheet, dpi)
@@ -78,6 +79,10 @@ class REFLECTION_MESH_OT_print_sheet(BrowsingOperator, bpy.types.Operator):
     dpi: bpy.props.FloatProperty(name="Dots per Inch", description="How fine the print is", default=DPI, min=FEWEST,
                                  max=MOST, precision=0, options=set())
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.has_active(NO_SHEET))
+
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         if self.filepath.startswith("//") and not bpy.data.filepath:
             raise ReflectionError("The file has not been saved: save it, or choose an absolute path.")
@@ -86,15 +91,9 @@ class REFLECTION_MESH_OT_print_sheet(BrowsingOperator, bpy.types.Operator):
         self.report({"INFO"}, told)
 
 
-def draw_menu(self, context: bpy.types.Context) -> None:
-    self.layout.operator(REFLECTION_MESH_OT_print_sheet.bl_idname, icon="IMAGE_DATA")
-
-
 def register() -> None:
     bpy.utils.register_class(REFLECTION_MESH_OT_print_sheet)
-    bpy.types.VIEW3D_MT_object.append(draw_menu)
 
 
 def unregister() -> None:
-    bpy.types.VIEW3D_MT_object.remove(draw_menu)
     bpy.utils.unregister_class(REFLECTION_MESH_OT_print_sheet)

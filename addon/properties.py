@@ -1,4 +1,4 @@
-"""What a .blend file remembers: each object's role, what a result was made from, and the scene's settings."""
+"""What a .blend file remembers: each object's role, what a result was made from, and settings."""
 import bpy
 from bpy.props import (
     BoolProperty,
@@ -13,98 +13,27 @@ from bpy.props import (
     StringProperty,
 )
 
-from ..core import ReflectionError, Settings
+from .settings import SettingsOfMirror, SettingsOfScene, holder_of, make_own, mirror_of
 
 ROLES = (
     ("AUTO", "Automatic", "A mirror if its material is one; if no selected object is, the active object is the mirror"),
     ("MIRROR", "Mirror", "The scene is reflected in this object"),
-    ("DIFFUSE", "Diffuse", "This object is reflected"),
-    ("IGNORE", "Ignore", "This object takes no part"),
+    ("DIFFUSE", "Reflected", "Mirrors show this object"),
+    ("IGNORE", "Ignored", "This object takes no part"),
     ("REFLECTION", "Reflection", "This object is a reflection that was generated"),
 )
-PLACEMENTS = (
-    ("LAYERED", "Layered", "In front of the mirror, in the order of path lengths, so that near images hide far ones"),
-    ("SURFACE", "Surface", "Exactly on the mirror"),
-    ("VIRTUAL", "Virtual", "At the depth of the virtual image; the mirror, now a window, is hidden from the camera"),
-)
-METHODS = (
-    ("GENERAL", "General", "General three-ray cameras, continuous across the mirror's triangles"),
-    ("PARALLEL", "Parallel", "Parallel three-ray cameras, to compare with: discontinuous between triangles"),
-    ("POINTS", "Points", "Every image of a vertex as a disc: for dense scans, with triangles smaller than a pixel"),
-)
+OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
 
 ATTRIBUTES = (
     ("ALL", "All", "Where each point lies on the mirror and on what it shows, how long its path is, which face it "
      "shows: for light on objects, comparisons and shaders"),
     ("SHOWN", "Shown", "Only what is seen: positions, materials, and what these read: about a third smaller"),
 )
-LIGHTS = (
-    ("AUTO", "Automatic", "On the objects where the camera or a mirror is animated, else in the picture"),
-    ("PICTURE", "Picture", "As the mirrors show it from here: everything that Cycles knows, for this view alone"),
-    ("OBJECTS", "Objects", "Baked once and kept with the reflected objects, so that camera and mirrors may move; gloss "
-     "stays as it is seen from here"),
-)
 
 
-def tolerance_property() -> FloatProperty:
-    return FloatProperty(name="Tolerance", description="Allowed displacement of the reflection, in pixels",
-                         default=0.5, min=0.01, soft_max=8.0, max=1000.0, precision=2, options=set())
-
-
-def placement_property() -> EnumProperty:
-    return EnumProperty(name="Placement", description="Where the reflection lies", items=PLACEMENTS,
-                        default="LAYERED", options=set())
-
-
-def method_property() -> EnumProperty:
-    return EnumProperty(name="Method", description="How the reflection is computed", items=METHODS,
-                        default="GENERAL", options=set())
-
-
-def depth_property() -> IntProperty:
-    return IntProperty(name="Depth", description="How many bounces from mirror to mirror are followed",
-                       default=1, min=1, soft_max=4, max=16, options=set())
-
-
-def memory_property() -> FloatProperty:
-    return FloatProperty(name="Memory", description="Gigabytes that the work may take: what would need more is worked "
-                         "out more coarsely, or refused", default=2.0, min=0.1, soft_max=64.0, precision=1,
-                         options=set())
-
-
-def hidden_property() -> BoolProperty:
-    return BoolProperty(name="Hidden Faces", description="Also the faces that nearer ones hide whole, for objects that "
-                        "are to be taken away later; what lets light through keeps them anyway", default=False,
-                        options=set())
-
-
-class SettingsProperties:
-    """What operators, the scene and the command line have in common: a field for each of `SETTINGS`."""
-
-    tolerance: tolerance_property()
-    placement: placement_property()
-    method: method_property()
-    depth: depth_property()
-    memory: memory_property()
-    hidden_faces: hidden_property()
-
-
-SETTINGS = tuple(SettingsProperties.__annotations__)
-
-
-def settings_of(holder) -> Settings:
-    """The settings that an operator, a scene's `reflection_mesh` or a command line's options hold.
-
-    Raises
-    ------
-    ReflectionError
-        Where one of them cannot be.
-    """
-    try:
-        return Settings(tolerance=holder.tolerance, placement=holder.placement, method=holder.method,
-                        depth=holder.depth, maximum_memory=holder.memory, hidden_faces=holder.hidden_faces)
-    except ValueError as error:
-        raise ReflectionError(str(error)) from error
+def _begin_own(self, context: bpy.types.Context) -> None:
+    if self.own_settings and context.scene is not None:
+        make_own(self.id_data, context.scene)
 
 
 class ReflectionSource(bpy.types.PropertyGroup):
@@ -119,11 +48,14 @@ class ReflectionMaterial(bpy.types.PropertyGroup):
     material: PointerProperty(name="Material", type=bpy.types.Material)
 
 
-class ReflectionObject(bpy.types.PropertyGroup):
-    """`Object.reflection_mesh`: the role that an object plays and, for a result, where it came from."""
+class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
+    """`Object.reflection_mesh`: the role that an object plays, a mirror's own settings and, for a result, where it came
+    from."""
 
     role: EnumProperty(name="Role", description="The part that this object plays in a reflection", items=ROLES,
-                       default="AUTO")
+                       default="AUTO", override=OVERRIDABLE)
+    own_settings: BoolProperty(name="Own Settings", description="This mirror has settings of its own; else the scene's "
+                               "hold for it", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object)
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
@@ -162,14 +94,18 @@ class ReflectionObject(bpy.types.PropertyGroup):
                                 description="This mirror is a window to its virtual image, until that is cleared")
 
 
-class ReflectionScene(SettingsProperties, bpy.types.PropertyGroup):
-    """`Scene.reflection_mesh`: what the panel hands to the operators."""
+class ReflectionScene(SettingsOfScene, bpy.types.PropertyGroup):
+    """`Scene.reflection_mesh`: the settings of every mirror that has none of its own."""
 
     comparison: StringProperty(name="Comparison", description="Numbers of the last comparison with Cycles, as JSON")
     seen_by: PointerProperty(name="Seen By", description="The camera whose reflections are shown; none: all are",
                              type=bpy.types.Object)
     collection: PointerProperty(name="Collection", description="Where results made in a window go",
                                 type=bpy.types.Collection)
+
+    def shown(self, context: bpy.types.Context) -> bpy.types.PropertyGroup:
+        """The settings that the panels show and presets set: those that hold for the active object."""
+        return holder_of(mirror_of(context.view_layer.objects.active), context.scene)
 
 
 CLASSES = (ReflectionSource, ReflectionMaterial, ReflectionObject, ReflectionScene)
@@ -178,7 +114,8 @@ CLASSES = (ReflectionSource, ReflectionMaterial, ReflectionObject, ReflectionSce
 def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    bpy.types.Object.reflection_mesh = PointerProperty(name="Reflection Mesh", type=ReflectionObject)
+    bpy.types.Object.reflection_mesh = PointerProperty(name="Reflection Mesh", type=ReflectionObject,
+                                                        override=OVERRIDABLE)
     bpy.types.Scene.reflection_mesh = PointerProperty(name="Reflection Mesh", type=ReflectionScene)
 
 

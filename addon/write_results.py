@@ -5,10 +5,11 @@ from dataclasses import dataclass
 
 import bpy
 
+from ..core import View
 from .faults import AllOrNothing
 from .frames import stop_playing
 from .lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
-from .reading import results_of
+from .reading import DiffuseScene, results_of
 from .writing import (
     Reflection,
     gather,
@@ -18,6 +19,8 @@ from .writing import (
     size_text,
     write_object,
 )
+
+WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
 
 
 @dataclass(frozen=True)
@@ -66,23 +69,22 @@ class Outcome:
         faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
         size = f"{points} points" if points else f"{faces} faces"
         error = max(result.estimated_error for _, result in self.results)
-        filled = max(result.filled_share for _, result in self.results)
+        share = max(result.filled_share for _, result in self.results)
+        filled = f", {share:.1f} % filled by rays" if share >= WORTH_TELLING else ""
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
         memory = size_text(sum(mesh_bytes(mesh) for mesh in {obj.data for obj, _ in self.results}
                                | {copy.data for copy in self.copies}))
         light = "; the light is still to come, by Light Reflection" if self.unlit else ""
-        return (f"{names}: {size}, {memory}, estimated error {error:.2f} px, {filled:.3f} % filled by rays, "
-                f"{seconds:.2f} s{light}")
+        return f"{names}: {size}, {memory}, error about {error:.2f} px{filled}, {seconds:.2f} s{light}"
 
 
-def write_results(context: bpy.types.Context, prepared: list[Reflection], made_from: tuple, preview: bool,
-           manners: Manners) -> Outcome:
-    """Write all results or none; `made_from` are their view, their scene and their placement."""
-    view, scene, placement = made_from
+def write_results(context: bpy.types.Context, prepared: list[Reflection], view: View, scene: DiffuseScene,
+                  preview: bool, manners: Manners) -> Outcome:
+    """Write all results or none; `view` saw what they show of `scene`."""
     there, remarks = set(context.scene.objects), []
     previewed = {obj for made in prepared for obj in results_of(context, made.mirror) if shows_preview(obj)}
     with AllOrNothing() as whole:
-        written = [write_object(context, made, placement, whole) for made in prepared]
+        written = [write_object(context, made, whole) for made in prepared]
         for made, group in zip(prepared, written):
             for entry in group:
                 keep_light(entry.obj, view, scene)

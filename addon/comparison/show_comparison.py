@@ -5,6 +5,7 @@ import os
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_iface
 
 from ..writing import records
 
@@ -54,10 +55,11 @@ def lines(scene: bpy.types.Scene) -> list[str]:
     if known is None:
         return []
     width, height = known.resolution
-    told = [f"Against Cycles at {width} x {height}"]
+    told = [pgettext_iface("Against Cycles at {width} x {height}").format(width=width, height=height)]
     if known.p99 is not None:
-        told.append(f"Displacement {known.median:.3f} px, 99 %: {known.p99:.3f} px")
-    told.append(f"Holes, spill, wrong layer {known.coverage:.3f} %")
+        told.append(pgettext_iface("Displacement {median:.3f} px, 99 %: {most:.3f} px").format(median=known.median,
+                                                                                               most=known.p99))
+    told.append(pgettext_iface("Holes, spill, wrong layer {share:.3f} %").format(share=known.coverage))
     if known.ssim is not None:
         told.append(f"SSIM {known.ssim:.4f}, FLIP {known.flip:.4f}"
                     + (f", PSNR {known.psnr:.1f} dB" if known.psnr is not None else ""))

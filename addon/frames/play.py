@@ -31,13 +31,14 @@ class Sequence:
         In the order of their frames.
     name : str
         What tells it from sequences of other cameras; empty where there are none.
-    placement : str
+    placements : dict
+        Where each mirror's reflection lies, by the mirror's name.
     """
 
     folder: str
     records: list[FrameRecord]
     name: str
-    placement: str
+    placements: dict
 
 
 @dataclass(frozen=True)
@@ -105,7 +106,7 @@ def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOr
             slot.link, slot.material = "OBJECT", player.light
     # without a name it plays what markers choose, and is right for every camera
     record.camera = context.scene.objects.get(player.sequence.name) if player.sequence.name else None
-    set_window(obj, player.sequence.placement)
+    set_window(obj, player.sequence.placements[mirror.name])
     return obj
 
 

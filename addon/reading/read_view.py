@@ -6,6 +6,8 @@ import numpy as np
 
 from ...core import ReflectionError, View
 
+NO_CAMERA = "The scene has no camera: add one (Add > Camera) and make it the scene's camera."
+
 
 def read_view(context: bpy.types.Context, size: tuple[int, int] | None = None) -> View:
     """The eye of the scene's camera at the render's resolution, or at `size`, in world space and scene units.
@@ -18,7 +20,7 @@ def read_view(context: bpy.types.Context, size: tuple[int, int] | None = None) -
     scene = context.scene
     camera = scene.camera
     if camera is None:
-        raise ReflectionError("The scene has no camera: add one (Add > Camera) and make it the scene's camera.")
+        raise ReflectionError(NO_CAMERA)
     if camera.type != "CAMERA":
         raise ReflectionError(f"The scene's camera '{camera.name}' is no camera object: choose one in the scene's "
                               "properties.")

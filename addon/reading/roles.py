@@ -9,6 +9,8 @@ from ...core import ReflectionError
 from .mirror_materials import is_mirror
 from .results import meant, of_results
 
+NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
+             "Reflection tab.")
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
 
@@ -116,14 +118,13 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
     if not seen.mirrors:
         if mirrors:
             raise NothingSeen(f"The mirror '{mirrors[0].name}' is hidden: show it in the viewport and in renders.")
-        raise ReflectionError("No mirror: select the objects to reflect and then, as the active object, the mirror, or "
-                              "set roles in the Reflection tab.")
+        raise ReflectionError(NO_MIRROR)
     if not seen.diffuse:
         if diffuse:
             raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport, in renders "
                               "and to glossy rays.")
         raise ReflectionError(f"Nothing to reflect in '{seen.mirrors[0].name}': select the objects to reflect together "
-                              "with it, or set their role to Diffuse in the Reflection tab.")
+                              "with it, or set their role to Reflected in the Reflection tab.")
     return seen
 
 

@@ -1,9 +1,9 @@
 """How much memory a result takes, which is about what its file grows by."""
 from __future__ import annotations
 
-import math
-
 import bpy
+
+from .. import compat
 
 # bytes of one value of an attribute, by its type
 BYTES = {"FLOAT": 4, "INT": 4, "INT8": 1, "BOOLEAN": 1, "FLOAT2": 8, "FLOAT_VECTOR": 12, "FLOAT_COLOR": 16,
@@ -13,13 +13,11 @@ BYTES = {"FLOAT": 4, "INT": 4, "INT8": 1, "BOOLEAN": 1, "FLOAT2": 8, "FLOAT_VECT
 def mesh_bytes(mesh: bpy.types.Mesh) -> int:
     """Bytes of a mesh's attributes, its geometry among them, uncompressed."""
     starts = 4 * (len(mesh.polygons) + 1)
-    return starts + sum(BYTES.get(entry.data_type, 0) * len(entry.data) for entry in mesh.attributes)
+    return starts + sum(BYTES.get(entry.data_type, 0) * compat.values_stored(entry) for entry in mesh.attributes)
 
 
 def size_text(size: int) -> str:
     """A size as it is read: "12 MB"."""
-    if size < 1000:
-        return f"{size} bytes"
-    power = min(int(math.log10(size)) // 3, 3)
+    power = sum(size >= 1000 ** step for step in (1, 2, 3))
     value = size / 1000 ** power
-    return f"{value:.{1 if value < 10 else 0}f} {('KB', 'MB', 'GB')[power - 1]}"
+    return f"{value:.{1 if power and value < 10 else 0}f} {('bytes', 'KB', 'MB', 'GB')[power]}"

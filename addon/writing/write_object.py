@@ -35,6 +35,8 @@ class Reflection:
         The same, to be written.
     resolution : (int, int)
         Of the picture that it was made for.
+    placement : str
+        Where it lies; VIRTUAL makes a window of the mirror.
     attributes : {'ALL', 'SHOWN'} or None
         What of the arrays is written; None: what the result had before.
     """
@@ -45,6 +47,7 @@ class Reflection:
     result: ReflectionMesh
     arrays: MeshArrays
     resolution: tuple[int, int]
+    placement: str
     attributes: str | None = None
 
 
@@ -57,8 +60,7 @@ class Written:
     copy: bool
 
 
-def write_object(context: bpy.types.Context, made: Reflection, placement: str,
-                 whole: AllOrNothing) -> list[Written]:
+def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothing) -> list[Written]:
     """The reflection in a mirror as an object: a new one, or the one that the mirror already has for the scene's
     camera, updated in place, and with it the copies that the user has made of it.
 
@@ -74,7 +76,7 @@ def write_object(context: bpy.types.Context, made: Reflection, placement: str,
     if not earlier:
         obj = new_object(context, made.mirror, whole)
         _fill(obj, made, whole, Changes(None, [], []), obj.data)
-        set_window(obj, placement)
+        set_window(obj, made.placement)
         return [Written(obj, Changes(None, [], []), False)]
     active = context.view_layer.objects.active
     # the active one first
@@ -91,7 +93,7 @@ def write_object(context: bpy.types.Context, made: Reflection, placement: str,
         else:
             keep_data(obj, whole)
         _fill(obj, made, whole, entry.changes, None if linked else obj.data)
-        set_window(obj, placement)
+        set_window(obj, made.placement)
     whole.after(_forget, shared)
     return written
 

@@ -91,7 +91,7 @@ def test_failures(saved, room, capfd, tmp_path, arguments, status, words):
 @pytest.mark.parametrize("verb", ["generate", "compare"])
 def test_all_settings_reach_the_core(saved, room, tmp_path, capsys, monkeypatch, verb):
     def told(context, participants, settings, *_, **__):
-        raise room("core").ReflectionError(f"{settings}.")
+        raise room("core").ReflectionError(f"{settings(participants.mirrors[0])}.")
     monkeypatch.setattr(room(f"addon.{verb}"), "generation", told)
     monkeypatch.setattr(room("addon.command_line"), "generation", told)
     assert room("addon.command_line").run([verb, "--tolerance", "2", "--placement", "VIRTUAL", "--method", "PARALLEL",

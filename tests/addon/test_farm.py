@@ -42,7 +42,9 @@ console.log(JSON.stringify({ tasks, settings: JOB_TYPE.settings, label: JOB_TYPE
 
 @pytest.fixture
 def scene(saved_scene) -> Path:
-    """The saved scene with a cube that moves."""
+    """The saved scene with a cube that moves, and with settings that jobs need not give."""
+    settings = bpy.context.scene.reflection_mesh
+    settings.tolerance, settings.light_samples = 2.0, 4
     cube = bpy.data.objects["Box"]
     for frame, place in ((1, (0.0, -1.5, 1.0)), (5, (1.0, -1.0, 1.0))):
         cube.location = place
@@ -86,7 +88,7 @@ def frames_in(out: Path) -> dict:
 
 
 def openjd(scene: Path, blender: Path, out: Path, *arguments: str) -> dict:
-    parameters = {"SceneFile": scene, "OutputFolder": out, "Frames": "1-5", "FramesPerTask": 2, "Samples": 4,
+    parameters = {"SceneFile": scene, "OutputFolder": out, "Frames": "1-5", "FramesPerTask": 2,
                   "Blender": blender}
     asked = [text for name, value in parameters.items() for text in ("-p", f"{name}={value}")]
     return {"args": [OPENJD, "run", str(FARM / "openjd_bake.yaml"), *asked, *arguments], "stdout": subprocess.PIPE,
@@ -136,7 +138,7 @@ def test_a_job_that_fails_says_so(scene, blender, tmp_path):
 def test_a_job_of_flamenco(scene, blender, wanted, tmp_path):
     """The tasks that the job type makes, out of order, and its lines as the worker reads them."""
     out = tmp_path / "frames"
-    settings = {"frames": "1-5", "chunk_size": 2, "samples": 4, "tolerance": 0.5, "output_folder": str(out),
+    settings = {"frames": "1-5", "chunk_size": 2, "samples": "", "tolerance": "2", "output_folder": str(out),
                 "blendfile": str(scene), "scene": "Scene"}
     script = MANAGER % ((FARM / "reflection_mesh_bake.js").read_text(), json.dumps(settings))
     told = json.loads(subprocess.run([NODE, "-e", script], capture_output=True, text=True, check=True).stdout)

@@ -1,5 +1,7 @@
 """Generate on primitives: what the result is, against closed forms of the flat mirror and of linear interpolation."""
 import json
+from dataclasses import replace
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -155,8 +157,8 @@ def test_all_settings_reach_the_core(wall_scene, room, tmp_path, monkeypatch):
     chosen = {"tolerance": 2.0, "placement": "VIRTUAL", "method": "PARALLEL", "depth": 3, "memory": 0.5,
               "hidden_faces": True}
 
-    def told(context, participants, settings, *_):
-        raise room("core").ReflectionError(f"{settings}.")
+    def told(context, participants, settings, *_, **__):
+        raise room("core").ReflectionError(f"{settings(participants.mirrors[0])}.")
     for verb in ("generate", "compare"):
         monkeypatch.setattr(room(f"addon.{verb}"), "generation", told)
     expected = str(room("core").Settings(2.0, "VIRTUAL", "PARALLEL", 3, maximum_memory=0.5, hidden_faces=True)) + "."
@@ -289,7 +291,9 @@ def test_summary_tells_the_share_filled_by_rays_and_remarks_the_bounds_hit(spher
 
     free, bounded = outcome(), outcome(tolerance=0.02, maximum_faces=2000)
     assert free.remarks == []
-    assert ", 0.000 % filled by rays, " in free.summary(1.0)
+    assert "filled by rays" not in free.summary(1.0)
+    filled = SimpleNamespace(estimated_error=0.4, filled_share=2.345)
+    assert ", 2.3 % filled by rays, 1.00 s" in replace(free, results=[(free.results[0][0], filled)]).summary(1.0)
     assert len(bounded.remarks) == 1
     assert bounded.remarks[0].startswith("Ball: Refinement stopped at the largest number of faces")
     counts = json.loads(bounded.results[0][0].reflection_mesh.counts)

@@ -83,6 +83,6 @@ def test_life_cycle_in_a_fresh_blender(extension_archive, tmp_path):
     told = json.loads(done.stdout.split("TOLD")[1].splitlines()[0])
     assert not any(told["before"] + told["disabled"])
     assert all(told["installed"] + told["again"])
-    assert (told["entries"], told["entries_disabled"], told["entries_again"]) == (5, 0, 5)
+    assert (told["entries"], told["entries_disabled"], told["entries_again"]) == (1, 0, 1)
     assert told["faces"] > 0
     assert told["warnings"] == {} and told["modules"] == [] and told["path_grew"] == []

@@ -133,6 +133,30 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaqu
     assert stop == (4 if opaque else 5) and lit_state() != before
 
 
+@pytest.mark.parametrize(("mirror", "renders"), [("Tint", 1), ("Half open", 2)])
+def test_light_is_one_render_of_the_mirrors_window(blank, room, monkeypatch, mirror, renders):
+    """Cycles renders the mirror's pixels once, with the samples asked for; what a mirror that is open covers is asked
+    apart, without light."""
+    scene_of(blank, "UV", mirror)
+    result = parts.generate()
+    place, asked = room("addon.lighting.light_scene"), []
+    work = place.rendered
+
+    def counted(scene):
+        picture = work(scene)
+        asked.append((picture.shape[:2], scene.cycles.samples, scene.cycles.max_bounces))
+        return picture
+    monkeypatch.setattr(place, "rendered", counted)
+    bpy.ops.reflection_mesh.light(samples=7)
+    view = room("addon.reading").read_view(blank)
+    seen = view.pixels(np.array([result.reflection_mesh.mirror.matrix_world @ vertex.co
+                                 for vertex in result.reflection_mesh.mirror.data.vertices]))
+    width, height = np.ceil(np.clip(seen, 0, SIZE).max(axis=0)) - np.floor(np.clip(seen, 0, SIZE).min(axis=0))
+    assert len(asked) == renders and asked[0][1:] == (7, blank.scene.cycles.max_bounces)
+    assert asked[0][0][0] * asked[0][0][1] <= (width + 6) * (height + 6)
+    assert all(bounces == 0 for *_, bounces in asked[1:])
+
+
 @pytest.mark.parametrize("failing", ["rendered", "new_material", "show_light"])
 def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
     where = "addon.lighting.light_scene" if failing == "rendered" else "addon.light"

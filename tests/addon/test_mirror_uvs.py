@@ -294,11 +294,11 @@ def test_an_svg_has_the_sheets_size(wall, tmp_path):
 
 def test_esc_leaves_no_trace(wall, room, tmp_path):
     picture, before = ramp(tmp_path), parts.state()
-    module = room("addon.mirror_uvs")
+    module, settings = room("addon.mirror_uvs"), room("core").Settings(placement="SURFACE")
     stages = []
     for stop in range(1, 200):
         chosen = room("addon.reading").choose(bpy.context)
-        steps = module.mapping(bpy.context, chosen, module.map_settings(0.5, 2.0), module.Choices(picture=picture))
+        steps = module.mapping(bpy.context, chosen, settings, module.Choices(picture=picture))
         told = [entry[1] for _, entry in zip(range(stop), steps)]
         steps.close()
         assert parts.state() == before

@@ -20,9 +20,9 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 @pytest.fixture(scope="module")
 def rooms(room) -> SimpleNamespace:
-    names = ("report.colour_map", "comparison.compare_images", "metrics.pixel_errors", "panel", "report.png_file",
-             "report.report_data", "report.report_page", "comparison.show_comparison", "report.svg_axes",
-             "report.svg_plots")
+    names = ("report.colour_map", "comparison.compare_images", "metrics.pixel_errors", "interface.draw_work",
+             "report.png_file", "report.report_data", "report.report_page",
+             "comparison.show_comparison", "report.svg_axes", "report.svg_plots")
     return SimpleNamespace(**{name.rpartition(".")[2]: room(f"addon.{name}") for name in names})
 
 
@@ -347,7 +347,7 @@ def test_the_panel_shows_the_last_comparison(rooms, blank, tmp_path):
     assert f"{report['picture']['mirror']['flip']:.4f}" in told[3]
     assert rooms.show_comparison.page_address(scene) == (tmp_path / "report.html").as_uri()
     layout = Layout()
-    rooms.panel._draw_comparison(layout, scene)
+    rooms.draw_work.draw_comparison(layout, scene)
     assert layout.labels == told and layout.made[0].url == (tmp_path / "report.html").as_uri()
     assert report["generate_seconds"] > 0.0 and set(report["render_seconds"]) == {"reference", "result"}
     table = next(csv.DictReader(io.StringIO((tmp_path / "report.csv").read_text())))

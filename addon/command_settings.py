@@ -1,0 +1,40 @@
+"""The options of verbs that are settings: what is not given is what the file holds."""
+from __future__ import annotations
+
+import argparse
+
+from .settings import LIGHTS, METHODS, PLACEMENTS, SETTINGS
+
+
+def number(text: str) -> float | None:
+    """A number; none where the text is empty: templates of farms name an option even where nothing is given."""
+    return float(text) if text else None
+
+
+def whole_number(text: str) -> int | None:
+    """As `number`."""
+    return int(text) if text else None
+
+
+def add_settings(parser: argparse.ArgumentParser) -> None:
+    """The options for what a reflection is made by."""
+    parser.add_argument("--tolerance", type=number, metavar="PIXELS", help="how far off a point may be")
+    parser.add_argument("--placement", choices=[item[0] for item in PLACEMENTS], help="where the reflection lies")
+    parser.add_argument("--method", choices=[item[0] for item in METHODS], help="what the reflection is made of")
+    parser.add_argument("--depth", type=whole_number, metavar="BOUNCES", help="followed from mirror to mirror")
+    parser.add_argument("--memory", type=number, metavar="GB",
+                        help="what would need more is worked out more coarsely, or refused")
+    parser.add_argument("--hidden-faces", action=argparse.BooleanOptionalAction,
+                        help="also the faces that nearer ones hide whole")
+
+
+def add_light(parser: argparse.ArgumentParser, option: str) -> None:
+    """The option for where light is kept."""
+    parser.add_argument(option, dest="kind", choices=[item[0] for item in LIGHTS],
+                        help="light of the picture, or light that stays with the objects")
+
+
+def given(options: argparse.Namespace, **more) -> dict:
+    """The settings that were given, by their names; `more` are those whose options are called otherwise."""
+    values = {name: getattr(options, name, None) for name in SETTINGS} | more
+    return {name: value for name, value in values.items() if value is not None}

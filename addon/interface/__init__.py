@@ -1,0 +1,17 @@
+"""What the user sees: panels, a menu, presets, the way to the manual, and all of it in other languages.
+
+Nothing is computed here and nothing changed: what is drawn is read from the file, and buttons call operators.
+"""
+from . import manual, menus, panels, preset_buttons, translations
+
+MODULES = (translations, manual, preset_buttons, panels, menus)
+
+
+def register() -> None:
+    for module in MODULES:
+        module.register()
+
+
+def unregister() -> None:
+    for module in reversed(MODULES):
+        module.unregister()

@@ -1,0 +1,70 @@
+"""What an object is in reflections, as it is drawn in the sidebar and in the object's properties alike."""
+from __future__ import annotations
+
+import bpy
+from bpy.app.translations import pgettext_iface
+
+from ...core.result.reflection_mesh import filled_share
+from ..frames import plays
+from ..lighting import light_lines
+from ..reading import render_size
+from ..writing import mesh_bytes, records, size_text
+
+NAMED = 2   # so many sources are all named; of more the first
+
+
+def draw_object(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:
+    """The role of an object, or what there is to know of a reflection."""
+    if obj is None:
+        layout.label(text="Select a mirror and what it shall show", icon="INFO")
+    elif obj.reflection_mesh.role == "REFLECTION":
+        _draw_result(layout, context, obj)
+    else:
+        layout.label(text=obj.name, icon="OBJECT_DATA", translate=False)
+        layout.prop(obj.reflection_mesh, "role")
+
+
+def draw_figures(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """What engineers ask of a reflection."""
+    record, counts = obj.reflection_mesh, records.counts(obj)
+    width, height = record.resolution
+    told = [pgettext_iface("Made for {width} x {height} px").format(width=width, height=height),
+            pgettext_iface("Error about {error:.2f} px").format(error=record.estimated_error),
+            pgettext_iface("Made in {seconds:.2f} s").format(seconds=record.seconds)]
+    if "filled_pixels" in counts and "mirror_pixels" in counts:
+        told.append(pgettext_iface("{share:.3f} % filled by rays").format(share=filled_share(counts)))
+    for line in told:
+        layout.label(text=line, translate=False)
+
+
+def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    record = obj.reflection_mesh
+    layout.label(text=obj.name, icon="MOD_MIRROR", translate=False)
+    mirror = pgettext_iface("a mirror that is gone") if record.mirror is None else f"'{record.mirror.name}'"
+    layout.label(text=pgettext_iface("Reflection in {mirror}").format(mirror=mirror), translate=False)
+    layout.label(text=pgettext_iface("Shows {names}").format(names=_names(record.sources)), translate=False)
+    if plays(obj):
+        layout.label(text="Plays baked frames")
+        return
+    layout.label(text=_size(obj), translate=False)
+    if tuple(record.resolution) != render_size(context.scene):
+        layout.label(text="The render has another size now:", icon="ERROR")
+        layout.label(text="press Generate Reflection again.", icon="BLANK1")
+    for number, line in enumerate(light_lines(obj)):
+        layout.label(text=line, icon="BLANK1" if number else "LIGHT")
+
+
+def _names(sources) -> str:
+    named = sources[:NAMED if len(sources) <= NAMED else 1]
+    names = [f"'{source.object.name}'" for source in named if source.object is not None]
+    more = len(sources) - len(names)
+    if not names:
+        return pgettext_iface("{count} objects").format(count=more)
+    listed = ", ".join(names)
+    return pgettext_iface("{names} and {count} more").format(names=listed, count=more) if more else listed
+
+
+def _size(obj: bpy.types.Object) -> str:
+    record = obj.reflection_mesh
+    text = pgettext_iface("{count:,} points, {size}" if record.points else "{count:,} faces, {size}")
+    return text.format(count=record.points or record.faces, size=size_text(mesh_bytes(obj.data)))

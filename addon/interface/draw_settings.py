@@ -1,0 +1,40 @@
+"""Settings as they are drawn, in the sidebar and in the properties of an object alike."""
+from __future__ import annotations
+
+import bpy
+from bpy.app.translations import pgettext_iface
+
+from ..reading import can_take_part
+from ..settings import holder_of, mirror_of
+
+# what is behind the closed door of "Limits"
+SHOWN, LIGHT, LIMITS = ("tolerance", "placement", "method", "depth"), ("light_kind", "light_samples"), (
+    "memory", "hidden_faces")
+
+
+def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:
+    """Those that hold for an object, and whose they are."""
+    mirror = possible_mirror(obj)
+    if mirror is not None:
+        layout.prop(mirror.reflection_mesh, "own_settings",
+                    text=pgettext_iface("Only for '{name}'").format(name=mirror.name), translate=False)
+    holder = holder_of(mirror, context.scene)
+    for names in (SHOWN, LIGHT):
+        column = layout.column()
+        for name in names:
+            column.prop(holder, name)
+
+
+def draw_limits(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:
+    """What the work may take, and what it may leave out."""
+    holder = holder_of(possible_mirror(obj), context.scene)
+    for name in LIMITS:
+        layout.prop(holder, name)
+
+
+def possible_mirror(obj: bpy.types.Object | None) -> bpy.types.Object | None:
+    """The object that may have settings of its own: a result's mirror, or what may be one."""
+    mirror = mirror_of(obj)
+    if mirror is None or mirror.reflection_mesh.role == "DIFFUSE" or not can_take_part(mirror):
+        return None
+    return mirror

@@ -1,0 +1,32 @@
+"""The buttons, and what the last comparison told."""
+from __future__ import annotations
+
+import bpy
+
+from ..comparison import show_comparison
+
+# in the order in which they are used
+WORK = (("reflection_mesh.generate", "MOD_MIRROR"), ("reflection_mesh.light", "LIGHT"),
+        ("reflection_mesh.bake", "FILE_CACHE"), ("reflection_mesh.clear", "TRASH"))
+TOOLS = (("reflection_mesh.compare", "IMAGE_DATA"), ("reflection_mesh.mirror_uvs", "UV"),
+         ("reflection_mesh.print_sheet", "OUTPUT"))
+
+
+def draw_buttons(layout: bpy.types.UILayout, operators: tuple) -> None:
+    """A button for each operator; they take their settings from the file."""
+    column = layout.column(align=True)
+    for name, icon in operators:
+        column.operator(name, icon=icon)
+
+
+def draw_comparison(layout: bpy.types.UILayout, scene: bpy.types.Scene) -> None:
+    """The numbers of the last comparison, and the way to its page."""
+    told = show_comparison.lines(scene)
+    if not told:
+        return
+    box = layout.box()
+    for line in told:
+        box.label(text=line, translate=False)
+    address = show_comparison.page_address(scene)
+    if address:
+        box.operator("wm.url_open", text="Open the Report", icon="URL").url = address

@@ -1,0 +1,203 @@
+"""German. A test holds it to every word that the interface shows."""
+
+OBJECT_MODE = ": verlasse zuerst den jetzigen Modus."
+OPERATORS = {
+    "Generate Reflection": "Spiegelung erzeugen",
+    "Make what each mirror shows as an object of its own, as the scene's camera sees it":
+        "Macht aus dem, was jeder Spiegel zeigt, ein eigenes Objekt, wie die Kamera der Szene es sieht",
+    "Preview": "Vorschau",
+    "Until it is lit, show the colours of what is reflected in the mirror's tint, untouched by lamps: on where the "
+    "operator is invoked": "Zeigt, bis sie beleuchtet ist, die Farben des Gespiegelten in der Tönung des Spiegels, "
+        "von Lampen unberührt: an, wenn der Operator aufgerufen wird",
+    "Light Reflection": "Spiegelung beleuchten",
+    "Let the reflections look as the mirrors do, with the scene's lamps, materials and the mirrors' own tint":
+        "Lässt die Spiegelungen aussehen wie die Spiegel, mit Lampen und Materialien der Szene und der Tönung der "
+        "Spiegel",
+    "Every": "Alle",
+    "Also reflections that look right as they are: for files that carry pictures but not all materials, as glTF and "
+    "USD": "Auch Spiegelungen, die so schon richtig aussehen: für Dateien, die Bilder mitnehmen, aber nicht alle "
+        "Materialien, wie glTF und USD",
+    "Bake Reflection Frames": "Spiegelungen backen",
+    "Write the reflections of a range of frames to files, and let them play; they need no extension to be seen":
+        "Schreibt die Spiegelungen einer Reihe von Einzelbildern in Dateien und spielt sie ab; zu sehen sind sie ohne "
+        "Erweiterung",
+    "Folder": "Ordner",
+    "Folder for the files of the frames": "Ordner für die Dateien der Einzelbilder",
+    "Frames": "Einzelbilder",
+    "As 1-24, or 1-100:2 with a step; the scene's range where empty":
+        "Wie 1-24, oder 1-100:2 mit Schrittweite; leer: der Bereich der Szene",
+    "Samples": "Samples",
+    "Light paths for each pixel of the mirrors; 0: no light": "Lichtpfade für jedes Pixel der Spiegel; 0: kein Licht",
+    "Overwrite": "Überschreiben",
+    "Make again the frames that are there already": "Auch Einzelbilder, die es schon gibt, neu machen",
+    "Compare with Cycles": "Mit Cycles vergleichen",
+    "Compare the reflections with Cycles; leaves pictures and errors in pixels in a folder":
+        "Vergleicht die Spiegelungen mit Cycles; Bilder und Fehler in Pixeln liegen danach in einem Ordner",
+    "Folder for the pictures and the report": "Ordner für die Bilder und den Bericht",
+    "Samples per pixel of the two pictures; 0: as the scene is set":
+        "Samples pro Pixel der beiden Bilder; 0: wie in der Szene eingestellt",
+    "Clear Reflections": "Spiegelungen entfernen",
+    "Remove the selected reflections, or all of the scene, and restore what they changed":
+        "Entfernt die ausgewählten Spiegelungen, oder alle der Szene, und stellt her, was sie verändert haben",
+    "Write Mirror UVs": "Spiegel-UVs schreiben",
+    "Give the reflected objects a UV map by which a picture looks right in the mirror alone (anamorphosis)":
+        "Gibt den gespiegelten Objekten eine UV-Karte, mit der ein Bild nur im Spiegel richtig aussieht (Anamorphose)",
+    "Write On": "Schreiben auf",
+    "What gets the UV map": "Was die UV-Karte bekommt",
+    "A Copy": "Eine Kopie",
+    "Faces are cut where the map bends, on a copy that stands in for the object, which is hidden":
+        "Flächen werden zerschnitten, wo die Karte sich biegt, auf einer Kopie; das Objekt selbst wird ausgeblendet",
+    "The Object Itself": "Das Objekt selbst",
+    "No face is cut: the map is right at corners, and wrong between them where it bends":
+        "Keine Fläche wird zerschnitten: die Karte stimmt an den Ecken, dazwischen nicht, wo sie sich biegt",
+    "Picture Fills": "Bild füllt",
+    "What the borders of the picture stand for": "Wofür die Ränder des Bildes stehen",
+    "The Camera's View": "Den Blick der Kamera",
+    "The picture fills what the camera sees": "Das Bild füllt, was die Kamera sieht",
+    "As Much As Is Shown Whole": "So viel, wie ganz zu sehen ist",
+    "The picture keeps its proportions and is as large as the mirror can show without cutting it off":
+        "Das Bild behält sein Seitenverhältnis und ist so groß, wie der Spiegel es ganz zeigen kann",
+    "What the Mirror Shows": "Was der Spiegel zeigt",
+    "The picture fills the box around what the mirror shows of the objects":
+        "Das Bild füllt das Rechteck um das, was der Spiegel von den Objekten zeigt",
+    "Image in this file, or image file, to put on the copies; empty for the map alone":
+        "Bild in dieser Datei, oder Bilddatei, für die Kopien; leer: nur die Karte",
+    "Save Sheet to Print": "Blatt zum Drucken sichern",
+    "Save the active flat object with its picture as a PNG or SVG file, to print in its size":
+        "Sichert das aktive flache Objekt mit seinem Bild als PNG- oder SVG-Datei, zum Drucken in seiner Größe",
+    "File": "Datei",
+    "PNG or SVG file": "PNG- oder SVG-Datei",
+    "Picture": "Bild",
+    "Image in this file, or image file; empty for what the object shows":
+        "Bild in dieser Datei, oder Bilddatei; leer: was das Objekt zeigt",
+    "Dots per Inch": "Punkte pro Zoll",
+    "How fine the print is": "Wie fein der Druck ist",
+    "Add Reflection Preset": "Voreinstellung für Spiegelungen hinzufügen",
+    "Save these settings as a preset, or remove one":
+        "Sichert diese Einstellungen als Voreinstellung, oder entfernt eine",
+}
+SETTINGS = {
+    "Tolerance": "Toleranz",
+    "How many pixels a point may be from where the mirror shows it; more is faster":
+        "Wie viele Pixel ein Punkt von da entfernt sein darf, wo der Spiegel ihn zeigt; mehr ist schneller",
+    "Placement": "Lage",
+    "Where the reflection lies": "Wo die Spiegelung liegt",
+    "Layered": "Geschichtet",
+    "In front of the mirror, near images before far ones, so that they hide each other rightly":
+        "Vor dem Spiegel, Nahes vor Fernem, so dass eines das andere richtig verdeckt",
+    "Surface": "Oberfläche",
+    "Exactly on the mirror": "Genau auf dem Spiegel",
+    "Virtual": "Virtuell",
+    "Behind the mirror, where its picture seems to be; the mirror, now a window, is hidden from the camera":
+        "Hinter dem Spiegel, wo sein Bild zu sein scheint; der Spiegel, jetzt ein Fenster, ist für die Kamera "
+        "unsichtbar",
+    "Made Of": "Besteht aus",
+    "What the reflection is made of": "Woraus die Spiegelung besteht",
+    "Faces": "Flächen",
+    "Faces that show what the mirror shows, for all scenes":
+        "Flächen, die zeigen, was der Spiegel zeigt; für alle Szenen",
+    "Faces, Parallel Cameras": "Flächen, parallele Kameras",
+    "A simpler way, to compare with: it tears between the mirror's triangles":
+        "Ein einfacherer Weg, zum Vergleich: er reißt zwischen den Dreiecken des Spiegels",
+    "Points": "Punkte",
+    "A small disc for each point that the mirror shows: for dense scans, with triangles smaller than a pixel":
+        "Ein Scheibchen für jeden Punkt, den der Spiegel zeigt: für dichte Scans, mit Dreiecken kleiner als ein Pixel",
+    "Bounces": "Tiefe",
+    "How many times the scene is followed from mirror to mirror; 1: mirrors show no mirrors":
+        "Wie oft die Szene von Spiegel zu Spiegel verfolgt wird; 1: Spiegel zeigen keine Spiegel",
+    "Memory (GB)": "Speicher (GB)",
+    "Gigabytes that the work may take: what would need more is worked out more coarsely, or refused":
+        "Gigabyte, die die Arbeit brauchen darf: was mehr bräuchte, wird gröber gerechnet oder abgelehnt",
+    "Hidden Faces": "Verdeckte Flächen",
+    "Also the faces that nearer ones hide whole, for objects that are to be taken away later; what lets light through "
+    "keeps them anyway": "Auch Flächen, die nähere ganz verdecken, für Objekte, die später verschwinden sollen; wo "
+        "Licht durchscheint, bleiben sie ohnehin",
+    "Light Samples": "Licht-Samples",
+    "Light paths for each pixel of the mirrors, which are denoised; more is cleaner and slower":
+        "Lichtpfade für jedes Pixel der Spiegel, die entrauscht werden; mehr ist sauberer und langsamer",
+    "Light": "Licht",
+    "Where the light is kept": "Wo das Licht aufgehoben wird",
+    "Automatic": "Automatisch",
+    "On the objects where the camera or a mirror is animated, else in the picture":
+        "Auf den Objekten, wo die Kamera oder ein Spiegel animiert ist, sonst im Bild",
+    "As the mirrors show it from here: everything that Cycles knows, for this view alone":
+        "Wie die Spiegel es von hier zeigen: alles, was Cycles kann, nur für diesen Blick",
+    "Objects": "Objekte",
+    "Baked once and kept with the reflected objects, so that camera and mirrors may move; gloss stays as it is seen "
+    "from here": "Einmal gebacken und bei den gespiegelten Objekten aufgehoben, so dass Kamera und Spiegel sich "
+        "bewegen dürfen; Glanz bleibt, wie er von hier aussieht",
+    "Own Settings": "Eigene Einstellungen",
+    "This mirror has settings of its own; else the scene's hold for it":
+        "Dieser Spiegel hat eigene Einstellungen; sonst gelten für ihn die der Szene",
+    "Only for '{name}'": "Nur für '{name}'",
+}
+ROLES = {
+    "Role": "Rolle",
+    "The part that this object plays in a reflection": "Was dieses Objekt in einer Spiegelung ist",
+    "A mirror if its material is one; if no selected object is, the active object is the mirror":
+        "Ein Spiegel, wenn sein Material einer ist; ist kein ausgewähltes Objekt einer, so ist es das aktive",
+    "Mirror": "Spiegel",
+    "The scene is reflected in this object": "In diesem Objekt spiegelt sich die Szene",
+    "Reflected": "Gespiegelt",
+    "Mirrors show this object": "Spiegel zeigen dieses Objekt",
+    "Ignored": "Unbeteiligt",
+    "This object takes no part": "Dieses Objekt bleibt aus dem Spiel",
+    "Reflection": "Spiegelung",
+    "This object is a reflection that was generated": "Dieses Objekt ist eine erzeugte Spiegelung",
+}
+PANELS = {
+    "Reflection Mesh": "Reflection Mesh",
+    "Settings": "Einstellungen",
+    "Limits": "Grenzen",
+    "Figures": "Zahlen",
+    "Compare and Print": "Vergleichen und Drucken",
+    "Reflection Presets": "Voreinstellungen für Spiegelungen",
+    "Select a mirror and what it shall show": "Wähle einen Spiegel aus, und was er zeigen soll",
+    "Reflection in {mirror}": "Spiegelung in {mirror}",
+    "a mirror that is gone": "einem Spiegel, der fehlt",
+    "Shows {names}": "Zeigt {names}",
+    "{names} and {count} more": "{names} und {count} weitere",
+    "{count} objects": "{count} Objekte",
+    "Plays baked frames": "Spielt gebackene Einzelbilder",
+    "{count:,} faces, {size}": "{count:,} Flächen, {size}",
+    "{count:,} points, {size}": "{count:,} Punkte, {size}",
+    "The render has another size now:": "Das Render hat jetzt eine andere Größe:",
+    "press Generate Reflection again.": "drücke noch einmal Spiegelung erzeugen.",
+    "The scene has changed since it was lit:": "Die Szene ist anders, als sie beleuchtet wurde:",
+    "press Light Reflection again.": "drücke noch einmal Spiegelung beleuchten.",
+    "Its light is still to come:": "Ihr Licht fehlt noch:",
+    "press Light Reflection.": "drücke Spiegelung beleuchten.",
+    "Lit.": "Beleuchtet.",
+    "Made for {width} x {height} px": "Gemacht für {width} x {height} px",
+    "Error about {error:.2f} px": "Fehler etwa {error:.2f} px",
+    "Made in {seconds:.2f} s": "Gemacht in {seconds:.2f} s",
+    "{share:.3f} % filled by rays": "{share:.3f} % mit Strahlen gefüllt",
+    "Against Cycles at {width} x {height}": "Gegen Cycles bei {width} x {height}",
+    "Displacement {median:.3f} px, 99 %: {most:.3f} px": "Verschoben um {median:.3f} px, 99 %: {most:.3f} px",
+    "Holes, spill, wrong layer {share:.3f} %": "Löcher, Überstand, falsche Schicht {share:.3f} %",
+    "Open the Report": "Bericht öffnen",
+}
+OBSTACLES = {
+    "Reflections are generated in Object Mode: leave the present mode first.":
+        "Spiegelungen entstehen im Objektmodus" + OBJECT_MODE,
+    "Reflections are lit in Object Mode: leave the present mode first.":
+        "Spiegelungen werden im Objektmodus beleuchtet" + OBJECT_MODE,
+    "Reflections are baked in Object Mode: leave the present mode first.":
+        "Spiegelungen werden im Objektmodus gebacken" + OBJECT_MODE,
+    "Reflections are compared in Object Mode: leave the present mode first.":
+        "Spiegelungen werden im Objektmodus verglichen" + OBJECT_MODE,
+    "Reflections are cleared in Object Mode: leave the present mode first.":
+        "Spiegelungen werden im Objektmodus entfernt" + OBJECT_MODE,
+    "Mirror UVs are written in Object Mode: leave the present mode first.":
+        "Spiegel-UVs werden im Objektmodus geschrieben" + OBJECT_MODE,
+    "No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
+    "Reflection tab.": "Kein Spiegel: wähle aus, was sich spiegeln soll, und zuletzt, als aktives Objekt, den "
+        "Spiegel, oder gib den Objekten Rollen im Reiter Reflexion.",
+    "No sheet: make the object that carries the mirror UVs the active one.":
+        "Kein Blatt: mache das Objekt mit den Spiegel-UVs zum aktiven.",
+    "The scene has no camera: add one (Add > Camera) and make it the scene's camera.":
+        "Die Szene hat keine Kamera: füge eine hinzu (Hinzufügen > Kamera) und mache sie zur Kamera der Szene.",
+    "The scene has no reflection to light: generate one first.":
+        "Die Szene hat keine Spiegelung zum Beleuchten: erzeuge zuerst eine.",
+}
+GERMAN = {**OPERATORS, **SETTINGS, **ROLES, **PANELS, **OBSTACLES}

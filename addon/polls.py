@@ -1,0 +1,61 @@
+"""Why an operator cannot run now, in a sentence: what is cheap to tell and certain, since every redraw asks.
+
+What an operator finds out only as it works, it says then, in its report.
+"""
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import bpy
+from bpy.app.translations import pgettext_tip
+
+from .reading import NO_CAMERA, NO_MIRROR
+
+Obstacle = Callable[[bpy.types.Context], str]
+
+
+def passes(cls, context: bpy.types.Context, *obstacles: Obstacle) -> bool:
+    """Whether nothing is in the way of an operator; else Blender tells the first sentence beside the grey button."""
+    if getattr(context, "scene", None) is None or getattr(context, "view_layer", None) is None:
+        return False
+    sentence = next(filter(None, (obstacle(context) for obstacle in obstacles)), "")
+    if sentence:
+        cls.poll_message_set(pgettext_tip(sentence))
+    return not sentence
+
+
+def in_object_mode(sentence: str) -> Obstacle:
+    """Tells `sentence` in every other mode."""
+    return lambda context: "" if getattr(context, "mode", "OBJECT") == "OBJECT" else sentence
+
+
+def has_camera(context: bpy.types.Context) -> str:
+    """The scene has a camera."""
+    return "" if context.scene.camera is not None else NO_CAMERA
+
+
+def has_mirror(context: bpy.types.Context) -> str:
+    """Something is selected, or else active as a result or a mirror, or has the role of a mirror."""
+    objects = context.view_layer.objects
+    active = objects.active
+    if objects.selected or (active is not None and active.reflection_mesh.role in {"REFLECTION", "MIRROR"}):
+        return ""
+    return "" if any(obj.reflection_mesh.role == "MIRROR" for obj in objects) else NO_MIRROR
+
+
+def has_result(sentence: str) -> Obstacle:
+    """Tells `sentence` where the scene has no reflection that can be changed."""
+    def obstacle(context: bpy.types.Context) -> str:
+        active = context.view_layer.objects.active
+        return "" if (active is not None and _is_result(active)) or any(map(_is_result, context.scene.objects)
+                                                                        ) else sentence
+    return obstacle
+
+
+def has_active(sentence: str) -> Obstacle:
+    """Tells `sentence` where no object is active."""
+    return lambda context: "" if context.view_layer.objects.active is not None else sentence
+
+
+def _is_result(obj: bpy.types.Object) -> bool:
+    return obj.reflection_mesh.role == "REFLECTION" and obj.library is None

@@ -1,0 +1,110 @@
+"""Which settings hold: what was given to an operator or a verb, over those that the file holds."""
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+import bpy
+
+from ...core import ReflectionError, Settings
+from .declared import SETTINGS
+from .holders import holder_of, mirror_of
+
+SettingsOfMirrors = Callable[[bpy.types.Object], Settings]
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """The settings of each mirror: call it with one; with None it tells those of mirrors without their own.
+
+    Attributes
+    ----------
+    scene : bpy.types.Scene
+    given : dict
+        By the names of settings: what stands above scene and mirrors.
+    """
+
+    scene: bpy.types.Scene
+    given: dict = field(default_factory=dict)
+
+    def value(self, mirror: bpy.types.Object | None, name: str):
+        """One setting of a mirror."""
+        return self.given[name] if name in self.given else getattr(holder_of(mirror, self.scene), name)
+
+    def __call__(self, mirror: bpy.types.Object | None) -> Settings:
+        """The settings of a mirror.
+
+        Raises
+        ------
+        ReflectionError
+            Where one of them cannot be.
+        """
+        values = {"maximum_memory" if name == "memory" else name: self.value(mirror, name) for name in SETTINGS}
+        try:
+            return Settings(**values)
+        except ValueError as error:
+            raise ReflectionError(str(error)) from error
+
+    def samples(self, mirrors: Iterable) -> int:
+        """Of light that is rendered once for all of these mirrors: the most that one of them asks for."""
+        return max((self.value(mirror, "light_samples") for mirror in mirrors),
+                   default=self.value(None, "light_samples"))
+
+    def lights(self, results: Iterable) -> list[tuple[list, int, str]]:
+        """Results in groups that are lit alike: (results, samples, kind)."""
+        groups: dict = {}
+        for result in results:
+            mirror = result.reflection_mesh.mirror
+            groups.setdefault((self.value(mirror, "light_samples"), self.value(mirror, "light_kind")),
+                              []).append(result)
+        return [(group, *chosen) for chosen, group in groups.items()]
+
+
+def of_each(settings: Settings | SettingsOfMirrors) -> SettingsOfMirrors:
+    """Settings that are the same for all mirrors as those of each."""
+    return settings if callable(settings) else lambda mirror: settings
+
+
+class UsesSettings:
+    """Mix-in of operators: options that were not given are the file's, and are shown as they were used, so that the
+    panel after the run (F9) begins with them; what is changed there is given, and holds for all mirrors."""
+
+    # JSON: options that `show_used` has set, which nobody gave
+    used: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+    # no annotation: Blender takes those of an operator for its properties; options whose setting is called otherwise
+    renamed = {}
+    uses = SETTINGS
+
+    def wanted(self, context: bpy.types.Context) -> Wanted:
+        """What the options say over the file."""
+        return Wanted(context.scene, {name: getattr(self, option) for name, option in self._options()
+                                      if self._is_given(option)})
+
+    def show_used(self, wanted: Wanted, mirrors: Iterable = ()) -> None:
+        """Set the options that were not given to what is used, that of the active mirror where they differ."""
+        mirrors = list(mirrors)
+        active = bpy.context.view_layer.objects.active
+        shown = active if active in mirrors else next(iter(mirrors), None)
+        used = {}
+        for name, option in self._options():
+            if not self._is_given(option):
+                setattr(self, option, wanted.value(shown, name))
+                used[option] = getattr(self, option)
+        self.used = json.dumps(used)
+
+    def begin(self, context: bpy.types.Context) -> set:
+        # a file browser that comes first shows the options
+        mirror = mirror_of(context.view_layer.objects.active)
+        self.show_used(self.wanted(context), [] if mirror is None else [mirror])
+        return super().begin(context)
+
+    def _options(self) -> list[tuple[str, str]]:
+        return [(name, self.renamed.get(name, name)) for name in self.uses]
+
+    def _is_given(self, option: str) -> bool:
+        if not self.properties.is_property_set(option):
+            return False
+        used = json.loads(self.used or "{}")
+        return not (option in used and used[option] == getattr(self, option))
