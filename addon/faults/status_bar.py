@@ -36,7 +36,7 @@ class StatusBar:
         if left:
             layout.label(text=left, icon="TIME", translate=False)
         layout.separator_spacer()
-        layout.label(text=self.stopping, icon="EVENT_ESC", translate=False)
+        layout.label(text=self.stopping, translate=False)
 
 
 def time_left(passed: float, fraction: float) -> str:

@@ -63,7 +63,7 @@ def test_a_mirror_without_a_result_takes_what_roles_say(scene):
     bpy.ops.reflection_mesh.clear()
     parts.select(mirror)
     assert parts.refusal() == ("Nothing to reflect in 'Mirror': select the objects to reflect together with it, or set "
-                               "their role to Diffuse in the Reflection tab.")
+                               "their role to Reflected in the Reflection tab.")
     cube.reflection_mesh.role = "DIFFUSE"
     assert parts.generate().reflection_mesh.sources[0].object == cube
 
