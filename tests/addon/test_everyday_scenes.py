@@ -19,20 +19,23 @@ def bent_leaf() -> bpy.types.Object:
     mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", rng.random(22, dtype=np.float32))
     tone = mesh.color_attributes.new("Tone", "FLOAT_COLOR", "CORNER")
     tone.data.foreach_set("color", rng.random(44, dtype=np.float32))
-    mesh.polygons.foreach_set("use_smooth", [True, False, True])
-    mesh.edges[2].use_edge_sharp = True
+    mesh.polygons.foreach_set("use_smooth", [True, True, False])
+    next(edge for edge in mesh.edges if set(edge.vertices) == {0, 1}).use_edge_sharp = True
     mesh.update()
     obj = bpy.data.objects.new("Leaf", mesh)
     bpy.context.scene.collection.objects.link(obj)
     return obj
 
 
+UNSTRETCHED = 15
+
+
 def placings(count: int) -> list:
-    """Turned, stretched, some of them inside out."""
+    """Turned, some of them inside out, all but the first ones stretched."""
     rng = np.random.default_rng(6)
     found = []
-    for _ in range(count):
-        scale = rng.uniform(0.3, 3.0, 3) * np.where(rng.random(3) < 0.3, -1.0, 1.0)
+    for number in range(count):
+        scale = rng.uniform(0.3, 3.0, 3 if number >= UNSTRETCHED else 1) * np.where(rng.random(3) < 0.3, -1.0, 1.0)
         found.append(Matrix.LocRotScale(rng.uniform(-2.0, 2.0, 3), Matrix.Rotation(rng.uniform(0, 6), 3, (1, 2, 3)),
                                         scale))
     return found
@@ -79,7 +82,8 @@ def test_a_mesh_in_many_places_is_as_many_meshes_in_theirs(blank, room):
         assert np.allclose(one.colours["Tone"][1][ours][0][back], other.colours["Tone"][1][theirs][0], atol=1e-6)
         assert one.sharp_face[ours] == other.sharp_face[theirs]
         assert (one.sharp_side[ours][0][back] == other.sharp_side[theirs][0]).all()
-        if not one.sharp_face[ours][0]:
+        if not one.sharp_face[ours][0] and one.source_object[triangle] >= UNSTRETCHED:
+            # Blender weighs the faces' normals anew
             continue
         normals = unit(one.normals[ours])[0][back], unit(other.normals[theirs])[0]
         assert np.allclose(*normals, atol=1e-3)

@@ -119,6 +119,7 @@ def test_what_the_user_hides_or_shows_stays_so(scene):
     parts.select(cube, mirror)
     second = parts.generate()
     result.hide_render = False
+    scene_.camera = other
     bpy.context.view_layer.update()
     assert not result.hide_render
     second.hide_render = True
@@ -295,9 +296,15 @@ def test_a_failure_brings_everything_back(scene, room, monkeypatch):
 
     def failing(*_):
         raise OSError("no room")
-    before = parts.state(), [obj.matrix_basis.copy() for obj in (result, copy)], middle(result).tolist()
+    def state() -> tuple:
+        return (parts.state(), middle(result).tolist(), [
+            (obj.matrix_basis.copy(),
+             *(tuple(getattr(obj.reflection_mesh, name)) for name in ("origin", "basis", "aside")),
+             [entry.material for entry in obj.reflection_mesh.materials]) for obj in (result, copy)])
+    mirror.location.x += 0.25
+    bpy.context.view_layer.update()
+    before = state()
     monkeypatch.setattr(room("addon.write_results"), "show_for_camera", failing)
     monkeypatch.setattr(room("addon.write_results"), "put_back_materials", failing)
     parts.refusal()
-    after = parts.state(), [obj.matrix_basis.copy() for obj in (result, copy)], middle(result).tolist()
-    assert after == before and copy.data == result.data and copy.data.materials[0].name == "Red"
+    assert state() == before and copy.data == result.data and copy.data.materials[0].name == "Red"
