@@ -10,17 +10,22 @@ BUDGET ?= 10
 GROWTH ?= 7
 SECONDS ?= 600
 
+BLENDER ?= $(if $(wildcard $(VIRTUAL_SCREEN)),$(VIRTUAL_SCREEN) run -t 600)
+VIRTUAL_SCREEN ?= ../shared/blender-gui/blender-gui
+WINDOW_TESTS = tests/window/ways_in.py
+
 RUN = $(VENV)/bin/python
 READY = $(VENV)/.ready
 
 .DEFAULT_GOAL := help
 .PHONY: help environment demo measure report report-plots numerics rate work pictures \
-        test test-fast lint test-core test-addon fuzz zip samples clean
+        test test-fast lint test-core test-addon test-window fuzz zip samples clean
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
 	@echo "make test     style and types, the method's tests, the extension's tests"
 	@echo "make test-fast  the quick half of the method's tests, under a minute"
+	@echo "make test-window  keys and buttons pressed in a real window (BLENDER=/path/to/blender, a display): pictures in build/window/"
 	@echo "make fuzz     a search for failures at random, for SECONDS=$(SECONDS), from new seeds or from FIRST=..."
 	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
 	@echo "make report   every method's error and seconds on all samples, judged by Cycles: one report in $(REPORT)/"
@@ -76,6 +81,7 @@ work: environment
 pictures: environment
 	$(RUN) tools/pictures.py
 	$(RUN) tools/line_pictures.py
+	$(RUN) tools/manual_pictures.py
 	$(RUN) tools/parts.py
 
 test: lint test-core test-addon
@@ -92,6 +98,17 @@ test-core: environment
 
 test-addon: environment
 	$(RUN) -m pytest -q tests/addon
+
+# BLENDER may be more than one word: a driver of a virtual screen, and its options
+test-window:
+	@if [ -z "$(BLENDER)" ]; then \
+	  echo "test-window was NOT run: it needs a Blender with a window, as BLENDER=/path/to/blender."; \
+	else \
+	  for script in $(WINDOW_TESTS); do \
+	    echo "== $$script"; \
+	    BLENDER_USER_RESOURCES=$$(mktemp -d) $(BLENDER) --enable-event-simulate --python $$script || exit 1; \
+	  done; \
+	fi
 
 fuzz: environment
 	$(RUN) -m tests.fuzz --seconds $(SECONDS) $(if $(FIRST),--first $(FIRST))

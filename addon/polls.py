@@ -11,6 +11,7 @@ from bpy.app.translations import pgettext_tip
 
 from .reading import NO_CAMERA, NO_MIRROR
 
+LOOKED_THROUGH = 500    # objects: to look for roles in more takes longer than a redraw may
 Obstacle = Callable[[bpy.types.Context], str]
 
 
@@ -40,21 +41,26 @@ def has_mirror(context: bpy.types.Context) -> str:
     active = objects.active
     if objects.selected or (active is not None and active.reflection_mesh.role in {"REFLECTION", "MIRROR"}):
         return ""
-    return "" if any(obj.reflection_mesh.role == "MIRROR" for obj in objects) else NO_MIRROR
+    return "" if _any(objects, lambda obj: obj.reflection_mesh.role == "MIRROR") else NO_MIRROR
 
 
 def has_result(sentence: str) -> Obstacle:
     """Tells `sentence` where the scene has no reflection that can be changed."""
     def obstacle(context: bpy.types.Context) -> str:
         active = context.view_layer.objects.active
-        return "" if (active is not None and _is_result(active)) or any(map(_is_result, context.scene.objects)
-                                                                        ) else sentence
+        there = (active is not None and _is_result(active)) or _any(context.scene.objects, _is_result)
+        return "" if there else sentence
     return obstacle
 
 
 def has_active(sentence: str) -> Obstacle:
     """Tells `sentence` where no object is active."""
     return lambda context: "" if context.view_layer.objects.active is not None else sentence
+
+
+def _any(objects, asked: Callable[[bpy.types.Object], bool]) -> bool:
+    """Whether one of the objects is as asked; of too many to look through, one may be."""
+    return len(objects) > LOOKED_THROUGH or any(map(asked, objects))
 
 
 def _is_result(obj: bpy.types.Object) -> bool:

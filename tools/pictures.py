@@ -29,14 +29,14 @@ def main(folder: Path) -> None:
         samples = sorted(path for path in SAMPLES.glob("*.blend") if path.stem not in OWN_PICTURES)
         for path in samples:
             _compare(path, scratch / path.stem)
-        _save(folder / "samples.jpg", [scratch / path.stem / "result.png" for path in samples], columns=4)
+        save(folder / "samples.jpg", [scratch / path.stem / "result.png" for path in samples], columns=4)
         edges = _edges(scratch / "sphere", SAMPLES / "sphere.blend")
-        _save(folder / "sphere.jpg", [scratch / "sphere" / "reference.png", scratch / "sphere" / "result.png", edges],
+        save(folder / "sphere.jpg", [scratch / "sphere" / "reference.png", scratch / "sphere" / "result.png", edges],
               columns=3, crop=(212, 183, 772, 743))
         mirrors = SAMPLES / "mirrors.blend"
         for depth in (1, 2, 3):
             _compare(mirrors, scratch / f"mirrors{depth}", depth)
-        _save(folder / "mirrors.jpg", [scratch / "mirrors3" / "reference.png", *(
+        save(folder / "mirrors.jpg", [scratch / "mirrors3" / "reference.png", *(
             scratch / f"mirrors{depth}" / "result.png" for depth in (1, 2, 3))], columns=2, crop=(100, 200, 924, 1024))
         light(folder / "lit.jpg", scratch)
         eevee(folder / "eevee.jpg", scratch)
@@ -47,7 +47,7 @@ def light(path: Path, scratch: Path) -> None:
     """The picture of the lit samples: by Cycles, as they are generated, and lit."""
     for name in LIT:
         _lit(SAMPLES / f"{name}.blend", scratch / name)
-    _save(path, [scratch / name / f"{kind}.png" for name in LIT for kind in ("reference", "generated", "result")],
+    save(path, [scratch / name / f"{kind}.png" for name in LIT for kind in ("reference", "generated", "result")],
           columns=3, crop=(32, 80, 378, 378))
 
 
@@ -83,7 +83,7 @@ def eevee(path: Path, scratch: Path) -> None:
         pictures.append(scratch / f"eevee_{name}.png")
         scene.render.filepath = str(pictures[-1])
         bpy.ops.render.render(write_still=True)
-    _save(path, pictures, columns=3, crop=(88, 80, 318, 310))
+    save(path, pictures, columns=3, crop=(88, 80, 318, 310))
 
 
 def anamorphosis(path: Path, scratch: Path) -> None:
@@ -106,7 +106,7 @@ def anamorphosis(path: Path, scratch: Path) -> None:
     scene.cycles.samples, scene.cycles.use_denoising = 64, False
     scene.render.filepath = str(shown)
     bpy.ops.render.render(write_still=True)
-    _save(path, [printed, shown], columns=2)
+    save(path, [printed, shown], columns=2)
 
 
 def _compare(path: Path, folder: Path, depth: int = 1) -> None:
@@ -125,7 +125,7 @@ def _edges(folder: Path, path: Path) -> Path:
     for index, material in enumerate(result.data.materials):
         copy = material.copy()
         result.data.materials[index] = copy
-        _draw_edges(copy.node_tree)
+        draw_edges(copy.node_tree)
     for source in result.reflection_mesh.sources:
         source.object.visible_glossy = False
     scene = bpy.context.scene
@@ -135,7 +135,7 @@ def _edges(folder: Path, path: Path) -> Path:
     return folder / "edges.png"
 
 
-def _draw_edges(tree) -> None:
+def draw_edges(tree) -> None:
     """Mix the colour that a material emits with dark edges."""
     emission = next(node for node in tree.nodes if node.type == "EMISSION")
     wire, mix = tree.nodes.new("ShaderNodeWireframe"), tree.nodes.new("ShaderNodeMix")
@@ -150,7 +150,7 @@ def _draw_edges(tree) -> None:
     tree.links.new(output, emission.inputs["Color"])
 
 
-def _save(path: Path, pictures: list[Path], columns: int, crop: tuple | None = None) -> None:
+def save(path: Path, pictures: list[Path], columns: int, crop: tuple | None = None) -> None:
     """Set pictures, or the boxes (left, top, right, bottom) of them, side by side on white."""
     left, top, right, bottom = crop or (0, 0, 1, 1)
     height = round(PANEL * (bottom - top) / (right - left))

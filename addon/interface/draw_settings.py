@@ -16,8 +16,11 @@ def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: b
     """Those that hold for an object, and whose they are."""
     mirror = possible_mirror(obj)
     if mirror is not None:
-        layout.prop(mirror.reflection_mesh, "own_settings",
-                    text=pgettext_iface("Only for '{name}'").format(name=mirror.name), translate=False)
+        row = layout.row()
+        # names are long: across the whole width
+        row.use_property_split = False
+        row.prop(mirror.reflection_mesh, "own_settings",
+                 text=pgettext_iface("Only for '{name}'").format(name=mirror.name), translate=False)
     holder = holder_of(mirror, context.scene)
     for names in (SHOWN, LIGHT):
         column = layout.column()

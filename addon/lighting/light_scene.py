@@ -144,9 +144,17 @@ def _prepare(scene: bpy.types.Scene, window: Window) -> None:
     render.border_min_x, render.border_max_x = window.column / width, (window.column + window.width) / width
     render.border_min_y, render.border_max_y = window.row / height, (window.row + window.height) / height
     cycles.film_exposure, cycles.film_transparent_glass = 1.0, False
+    _denoise(cycles)
+
+
+def _denoise(cycles: bpy.types.PropertyGroup) -> None:
     cycles.use_denoising = True
-    cycles.denoiser = "OPENIMAGEDENOISE"
-    cycles.denoising_input_passes, cycles.denoising_prefilter = "RGB_ALBEDO_NORMAL", "ACCURATE"
+    try:
+        cycles.denoiser = "OPENIMAGEDENOISE"
+        cycles.denoising_input_passes, cycles.denoising_prefilter = "RGB_ALBEDO_NORMAL", "ACCURATE"
+    except TypeError:
+        # Linux distributions build Blender without it: then the light has the noise of its samples
+        cycles.use_denoising = False
 
 
 def _sharp_camera(camera: bpy.types.Object) -> bpy.types.Object:

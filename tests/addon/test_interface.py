@@ -201,6 +201,16 @@ def test_roles_and_results_need_no_selection(scene):
     assert bpy.ops.reflection_mesh.generate.poll()
 
 
+def test_polls_do_not_look_through_crowds(scene, room, monkeypatch):
+    """Which would take longer than a redraw may; a run tells then."""
+    parts.select()
+    bpy.context.view_layer.objects.active = None
+    assert not bpy.ops.reflection_mesh.generate.poll() and not bpy.ops.reflection_mesh.light.poll()
+    monkeypatch.setattr(room("addon.polls"), "LOOKED_THROUGH", 2)
+    assert bpy.ops.reflection_mesh.generate.poll() and bpy.ops.reflection_mesh.light.poll()
+    assert parts.refusal().startswith("No mirror")
+
+
 @pytest.mark.parametrize("context", [SimpleNamespace(), SimpleNamespace(scene=None), SimpleNamespace(view_layer=None),
                                      SimpleNamespace(scene=None, view_layer=None, mode="EDIT_MESH")])
 def test_polls_take_contexts_that_lack_everything(context):

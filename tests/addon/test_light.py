@@ -157,6 +157,20 @@ def test_light_is_one_render_of_the_mirrors_window(blank, room, monkeypatch, mir
     assert all(bounces == 0 for *_, bounces in asked[1:])
 
 
+def test_a_blender_without_the_denoiser_renders_with_noise(room):
+    class Cycles:
+        use_denoising = True
+
+        def __setattr__(self, name, value):
+            # as Blender says it
+            if value == "OPENIMAGEDENOISE":
+                raise TypeError('bpy_struct: item.attr = val: enum "OPENIMAGEDENOISE" not found in ()')
+            super().__setattr__(name, value)
+    cycles = Cycles()
+    room("addon.lighting.light_scene")._denoise(cycles)
+    assert cycles.use_denoising is False
+
+
 @pytest.mark.parametrize("failing", ["rendered", "new_material", "show_light"])
 def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
     where = "addon.lighting.light_scene" if failing == "rendered" else "addon.light"

@@ -1,0 +1,198 @@
+"""Every way in, pressed by hand in a real window: what an artist does in the first ten minutes.
+
+    blender --enable-event-simulate --python tests/window/ways_in.py
+
+from the folder of this repository. The script builds and installs the extension as a zip, into preferences that are
+thrown away (BLENDER_USER_RESOURCES), opens the room, and
+
+1. opens the sidebar by N, chooses the tab, and clicks *Generate Reflection*;
+2. undoes it by Ctrl-Z and does it again by Shift-Ctrl-Z;
+3. starts another one, finer, and presses ESC half way;
+4. finds *Light Reflection* by F3, and *Clear Reflections*;
+5. opens the last operator's panel by F9;
+6. shows the panel in Object properties, and the menu;
+7. asks every operator of the extension whether it can run, in every editor and in every mode.
+
+Pictures go to the folder WINDOW_SHOTS, build/window where that is not set.
+"""
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import bpy
+from hands import ROOT, Screen, run, shot
+
+GENERATE = 106  # pixels below the upper end of the sidebar, at the resolution scale of 1
+PANEL = 266  # the panel in Object properties, above the window's lower end
+MODES = ("EDIT", "SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "OBJECT")
+
+
+def results() -> list:
+    return [obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"]
+
+
+def waiting(done, what: str, seconds: float = 60.0):
+    """Until something is so."""
+    end = time.monotonic() + seconds
+    while not done():
+        assert time.monotonic() < end, f"After {seconds:.0f} s still not so: {what}."
+        yield 0.1
+    yield 0.5
+
+
+def turned_to_tab(screen: Screen) -> bool:
+    """Choose the extension's tab; a sidebar has none before it is drawn."""
+    try:
+        screen.region("UI").active_panel_category = "Reflection"
+    except AttributeError:
+        return False
+    return True
+
+
+def install() -> None:
+    folder = Path(tempfile.mkdtemp())
+    subprocess.run([bpy.app.binary_path, "--factory-startup", "--command", "extension", "build",
+                    "--source-dir", str(ROOT), "--output-dir", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    path = next(folder.glob("*.zip"))
+    bpy.ops.extensions.package_install_files(filepath=str(path), repo="user_default", enable_on_install=True)
+
+
+def steps():
+    screen = Screen()
+    screen.point(**screen.centre)
+    yield 1.0
+    screen.press("ESC")
+    install()
+    yield 1.0
+    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "sample_blends" / "room.blend"), load_ui=False)
+    yield 2.0
+    screen = Screen()
+    space = screen.area.spaces.active
+    space.region_3d.view_perspective, space.shading.type = "CAMERA", "MATERIAL"
+    bpy.context.scene.render.resolution_percentage = 50
+    bpy.ops.ed.undo_push(message="Opened")
+
+    screen.point(**screen.centre)
+    yield 0.3
+    screen.press("N")
+    yield 1.0
+    yield from waiting(lambda: turned_to_tab(screen), "the tab Reflection", 20.0)
+    shot("1_tab")
+    yield from click(screen, GENERATE)
+    yield from waiting(results, "a reflection")
+    shot("2_generated")
+    assert bpy.context.view_layer.objects.active == results()[0]
+    assert any("Preview" in slot.material.name for slot in results()[0].material_slots)
+
+    screen.point(**screen.centre)
+    screen.press("Z", ctrl=True)
+    yield from waiting(lambda: not results(), "no reflection after Ctrl-Z")
+    screen.press("Z", ctrl=True, shift=True)
+    yield from waiting(results, "the reflection after Shift-Ctrl-Z")
+
+    yield from stopped_by_escape(screen)
+    yield from light_and_clear(screen)
+    yield from elsewhere(screen)
+    yield from everywhere(screen)
+
+
+def click(screen: Screen, below: int):
+    """Press the button so many pixels below the upper end of the sidebar."""
+    sidebar = screen.region("UI")
+    yield from screen.click(sidebar.x + sidebar.width // 2, sidebar.y + sidebar.height - below)
+
+
+def stopped_by_escape(screen: Screen):
+    before = fingerprint(results()[0])
+    bpy.context.scene.reflection_mesh.tolerance = 0.005
+    bpy.context.view_layer.objects.active = bpy.data.objects["Golden Ball"]
+    yield 1.0
+    yield from click(screen, GENERATE)
+    yield 1.0
+    assert "REFLECTION_MESH_OT_generate" in [operator.bl_idname for operator in screen.window.modal_operators]
+    shot("3_half_way")
+    screen.press("ESC")
+    yield 1.5
+    shot("4_escaped")
+    assert not screen.window.modal_operators
+    assert fingerprint(results()[0]) == before, "ESC has left something."
+    bpy.context.scene.reflection_mesh.tolerance = 0.5
+
+
+def fingerprint(result: bpy.types.Object) -> tuple:
+    return result.name, len(result.data.polygons), len(result.data.vertices), result.reflection_mesh.seconds
+
+
+def light_and_clear(screen: Screen):
+    yield from screen.search("light reflection")
+    shot("5_search")
+    screen.press("RET")
+    yield from waiting(lambda: results()[0].reflection_mesh.light_material is not None, "light", 120.0)
+    shot("6_lit")
+    screen.point(**screen.centre)
+    yield 0.5
+    screen.press("F9")
+    yield 1.0
+    screen.move(x=5, y=-5)
+    yield 1.0
+    shot("7_last_operator")
+    screen.press("ESC")
+    yield 1.0
+    yield from screen.search("clear reflections")
+    screen.press("RET")
+    yield from waiting(lambda: not results(), "no reflection after clearing")
+    assert not any("Reflection" in image.name for image in bpy.data.images)
+
+
+def elsewhere(screen: Screen):
+    """Object properties, and the menu."""
+    ball = bpy.data.objects["Golden Ball"]
+    bpy.context.view_layer.objects.active = ball
+    editor = next(area for area in screen.window.screen.areas if area.type == "PROPERTIES")
+    editor.spaces.active.context = "OBJECT"
+    yield 1.0
+    with bpy.context.temp_override(window=screen.window, area=editor):
+        bpy.ops.screen.screen_full_area()
+    yield 2.0
+    # the header of the extension's panel, which is closed at first
+    full = screen.window.screen.areas[0]
+    yield from screen.click(full.x + 80, PANEL)
+    yield 1.5
+    shot("8_object_properties")
+    with bpy.context.temp_override(window=screen.window, area=screen.window.screen.areas[0]):
+        bpy.ops.screen.back_to_previous()
+    yield 1.5
+    with screen.context():
+        bpy.ops.wm.call_menu(name="VIEW3D_MT_reflection_mesh" if hasattr(bpy.types, "VIEW3D_MT_reflection_mesh")
+                             else "REFLECTION_MESH_MT_menu")
+    yield 1.0
+    shot("9_menu")
+    screen.press("ESC")
+    yield 0.5
+
+
+def everywhere(screen: Screen):
+    """Every operator's poll, in every editor and in every mode: none may fail."""
+    names = [name for name in dir(bpy.ops.reflection_mesh) if not name.startswith("_")]
+    editors = [item.identifier for item in bpy.types.Area.bl_rna.properties["type"].enum_items
+               if item.identifier != "EMPTY"]
+    told = {}
+    for mode in MODES:
+        with screen.context():
+            bpy.ops.object.mode_set(mode=mode)
+        for editor in editors:
+            screen.area.type = editor
+            with bpy.context.temp_override(window=screen.window, area=screen.area):
+                for name in names:
+                    told[mode, editor, name] = getattr(bpy.ops.reflection_mesh, name).poll()
+        screen.area.type = "VIEW_3D"
+        yield 0.3
+    assert told["OBJECT", "VIEW_3D", "generate"] and not told["EDIT", "VIEW_3D", "generate"]
+    print(f"{len(told)} polls of {len(names)} operators in {len(editors)} editors.", flush=True)
+
+
+run(steps)
