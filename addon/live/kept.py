@@ -5,8 +5,7 @@ import bpy
 
 from ...core import ReflectionError
 from ..frames import plays
-from ..reading import Participants, visible
-from ..reading.roles import results_of
+from ..reading import Participants, results_of, visible
 
 
 def kept_results(context: bpy.types.Context) -> list:
