@@ -16,12 +16,12 @@ from . import (
 )
 from .gltf_attributes import AttributesOfResults
 from .lighting import stale_light
-from .writing import windows
+from .writing import cameras, windows
 
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
-MODULES = (properties, windows, stale_light, freshness, generate, live, light, caustics, bake, mirror_uvs, print_sheet,
-           compare, clear, interface, command_line)
+MODULES = (properties, windows, cameras, stale_light, freshness, generate, live, light, caustics, bake, mirror_uvs,
+           print_sheet, compare, clear, interface, command_line)
 
 
 def register() -> None:

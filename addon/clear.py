@@ -8,7 +8,7 @@ from .faults import in_one_sentence
 from .frames import stop_playing
 from .illumination import bring_back_own_caustics, forget_added_light
 from .lighting import forget_light, forget_map, forget_previews
-from .writing import close_abandoned_windows, disc_nodes, forget_nodes
+from .writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
 
 IN_OBJECT_MODE = "Reflections are cleared in Object Mode: leave the present mode first."
 
@@ -48,6 +48,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
         forget_map(mesh)
     forget_previews()
     close_abandoned_windows()
+    forget_collection(context.scene)
 
 
 def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:

@@ -2,54 +2,31 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import bpy
 
 from .. import core
 from . import polls
-from .faults import AllOrNothing, SteppedOperator, Steps, part
-from .frames import stop_playing
+from .faults import SteppedOperator, Steps, part
 from .freshness import origin_of, record_of
-from .lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
-from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view, results_of
+from .properties import ATTRIBUTES
+from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view
 from .settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
 from .shortcomings import shortcomings, window_shortcomings
-from .writing import Reflection, mesh_arrays, point_arrays, write_object
+from .write_results import Manners, Outcome, write_results
+from .writing import Reflection, mesh_arrays, point_arrays
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
-WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
 IN_OBJECT_MODE = "Reflections are generated in Object Mode: leave the present mode first."
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What a generation made: (object, core.ReflectionMesh) of each mirror, sentences on what was left out, and the
-    objects of which the light is still to come; and from what, as it was read: the view, the surface of each mirror,
-    the diffuse scene."""
-
-    results: list
-    remarks: list
-    unlit: list
-    read: tuple
-
-    def summary(self, seconds: float) -> str:
-        """One line on what was generated."""
-        points = sum(obj.reflection_mesh.points for obj, _ in self.results)
-        faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
-        size = f"{points} points" if points else f"{faces} faces"
-        error = max(result.estimated_error for _, result in self.results)
-        share = max(result.filled_share for _, result in self.results)
-        filled = f", {share:.1f} % filled by rays" if share >= WORTH_TELLING else ""
-        names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
-        light = "; the light is still to come, by Light Reflection" if self.unlit else ""
-        return f"{names}: {size}, error about {error:.2f} px{filled}, {seconds:.2f} s{light}"
+# what whoever presses a button gets unless it is set otherwise
+FOR_THE_EYE = ("preview", "collect", "select_alone")
 
 
 def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings | SettingsOfMirrors,
-               preview: bool = False, view: core.View | None = None) -> Steps[Outcome]:
+               preview: bool = False, manners: Manners = Manners(), view: core.View | None = None) -> Steps[Outcome]:
     """Generate the reflections of `chosen.diffuse` in `chosen.mirrors`, yielding (fraction 0..1, stage).
 
     Nothing in the file changes before the last step, which writes all results, or none where one of them fails; a
@@ -102,22 +79,18 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             continue
         remarks += shortcomings(mirror.name, result)
         arrays = (mesh_arrays if result.discs is None else point_arrays)(result, scene, surface, view)
-        prepared.append((Reflection(mirror, chosen.diffuse, result, arrays, view.resolution), own[index].placement))
+        prepared.append(Reflection(mirror, context.scene.camera, chosen.diffuse, result, arrays, view.resolution,
+                                   own[index].placement, manners.attributes))
     if not prepared:
         raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
     yield 1.0, "Writing"
-    previewed = {obj for made, _ in prepared for obj in results_of(context, made.mirror) if shows_preview(obj)}
-    with AllOrNothing() as whole:
-        results = [(write_object(context, made, placement, whole), made.result) for made, placement in prepared]
-        for obj, _ in results:
-            keep_light(obj, view, scene)
-            whole.after(stop_playing, obj)
-            obj.reflection_mesh.made_from = origins[obj.reflection_mesh.mirror]
-            obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(results)
-        unlit = [obj for obj, _ in results if not is_lit(obj) and needs_light(obj)]
-        show_previews([obj for obj in unlit if preview or obj in previewed], whole)
-        whole.after(forget_previews)
-    return Outcome(results, remarks + refused, unlit, (view, dict(zip(chosen.mirrors, surfaces)), scene))
+    outcome = write_results(context, prepared, view, scene, preview, manners)
+    for obj in [obj for obj, _ in outcome.results] + outcome.copies:
+        obj.reflection_mesh.made_from = origins[obj.reflection_mesh.mirror]
+    for obj, _ in outcome.results:
+        obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(outcome.results)
+    return replace(outcome, remarks=remarks + outcome.remarks + refused,
+                   read=(view, dict(zip(chosen.mirrors, surfaces)), scene))
 
 
 class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions, bpy.types.Operator):
@@ -130,29 +103,46 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
     preview: bpy.props.BoolProperty(name="Preview", default=False, options={"SKIP_SAVE"},
                                     description="Until it is lit, show the colours of what is reflected in the "
                                     "mirror's tint, untouched by lamps: on where the operator is invoked")
+    attributes: bpy.props.EnumProperty(name="Attributes", items=ATTRIBUTES, default="ALL", options={"SKIP_SAVE"},
+                                       description="What the points and faces of the result know; as it was, where "
+                                       "this is not given")
+    collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
+                                    description="A new result goes into the collection Reflections, instead of those "
+                                    "of its mirror: on where the operator is invoked")
+    select_alone: bpy.props.BoolProperty(name="Select Alone", default=False, options={"SKIP_SAVE"},
+                                         description="Only the result is selected afterwards: on where the operator "
+                                         "is invoked")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
-        if not self.properties.is_property_set("preview"):
-            self.preview = True
-        return super().invoke(context, event)
+        # so that whoever pressed a button sees the result; scripts get what they ask for
+        for name in FOR_THE_EYE:
+            if not self.properties.is_property_set(name):
+                setattr(self, name, True)
+        return SteppedOperator.invoke(self, context, event)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
         chosen, wanted = choose(context), self.wanted(context)
-        outcome = yield from generation(context, chosen, wanted, self.preview)
+        attributes = self.attributes if self.properties.is_property_set("attributes") else None
+        outcome = yield from generation(context, chosen, wanted, self.preview, Manners(attributes, self.collect))
         self.show_used(wanted, chosen.mirrors)
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
+        if self.select_alone:
+            for obj in context.selected_objects:
+                obj.select_set(False)
         for obj, _ in outcome.results:
             if obj.name in context.view_layer.objects:
                 obj.select_set(True)
                 context.view_layer.objects.active = obj
         for remark in outcome.remarks:
             self.report({"WARNING"}, remark)
+        for sentence in outcome.news:
+            self.report({"INFO"}, sentence)
         self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
 
 

@@ -27,8 +27,9 @@ from .lighting import (
     texels_of,
     white_of,
 )
-from .reading import is_mirror, is_opaque, read_scene, read_view
+from .reading import camera_of, is_mirror, is_opaque, read_scene, read_view
 from .settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
+from .writing import place_of
 
 NAME = "Reflection Light"
 IN_OBJECT_MODE = "Reflections are lit in Object Mode: leave the present mode first."
@@ -74,6 +75,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
         raise ReflectionError(NOTHING_TO_LIGHT)
     yield 0.0, "Reading the scene"
     view = read_view(context)
+    groups = _for_the_camera(context.scene.camera, groups)
     everything, shows = [], []
     for number, (results, samples, kind) in enumerate(groups):
         lit = [result for result in results if every or needs_light(result)]
@@ -90,10 +92,21 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
     return everything
 
 
+def _for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
+    """The groups without the results of other cameras."""
+    own = [([result for result in results if camera_of(result) in (None, camera)], samples, kind)
+           for results, samples, kind in groups]
+    if not any(results for results, _, _ in own):
+        other = next(result for results, _, _ in groups for result in results)
+        raise ReflectionError(f"'{other.name}' is for the camera '{camera_of(other).name}': make that the scene's "
+                              f"camera, or generate the reflection for '{camera.name}' too.")
+    return own
+
+
 def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int
                 ) -> Steps[Callable[[AllOrNothing], None]]:
     """Render what `lit` show of the picture; returns what lets them show it."""
-    window = Window.around(view, np.concatenate([vectors(result.data, "mirror_position") for result in lit]))
+    window = Window.around(view, np.concatenate([_on_the_mirror(result) for result in lit]))
     if window is None:
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
     with light_scene(context, lit, window) as scene:
@@ -120,12 +133,19 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int
     return show
 
 
+def _on_the_mirror(result: bpy.types.Object) -> np.ndarray:
+    """Places (n, 3) of a result's points where the camera sees them in the mirror: any on the same line of sight do."""
+    if "mirror_position" in result.data.attributes:
+        return vectors(result.data, "mirror_position")
+    return vectors(result.data, "position") + np.array(place_of(result).translation)
+
+
 def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int
                 ) -> Steps[Callable[[AllOrNothing], None]]:
     """Bake the objects that `lit` show; returns what lets them show it."""
     if not can_be_baked(lit):
-        raise ReflectionError("A reflection of points, or of objects that have been deleted, has no light on objects: "
-                              "light it in the picture.")
+        raise ReflectionError("A reflection of points, or of objects that have been deleted, or one that knows only "
+                              "what is seen, has no light on objects: light it in the picture.")
     sources = list(dict.fromkeys(entry.object for result in lit for entry in result.reflection_mesh.sources))
     scene = read_scene(context.evaluated_depsgraph_get(), sources)
     light = yield from part(baked(context, lit, view, scene, samples), 0.02, 0.93)

@@ -2,9 +2,11 @@
 import bpy
 from bpy.props import (
     BoolProperty,
+    BoolVectorProperty,
     CollectionProperty,
     EnumProperty,
     FloatProperty,
+    FloatVectorProperty,
     IntProperty,
     IntVectorProperty,
     PointerProperty,
@@ -23,6 +25,12 @@ ROLES = (
 )
 OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
 
+ATTRIBUTES = (
+    ("ALL", "All", "Where each point lies on the mirror and on what it shows, how long its path is, which face it "
+     "shows: for light on objects, comparisons and shaders"),
+    ("SHOWN", "Shown", "Only what is seen: positions, materials, and what these read: about a third smaller"),
+)
+
 
 def _begin_own(self, context: bpy.types.Context) -> None:
     if self.own_settings and context.scene is not None:
@@ -33,6 +41,12 @@ class ReflectionSource(bpy.types.PropertyGroup):
     """One diffuse object of a result."""
 
     object: PointerProperty(name="Object", type=bpy.types.Object)
+
+
+class ReflectionMaterial(bpy.types.PropertyGroup):
+    """One material of a result, as it was generated."""
+
+    material: PointerProperty(name="Material", type=bpy.types.Material)
 
 
 class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
@@ -47,6 +61,18 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object)
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
+    camera: PointerProperty(name="Camera", description="The camera that this reflection is right for; none: the "
+                            "scene's", type=bpy.types.Object)
+    aside: BoolVectorProperty(name="Aside", size=2, description="Hidden in renders, and in the viewport, while another "
+                              "camera looks that has reflections of its own")
+    window: BoolProperty(name="Window", description="Its mirror is a window where this reflection's camera looks")
+    origin: FloatVectorProperty(name="Origin", size=3, description="Where it was generated, in world space")
+    basis: FloatVectorProperty(name="Basis", size=16, description="Its own transform when it was generated; zero where "
+                               "that is not known")
+    materials: CollectionProperty(name="Materials", type=ReflectionMaterial,
+                                  description="The materials of its mesh when it was generated")
+    attributes: EnumProperty(name="Attributes", description="What its points and faces know", items=ATTRIBUTES,
+                             default="ALL")
     estimated_error: FloatProperty(name="Estimated Error", description="99th percentile of the displacement, in pixels")
     seconds: FloatProperty(name="Seconds", description="Time that it took to generate, this mirror's share")
     counts: StringProperty(name="Counts", description="How much of each part of the method was needed, as JSON")
@@ -76,9 +102,13 @@ class ReflectionScene(SettingsOfScene, bpy.types.PropertyGroup):
     """`Scene.reflection_mesh`: the settings of every mirror that has none of its own."""
 
     comparison: StringProperty(name="Comparison", description="Numbers of the last comparison with Cycles, as JSON")
+    seen_by: PointerProperty(name="Seen By", description="The camera whose reflections are shown; none: all are",
+                             type=bpy.types.Object)
+    collection: PointerProperty(name="Collection", description="Where results made in a window go",
+                                type=bpy.types.Collection)
 
 
-CLASSES = (ReflectionSource, ReflectionObject, ReflectionScene)
+CLASSES = (ReflectionSource, ReflectionMaterial, ReflectionObject, ReflectionScene)
 
 
 def register() -> None:

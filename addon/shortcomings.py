@@ -56,6 +56,9 @@ def window_shortcomings(context: bpy.types.Context, mirror: bpy.types.Object, re
     ReflectionError
         Where something hides most of what would be seen through it.
     """
+    if mirror.library is not None and mirror.visible_camera:
+        return [f"{mirror.name}: this mirror is linked and cannot be hidden, so that it stands before the virtual "
+                "image; override it, or choose the placement Layered."]
     hider, hidden = what_is_in_the_way(context, result, mirrors)
     if hidden > HIDDEN:
         raise ReflectionError(f"'{hider}' stands before the virtual image behind this mirror and would hide it; choose "

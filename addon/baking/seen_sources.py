@@ -63,8 +63,9 @@ def fronts_seen(scene: DiffuseScene, triangle: np.ndarray, towards: np.ndarray) 
 
 
 def can_be_baked(results: list) -> bool:
-    """Whether all of `results` have faces, and the sources that these show."""
-    return all(len(result.data.polygons) and result.reflection_mesh.mirror is not None
+    """Whether all of `results` have faces that know what they show, and it is still there."""
+    return all(len(result.data.polygons) and "source_face" in result.data.attributes
+               and result.reflection_mesh.mirror is not None
                and all(entry.object is not None for entry in result.reflection_mesh.sources) for result in results)
 
 

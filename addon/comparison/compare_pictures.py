@@ -134,7 +134,8 @@ def _face_numbers(mesh: bpy.types.Mesh, name: str, result: bpy.types.Object) -> 
     """An attribute of a result's faces, which whoever works on the mesh may have lost."""
     attribute = mesh.attributes.get(name)
     if attribute is None or (attribute.data_type, attribute.domain) != ("INT", "FACE"):
-        raise ReflectionError(f"The faces of '{result.name}' do not know any more what they show: generate it again.")
+        raise ReflectionError(f"The faces of '{result.name}' do not know what they show: generate it again, with all "
+                              "attributes.")
     values = np.empty(len(mesh.polygons), dtype=np.int32)
     attribute.data.foreach_get("value", values)
     return values

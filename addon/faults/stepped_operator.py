@@ -5,6 +5,7 @@ import time
 
 import bpy
 
+from .status_bar import StatusBar
 from .steps import Steps, Undivided
 from .unforeseen import sentence
 
@@ -43,6 +44,7 @@ class SteppedOperator:
         if outcome is not None:
             return outcome
         manager = context.window_manager
+        self._bar = StatusBar()
         self._timer = manager.event_timer_add(INTERVAL, window=context.window)
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
@@ -97,7 +99,7 @@ class SteppedOperator:
         fraction, stage = self._progress
         stopping = "this cannot be divided, ESC cancels after it" if self._undivided else "ESC cancels"
         context.window_manager.progress_update(100.0 * fraction)
-        context.workspace.status_text_set(f"{stage}: {100.0 * fraction:.0f} %, {stopping}")
+        context.workspace.status_text_set(self._bar.told(fraction, stage, stopping))
 
     def _tidy(self, context: bpy.types.Context) -> None:
         manager = context.window_manager

@@ -6,8 +6,9 @@ import bpy
 from .all_or_nothing import AllOrNothing
 
 PLACE = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
-RECORD = ("role", "mirror", "lamp", "estimated_error", "seconds", "counts", "resolution", "faces", "points",
-          "made_from", "light", "light_material", "light_map", "light_stale")
+RECORD = ("role", "mirror", "lamp", "camera", "window", "attributes", "estimated_error", "seconds", "counts", "faces",
+          "points", "made_from", "light", "light_material", "light_map", "light_stale")
+NUMBERS = ("resolution", "origin", "basis", "aside")
 
 
 def still_there(items: list) -> list:
@@ -27,7 +28,9 @@ def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
     matrix, place = obj.matrix_world.copy(), {name: tuple(getattr(obj, name)) for name in PLACE}
     record = obj.reflection_mesh
     known = {name: getattr(record, name) for name in RECORD}
-    known["resolution"] = tuple(record.resolution)
+    known.update({name: tuple(getattr(record, name)) for name in NUMBERS})
+    made_of = [entry.material for entry in record.materials]
+    hidden = obj.hide_render, obj.hide_viewport
     sources = [source.object for source in record.sources]
     slots = [(slot.link, slot.material) for slot in obj.material_slots]
 
@@ -41,6 +44,10 @@ def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
         record.sources.clear()
         for source in sources:
             record.sources.add().object = source
+        obj.hide_render, obj.hide_viewport = hidden
+        record.materials.clear()
+        for material in made_of:
+            record.materials.add().material = material
         for slot, (link, material) in zip(obj.material_slots, slots, strict=False):
             slot.link = link
             if link == "OBJECT":

@@ -8,7 +8,7 @@ import bpy
 
 from ..faults import still_there
 
-RECORD = ("mirror", "light_stale")
+RECORD = ("mirror", "light_stale", "camera", "window")
 
 
 @contextmanager

@@ -10,8 +10,8 @@ import numpy as np
 from .. import compat
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from ..lighting import forget_light, new_material
-from ..reading import render_size, results_of
-from ..writing import close_window, forget_nodes, hide_discs, new_object, open_window, show_own_materials
+from ..reading import every_result_of, render_size, results_of
+from ..writing import forget_nodes, hide_discs, new_object, set_window, show_own_materials
 from .frame_records import FrameRecord
 from .play_nodes import NAME, unpacking_nodes
 from .write_frame import MESH_PATH, OBJECT_PATH
@@ -104,7 +104,9 @@ def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOr
     if player.light is not None:
         for slot in obj.material_slots:
             slot.link, slot.material = "OBJECT", player.light
-    (open_window if player.sequence.placements[mirror.name] == "VIRTUAL" else close_window)(mirror)
+    # without a name it plays what markers choose, and is right for every camera
+    record.camera = context.scene.objects.get(player.sequence.name) if player.sequence.name else None
+    set_window(obj, player.sequence.placements[mirror.name])
     return obj
 
 
@@ -112,7 +114,11 @@ def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
     """Of several cameras' players (object, name of the camera) show those of the one that looks: the scene's, or the
     one that a marker binds."""
     bound = {marker.frame: marker.camera for marker in scene.timeline_markers if marker.camera}
+    scene.reflection_mesh.seen_by = scene.camera
     for obj, name in players:
+        if not bound:
+            # shown again when its camera looks
+            obj.reflection_mesh.aside = (scene.camera is None or scene.camera.name != name,) * 2
         for switch in ("hide_render", "hide_viewport"):
             setattr(obj, switch, scene.camera is None or scene.camera.name != name)
             if bound:
@@ -170,7 +176,8 @@ def _object(context: bpy.types.Context, mirror: bpy.types.Object, name: str,
             whole: AllOrNothing) -> bpy.types.Object:
     """The result that is to play, which is the mirror's own, or with several sequences the one that is called so."""
     called = f"{mirror.name} Reflection {name}"
-    earlier = [obj for obj in results_of(context, mirror) if not name or obj.name == called]
+    earlier = [obj for obj in every_result_of(context, mirror) if obj.name == called] if name else results_of(
+        context, mirror)
     if not earlier:
         obj = new_object(context, mirror, whole)
         if name:

@@ -9,6 +9,23 @@ OPERATORS = {
     "Until it is lit, show the colours of what is reflected in the mirror's tint, untouched by lamps: on where the "
     "operator is invoked": "Zeigt, bis sie beleuchtet ist, die Farben des Gespiegelten in der Tönung des Spiegels, "
         "von Lampen unberührt: an, wenn der Operator aufgerufen wird",
+    "Attributes": "Attribute",
+    "What the points and faces of the result know; as it was, where this is not given":
+        "Was Punkte und Flächen des Ergebnisses wissen; wie es war, wo nichts angegeben ist",
+    "All": "Alles",
+    "Where each point lies on the mirror and on what it shows, how long its path is, which face it shows: for light on "
+    "objects, comparisons and shaders": "Wo jeder Punkt auf dem Spiegel und auf dem Gezeigten liegt, wie lang sein Weg "
+        "ist, welche Fläche er zeigt: für Licht auf Objekten, Vergleiche und Shader",
+    "Shown": "Gezeigtes",
+    "Only what is seen: positions, materials, and what these read: about a third smaller":
+        "Nur was zu sehen ist: Orte, Materialien, und was diese lesen: etwa ein Drittel kleiner",
+    "In a Collection": "In einer Sammlung",
+    "A new result goes into the collection Reflections, instead of those of its mirror: on where the operator is "
+    "invoked": "Ein neues Ergebnis kommt in die Sammlung Reflections, statt in die seines Spiegels: an, wenn der "
+        "Operator aufgerufen wird",
+    "Select Alone": "Allein auswählen",
+    "Only the result is selected afterwards: on where the operator is invoked":
+        "Danach ist allein das Ergebnis ausgewählt: an, wenn der Operator aufgerufen wird",
     "Light Reflection": "Spiegelung beleuchten",
     "Let the reflections look as the mirrors do, with the scene's lamps, materials and the mirrors' own tint":
         "Lässt die Spiegelungen aussehen wie die Spiegel, mit Lampen und Materialien der Szene und der Tönung der "

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ...core import View
-from ..baking import KeptMap, lay_out
+from ..baking import KeptMap, can_be_baked, lay_out
 from ..faults import AllOrNothing, keep_data, keep_object, still_there
 from ..reading import DiffuseScene
 from ..writing import LONGEST_RECORD, show_own_materials
@@ -41,7 +41,7 @@ def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> Non
     material, light_map = record.light_material, record.light_map
     if light_map is not None:
         kept = _kept_map(record, scene)
-        if material is not None and len(result.data.polygons) and kept is not None:
+        if material is not None and kept is not None and can_be_baked([result]):
             lay_out(result, view, scene, kept)
             _put_on(result, material)
         else:

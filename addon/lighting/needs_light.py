@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from .. import compat
-from ..reading.mirror_materials import is_mirror, surface_shader
+from ..reading.mirror_materials import emits, is_mirror, surface_shader
 
 WHITE = 0.999
 TINTS = {"BSDF_GLOSSY": ("Color",), "BSDF_PRINCIPLED": ("Base Color", "Specular Tint")}
@@ -21,14 +21,6 @@ def needs_light(result: bpy.types.Object) -> bool:
         return True
     mirrors = [slot.material for slot in mirror.material_slots if is_mirror(slot.material)]
     return not mirrors or not all(map(is_plain, mirrors))
-
-
-def emits(material: bpy.types.Material | None) -> bool:
-    """Whether a material shows what it emits, and no lamp changes it."""
-    if material is None or not compat.uses_nodes(material):
-        return False
-    shader = surface_shader(material.node_tree)
-    return shader is not None and shader.type == "EMISSION"
 
 
 def is_plain(material: bpy.types.Material) -> bool:

@@ -10,7 +10,7 @@ import bmesh
 import numpy as np
 
 from ...core import View
-from ..writing import UV_MAP, light_layer
+from ..writing import UV_MAP, light_layer, place_of
 from .light_scene import Window
 
 COLOUR = "Reflection Light Colour"
@@ -27,7 +27,7 @@ def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.nda
         What the window shows, where that is known.
     """
     mesh = result.data
-    matrix = np.array(result.matrix_world, dtype=np.float64)
+    matrix = np.array(place_of(result), dtype=np.float64)
     _cut(mesh, view, matrix)
     spots = _in_window(_clip(mesh, view, matrix), view, window)
     _write_spots(mesh, spots)

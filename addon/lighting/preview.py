@@ -8,9 +8,9 @@ import bpy
 from .. import compat
 from ..faults import AllOrNothing
 from ..reading.mirror_materials import is_mirror, surface_shader
+from ..writing.kept_changes import PREVIEW as MARK
 from ..writing.shader_builder import ShaderBuilder, given, node_behind
 
-MARK = "reflection_mesh_preview"  # custom property of the materials that are made here
 WHITE = (1.0, 1.0, 1.0, 1.0)
 GREY = (0.8, 0.8, 0.8, 1.0)  # of what has no material
 AS_THEY_ARE = {"BSDF_TRANSPARENT", "HOLDOUT"}
@@ -28,7 +28,8 @@ def show_previews(results: Iterable[bpy.types.Object], whole: AllOrNothing) -> N
     made: dict = {}
     for result in results:
         tint = _tint_of(result.reflection_mesh.mirror)
-        for slot in result.material_slots:
+        # a slot that has a material of its own has it from the user
+        for slot in [slot for slot in result.material_slots if slot.link == "DATA"]:
             key = (slot.material, tint)
             if key not in made:
                 made[key] = _preview(slot.material, tint)

@@ -4,18 +4,20 @@ from .mirror_materials import is_mirror
 from .opaque_materials import is_opaque
 from .read_meshes import SURFACES
 from .read_view import NO_CAMERA, read_view, render_size
+from .results import camera_of, every_result_of, results_of
 from .roles import (
-           NO_MIRROR,
-           NothingSeen,
-           Participants,
-           can_take_part,
-           candidates,
-           choose,
-           participants,
-           results_of,
-           visible,
+    NO_MIRROR,
+    NothingSeen,
+    Participants,
+    can_take_part,
+    candidates,
+    choose,
+    participants,
+    rendered_collections,
+    visible,
 )
 
 __all__ = ["DiffuseScene", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants", "SURFACES",
-           "can_take_part", "candidates", "choose", "is_mirror", "is_opaque", "participants", "read_mirror",
-           "read_scene", "read_view", "render_size", "results_of", "visible"]
+           "camera_of", "can_take_part", "candidates", "choose", "every_result_of", "is_mirror", "is_opaque",
+           "participants", "read_mirror", "read_scene", "read_view", "rendered_collections", "render_size",
+           "results_of", "visible"]

@@ -9,6 +9,7 @@ import numpy as np
 from ...core import ReflectionError, TriangleMesh
 from .join_layers import join_layers
 from .mirror_materials import is_mirror
+from .placed_values import PlacedValues, lines_of, normals_of, turned_over
 from .read_meshes import Placed, read_meshes
 
 
@@ -28,8 +29,8 @@ class DiffuseScene:
         Index into `materials`.
     materials : list
         Distinct materials; None where faces have no material.
-    normals : (m, 3, 3) float64
-        Of the corners, not of unit length.
+    normals : PlacedValues of (m, 3, 3) float64
+        Of the corners, not of unit length; as all that follow worked out where they are asked for.
     sharp_face, marked_face : (m,) bool
         Of faces that are flat, and of those marked for Freestyle.
     sharp_side, marked_side : (m, 3) bool
@@ -48,11 +49,11 @@ class DiffuseScene:
     source_face: np.ndarray
     material: np.ndarray
     materials: list
-    normals: np.ndarray
-    sharp_face: np.ndarray
-    marked_face: np.ndarray
-    sharp_side: np.ndarray
-    marked_side: np.ndarray
+    normals: PlacedValues
+    sharp_face: PlacedValues
+    marked_face: PlacedValues
+    sharp_side: PlacedValues
+    marked_side: PlacedValues
     uv_maps: dict
     colours: dict
     numbers: dict
@@ -79,9 +80,9 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
     placed = read_meshes(depsgraph, objects, mirror=False)
     if not placed:
         raise ReflectionError(f"'{objects[0].name}' has no faces to reflect: choose diffuse objects with faces.")
-    positions, triangles, corners, owners, faces, material, materials = _join(placed, len(objects))
+    positions, triangles, owners, faces, material, materials = _join(placed, len(objects))
     return DiffuseScene(_triangle_mesh(objects, positions, triangles), list(objects), owners, faces, material,
-                        materials, _all_normals(placed), *_lines(placed), *join_layers(placed, corners))
+                        materials, normals_of(placed), *lines_of(placed), *join_layers(placed))
 
 
 def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> MirrorSurface:
@@ -97,11 +98,10 @@ def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> Mirror
     placed = read_meshes(depsgraph, [obj], mirror=True)
     if not placed:
         raise ReflectionError(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
-    positions, triangles, _, _, faces, material, materials = _join(placed, 1)
-    normals = _all_normals(placed)
+    positions, triangles, _, faces, material, materials = _join(placed, 1)
     reflects = np.array([is_mirror(entry) for entry in materials])[material]
     kept = np.flatnonzero(reflects) if reflects.any() else np.arange(len(triangles))
-    return MirrorSurface(_triangle_mesh([obj], positions, triangles[kept], normals[kept]), faces[kept])
+    return MirrorSurface(_triangle_mesh([obj], positions, triangles[kept], normals_of(placed)[kept]), faces[kept])
 
 
 def _triangle_mesh(objects: list, positions, triangles, normals=None) -> TriangleMesh:
@@ -112,83 +112,53 @@ def _triangle_mesh(objects: list, positions, triangles, normals=None) -> Triangl
 
 
 def _join(placed: list[Placed], count: int) -> tuple:
-    """World positions, triangles, corners (indices into the joined corners), owner, triangle in its owner, material."""
-    positions, triangles, corners, owners, faces, material = [], [], [], [], [], []
+    """World positions, triangles, owner, triangle in its owner, material of each."""
+    positions, triangles, owners, faces, material = [], [], [], [], []
     materials, index_of = [], {}
     counted = np.zeros(count, dtype=np.int64)
-    vertex_start = corner_start = 0
+    vertex_start = 0
     for item in placed:
         mesh, places = item.mesh, len(item.owners)
-        world = np.einsum("kij,nj->kni", item.matrices[:, :3, :3], mesh.positions.astype(np.float64))
-        positions.append((world + item.matrices[:, None, :3, 3]).reshape(-1, 3))
-        order = _corner_order(item.matrices)
-        vertices, edges = len(mesh.positions), mesh.corner_count
-        triangles.append(_repeated(mesh.triangles, order, vertices, vertex_start))
-        corners.append(_repeated(mesh.corners, order, edges, corner_start))
-        vertex_start, corner_start = vertex_start + places * vertices, corner_start + places * edges
-        owners.append(np.repeat(item.owners, len(mesh.triangles)))
-        starts = np.empty(places, dtype=np.int64)
-        for place, owner in enumerate(item.owners):
-            starts[place] = counted[owner]
-            counted[owner] += len(mesh.triangles)
-        faces.append((starts[:, None] + np.arange(len(mesh.triangles))).ravel())
+        world = np.matmul(mesh.positions.astype(np.float64), item.matrices[:, :3, :3].swapaxes(1, 2))
+        world += item.matrices[:, None, :3, 3]
+        positions.append(world.reshape(-1, 3))
+        vertices, count = len(mesh.positions), len(mesh.triangles)
+        triangles.append(_repeated(mesh.triangles, _corner_order(item.matrices), vertices, vertex_start))
+        vertex_start += places * vertices
+        owners.append(np.repeat(item.owners.astype(np.int32), count))
+        faces.append((_counted_on(item.owners, counted, count)[:, None] + np.arange(count, dtype=np.int32)).ravel())
         slots = mesh.materials or (None,)
         for entry in slots:
             if entry not in index_of:
                 index_of[entry] = len(materials)
                 materials.append(entry)
-        table = np.array([index_of[entry] for entry in slots])
+        table = np.array([index_of[entry] for entry in slots], dtype=np.int32)
         material.append(np.tile(table[np.clip(mesh.material_index, 0, len(slots) - 1)], places))
-    return (np.concatenate(positions), np.concatenate(triangles), np.concatenate(corners),
-            np.concatenate(owners).astype(np.int32), np.concatenate(faces).astype(np.int32),
-            np.concatenate(material).astype(np.int32), materials)
+    return (*map(_in_one, (positions, triangles, owners, faces, material)), materials)
 
 
-def _turned_over(matrices: np.ndarray) -> np.ndarray:
-    """Which transforms (k,) turn space inside out."""
-    return np.linalg.det(matrices[:, :3, :3]) < 0.0
+def _in_one(parts: list) -> np.ndarray:
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)
+
+
+def _counted_on(owners: np.ndarray, counted: np.ndarray, count: int) -> np.ndarray:
+    """How many triangles each owner (k,) has before each of its places; `counted`, of every owner, is counted on."""
+    order = np.argsort(owners, kind="stable")
+    before = np.empty(len(owners), dtype=np.int64)
+    before[order] = np.arange(len(owners)) - np.searchsorted(owners[order], owners[order])
+    starts = counted[owners] + count * before
+    counted += count * np.bincount(owners, minlength=len(counted))
+    return starts.astype(np.int32)
 
 
 def _corner_order(matrices: np.ndarray) -> np.ndarray:
     """Order (k, 3) of a triangle's corners: a transform that turns space inside out turns its faces over."""
-    return np.where(_turned_over(matrices)[:, None], (0, 2, 1), (0, 1, 2))
+    return np.where(turned_over(matrices)[:, None], (0, 2, 1), (0, 1, 2))
 
 
 def _repeated(indices: np.ndarray, order: np.ndarray, stride: int, start: int) -> np.ndarray:
     """Indices (m, 3) for each of k places, as (k m, 3), counted on by `stride` from place to place."""
     shift = start + stride * np.arange(len(order), dtype=np.int64)
+    if (order == order[0]).all():
+        return (indices[:, order[0]].astype(np.int64) + shift[:, None, None]).reshape(-1, 3)
     return (np.moveaxis(indices[:, order], 1, 0) + shift[:, None, None]).reshape(-1, 3)
-
-
-def _cofactors(matrices: np.ndarray) -> np.ndarray:
-    """What takes normals to world space, (k, 3, 3): also where a scale is zero."""
-    linear = matrices[:, :3, :3]
-    cofactors = np.stack([np.cross(linear[:, (i + 1) % 3], linear[:, (i + 2) % 3]) for i in range(3)], axis=1)
-    return cofactors * np.where(_turned_over(matrices), -1.0, 1.0)[:, None, None]
-
-
-def _all_normals(placed: list[Placed]) -> np.ndarray:
-    """Corner normals (m, 3, 3) in world space."""
-    parts = []
-    for item in placed:
-        local = item.mesh.normals.reshape(-1, 3).astype(np.float64)
-        normals = np.matmul(local, _cofactors(item.matrices).swapaxes(1, 2)).reshape(-1, *item.mesh.normals.shape)
-        over = _turned_over(item.matrices)
-        normals[over] = normals[over][:, :, [0, 2, 1]]
-        parts.append(normals.reshape(-1, 3, 3))
-    return np.concatenate(parts)
-
-
-def _lines(placed: list[Placed]) -> tuple[np.ndarray, ...]:
-    """Faces that are sharp (m,), those that are marked, sides that are sharp (m, 3), those that are marked."""
-    parts = []
-    for item in placed:
-        lines, places = item.mesh.lines, len(item.owners)
-        sides = lines.lines(_cofactors(item.matrices))
-        over = _turned_over(item.matrices)
-        for flags in sides:
-            # side k leads to the next corner: of a triangle turned over, from the last corner to the one before
-            flags[over] = flags[over][:, :, ::-1]
-        parts.append([*(np.tile(flags[lines.face], places) for flags in (lines.sharp_faces, lines.marked_faces)),
-                      *(flags.reshape(-1, 3) for flags in sides)])
-    return tuple(map(np.concatenate, zip(*parts)))

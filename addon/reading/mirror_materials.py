@@ -46,3 +46,11 @@ def surface_shader(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
 def _constant(node: bpy.types.Node, name: str, at_least: float = float("-inf"), at_most: float = float("inf")) -> bool:
     socket = node.inputs.get(name)
     return socket is not None and not socket.is_linked and at_least <= socket.default_value <= at_most
+
+
+def emits(material: bpy.types.Material | None) -> bool:
+    """Whether a material shows what it emits, and no lamp changes it."""
+    if material is None or not compat.uses_nodes(material):
+        return False
+    shader = surface_shader(material.node_tree)
+    return shader is not None and shader.type == "EMISSION"

@@ -89,7 +89,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool) -> 
         owner = owner_of.get(instance.parent.original if instance.is_instance else original)
         if owner is None or evaluated.type not in SURFACES or not instance.show_self:
             continue
-        if instance.is_instance and not _may_be_reflected(original):
+        if instance.is_instance and not (_takes_part(original) and (mirror or original.visible_glossy)):
             continue
         materials = tuple(slot.material.original if slot.material else None for slot in evaluated.material_slots)
         key = (evaluated.data.as_pointer(), materials) if evaluated.type == "MESH" else (original, materials)
@@ -115,7 +115,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool) -> 
     return placed
 
 
-def _may_be_reflected(obj: bpy.types.Object) -> bool:
+def _takes_part(obj: bpy.types.Object) -> bool:
     return not obj.hide_render and obj.reflection_mesh.role not in {"IGNORE", "REFLECTION", "CAUSTICS"}
 
 

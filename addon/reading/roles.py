@@ -7,8 +7,8 @@ import bpy
 
 from ...core import ReflectionError
 from .mirror_materials import is_mirror
+from .results import RESULTS, meant, of_results
 
-RESULTS = {"REFLECTION", "CAUSTICS"}
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
              "Reflection tab.")
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
@@ -42,8 +42,9 @@ def participants(context: bpy.types.Context) -> tuple[list, list]:
 def choose(context: bpy.types.Context) -> Participants:
     """As `participants`, with the objects that were left out because they are hidden.
 
-    The selection decides by role. Where it gives no mirror or no diffuse object, an active result's own mirror and
-    sources take part, else the objects of the view layer whose role is explicit.
+    The selection decides by role. Where it gives no mirror or no diffuse object, the mirrors and sources of the results
+    in it, and of the mirrors in it that have results, take part; else the objects of the view layer whose role is
+    explicit.
     """
     return visible(context, *candidates(context))
 
@@ -52,14 +53,25 @@ def candidates(context: bpy.types.Context) -> tuple[list, list]:
     """The mirrors and the diffuse objects that `choose` chooses from, hidden ones among them."""
     active = context.view_layer.objects.active
     objects = [obj for obj in context.view_layer.objects if can_take_part(obj)]
-    mirrors, diffuse = _by_role([obj for obj in objects if obj.select_get()], active)
-    if not (mirrors and diffuse):
-        if active is not None and active.reflection_mesh.role in RESULTS and active.reflection_mesh.mirror:
-            mirrors, diffuse = _of_result(active)
-        else:
-            explicit = [obj for obj in objects if obj.reflection_mesh.role in {"MIRROR", "DIFFUSE"}]
-            mirrors, diffuse = _by_role(explicit, None)
-    return mirrors, diffuse
+    chosen = [obj for obj in objects if obj.select_get()]
+    mirrors, diffuse = _by_role(chosen, active)
+    if mirrors and diffuse:
+        return mirrors, diffuse
+    results = meant(context, active)
+    if results:
+        return of_results(results)
+    explicit = [obj for obj in objects if obj.reflection_mesh.role in {"MIRROR", "DIFFUSE"}]
+    mirrors = [obj for obj in chosen if _says_mirror(obj)]
+    if mirrors:
+        # what is a mirror without any doubt is meant, and the roles say what it shows
+        return mirrors, [obj for obj in explicit if obj.reflection_mesh.role == "DIFFUSE" and obj not in mirrors]
+    return _by_role(explicit, None)
+
+
+def _says_mirror(obj: bpy.types.Object) -> bool:
+    """Whether an object is a mirror by its role or its material."""
+    return obj.reflection_mesh.role == "MIRROR" or (
+        obj.reflection_mesh.role == "AUTO" and any(is_mirror(slot.material) for slot in obj.material_slots))
 
 
 def can_take_part(obj: bpy.types.Object) -> bool:
@@ -72,19 +84,11 @@ def can_take_part(obj: bpy.types.Object) -> bool:
 def _by_role(objects: list, active: bpy.types.Object | None) -> tuple[list, list]:
     automatic = [obj for obj in objects if obj.reflection_mesh.role == "AUTO"]
     mirrors = [obj for obj in objects if obj.reflection_mesh.role == "MIRROR"]
-    mirrors += [obj for obj in automatic if any(is_mirror(slot.material) for slot in obj.material_slots)]
+    mirrors += [obj for obj in automatic if _says_mirror(obj)]
     if not mirrors and active in automatic:
         mirrors = [active]
-    return mirrors, [obj for obj in objects if obj not in mirrors]
-
-
-def _of_result(result: bpy.types.Object) -> tuple[list, list]:
-    mirror = result.reflection_mesh.mirror
-    diffuse = [source.object for source in result.reflection_mesh.sources if source.object is not None]
-    if mirror in diffuse:
-        raise ReflectionError(f"'{mirror.name}' is both the mirror and a source of '{result.name}': choose another "
-                              "mirror or remove it from the sources.")
-    return [mirror], diffuse
+    reflecting = set(mirrors)
+    return mirrors, [obj for obj in objects if obj not in reflecting]
 
 
 def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Participants:
@@ -97,30 +101,34 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
     ReflectionError
         Where there are none.
     """
-    shown = _rendered_collections(context.view_layer.layer_collection)
     in_layer = set(context.view_layer.objects)
+    # what each object's own list of collections says, which is worked out anew whenever it is asked
+    rendered = {obj for collection in rendered_collections(context.view_layer.layer_collection)
+                for obj in collection.objects}
 
     def is_seen(obj: bpy.types.Object) -> bool:
         return (obj in in_layer and obj.visible_get() and not obj.hide_render
-                and any(collection in shown for collection in obj.users_collection))
+                and obj in rendered)
 
-    hidden = [obj for obj in mirrors + diffuse if not is_seen(obj)]
-    seen = Participants([obj for obj in mirrors if obj not in hidden], [obj for obj in diffuse if obj not in hidden],
-                        hidden)
+    # mirrors show what glossy rays meet, as in Cycles
+    hidden = [obj for obj in mirrors if not is_seen(obj)]
+    hidden += [obj for obj in diffuse if not (is_seen(obj) and obj.visible_glossy)]
+    out = set(hidden)
+    seen = Participants([obj for obj in mirrors if obj not in out], [obj for obj in diffuse if obj not in out], hidden)
     if not seen.mirrors:
         if mirrors:
             raise NothingSeen(f"The mirror '{mirrors[0].name}' is hidden: show it in the viewport and in renders.")
         raise ReflectionError(NO_MIRROR)
     if not seen.diffuse:
         if diffuse:
-            raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport and in "
-                              "renders.")
-        raise ReflectionError("Nothing to reflect: select the objects to reflect together with the mirror, or set "
-                              "their role to Reflected in the Reflection tab.")
+            raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport, in renders "
+                              "and to glossy rays.")
+        raise ReflectionError(f"Nothing to reflect in '{seen.mirrors[0].name}': select the objects to reflect together "
+                              "with it, or set their role to Reflected in the Reflection tab.")
     return seen
 
 
-def _rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:
+def rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:
     """The view layer's collections that are in renders: neither excluded nor hidden, themselves or through a parent."""
     found, waiting = set(), [layer_collection]
     while waiting:
@@ -130,9 +138,3 @@ def _rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:
             if not branch.exclude:
                 found.add(branch.collection)
     return found
-
-
-def results_of(context: bpy.types.Context, mirror: bpy.types.Object) -> list:
-    """Results in the scene that show the reflection in `mirror` and can be changed."""
-    return [obj for obj in context.scene.objects if obj.reflection_mesh.role == "REFLECTION"
-            and obj.reflection_mesh.mirror == mirror and obj.type == "MESH" and obj.library is None]

@@ -25,9 +25,9 @@ class SourceLines:
     sharp_edges, marked_edges : (e,) bool
     sharp_faces, marked_faces : (p,) bool
     meeting : (2, c) int32
-        The faces on both sides of an edge.
-    meeting_edge : (c,) int32
-        That edge.
+        The faces on both sides of an edge that has two.
+    meeting_of : (e,) int32
+        Where each edge is among those, -1 where it is not.
     normals : (p, 3) float32
         Of the faces.
     """
@@ -39,7 +39,7 @@ class SourceLines:
     sharp_faces: np.ndarray
     marked_faces: np.ndarray
     meeting: np.ndarray
-    meeting_edge: np.ndarray
+    meeting_of: np.ndarray
     normals: np.ndarray
 
     @classmethod
@@ -59,24 +59,31 @@ class SourceLines:
         meeting = np.zeros((2, edges), dtype=np.int32)
         meeting[0, edge[::-1]], meeting[1, edge] = owner[::-1], owner
         two = np.flatnonzero(np.bincount(edge, minlength=edges) == 2).astype(np.int32)
+        meeting_of = np.full(edges, -1, dtype=np.int32)
+        meeting_of[two] = np.arange(len(two), dtype=np.int32)
         normals = np.empty((faces, 3), dtype=np.float32)
         mesh.polygon_normals.foreach_get("vector", normals.reshape(-1))
         return cls(side, face, _flags(mesh, "sharp_edge", "EDGE", edges), compat.freestyle_marks(mesh, "EDGE"),
                    _flags(mesh, "sharp_face", "FACE", faces), compat.freestyle_marks(mesh, "FACE"),
-                   meeting[:, two], two, normals)
+                   meeting[:, two], meeting_of, normals)
 
-    def lines(self, cofactors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Which sides are sharp or creased, and which are marked, (k, m, 3) bool each, where the mesh stands in k
-        places, with the `cofactors` (k, 3, 3) that take its normals there."""
-        metric = np.matmul(cofactors.swapaxes(1, 2), cofactors)
-        one, other = self.normals.astype(np.float64)[self.meeting]
-        turned = np.matmul(one, metric)
-        length = _dot(turned, one) * _dot(np.matmul(other, metric), other)
-        sharp = np.repeat(self.sharp_edges[None], len(cofactors), axis=0)
-        sharp[:, self.meeting_edge] |= _dot(turned, other) < CREASE * np.sqrt(length)
-        real = self.side >= 0
-        marked = self.marked_edges[self.side] & real
-        return sharp[:, self.side] & real, np.repeat(marked[None], len(sharp), axis=0)
+    def sharp_sides(self, triangle: np.ndarray, cofactors: np.ndarray) -> np.ndarray:
+        """Which sides (n, 3) of triangles (n,) are sharp or creased, where the mesh stands in places with the
+        `cofactors` (n, 3, 3) that take its normals there."""
+        side = self.side[triangle]
+        sharp = self.sharp_edges[side]
+        row, at = np.nonzero((side >= 0) & ~sharp & (self.meeting_of[side] >= 0))
+        metric = np.matmul(cofactors.swapaxes(1, 2), cofactors)[row]
+        one, other = self.normals.astype(np.float64)[self.meeting[:, self.meeting_of[side[row, at]]]]
+        turned = np.matmul(one[:, None], metric)[:, 0]
+        length = _dot(turned, one) * _dot(np.matmul(other[:, None], metric)[:, 0], other)
+        sharp[row, at] = _dot(turned, other) < CREASE * np.sqrt(length)
+        return sharp & (side >= 0)
+
+    def marked_sides(self, triangle: np.ndarray) -> np.ndarray:
+        """Which sides (n, 3) of triangles (n,) are marked."""
+        side = self.side[triangle]
+        return self.marked_edges[side] & (side >= 0)
 
 
 def _dot(one: np.ndarray, other: np.ndarray) -> np.ndarray:

@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...core import ReflectionMesh, TriangleMesh, View
 from .. import compat
 from ..reading.join_meshes import DiffuseScene, MirrorSurface
+from .shown_attributes import shown_attributes
 from .single_precision import in_single_precision
 
 # a Blender mesh holds no more
@@ -60,6 +61,10 @@ class MeshArrays:
     attributes: tuple[Attribute, ...]
     materials: list
     lines: Lines | None = None
+
+    def seen_in(self, materials: list) -> MeshArrays:
+        """The same with no more attributes than `materials` read."""
+        return replace(self, attributes=shown_attributes(self.attributes, materials))
 
     @property
     def uv_maps(self) -> list[str]:

@@ -32,6 +32,13 @@ def close_window(mirror: bpy.types.Object) -> None:
         mirror.reflection_mesh.camera_hidden = False
 
 
+def set_window(result: bpy.types.Object, placement: str) -> None:
+    """Make a window of a result's mirror, or none, as the placement asks for."""
+    record = result.reflection_mesh
+    record.window = placement == "VIRTUAL"
+    (open_window if record.window else close_window)(record.mirror)
+
+
 def what_is_in_the_way(context: bpy.types.Context, result: ReflectionMesh, mirrors: list) -> tuple[str, float]:
     """Which object hides most of a virtual image, behind its mirror, and the share of it that anything hides.
 
@@ -76,10 +83,15 @@ def close_abandoned_windows() -> None:
         return
     # what is deleted may live on where something still points to it, but in no scene
     shown = {obj.reflection_mesh.mirror for scene in bpy.data.scenes for obj in scene.objects
-             if obj.reflection_mesh.role == "REFLECTION"}
+             if obj.reflection_mesh.role == "REFLECTION" and _needs_window(obj.reflection_mesh)}
     for obj in hidden:
         if obj not in shown:
             close_window(obj)
+
+
+def _needs_window(record: bpy.types.PropertyGroup) -> bool:
+    # results without a camera are of earlier versions, which did not note it
+    return (record.window and not any(record.aside)) or record.camera is None
 
 
 @persistent

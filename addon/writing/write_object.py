@@ -5,14 +5,15 @@ import json
 from dataclasses import dataclass
 
 import bpy
-from mathutils import Matrix
 
 from ...core import ReflectionMesh
-from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
-from ..reading.roles import results_of
+from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object, still_there
+from ..reading.results import every_result_of, results_of
+from .cameras import bring_back
 from .disc_nodes import hide_discs, show_discs
+from .kept_changes import Changes, changes_of, place
 from .mesh_arrays import MeshArrays
-from .windows import close_window, open_window
+from .windows import set_window
 from .write_mesh import write_mesh
 
 RAYS = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter", "visible_shadow")
@@ -25,6 +26,8 @@ class Reflection:
     Attributes
     ----------
     mirror : bpy.types.Object
+    camera : bpy.types.Object
+        That it is right for.
     sources : list of bpy.types.Object
         What is reflected in it.
     result : core.ReflectionMesh
@@ -32,49 +35,101 @@ class Reflection:
         The same, to be written.
     resolution : (int, int)
         Of the picture that it was made for.
+    placement : str
+        Where it lies; VIRTUAL makes a window of the mirror.
+    attributes : {'ALL', 'SHOWN'} or None
+        What of the arrays is written; None: what the result had before.
     """
 
     mirror: bpy.types.Object
+    camera: bpy.types.Object
     sources: list
     result: ReflectionMesh
     arrays: MeshArrays
     resolution: tuple[int, int]
+    placement: str
+    attributes: str | None = None
 
 
-def write_object(context: bpy.types.Context, made: Reflection, placement: str,
-                 whole: AllOrNothing) -> bpy.types.Object:
-    """The reflection in a mirror as an object: a new one, or the one that the mirror already has, updated in place.
+@dataclass(frozen=True)
+class Written:
+    """A result that was written: `obj`, what the user had changed on it, and whether it is a copy of another one."""
+
+    obj: bpy.types.Object
+    changes: Changes
+    copy: bool
+
+
+def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothing) -> list[Written]:
+    """The reflection in a mirror as an object: a new one, or the one that the mirror already has for the scene's
+    camera, updated in place, and with it the copies that the user has made of it.
 
     Where something fails, be it at a later object, `whole` takes back all that is changed here.
+
+    Returns
+    -------
+    written : list of Written
+        The result, and its copies.
     """
-    mirror = made.mirror
-    earlier = results_of(context, mirror)
-    if earlier:
-        active = context.view_layer.objects.active
-        obj = active if active in earlier else earlier[0]
+    earlier = results_of(context, made.mirror)
+    keep_mirror(made.mirror, whole)
+    if not earlier:
+        obj = new_object(context, made.mirror, whole)
+        _fill(obj, made, whole, Changes(None, [], []), obj.data)
+        set_window(obj, made.placement)
+        return [Written(obj, Changes(None, [], []), False)]
+    active = context.view_layer.objects.active
+    # the active one first
+    earlier.sort(key=lambda obj: obj != active)
+    shared = earlier[0].data
+    written = [Written(obj, changes_of(obj), obj != earlier[0]) for obj in earlier]
+    for entry in written:
+        obj = entry.obj
         keep_object(obj, whole)
-        keep_data(obj, whole)
-    else:
-        obj = new_object(context, mirror, whole)
-    keep_mirror(mirror, whole)
+        linked = entry.copy and obj.data == shared
+        if linked:
+            whole.undo(setattr, obj, "data", shared)
+            obj.data = earlier[0].data
+        else:
+            keep_data(obj, whole)
+        _fill(obj, made, whole, entry.changes, None if linked else obj.data)
+        set_window(obj, made.placement)
+    whole.after(_forget, shared)
+    return written
+
+
+def _forget(mesh: bpy.types.Mesh) -> None:
+    if still_there([mesh]) and not mesh.users and mesh.library is None:
+        bpy.data.meshes.remove(mesh)
+
+
+def _fill(obj: bpy.types.Object, made: Reflection, whole: AllOrNothing, changes: Changes,
+          mesh: bpy.types.Mesh | None) -> None:
+    """Write a result: its mesh, where it has one of its own, its place and its record."""
+    _remember(obj, made)
     show_own_materials(obj)
-    write_mesh(obj.data, made.arrays)
+    if obj.data.shape_keys is not None:
+        obj.shape_key_clear()
+    arrays = made.arrays
+    if obj.reflection_mesh.attributes == "SHOWN":
+        arrays = arrays.seen_in([*arrays.materials, *(material for _, _, material in changes.materials)])
+    if mesh is not None:
+        write_mesh(mesh, arrays)
     if made.result.discs is None:
         whole.after(hide_discs, obj)
     else:
-        show_discs(obj, made.arrays.uv_maps, whole)
-    obj.matrix_world = Matrix.Translation(made.arrays.origin)
-    _remember(obj, made)
-    if placement == "VIRTUAL":
-        open_window(mirror)
-    else:
-        close_window(mirror)
-    return obj
+        show_discs(obj, arrays.uv_maps, whole)
+    _count(obj, made)
+    place(obj, arrays.origin, changes)
 
 
 def new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
-    """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet."""
-    obj = new_beside(context, f"{mirror.name} Reflection", mirror, whole)
+    """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet; its name tells
+    its camera where the mirror has results for others."""
+    name = f"{mirror.name} Reflection"
+    if every_result_of(context, mirror):
+        name = f"{name} {context.scene.camera.name}"
+    obj = new_beside(context, name, mirror, whole)
     for rays in RAYS:
         setattr(obj, rays, False)
     # Line Art takes creases from the sharp edges alone, and no lines where layers that touch sink into each other
@@ -103,14 +158,21 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     record, result = obj.reflection_mesh, made.result
     record.role = "REFLECTION"
     record.mirror = made.mirror
+    record.camera = made.camera
+    bring_back(obj)
+    if made.attributes is not None:
+        record.attributes = made.attributes
     record.sources.clear()
     for source in made.sources:
         record.sources.add().object = source
     record.estimated_error = result.estimated_error
     record.counts = json.dumps({name: int(count) for name, count in result.counts.items()})
     record.resolution = made.resolution
-    record.faces = len(obj.data.polygons)
-    record.points = 0 if result.discs is None else len(result.positions)
+
+
+def _count(obj: bpy.types.Object, made: Reflection) -> None:
+    obj.reflection_mesh.faces = len(obj.data.polygons)
+    obj.reflection_mesh.points = 0 if made.result.discs is None else len(made.result.positions)
 
 
 def show_own_materials(obj: bpy.types.Object) -> None:

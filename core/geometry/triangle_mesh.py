@@ -66,7 +66,8 @@ class TriangleMesh:
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "triangles", triangles)
         if corner_normals is None:
-            normals = np.repeat(self.face_normals()[:, None, :], 3, axis=1)
+            # a view: of millions of triangles in the scene nobody reads them
+            normals = np.broadcast_to(self.face_normals()[:, None, :], (len(triangles), 3, 3))
         else:
             normals = numbers(corner_normals, (len(triangles), 3, 3), "The corner_normals must be an (m, 3, 3) "
                               "array of numbers; give three normals for each triangle, or none at all.")

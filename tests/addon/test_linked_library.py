@@ -32,11 +32,13 @@ def test_linked_mirror_and_source(library):
     assert np.allclose(parts.attribute(result, "reflected_position")[:, 2].max(), 1.7, atol=1e-6)
 
 
-def test_virtual_leaves_a_linked_mirror_alone(library):
+def test_virtual_leaves_a_linked_mirror_alone(library, room):
     mirror, leaf = library
     parts.select(leaf, mirror)
     parts.generate(placement="VIRTUAL")
     assert mirror.visible_camera
+    told, = room("addon.shortcomings").window_shortcomings(bpy.context, mirror, None, [mirror])
+    assert "linked and cannot be hidden" in told
 
 
 def test_linked_collection_instance(blank, tmp_path):

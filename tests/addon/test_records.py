@@ -112,7 +112,8 @@ def test_a_mesh_that_lost_its_numbers_is_told(scene, tmp_path, name, kind):
     if kind:
         mesh.attributes.new(name, *kind)
     sentence = parts.refusal(bpy.ops.reflection_mesh.compare, filepath=str(tmp_path), samples=1)
-    assert sentence == "The faces of 'Mirror Reflection' do not know any more what they show: generate it again."
+    assert sentence == ("The faces of 'Mirror Reflection' do not know what they show: generate it again, "
+                        "with all attributes.")
 
 
 def test_a_redraw_reads_a_record_once_and_never_the_disk(scene, room, tmp_path, monkeypatch):

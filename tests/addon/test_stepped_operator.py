@@ -1,7 +1,7 @@
 """Operators in a window, with stand-ins for it: what is shown before which step, ESC, errors, and the file browser."""
 from __future__ import annotations
 
-from types import SimpleNamespace
+from types import FunctionType, SimpleNamespace
 
 import pytest
 
@@ -38,8 +38,36 @@ class Window:
     def fileselect_add(self, operator):
         self.notes.append("browser")
 
-    def status_text_set(self, text):
-        self.notes.append(f"shown {text}" if text else "nothing shown")
+    def status_text_set(self, draw):
+        """As Blender: what is given draws the status bar, until None is."""
+        if draw is None:
+            self.notes.append("nothing shown")
+            return
+        # Blender calls nothing else that can be called
+        assert isinstance(draw, FunctionType)
+        header = Header()
+        draw(header, self)
+        self.notes.append("shown " + ", ".join(header.drawn))
+
+
+class Header:
+    """A status bar and its layout in one: notes what is drawn on it."""
+
+    def __init__(self) -> None:
+        self.drawn, self.layout = [], self
+
+    def row(self):
+        return self
+
+    def progress(self, factor, text, translate):
+        assert text == f"{100.0 * factor:.0f} %"
+        self.drawn.append(text)
+
+    def label(self, text, icon="NONE", translate=True):
+        self.drawn.append(text)
+
+    def separator_spacer(self):
+        pass
 
 
 @pytest.fixture
@@ -76,12 +104,12 @@ def started(place, told: list, kind: str = "SteppedOperator", error: Exception |
 def test_what_cannot_be_divided_is_shown_before_it_begins(place):
     job, window, notes = started(place, ["one", "two", place.Undivided("whole"), "three"])
     assert job.invoke(window, None) == {"RUNNING_MODAL"}
-    assert notes[-1] == "shown one: 0 %, ESC cancels" and {"timer", "modal"} <= set(notes)
+    assert notes[-1] == "shown 0 %, one, ESC cancels" and {"timer", "modal"} <= set(notes)
     assert job.modal(window, TIMER) == {"RUNNING_MODAL"}
     # the quick ones in one go, and not the one that takes long
-    assert notes[-1] == "shown whole: 50 %, this cannot be divided, ESC cancels after it"
+    assert notes[-1] == "shown 50 %, whole, this cannot be divided, ESC cancels after it"
     assert "after two" in notes and "after whole" not in notes
-    assert job.modal(window, MOVED) == {"RUNNING_MODAL"} and notes[-1].startswith("shown whole")
+    assert job.modal(window, MOVED) == {"RUNNING_MODAL"} and notes[-1].startswith("shown 50 %, whole")
     assert job.modal(window, TIMER) == {"FINISHED"}
     assert notes[-3:] == ["cleaned up", "no timer", "nothing shown"]
 
@@ -131,3 +159,20 @@ def test_executed_or_without_a_window_it_runs_to_its_end(place):
         window.window = None
         assert job.invoke(window, None) == {"FINISHED"}
         assert notes.count("after whole") == 2 and "timer" not in notes and "browser" not in notes
+
+
+@pytest.mark.parametrize(("passed", "fraction", "told"), [
+    (0.5, 0.5, ""), (60.0, 0.01, ""), (10.0, 0.25, "about 30 s left"), (9.0, 0.999, "about 1 s left"),
+    (60.0, 0.2, "about 4 min left"), (3600.0, 0.25, "about 3.0 h left")])
+def test_time_left(room, passed, fraction, told):
+    assert room("addon.faults.status_bar").time_left(passed, fraction) == told
+
+
+def test_blender_has_what_the_status_bar_draws(room, monkeypatch):
+    # layouts exist in windows only: their functions by Blender's own description of them
+    import bpy
+    functions = bpy.types.UILayout.bl_rna.functions
+    assert {"factor", "text", "translate"} <= set(functions["progress"].parameters.keys())
+    assert {"label", "row", "separator_spacer"} <= set(functions.keys())
+    icons = functions["label"].parameters["icon"].enum_items.keys()
+    assert "TIME" in icons

@@ -1,0 +1,75 @@
+"""Results that a scene has: of which mirror, for which camera, and which of them a selection means."""
+from __future__ import annotations
+
+import bpy
+
+from ...core import ReflectionError
+
+
+def is_result(obj: bpy.types.Object) -> bool:
+    """Whether an object is a reflection that was generated."""
+    return obj.reflection_mesh.role == "REFLECTION"
+
+
+def results_of(context: bpy.types.Context, mirror: bpy.types.Object) -> list:
+    """Results in the scene that show the reflection in `mirror` to the scene's camera, and can be changed.
+
+    Where none is that camera's own, those of no camera in particular are, which earlier versions made.
+    """
+    every = every_result_of(context, mirror)
+    own = [obj for obj in every if camera_of(obj) == context.scene.camera]
+    return own or [obj for obj in every if camera_of(obj) is None]
+
+
+def every_result_of(context: bpy.types.Context, mirror: bpy.types.Object) -> list:
+    """As `results_of`, for every camera."""
+    return [obj for obj in context.scene.objects if is_result(obj)
+            and obj.reflection_mesh.mirror == mirror and obj.type == "MESH" and obj.library is None]
+
+
+def camera_of(result: bpy.types.Object) -> bpy.types.Object | None:
+    """The camera that a result is right for; None where that is whichever looks, or has been deleted."""
+    camera = result.reflection_mesh.camera
+    # what is deleted may live on where something still points to it, but in no scene
+    return camera if camera is not None and camera.users_scene else None
+
+
+def meant(context: bpy.types.Context, active: bpy.types.Object | None) -> list:
+    """The results that a selection without objects to reflect means, the active one's first: those in it, the active
+    one even where it is not, and those of mirrors in it."""
+    selected = [obj for obj in context.view_layer.objects
+                if obj.select_get() or (obj == active and is_result(obj))]
+    selected.sort(key=lambda obj: obj != active)
+    # asked for those alone that are a mirror: thousands of others may be selected
+    reflected = {obj.reflection_mesh.mirror for obj in context.scene.objects if is_result(obj)}
+    found: dict = {}
+    for obj in selected:
+        if is_result(obj) or obj in reflected:
+            own = [obj] if is_result(obj) else results_of(context, obj)
+            found.update(dict.fromkeys(result for result in own if result.reflection_mesh.mirror is not None))
+    return list(found)
+
+
+def of_results(results: list) -> tuple[list, list]:
+    """The mirrors of results, and what all of these show.
+
+    Raises
+    ------
+    ReflectionError
+        Where they do not show the same, or a mirror is among what it shows.
+    """
+    diffuse = _sources(results[0])
+    other = next((result for result in results if set(_sources(result)) != set(diffuse)), None)
+    if other is not None:
+        raise ReflectionError(f"'{results[0].name}' and '{other.name}' show different objects: select one of them, or "
+                              "the mirrors together with what they shall show.")
+    mirrors = list(dict.fromkeys(result.reflection_mesh.mirror for result in results))
+    both = next((mirror for mirror in mirrors if mirror in diffuse), None)
+    if both is not None:
+        raise ReflectionError(f"'{both.name}' is both the mirror and a source of '{results[0].name}': choose another "
+                              "mirror or remove it from the sources.")
+    return mirrors, diffuse
+
+
+def _sources(result: bpy.types.Object) -> list:
+    return [source.object for source in result.reflection_mesh.sources if source.object is not None]

@@ -1,0 +1,115 @@
+"""All results of a generation, written at once or not at all, and what there is to tell of them."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+
+from ..core import View
+from .faults import AllOrNothing
+from .frames import stop_playing
+from .lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
+from .reading import DiffuseScene, results_of
+from .writing import (
+    Reflection,
+    gather,
+    mesh_bytes,
+    put_back_materials,
+    show_for_camera,
+    size_text,
+    write_object,
+)
+
+WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
+
+
+@dataclass(frozen=True)
+class Manners:
+    """How results are written and handed over, besides the method.
+
+    Attributes
+    ----------
+    attributes : {'ALL', 'SHOWN'} or None
+        What their points and faces know; None keeps it as each result has it.
+    collect : bool
+        New ones go into the scene's collection of results, instead of beside their mirrors.
+    """
+
+    attributes: str | None = None
+    collect: bool = False
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a generation made.
+
+    Attributes
+    ----------
+    results : list of (bpy.types.Object, core.ReflectionMesh)
+        Of each mirror.
+    remarks : list of str
+        Sentences on what was left out or lost.
+    unlit : list of bpy.types.Object
+        Those of which the light is still to come.
+    news : list of str
+        Sentences on what else is good to know.
+    copies : list of bpy.types.Object
+        Of results, which the user made and which were updated with them.
+    read : tuple
+        From what: the view, the surface of each mirror, the diffuse scene.
+    """
+
+    results: list
+    remarks: list
+    unlit: list
+    news: list
+    copies: list
+    read: tuple = ()
+
+    def summary(self, seconds: float) -> str:
+        """One line on what was generated."""
+        points = sum(obj.reflection_mesh.points for obj, _ in self.results)
+        faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
+        size = f"{points} points" if points else f"{faces} faces"
+        error = max(result.estimated_error for _, result in self.results)
+        share = max(result.filled_share for _, result in self.results)
+        filled = f", {share:.1f} % filled by rays" if share >= WORTH_TELLING else ""
+        names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
+        memory = size_text(sum(mesh_bytes(mesh) for mesh in {obj.data for obj, _ in self.results}
+                               | {copy.data for copy in self.copies}))
+        light = "; the light is still to come, by Light Reflection" if self.unlit else ""
+        return f"{names}: {size}, {memory}, error about {error:.2f} px{filled}, {seconds:.2f} s{light}"
+
+
+def write_results(context: bpy.types.Context, prepared: list[Reflection], view: View, scene: DiffuseScene,
+                  preview: bool, manners: Manners) -> Outcome:
+    """Write all results or none; `view` saw what they show of `scene`."""
+    there, remarks = set(context.scene.objects), []
+    previewed = {obj for made in prepared for obj in results_of(context, made.mirror) if shows_preview(obj)}
+    with AllOrNothing() as whole:
+        written = [write_object(context, made, whole) for made in prepared]
+        for made, group in zip(prepared, written):
+            for entry in group:
+                keep_light(entry.obj, view, scene)
+                remarks += put_back_materials(entry.obj, made.arrays.materials, entry.changes)
+                whole.after(stop_playing, entry.obj)
+        results = [(group[0].obj, made.result) for group, made in zip(written, prepared)]
+        entries = [entry for group in written for entry in group]
+        unlit = [entry.obj for entry in entries if not is_lit(entry.obj) and needs_light(entry.obj)]
+        show_previews([obj for obj in unlit if preview or obj in previewed], whole)
+        if manners.collect:
+            gather(context, [obj for obj, _ in results if obj not in there], whole)
+        whole.after(forget_previews)
+        whole.after(show_for_camera, context.scene)
+    return Outcome(results, remarks, unlit, _told(entries), [entry.obj for entry in entries if entry.copy])
+
+
+def _told(written: list) -> list[str]:
+    """Sentences on results that the user had moved, and on the copies that were made of them."""
+    moved = [entry.obj.name for entry in written if entry.changes.moved is not None and not entry.copy]
+    news = [f"'{name}' stays moved, as you left it: clear it and generate again to have it on its mirror."
+            for name in moved]
+    copies = [entry.obj.name for entry in written if entry.copy]
+    if copies:
+        news.append(f"Updated too, as a copy: {', '.join(map(repr, copies))}.")
+    return news

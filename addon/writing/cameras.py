@@ -1,0 +1,77 @@
+"""Results of several cameras: where the camera that looks has results of its own, those of others are put aside.
+
+To Blender an object is there for every camera alike; a handler hides and shows them when another camera becomes the
+scene's. What the user hides stays hidden, what the user shows stays shown until the camera changes again.
+"""
+from __future__ import annotations
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..reading.results import camera_of
+from .windows import close_window, open_window
+
+SWITCHES = ("hide_render", "hide_viewport")
+
+
+def show_for_camera(scene: bpy.types.Scene) -> None:
+    """Show the results of the scene's camera and put those of others aside, where it has any, once for each change."""
+    camera = scene.camera
+    if camera is None or scene.reflection_mesh.seen_by == camera or scene.library is not None:
+        return
+    # those of no camera in particular are right for whichever looks, or were put where they are by someone else
+    results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION" and obj.library is None
+               and obj.reflection_mesh.mirror is not None and camera_of(obj) is not None]
+    own = [obj for obj in results if camera_of(obj) == camera]
+    if not own:
+        return
+    scene.reflection_mesh.seen_by = camera
+    for obj in results:
+        if camera_of(obj) == camera:
+            bring_back(obj)
+        elif not any(obj.reflection_mesh.aside):
+            _put_aside(obj)
+    for mirror in {obj.reflection_mesh.mirror for obj in own}:
+        windows = [obj.reflection_mesh.window for obj in own if obj.reflection_mesh.mirror == mirror]
+        (open_window if any(windows) else close_window)(mirror)
+
+
+def _put_aside(obj: bpy.types.Object) -> None:
+    aside = [not getattr(obj, switch) for switch in SWITCHES]
+    for switch, shown in zip(SWITCHES, aside):
+        if shown:
+            setattr(obj, switch, True)
+    obj.reflection_mesh.aside = aside
+
+
+def bring_back(obj: bpy.types.Object) -> None:
+    """Show a result again that was put aside."""
+    for switch, aside in zip(SWITCHES, obj.reflection_mesh.aside):
+        if aside:
+            setattr(obj, switch, False)
+    obj.reflection_mesh.aside = (False, False)
+
+
+@persistent
+def _after_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    # a render's depsgraph tells of nothing that has happened in the file
+    if depsgraph.mode == "VIEWPORT" and depsgraph.id_type_updated("SCENE"):
+        show_for_camera(scene)
+
+
+@persistent
+def _after_opening(*_) -> None:
+    for scene in bpy.data.scenes:
+        show_for_camera(scene)
+
+
+def register() -> None:
+    bpy.app.handlers.depsgraph_update_post.append(_after_change)
+    bpy.app.handlers.frame_change_post.append(_after_change)
+    bpy.app.handlers.load_post.append(_after_opening)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_post.remove(_after_opening)
+    bpy.app.handlers.frame_change_post.remove(_after_change)
+    bpy.app.handlers.depsgraph_update_post.remove(_after_change)

@@ -1,0 +1,47 @@
+"""The collection in which results made in a window lie together, and its end when nothing lies in it any more."""
+from __future__ import annotations
+
+import bpy
+
+from ..faults import AllOrNothing
+from ..reading.roles import rendered_collections
+
+NAME = "Reflections"
+
+
+def gather(context: bpy.types.Context, objects: list, whole: AllOrNothing) -> None:
+    """Move new results, which nothing else in the file knows yet, into the scene's collection of results; they stay
+    where they are where that is hidden, and where their mirror is held out or seen by indirect rays alone, as they then
+    are too."""
+    scene = context.scene
+    target = _own(scene) or scene.collection.children.get(NAME) or _new(scene, whole)
+    if target.library is not None or target not in rendered_collections(context.view_layer.layer_collection):
+        return
+    for obj in objects:
+        mirror, layer = obj.reflection_mesh.mirror, context.view_layer
+        if mirror.holdout_get(view_layer=layer) or mirror.indirect_only_get(view_layer=layer):
+            continue
+        for other in list(obj.users_collection):
+            other.objects.unlink(obj)
+        target.objects.link(obj)
+
+
+def forget_collection(scene: bpy.types.Scene) -> None:
+    """Remove the scene's collection of results where it was made for them and is empty."""
+    made = _own(scene)
+    if made is not None and made.library is None and not made.objects and not made.children:
+        bpy.data.collections.remove(made)
+
+
+def _own(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    """The collection that was made for the results of this scene, where it is still in it."""
+    made = scene.reflection_mesh.collection
+    return made if made is not None and made in scene.collection.children_recursive else None
+
+
+def _new(scene: bpy.types.Scene, whole: AllOrNothing) -> bpy.types.Collection:
+    made = bpy.data.collections.new(NAME)
+    whole.undo(bpy.data.collections.remove, made)
+    scene.collection.children.link(made)
+    scene.reflection_mesh.collection = made
+    return made

@@ -1,0 +1,43 @@
+"""Which attributes of a result are seen: what its materials read, and nothing of how it came about."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import bpy
+
+from .. import compat
+from ..reading.material_nodes import all_nodes, asked_attributes
+from ..reading.mirror_materials import emits
+
+# what results know of how they came about, and nothing that is seen asks for
+OF_METHOD = frozenset({"reflected_position", "mirror_position", "path_length", "image_parity", "source_object",
+                       "source_face", "bounces", "mirror_face"})
+# nodes that take the active UV map, or may, and those that take normals
+READS_UV = {"TEX_COORD", "UVMAP", "NORMAL_MAP", "TANGENT", "TEX_IMAGE", "TEX_GABOR", "SCRIPT"}
+READS_NORMALS = {"TEX_COORD", "NEW_GEOMETRY", "FRESNEL", "LAYER_WEIGHT", "BUMP", "NORMAL_MAP", "TANGENT", "BEVEL",
+                 "AMBIENT_OCCLUSION", "SCRIPT"}
+
+
+def shown_attributes(attributes: tuple, materials: list) -> tuple:
+    """Those of the attributes of a result that `materials` read; the first UV map and the first colours of them are the
+    active ones."""
+    asked = asked_attributes(materials)
+    types = {node.type for node in _nodes(materials)}
+    nameless = {node.type for node in _nodes(materials)
+                if node.type == "VERTEX_COLOR" and not node.layer_name}
+    uv_maps = [entry.name for entry in attributes if entry.kind == "FLOAT2"]
+    colours = [entry.name for entry in attributes if "COLOR" in entry.kind]
+    unread = OF_METHOD | {*uv_maps, *colours}
+    if types & READS_UV:
+        unread -= set(uv_maps[:1])
+    if nameless:
+        unread -= set(colours[:1])
+    if not types & READS_NORMALS and all(map(emits, materials)):
+        unread |= {"custom_normal"}
+    return tuple(entry for entry in attributes if entry.name in asked or entry.name not in unread)
+
+
+def _nodes(materials: list) -> Iterator[bpy.types.Node]:
+    for material in materials:
+        if material is not None and compat.uses_nodes(material):
+            yield from all_nodes(material.node_tree)
