@@ -13,7 +13,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from .settings import SettingsOfMirror, SettingsOfScene, holder_of, make_own, mirror_of
+from .settings import SettingsOfMirror, SettingsOfScene, make_own
 
 ROLES = (
     ("AUTO", "Automatic", "A mirror if its material is one; if no selected object is, the active object is the mirror"),
@@ -102,10 +102,6 @@ class ReflectionScene(SettingsOfScene, bpy.types.PropertyGroup):
                              type=bpy.types.Object)
     collection: PointerProperty(name="Collection", description="Where results made in a window go",
                                 type=bpy.types.Collection)
-
-    def shown(self, context: bpy.types.Context) -> bpy.types.PropertyGroup:
-        """The settings that the panels show and presets set: those that hold for the active object."""
-        return holder_of(mirror_of(context.view_layer.objects.active), context.scene)
 
 
 CLASSES = (ReflectionSource, ReflectionMaterial, ReflectionObject, ReflectionScene)

@@ -31,7 +31,12 @@ class REFLECTION_MESH_OT_preset_add(AddPresetBase, bpy.types.Operator):
     bl_label = "Add Reflection Preset"
     preset_menu = "REFLECTION_MESH_PT_presets"
     preset_subdir = FOLDER
-    preset_defines = ["settings = bpy.context.scene.reflection_mesh.shown(bpy.context)"]
+    # the settings that hold for the active object, as `settings.holder_of` tells; no method of a property group, since
+    # 4.2 as a module crashes at its end where a group has any
+    preset_defines = [
+        "active = bpy.context.view_layer.objects.active",
+        'mirror = active.reflection_mesh.mirror if active and active.reflection_mesh.role == "REFLECTION" else active',
+        "settings = (mirror if mirror and mirror.reflection_mesh.own_settings else bpy.context.scene).reflection_mesh"]
     # Memory belongs to the machine
     preset_values = [f"settings.{name}" for name in SETTINGS + LIGHT_SETTINGS if name != "memory"]
 

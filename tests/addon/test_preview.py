@@ -37,7 +37,7 @@ def test_what_emits_shines_in_it_and_what_is_open_is_open(blank, room):
     facing_card(blank, (0.0, 0.0, 0.0), Alpha=0.5, **{"Emission Color": (1.0, 0.5, 0.25, 1.0),
                                                       "Emission Strength": 0.5})
     bpy.data.objects["Mirror"].visible_camera = False
-    blank.scene.world.color = (0.0, 0.0, 0.0)
+    blank.scene.world = None
     parts.generate(preview=True)
     shown = picture(room)[60:68, 44:52].mean(axis=(0, 1))
     linear = 0.25 * np.array((1.0, 0.5, 0.25)) * TINT

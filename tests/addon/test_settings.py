@@ -109,7 +109,7 @@ def test_each_mirror_is_made_by_its_own(pair):
     assert abs(places[:, 1] - 1.0).max() < 1e-6
 
 
-def test_own_settings_begin_as_the_scenes_and_are_kept(pair):
+def test_own_settings_begin_as_the_scenes_and_are_kept(pair, room):
     put(pair.scene.reflection_mesh, OTHERS)
     record = bpy.data.objects["Left"].reflection_mesh
     record.own_settings = True
@@ -117,7 +117,7 @@ def test_own_settings_begin_as_the_scenes_and_are_kept(pair):
     record.tolerance = 5.0
     record.own_settings = False
     pair.scene.reflection_mesh.tolerance = 1.0
-    assert pair.scene.reflection_mesh.shown(pair).tolerance == 1.0
+    assert room("addon.settings").holder_of(bpy.data.objects["Left"], pair.scene).tolerance == 1.0
     record.own_settings = True
     assert record.tolerance == 5.0
 

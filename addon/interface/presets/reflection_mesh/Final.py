@@ -1,6 +1,8 @@
 import bpy
 
-settings = bpy.context.scene.reflection_mesh.shown(bpy.context)
+active = bpy.context.view_layer.objects.active
+mirror = active.reflection_mesh.mirror if active and active.reflection_mesh.role == "REFLECTION" else active
+settings = (mirror if mirror and mirror.reflection_mesh.own_settings else bpy.context.scene).reflection_mesh
 
 settings.tolerance = 0.25
 settings.placement = "LAYERED"
