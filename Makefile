@@ -81,6 +81,7 @@ work: environment
 pictures: environment
 	$(RUN) tools/pictures.py
 	$(RUN) tools/line_pictures.py
+	$(RUN) tools/caustic_pictures.py
 	$(RUN) tools/manual_pictures.py
 	$(RUN) tools/parts.py
 

@@ -1,6 +1,7 @@
 """What Blender sees of the extension: roles, operators, panels, a menu and a command; the optics are in `core`."""
 from . import (
     bake,
+    caustics,
     clear,
     command_line,
     compare,
@@ -17,8 +18,8 @@ from .writing import cameras, windows
 
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
-MODULES = (properties, windows, cameras, stale_light, generate, light, bake, mirror_uvs, print_sheet, compare, clear,
-           interface, command_line)
+MODULES = (properties, windows, cameras, stale_light, generate, light, caustics, bake, mirror_uvs, print_sheet, compare,
+           clear, interface, command_line)
 
 
 def register() -> None:

@@ -6,6 +6,7 @@ import bpy
 from . import polls
 from .faults import in_one_sentence
 from .frames import stop_playing
+from .illumination import bring_back_own_caustics, forget_added_light
 from .lighting import forget_light, forget_map, forget_previews
 from .writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
 
@@ -50,6 +51,28 @@ def clear(context: bpy.types.Context, results: list) -> None:
     forget_collection(context.scene)
 
 
+def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:
+    """The caustics that are selected or whose mirrors are, or all of the scene where none are; whether any are."""
+    every = [obj for obj in context.scene.objects
+             if obj.reflection_mesh.role == "CAUSTICS" and obj.library is None]
+    selected = set(context.selected_objects)
+    named = [obj for obj in every if obj in selected or obj.reflection_mesh.mirror in selected]
+    return named or every, bool(named)
+
+
+def clear_caustics(caustics: list) -> None:
+    """Remove `caustics` with their meshes and materials, and let Cycles show its own again."""
+    meshes = {obj.data for obj in caustics if isinstance(obj.data, bpy.types.Mesh)}
+    materials = {material for mesh in meshes for material in mesh.materials} - {None}
+    for obj in caustics:
+        bring_back_own_caustics(obj.reflection_mesh.lamp, obj.reflection_mesh.mirror)
+        bpy.data.objects.remove(obj)
+    for mesh in meshes:
+        if mesh.users == 0:
+            bpy.data.meshes.remove(mesh)
+    forget_added_light(list(materials))
+
+
 class REFLECTION_MESH_OT_clear(bpy.types.Operator):
     """Remove the selected reflections, or all of the scene, and restore what they changed"""
 
@@ -66,12 +89,19 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
         if context.mode != "OBJECT":
             self.report({"ERROR"}, IN_OBJECT_MODE)
             return {"CANCELLED"}
-        results = chosen_results(context)
-        if not results and not any(obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
+        results, (caustics, named) = chosen_results(context), chosen_caustics(context)
+        selected = set(context.selected_objects)
+        if named != any(obj in selected or obj.reflection_mesh.mirror in selected for obj in results):
+            results, caustics = ([], caustics) if named else (results, [])
+        if not results and not caustics and not any(obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
             self.report({"WARNING"}, "The scene has no reflection to clear.")
             return {"CANCELLED"}
         clear(context, results)
-        self.report({"INFO"}, f"{len(results)} reflection{'' if len(results) == 1 else 's'} cleared.")
+        clear_caustics(caustics)
+        told = f"{len(results)} reflection{'' if len(results) == 1 else 's'}"
+        if caustics:
+            told = f"{told + ' and ' if results else ''}the light of {len(caustics)} caustics"
+        self.report({"INFO"}, f"{told} cleared.")
         return {"FINISHED"}
 
 

@@ -12,6 +12,7 @@ import bpy
 
 from .. import core
 from . import benchmark
+from .caustics import Asked, throwing
 from .clear import chosen_results
 from .command_bake import add_bake
 from .command_place import add_place, placed
@@ -21,6 +22,7 @@ from .compare import comparison, summary
 from .faults import STATUS, sentence
 from .files import check_place, save_blend, staged
 from .generate import generation
+from .illumination import chosen_lamps
 from .light import lighting_groups
 from .light import summary as lighting_summary
 from .mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
@@ -71,6 +73,8 @@ def _parser() -> argparse.ArgumentParser:
     light.add_argument("--every", action="store_true", help="also those that look right as they are, for glTF and USD")
     _add_output(light)
     light.set_defaults(work=_light)
+    caustics = verbs.add_parser("caustics", help="generate the light that mirrors throw, and save the file")
+    _add_caustics(caustics)
     compare = verbs.add_parser("compare", help="compare with a Cycles render of the same view")
     add_settings(compare)
     compare.add_argument("--samples", type=int, default=16, metavar="N", help="samples per pixel of the pictures")
@@ -84,11 +88,23 @@ def _parser() -> argparse.ArgumentParser:
     maps = verbs.add_parser(
         "mirror-uvs", help="write UV maps by which a picture looks right in the mirror alone, and save the file")
     _add_anamorphosis(maps)
-    for verb in (generate, light, compare, maps):
+    for verb in (generate, light, caustics, compare, maps):
         add_place(verb)
     add_place(baked, frame=False)
     _add_benchmark(verbs.add_parser("benchmark", help="every method's error and seconds, judged by Cycles"))
     return parser
+
+
+def _add_caustics(verb: argparse.ArgumentParser) -> None:
+    _add_participants(verb)
+    verb.add_argument("--eyes", type=int, default=1, metavar="N",
+                      help="places on each lamp that its light comes from (1)")
+    verb.add_argument("--tolerance", type=float, metavar="PIXELS", help="how far off a point may be")
+    verb.add_argument("--depth", type=int, metavar="BOUNCES", help="followed from mirror to mirror")
+    verb.add_argument("--memory", type=float, metavar="GB", help="what the work may take")
+    verb.add_argument("--keep-own", dest="leave_out", action="store_false", help="let Cycles add caustics of its own")
+    _add_output(verb)
+    verb.set_defaults(work=_caustics)
 
 
 def _add_anamorphosis(verb: argparse.ArgumentParser) -> None:
@@ -155,6 +171,15 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
     told = _lit(context, chosen_results(context), options.samples, options.kind, options.every)
     save_blend(path)
     print(told)
+
+
+def _caustics(context: bpy.types.Context, options: argparse.Namespace) -> None:
+    path = _path_to_save(options)
+    started = time.perf_counter()
+    asked = Asked(options.eyes, Wanted(context.scene, given(options)), options.leave_out)
+    thrown = announced(throwing(context, _chosen(context, options), chosen_lamps(context), asked))
+    save_blend(path)
+    print(*thrown.remarks, thrown.summary(time.perf_counter() - started), sep="\n")
 
 
 def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None:

@@ -39,7 +39,7 @@ def has_mirror(context: bpy.types.Context) -> str:
     """Something is selected, or else active as a result or a mirror, or has the role of a mirror."""
     objects = context.view_layer.objects
     active = objects.active
-    if objects.selected or (active is not None and active.reflection_mesh.role in {"REFLECTION", "MIRROR"}):
+    if objects.selected or (active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}):
         return ""
     return "" if _any(objects, lambda obj: obj.reflection_mesh.role == "MIRROR") else NO_MIRROR
 

@@ -21,6 +21,7 @@ ROLES = (
     ("DIFFUSE", "Reflected", "Mirrors show this object"),
     ("IGNORE", "Ignored", "This object takes no part"),
     ("REFLECTION", "Reflection", "This object is a reflection that was generated"),
+    ("CAUSTICS", "Caustics", "This object is light thrown by a mirror that was generated"),
 )
 OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
 
@@ -57,6 +58,7 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     own_settings: BoolProperty(name="Own Settings", description="This mirror has settings of its own; else the scene's "
                                "hold for it", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object)
+    lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object)
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
     camera: PointerProperty(name="Camera", description="The camera that this reflection is right for; none: the "

@@ -12,7 +12,7 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import MirrorMap, brought_back, distance_from
 from .culling import SceneAndMirrors
-from .geometry import SceneFrames, area_normals, dot, doubled_areas, groups, norm, rows
+from .geometry import LampView, SceneFrames, area_normals, dot, doubled_areas, groups, norm, rows
 from .polygons import Faces
 from .result import ReflectionMesh, halfway, place
 from .whole_faces import Seamed
@@ -40,6 +40,12 @@ def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors,
         normals = part["mirror_normals"]
         part["mirror_normals"] = np.pad(normals, ((0, 0), (0, most - normals.shape[1]), (0, 0)))
     arrays = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    faces = {"map_face": arrays.pop("map_face")}
+    if isinstance(mirror_map.view, LampView):
+        arrays |= faces
+        maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
+        arrays["positions"] = arrays["mirror_position"]
+        return ReflectionMesh(**arrays, maps=maps)
     arrays["positions"] = place(mirror_map.view, arrays["mirror_position"].T, arrays["path_length"], placement, reach).T
     return ReflectionMesh(**arrays)
 
@@ -75,6 +81,7 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
         "path_length": norm(point - place), "image_parity": np.ones(len(new), dtype=np.int8),
         "mirror_normals": _mirror_normals(mirror_map, place, [point - place]),
         "source_face": whole.source, "source_weights": weights, "mirror_face": whole.mirror_face,
+        "map_face": whole.mirror_face,
         "bounces": np.ones(len(nodes), dtype=np.int8)}
 
 
@@ -118,7 +125,7 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
         "image_parity": np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8),
         "mirror_normals": _mirror_normals(first_map, seen, mirror_map.leaving(owner, uv)),
         "source_face": frames.triangle[faces.column],
-        "source_weights": weights, "mirror_face": mirror_map.first(face)}, used
+        "source_weights": weights, "mirror_face": mirror_map.first(face), "map_face": face}, used
 
 
 def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np.ndarray,

@@ -25,7 +25,7 @@ def bounced_cameras(bounce: Bounce, met: SceneAndMirrors) -> Cameras:
     triangle = frames.triangle[faces.column] - met.diffuse
     pixels = before.view.pixels(nodes.place.T)[faces.nodes]
     large = np.abs(doubled_areas(pixels)) > SMALLEST
-    seen = np.flatnonzero(met.shows_mirror(frames)[faces.column] & large)
+    seen = np.flatnonzero(met.reflects(frames)[faces.column] & large)
     face_before, triangle = bounce.cameras.face[faces.camera[seen]], triangle[seen]
     first, chain = groups(face_before, triangle)
     bounced = BouncedMap(before, met.surface, face_before[first], triangle[first], before.unit_rays)

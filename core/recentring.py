@@ -14,7 +14,7 @@ from typing import TypeVar
 import numpy as np
 
 from .culling import PointTree, SceneTree
-from .geometry import TriangleMesh, View
+from .geometry import LampView, TriangleMesh, View
 from .result import ReflectionMesh
 
 FAR = 1024.0  # sizes of the mirror: nearer ones keep 43 of 53 bits
@@ -34,7 +34,12 @@ def far_corner(mirror: TriangleMesh) -> np.ndarray | None:
 def moved_view(view: View, offset: np.ndarray) -> View:
     placement = view.camera_to_world.copy()
     placement[:3, 3] += offset
-    return replace(view, camera_to_world=placement)
+    view = replace(view, camera_to_world=placement)
+    if isinstance(view, LampView):
+        shades, screens = (None if mesh is None else moved_surface(mesh, offset)
+                           for mesh in (view.shades, view.screens))
+        return replace(view, shades=shades, screens=screens)
+    return view
 
 
 def moved_surface(surface: Surface, offset: np.ndarray) -> Surface:

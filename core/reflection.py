@@ -20,13 +20,13 @@ from .cameras import (
 )
 from .culling import PointTree, SceneAndMirrors, SceneTree
 from .filling import Limits, missed_probes
-from .geometry import TriangleMesh, View, area_normals, cross, dot, norm, ordered, rows
+from .geometry import LampView, TriangleMesh, View, area_normals, cross, dot, norm, ordered, rows
 from .patches import Patch, speck
 from .points import reflected_points
 from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
-from .support import LARGEST, Progress, ReflectionError, Settings, in_steps
-from .visibility import cut_before_eye, without_hidden, without_occluded
+from .support import LARGEST, NothingInView, Progress, ReflectionError, Settings, in_steps
+from .visibility import cut_at_borders, cut_before_eye, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces
 
 INSIDE_WHOLE = 1.1  # of whole faces, which are judged in their middles too
@@ -116,20 +116,19 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     if not len(tree):
         raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
     mirror, given = ordered(mirror, shading=True)
-    met = SceneAndMirrors(tree, mirror if mirrors is None else ordered(mirrors, shading=True)[0])
+    met = _met(view, tree, mirror, mirrors)
     progress.done("tree")
 
     progress.next(0.1, "cameras")
-    mirror_map = MirrorMap(view, mirror, settings.method == "PARALLEL")
-    cameras = three_ray_cameras(mirror_map, mirror, visible_triangles(view, mirror))
+    body, faces = with_shades(view, mirror, visible_triangles(view, mirror))
+    mirror_map = MirrorMap(view, body, settings.method == "PARALLEL")
+    cameras = three_ray_cameras(mirror_map, body, faces)
     uncut = cameras.places.shape[1]
-    cameras = cameras.select(in_picture(cameras))
-    if not len(cameras):
-        raise ReflectionError("The view does not see the mirror; turn the camera to the mirror or move it into view.")
-    cameras = cut_before_eye(cameras)
+    cameras = _seen(cameras.select(in_picture(cameras)))
+    cameras = cut_at_borders(cut_before_eye(cameras))
     cameras, grid = without_hidden(cameras)
-    cameras, occluded, overlaid = without_occluded(mirror, cameras, grid)
-    cameras = cut_at_horizon(cameras)
+    cameras, occluded, overlaid = without_occluded(body, cameras, grid)
+    cameras = cut_at_horizon(_seen(cameras.select(cameras.face < len(mirror.triangles))))
     progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
                   overlaid=overlaid)
 
@@ -164,6 +163,22 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     left = np.concatenate([bounce.left for bounce in bounces], axis=1)
     error = max(_estimate(*left), 0.0 if whole is None else INSIDE_WHOLE * _over_length(*whole.straying))
     return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=error)
+
+
+def _seen(cameras: Cameras) -> Cameras:
+    if not len(cameras):
+        raise NothingInView("The view does not see the mirror; turn the camera to the mirror or move it into view.")
+    return cameras
+
+
+def _met(view: View, tree: SceneTree | PointTree, mirror: TriangleMesh,
+         mirrors: TriangleMesh | None) -> SceneAndMirrors:
+    """What rays may meet: the diffuse scene, the mirrors, and, of a lamp's light, what else hides."""
+    if not isinstance(view, LampView) or view.screens is None:
+        return SceneAndMirrors(tree, mirror if mirrors is None else ordered(mirrors, shading=True)[0])
+    mirrors = mirror if mirrors is None else mirrors
+    met, order = ordered(TriangleMesh.joined((mirrors, view.screens)), shading=True)
+    return SceneAndMirrors(tree, met, order.triangle < len(mirrors.triangles))
 
 
 def _whole_first(cameras: Cameras, uncut: int, task: Task,

@@ -4,7 +4,7 @@
 
 Run it with the oldest supported `bpy` (4.2), so that every supported Blender opens the files. What most mirrors show
 is unlit (emission of an image or of a colour attribute with the light painted in), so that a reflection can be judged
-by its colours; frames, lids and stands are lit and take no part. Three scenes, of `LIT`, have lamps, and mirrors with
+by its colours; frames, lids and stands are lit and take no part. Four scenes, of `LIT`, have lamps, and mirrors with
 a colour and a Fresnel of their own. Mirror and diffuse objects are saved selected.
 """
 from __future__ import annotations
@@ -17,12 +17,12 @@ from pathlib import Path
 
 os.environ["HOME"] = os.sep  # a .blend remembers the home folder of whoever wrote it, in its file browsers
 import bpy
-from lit_scenes import anamorphosis, bathroom, pond, room
+from lit_scenes import anamorphosis, bathroom, pond, ring, room
 from mathutils import Vector
 from painted_scenes import bowl, cylinder, flat_mirror, mirrors, sphere, suzanne, water
 from sample_parts import LIGHT, RESOLUTION, sky
 
-LIT = (room, bathroom, pond)
+LIT = (room, bathroom, pond, ring)
 SCENES = {scene.__name__: scene for scene in (sphere, flat_mirror, bowl, water, cylinder, suzanne, mirrors,
                                              anamorphosis, *LIT)}
 
@@ -36,12 +36,14 @@ def write(name: str, folder: Path) -> Path:
     sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
     sun.rotation_euler = Vector(-LIGHT).to_track_quat("-Z", "Y").to_euler()
     sun.data.energy = 3.0
-    if SCENES[name] not in (room, bathroom):
+    if SCENES[name] not in (room, bathroom, ring):
         scene.collection.objects.link(sun)
     scene.render.engine = "CYCLES"
     scene.render.resolution_x = scene.render.resolution_y = RESOLUTION
     scene.cycles.samples = 64
     scene.view_settings.view_transform = "Standard"
+    if SCENES[name] is ring:
+        scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.12
     for item in scene.objects:
         item.select_set(item.type == "MESH" and item not in bystanders)
     bpy.context.view_layer.objects.active = mirror

@@ -19,6 +19,8 @@ def draw_object(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
         layout.label(text="Select a mirror and what it shall show", icon="INFO")
     elif obj.reflection_mesh.role == "REFLECTION":
         _draw_result(layout, context, obj)
+    elif obj.reflection_mesh.role == "CAUSTICS":
+        _draw_light(layout, obj)
     else:
         layout.label(text=obj.name, icon="OBJECT_DATA", translate=False)
         layout.prop(obj.reflection_mesh, "role")
@@ -35,6 +37,15 @@ def draw_figures(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
         told.append(pgettext_iface("{share:.3f} % filled by rays").format(share=filled_share(counts)))
     for line in told:
         layout.label(text=line, translate=False)
+
+
+def _draw_light(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    record = obj.reflection_mesh
+    layout.label(text=obj.name, icon="LIGHT_POINT", translate=False)
+    names = [pgettext_iface("gone") if part is None else f"'{part.name}'" for part in (record.lamp, record.mirror)]
+    layout.label(text=pgettext_iface("Light of {lamp}, thrown by {mirror}").format(lamp=names[0], mirror=names[1]),
+                 translate=False)
+    layout.label(text=_size(obj), translate=False)
 
 
 def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:

@@ -7,6 +7,7 @@ from ..comparison import show_comparison
 
 # in the order in which they are used
 WORK = (("reflection_mesh.generate", "MOD_MIRROR"), ("reflection_mesh.light", "LIGHT"),
+        ("reflection_mesh.caustics", "LIGHT_POINT"),
         ("reflection_mesh.bake", "FILE_CACHE"), ("reflection_mesh.clear", "TRASH"))
 TOOLS = (("reflection_mesh.compare", "IMAGE_DATA"), ("reflection_mesh.mirror_uvs", "UV"),
          ("reflection_mesh.print_sheet", "OUTPUT"))

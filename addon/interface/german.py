@@ -34,6 +34,16 @@ OPERATORS = {
     "Also reflections that look right as they are: for files that carry pictures but not all materials, as glTF and "
     "USD": "Auch Spiegelungen, die so schon richtig aussehen: für Dateien, die Bilder mitnehmen, aber nicht alle "
         "Materialien, wie glTF und USD",
+    "Generate Caustics": "Kaustik erzeugen",
+    "Compute the light of lamps that the mirrors throw on the diffuse objects, as meshes that add it to them":
+        "Berechnet das Licht der Lampen, das die Spiegel auf die Objekte werfen, als Netze, die es ihnen hinzufügen",
+    "Lamp Places": "Orte je Lampe",
+    "Places on each lamp that its light comes from: one is sharp, more are as soft as the lamp is large":
+        "Orte auf jeder Lampe, von denen ihr Licht kommt: einer ist scharf, mehr sind so weich, wie die Lampe groß ist",
+    "Replace Cycles' Own": "Die von Cycles ersetzen",
+    "The lamps do not light these mirrors any more, so that Cycles does not add caustics of its own; clearing brings "
+    "that back": "Die Lampen beleuchten diese Spiegel nicht mehr, damit Cycles keine eigene Kaustik hinzufügt; "
+        "Entfernen stellt das wieder her",
     "Bake Reflection Frames": "Spiegelungen backen",
     "Write the reflections of a range of frames to files, and let them play; they need no extension to be seen":
         "Schreibt die Spiegelungen einer Reihe von Einzelbildern in Dateien und spielt sie ab; zu sehen sind sie ohne "
@@ -161,6 +171,8 @@ ROLES = {
     "This object takes no part": "Dieses Objekt bleibt aus dem Spiel",
     "Reflection": "Spiegelung",
     "This object is a reflection that was generated": "Dieses Objekt ist eine erzeugte Spiegelung",
+    "Caustics": "Kaustik",
+    "This object is light thrown by a mirror that was generated": "Dieses Objekt ist erzeugtes Licht eines Spiegels",
 }
 PANELS = {
     "Reflection Mesh": "Reflection Mesh",
@@ -175,6 +187,8 @@ PANELS = {
     "Shows {names}": "Zeigt {names}",
     "{names} and {count} more": "{names} und {count} weitere",
     "{count} objects": "{count} Objekte",
+    "Light of {lamp}, thrown by {mirror}": "Licht von {lamp}, geworfen von {mirror}",
+    "gone": "etwas, das fehlt",
     "Plays baked frames": "Spielt gebackene Einzelbilder",
     "{count:,} faces, {size}": "{count:,} Flächen, {size}",
     "{count:,} points, {size}": "{count:,} Punkte, {size}",
@@ -197,6 +211,8 @@ PANELS = {
 OBSTACLES = {
     "Reflections are generated in Object Mode: leave the present mode first.":
         "Spiegelungen entstehen im Objektmodus" + OBJECT_MODE,
+    "Caustics are generated in Object Mode: leave the present mode first.":
+        "Kaustik entsteht im Objektmodus" + OBJECT_MODE,
     "Reflections are lit in Object Mode: leave the present mode first.":
         "Spiegelungen werden im Objektmodus beleuchtet" + OBJECT_MODE,
     "Reflections are baked in Object Mode: leave the present mode first.":

@@ -24,7 +24,8 @@ class _Properties:
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         obj = active(context)
-        return obj is not None and (obj.reflection_mesh.role in {"REFLECTION", "IGNORE"} or can_take_part(obj))
+        return obj is not None and (obj.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "IGNORE"}
+                                    or can_take_part(obj))
 
 
 class _Main:

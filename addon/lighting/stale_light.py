@@ -33,7 +33,7 @@ def _mark(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 def _own(scene: bpy.types.Scene) -> set:
     """Results, and what makes them."""
-    results = {obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
+    results = {obj for obj in scene.objects if obj.reflection_mesh.role in {"REFLECTION", "CAUSTICS"}}
     materials = {obj.reflection_mesh.light_material for obj in results} - {None}
     meshes = {obj.data for obj in results} | {obj.reflection_mesh.light_map for obj in results}
     return results | materials | meshes | {material.node_tree for material in materials}

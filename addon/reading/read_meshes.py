@@ -116,7 +116,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool) -> 
 
 
 def _takes_part(obj: bpy.types.Object) -> bool:
-    return not obj.hide_render and obj.reflection_mesh.role not in {"IGNORE", "REFLECTION"}
+    return not obj.hide_render and obj.reflection_mesh.role not in {"IGNORE", "REFLECTION", "CAUSTICS"}
 
 
 def _read(obj: bpy.types.Object, materials: tuple, mirror: bool) -> LocalMesh | None:

@@ -7,7 +7,7 @@ import bpy
 
 from ...core import ReflectionError
 from .mirror_materials import is_mirror
-from .results import meant, of_results
+from .results import RESULTS, meant, of_results
 
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
              "Reflection tab.")
@@ -76,7 +76,7 @@ def _says_mirror(obj: bpy.types.Object) -> bool:
 
 def can_take_part(obj: bpy.types.Object) -> bool:
     """Whether the object has faces to show, or instances of objects that may."""
-    if obj.reflection_mesh.role in {"IGNORE", "REFLECTION"}:
+    if obj.reflection_mesh.role in {"IGNORE", *RESULTS}:
         return False
     return obj.type in GEOMETRY or obj.is_instancer
 

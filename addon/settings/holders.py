@@ -32,7 +32,7 @@ class SettingsOfMirror:
 
 def mirror_of(obj: bpy.types.Object | None) -> bpy.types.Object | None:
     """The mirror whose settings an object is worked with: a result's, or the object itself."""
-    if obj is not None and obj.reflection_mesh.role == "REFLECTION":
+    if obj is not None and obj.reflection_mesh.role in {"REFLECTION", "CAUSTICS"}:
         return obj.reflection_mesh.mirror
     return obj
 

@@ -40,6 +40,8 @@ class SceneAndMirrors:
         What is left to the cameras of a patch; their triangles are numbered behind those of the scene.
     surface : MirrorSurface
         Of the mirrors.
+    reflecting : (k,) bool
+        Which triangles of the mirrors reflect; the others only hide what lies behind them.
     mirror_tree : SceneTree
     mirror_corners : (3, m, 3) float64
         Of the mirrors' triangles, as [component, triangle, corner].
@@ -47,7 +49,9 @@ class SceneAndMirrors:
         Of the mirrors: the longest side of the box round them, in scene units.
     """
 
-    def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh) -> None:
+    def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh,
+                 reflecting: np.ndarray | None = None) -> None:
+        self.reflecting = np.ones(len(mirrors.triangles), dtype=bool) if reflecting is None else reflecting
         self.tree, self.mirrors, self.mirror_tree = tree, mirrors, SceneTree.of_ordered(mirrors)
         self.mirror_corners = rows(mirrors.positions[mirrors.triangles])
         self._corners = [rows(mirrors.positions[corner]) for corner in mirrors.triangles.T]
@@ -199,6 +203,11 @@ class SceneAndMirrors:
     def shows_mirror(self, frames: SceneFrames) -> np.ndarray:
         """Which columns (t,) of the frames are triangles of mirrors."""
         return frames.triangle >= self.diffuse
+
+    def reflects(self, frames: SceneFrames) -> np.ndarray:
+        """Which columns (t,) of the frames are triangles of mirrors from which light goes on."""
+        shows = self.shows_mirror(frames)
+        return shows & self.reflecting[np.where(shows, frames.triangle - self.diffuse, 0)]
 
     def are_mirrors(self, candidates: Candidates) -> np.ndarray:
         """Which candidates (p,) are triangles of mirrors."""

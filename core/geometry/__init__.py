@@ -5,6 +5,7 @@ their places decide, and which triangles lie beyond each other's sides.
 """
 from .adjacency import connected, corners_beyond, neighbours, opposite_corners
 from .canonical_order import TURNS, Order, ordered
+from .lamp_view import LampView
 from .scene_frames import SceneFrames, falling
 from .subdivision import doubled_areas, edge_lengths, parent_side, shared_edges, split
 from .triangle_mesh import TriangleMesh, area_normals, has_area
@@ -12,7 +13,7 @@ from .vectors import columns, cross, dot, groups, largest, norm, ranges, rows, s
 from .view import View
 from .z_buffer import Drawn, draw
 
-__all__ = ["Drawn", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns", "connected",
-           "corners_beyond", "cross", "dot", "doubled_areas", "draw", "edge_lengths", "falling", "groups", "has_area",
-           "largest", "neighbours", "norm", "opposite_corners", "ordered", "parent_side", "ranges", "rows",
+__all__ = ["Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns",
+           "connected", "corners_beyond", "cross", "dot", "doubled_areas", "draw", "edge_lengths", "falling", "groups",
+           "has_area", "largest", "neighbours", "norm", "opposite_corners", "ordered", "parent_side", "ranges", "rows",
            "shared_edges", "shares", "smallest", "solve", "split", "unit"]

@@ -54,6 +54,10 @@ class ReflectionMesh:
     mirror_normals : (n, b, 3) float64 or None
         Unit normal of each mirror that the eye sees a vertex by, the nearest to the eye first, zero for those that it
         is not seen by. None of points.
+    maps : tuple of ReflectionMap
+        For a lamp's view, the true maps of the first bounce, the second and so on; their numbers are the method's own.
+    map_face : (m,) int64 or None
+        For a lamp's view, the face of its bounce's map that each face is seen by.
 
     Examples
     --------
@@ -82,6 +86,8 @@ class ReflectionMesh:
     discs: Discs | None = None
     bounces: np.ndarray | None = None
     mirror_normals: np.ndarray | None = None
+    maps: tuple = ()
+    map_face: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         if self.bounces is None:

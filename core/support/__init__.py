@@ -2,11 +2,11 @@
 from .checks import LARGEST, number, numbers, whole_number, whole_numbers
 from .crowding import crowded
 from .error_budget import FACE_SHARE, MIRROR_SHARE, OUTLINE_SHARE
-from .errors import ReflectionError
+from .errors import NothingInView, ReflectionError
 from .progress import Progress
 from .settings import METHODS, PLACEMENTS, Settings
-from .stepping import breathe, in_steps
+from .stepping import breathe, in_steps, tell
 
-__all__ = ["FACE_SHARE", "LARGEST", "METHODS", "MIRROR_SHARE", "OUTLINE_SHARE", "PLACEMENTS", "Progress",
-           "ReflectionError", "Settings", "breathe", "crowded", "in_steps", "number", "numbers", "whole_number",
-           "whole_numbers"]
+__all__ = ["FACE_SHARE", "LARGEST", "METHODS", "MIRROR_SHARE", "NothingInView", "OUTLINE_SHARE", "PLACEMENTS",
+           "Progress", "ReflectionError", "Settings", "breathe", "crowded", "in_steps", "number", "numbers", "tell",
+           "whole_number", "whole_numbers"]

@@ -15,3 +15,7 @@ class ReflectionError(ValueError):
     ...     print(error)
     The mirror has no faces; give it faces or choose another mirror.
     """
+
+
+class NothingInView(ReflectionError):
+    """The view sees nothing of the mirror."""

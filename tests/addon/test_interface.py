@@ -13,7 +13,7 @@ import pytest
 
 from tools.extension_zip import PACKAGE
 
-OPERATORS = ("generate", "light", "bake", "clear", "compare", "mirror_uvs", "print_sheet")
+OPERATORS = ("generate", "light", "caustics", "bake", "clear", "compare", "mirror_uvs", "print_sheet")
 
 
 class Layout:

@@ -1,0 +1,91 @@
+"""Light on receivers as a mesh that lies just before them."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...core import CausticMesh
+from ..reading import DiffuseScene
+from ..writing import Attribute, MeshArrays, shown_layers
+from .caustic_material import LIGHT
+from .lamps import Eye
+from .tint import Tint
+
+LIFT = 1e-4  # of the size of what is lit: how far the mesh lies before it
+ROUNDING = 2.0 ** -20  # of a coordinate: by how much single precision may miss, several times over
+DEPTH_STEP = 2.0 ** -22  # of the depth buffer of viewports: what it can tell apart, several times over
+SPREAD = 2.0  # times as far before it: where the layer of the largest number lies
+ACROSS = np.array((0.6180, 0.7071, 0.3437))  # an odd direction, along which few places of a mirror are as far
+MOST_LIFT = 2e-3  # of the size of what is lit
+
+
+def caustic_arrays(lit: list[tuple[Eye, CausticMesh]], scene: DiffuseScene, tint: Tint,
+                   camera: bpy.types.Object | None) -> MeshArrays:
+    """The arrays of one object: the light of all of a lamp's places that a mirror throws.
+
+    Its faces are transparent and add their own light, so they may lie over each other in any order.
+    """
+    meshes = [mesh for _, mesh in lit]
+    positions = np.concatenate([mesh.positions for mesh in meshes])
+    start = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])
+    triangles = np.concatenate([mesh.triangles + first for mesh, first in zip(meshes, start)])
+    together = {name: np.concatenate([getattr(mesh, name) for mesh in meshes]) for name in (
+        "mirror_position", "image_parity", "source_face", "source_weights", "bounces")}
+    irradiance, light = _light(lit, tint)
+    low, high = positions.min(axis=0), positions.max(axis=0)
+    origin = (0.5 * (low + high)).astype(np.float32).astype(np.float64)
+    size = float((high - low).max())
+    place = np.repeat(np.arange(len(meshes)), [len(mesh.positions) for mesh in meshes])
+    lift = _lift(positions, size, float(np.abs(positions).max()), camera)
+    lift *= _layers(together["mirror_position"], together["image_parity"], place)
+    positions = positions + lift[:, None] * _normals(positions, triangles)
+    source, weights = together["source_face"], together["source_weights"].astype(np.float32)
+    own = (
+        Attribute("material_index", "INT", "FACE", scene.material[source].astype(np.int32)),
+        Attribute("irradiance", "FLOAT", "CORNER", irradiance.astype(np.float32)),
+        Attribute(LIGHT, "FLOAT_VECTOR", "CORNER", light.astype(np.float32)),
+        Attribute("mirror_position", "FLOAT_VECTOR", "POINT", together["mirror_position"].astype(np.float32)),
+        Attribute("image_parity", "INT", "POINT", together["image_parity"].astype(np.int32)),
+        Attribute("source_object", "INT", "FACE", scene.source_object[source].astype(np.int32)),
+        Attribute("source_face", "INT", "FACE", scene.source_face[source].astype(np.int32)),
+        Attribute("bounces", "INT", "FACE", together["bounces"].astype(np.int32)))
+    shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
+    return MeshArrays(origin, (positions - origin).astype(np.float32), triangles.astype(np.int32), own + shown,
+                      scene.materials)
+
+
+def _light(lit: list[tuple[Eye, CausticMesh]], tint: Tint) -> tuple[np.ndarray, np.ndarray]:
+    """Irradiance (m, 3) in W/m2, the mean of the colours, and of each colour (m, 3, 3), at the corners."""
+    coloured = []
+    for eye, mesh in lit:
+        share = mesh.irradiance * eye.share(mesh.mirror_position[mesh.triangles])
+        coloured.append(share[:, :, None] * eye.power * tint.at(mesh.cosine, mesh.bounces))
+    light = np.concatenate(coloured)
+    return light.mean(axis=2), light
+
+
+def _lift(positions: np.ndarray, size: float, farthest: float, camera: bpy.types.Object | None) -> np.ndarray:
+    """How far (n,) the mesh is to lie before what it lights: single precision, and from the camera the depth buffer,
+    have to tell both apart."""
+    least = np.full(len(positions), LIFT * size + ROUNDING * farthest)
+    if camera is None or camera.type != "CAMERA":
+        return least
+    distance = np.linalg.norm(positions - np.array(camera.matrix_world.translation), axis=1)
+    return np.clip(DEPTH_STEP * distance**2 / camera.data.clip_start, least, np.maximum(MOST_LIFT * size, least))
+
+
+def _layers(mirror_position: np.ndarray, parity: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """By how many times as far (n,) faces lie that are turned over, to which light comes from elsewhere on the mirror,
+    or from another `place` (n,) of the lamp: Cycles takes surfaces in one place for one."""
+    along = mirror_position @ ACROSS
+    along = (along - along.min()) / max(float(np.ptp(along)), 1e-300)
+    return 1.0 + SPREAD * (place + 0.5 * along + 0.25 * (1 - parity)) / (place.max() + 1)
+
+
+def _normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Unit normals (n, 3) of vertices, to the side that is lit: as far before each of the faces beside them."""
+    corners = positions[triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    total = np.stack([np.bincount(triangles.ravel(), np.repeat(normal[:, axis], 3), minlength=len(positions))
+                      for axis in range(3)], axis=1)
+    return total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)

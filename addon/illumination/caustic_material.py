@@ -1,0 +1,93 @@
+"""Materials that add light to what lies behind them: the receiver's colour times the light that falls there."""
+from __future__ import annotations
+
+import math
+
+import bpy
+
+from .. import compat
+from ..faults import AllOrNothing
+from ..reading.material_nodes import all_nodes
+from ..reading.mirror_materials import surface_shader
+
+LIGHT = "caustic_light"
+"""The attribute with red, green and blue of the light, in W/m2."""
+MARK = "reflection_mesh_adds_light"
+COLOURS = {"BSDF_PRINCIPLED": "Base Color", "BSDF_DIFFUSE": "Color"}
+
+
+def adds_light(receiver: bpy.types.Material | None, whole: AllOrNothing) -> tuple[bpy.types.Material, bool]:
+    """A material that is transparent and emits what the receiver's diffuse colour sends back of the light, and whether
+    it knows that colour all over: it is read from the nodes of a Principled or Diffuse BSDF, of which it has a copy."""
+    name = f"{receiver.name if receiver else 'Default'} Caustics"
+    if receiver is None or not compat.uses_nodes(receiver):
+        material, known = bpy.data.materials.new(name), True
+        tree = compat.use_nodes(material)
+        shader = None
+    else:
+        material = receiver.copy()
+        material.name = name
+        tree = material.node_tree
+        shader = surface_shader(tree)
+        known = shader is not None and shader.type in COLOURS
+        shader = shader if known else None
+    whole.undo(bpy.data.materials.remove, material)
+    material[MARK] = True
+    albedo = (0.8, 0.8, 0.8, 1.0) if receiver is None else tuple(receiver.diffuse_color)
+    share, colour = 1.0, None
+    if shader is not None:
+        socket = shader.inputs[COLOURS[shader.type]]
+        albedo = tuple(socket.default_value)
+        colour = socket.links[0].from_socket if socket.is_linked else None
+        metallic = shader.inputs.get("Metallic")
+        share = 1.0 - metallic.default_value if metallic is not None and not metallic.is_linked else 1.0
+        known = known and (colour is None or not _by_its_box(tree))
+    _show(tree, albedo, colour, share / math.pi)
+    material.surface_render_method = "BLENDED"
+    material.use_transparency_overlap = True
+    material.use_backface_culling = False
+    material.cycles.emission_sampling = "NONE"
+    return material, known
+
+
+def forget_added_light(materials: list) -> None:
+    """Remove those of the materials that were made here and that nothing uses any more."""
+    for material in materials:
+        if material is not None and material.get(MARK) and material.users == 0:
+            bpy.data.materials.remove(material)
+
+
+def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket | None, share: float) -> None:
+    """Let a tree emit its colour times the light's, times a share, and show what lies behind."""
+    def add(kind: str, place: tuple[float, float]) -> bpy.types.Node:
+        node = tree.nodes.new(kind)
+        node.location = place
+        return node
+    for node in [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL"]:
+        tree.nodes.remove(node)
+    light, product = add("ShaderNodeAttribute", (0.0, -300.0)), add("ShaderNodeVectorMath", (200.0, -300.0))
+    light.attribute_name, product.operation = LIGHT, "MULTIPLY"
+    emission, clear = add("ShaderNodeEmission", (400.0, -300.0)), add("ShaderNodeBsdfTransparent", (400.0, -450.0))
+    both, output = add("ShaderNodeAddShader", (600.0, -300.0)), add("ShaderNodeOutputMaterial", (800.0, -300.0))
+    tree.links.new(light.outputs["Vector"], product.inputs[0])
+    if colour is None:
+        product.inputs[1].default_value = albedo[:3]
+    else:
+        tree.links.new(colour, product.inputs[1])
+    emission.inputs["Strength"].default_value = share
+    clear.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    tree.links.new(product.outputs["Vector"], emission.inputs["Color"])
+    tree.links.new(emission.outputs["Emission"], both.inputs[0])
+    tree.links.new(clear.outputs["BSDF"], both.inputs[1])
+    tree.links.new(both.outputs["Shader"], output.inputs["Surface"])
+
+
+def _by_its_box(tree: bpy.types.NodeTree) -> bool:
+    """Whether textures of a tree may be laid out by the object that shows them, which is another one here."""
+    for node in all_nodes(tree):
+        if node.type == "TEX_COORD" and any(node.outputs[name].is_linked for name in ("Generated", "Object")):
+            return True
+        vector = node.inputs.get("Vector") if node.type.startswith("TEX_") and node.type != "TEX_IMAGE" else None
+        if vector is not None and not vector.is_linked:
+            return True
+    return False

@@ -1,0 +1,53 @@
+"""Cycles' own caustics of a lamp in a mirror, left out where the mesh shows them: light linking, for this pair alone.
+
+The mirror is taken out of what the lamp lights, so that no ray finds the lamp in it. It goes on to shade, to reflect
+everything else, and to be lit by all other lamps; what goes with it is the lamp's own image in the mirror.
+"""
+from __future__ import annotations
+
+import bpy
+
+from ..faults import AllOrNothing
+
+
+def leave_out_own_caustics(lamp: bpy.types.Object, mirror: bpy.types.Object, whole: AllOrNothing) -> bool:
+    """Let a lamp not light a mirror; False where the user has linked the lamp otherwise, or the lamp is not the
+    file's own, and nothing has changed."""
+    linking = lamp.light_linking
+    collection = linking.receiver_collection
+    if lamp.library is not None or (collection is not None and not _is_ours(collection, lamp)):
+        return False
+    if collection is None:
+        collection = bpy.data.collections.new(_name(lamp))
+        collection[_MARK] = True
+        whole.undo(bpy.data.collections.remove, collection)
+        linking.receiver_collection = collection
+    if mirror.name not in collection.objects:
+        collection.objects.link(mirror)
+        whole.undo(collection.objects.unlink, mirror)
+    for entry, child in zip(collection.collection_objects, collection.objects):
+        if child == mirror:
+            entry.light_linking.link_state = "EXCLUDE"
+    return True
+
+
+def bring_back_own_caustics(lamp: bpy.types.Object | None, mirror: bpy.types.Object | None) -> None:
+    """Let a lamp light a mirror again."""
+    collection = None if lamp is None or lamp.type != "LIGHT" else lamp.light_linking.receiver_collection
+    if collection is None or not _is_ours(collection, lamp):
+        return
+    if mirror is not None and mirror.name in collection.objects:
+        collection.objects.unlink(mirror)
+    if not len(collection.objects):
+        bpy.data.collections.remove(collection)
+
+
+_MARK = "reflection_mesh_left_out"
+
+
+def _name(lamp: bpy.types.Object) -> str:
+    return f"{lamp.name} Caustics Left Out"
+
+
+def _is_ours(collection: bpy.types.Collection, lamp: bpy.types.Object) -> bool:
+    return bool(collection.get(_MARK)) and collection.library is None

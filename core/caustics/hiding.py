@@ -1,0 +1,69 @@
+"""Which triangles of a scene can hide anything: behind whose planes something lies, as what is before them sees it.
+
+In an empty room with a flat floor none does, and what cannot hide need not be asked again and again.
+"""
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ..geometry import TriangleMesh, shares
+from .lamps import Lamp
+
+ABOVE = 1e-7  # of the scene's size: what lies less far behind a triangle lies in its plane
+PLANES = 1e-6  # of a unit normal, and of the scene's size: planes that differ by less are one
+AT_ONCE = 1 << 22
+Sides = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+def screens_of(mirrors: TriangleMesh, receivers: TriangleMesh, scene: TriangleMesh) -> TriangleMesh | None:
+    """What of the `scene` may stand between mirrors and receivers; None where nothing does."""
+    room = _room(mirrors, receivers)
+    return _between(scene, _sides_of(mirrors, room), _sides_of(receivers, room), room)
+
+
+def shades_of(lamp: Lamp, mirror: TriangleMesh, scene: TriangleMesh) -> TriangleMesh | None:
+    """What of the `scene` may stand between a lamp and a mirror; None where nothing does."""
+    room = _room(mirror, mirror)
+
+    def of_lamp(normal: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        above = -(normal @ lamp.place) if lamp.sun else normal @ lamp.place - height
+        return above > 0.0, above < 0.0
+
+    return _between(scene, of_lamp, _sides_of(mirror, room), room)
+
+
+def _room(*meshes: TriangleMesh) -> float:
+    used = np.concatenate([mesh.positions[mesh.triangles].reshape(-1, 3) for mesh in meshes])
+    return ABOVE * float(np.ptp(used, axis=0).max())
+
+
+def _sides_of(mesh: TriangleMesh, room: float) -> Sides:
+    """Whether any of a mesh lies above planes n . x = h, and whether any lies below."""
+    points = mesh.positions[np.unique(mesh.triangles)]
+
+    def found(normal: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        above = points @ normal.T
+        return above.max(axis=0) - height > room, above.min(axis=0) - height < -room
+
+    found.count = len(points)  # type: ignore[attr-defined]
+    return found
+
+
+def _between(scene: TriangleMesh, start: Sides, end: Sides, room: float) -> TriangleMesh | None:
+    """The triangles of a scene on one side of whose planes some of the start lies, and on the other some of the end."""
+    if not len(scene.triangles):
+        return None
+    normal = scene.face_normals()
+    height = np.einsum("ij,ij->i", normal, scene.positions[scene.triangles[:, 0]])
+    key = np.rint(np.column_stack((normal / PLANES, height * (ABOVE / PLANES / room))))
+    _, first, plane = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    hides = np.zeros(len(first), dtype=bool)
+    work = sum(getattr(side, "count", 1) for side in (start, end))
+    for part in shares(np.full(len(first), work), AT_ONCE):
+        planes = normal[first[part]], height[first[part]]
+        (above, below), (end_above, end_below) = start(*planes), end(*planes)
+        hides[part] = (above & end_below) | (below & end_above)
+    chosen = hides[plane.reshape(-1)]
+    return TriangleMesh(scene.positions, scene.triangles[chosen]) if chosen.any() else None

@@ -1,0 +1,111 @@
+"""Lamps as eyes: views that see all of a mirror, each its own part where one cannot."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry import LampView, TriangleMesh, View
+from ..support import LARGEST, ReflectionError, numbers
+
+WIDEST = 0.9  # radians off the view's middle; a mirror that spans more is seen by six views round the lamp
+MARGIN = 1.01  # of the mirror's picture, so that it lies within the borders
+ROUND = np.pi / 2.0  # the six views meet exactly: tan(pi / 4) is 1 to the last bit or two
+
+
+@dataclass(frozen=True)
+class Lamp:
+    """A place that light comes from, or the direction of parallel light.
+
+    Parameters
+    ----------
+    place : (3,) float64
+        World position; of a sun the direction that its light goes in.
+    sun : bool
+
+    Examples
+    --------
+    >>> from core import Lamp
+    >>> Lamp((0, 0, 3)).sun, Lamp.shining((0, 0, -2)).place.tolist()
+    (False, [0.0, 0.0, -1.0])
+    """
+
+    place: np.ndarray
+    sun: bool = False
+
+    def __post_init__(self) -> None:
+        wrong = "The lamp's place must be three finite numbers up to 1e40; move the lamp nearer."
+        place = numbers(self.place, (3,), wrong).copy()
+        if not (np.abs(place) <= LARGEST).all():
+            raise ValueError(wrong)
+        object.__setattr__(self, "place", place)
+
+    @classmethod
+    def shining(cls, direction) -> Lamp:
+        """A sun whose light goes in a direction (3,)."""
+        lamp = cls(direction, True)
+        length = np.linalg.norm(lamp.place)
+        if not length > 0.0:
+            raise ValueError("The direction of parallel light must not be zero.")
+        return cls(lamp.place / length, True)
+
+    def moved(self, offset: np.ndarray) -> Lamp:
+        """The same beside something that moves by `offset` (3,)."""
+        return self if self.sun else Lamp(self.place + offset)
+
+    def directions(self, places: np.ndarray) -> np.ndarray:
+        """From the lamp to `places` (n, 3), as long as the way; of a sun unit vectors."""
+        return np.broadcast_to(self.place, places.shape) if self.sun else places - self.place
+
+    def views(self, mirror: TriangleMesh, shades: TriangleMesh | None, screens: TriangleMesh | None,
+              detail: int) -> list[LampView]:
+        """Views that see the mirror from the lamp, `detail` pixels wide."""
+        corners = mirror.positions[np.unique(mirror.triangles)]
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        middle = 0.5 * (low + high)
+        size = (detail, detail)
+        if self.sun:
+            standing = corners if shades is None or not len(shades.triangles) else np.concatenate(
+                (corners, shades.positions[np.unique(shades.triangles)]))
+            back = ((standing - middle) @ self.place).min() - np.linalg.norm(high - low) - 1e-6 * np.abs(middle).max()
+            view = View.looking_at(middle + back * self.place, middle, size, orthographic_scale=1.0)
+            across = (corners - middle) @ view.camera_to_world[:3, :2]
+            width = 2.0 * MARGIN * np.abs(across).max()
+            view = View.looking_at(middle + back * self.place, middle, size, orthographic_scale=max(width, 1e-30))
+            return [_lamp_view(view, shades, screens)]
+        ways = corners - self.place
+        length = np.linalg.norm(ways, axis=1)
+        if not (length > 0.0).all():
+            raise ReflectionError("The lamp lies on the mirror; move it away from the mirror's surface.")
+        ways /= length[:, None]
+        ahead = ways.sum(axis=0)
+        if np.linalg.norm(ahead) > 0.0 and not _round(self.place, mirror):
+            ahead /= np.linalg.norm(ahead)
+            view = View.looking_at(self.place, self.place + ahead * length.max(), size, field_of_view=1.0)
+            local = ways @ view.camera_to_world[:3, :3]
+            if (local[:, 2] < -np.cos(WIDEST)).all():
+                width = 2.0 * np.arctan(MARGIN * np.abs(local[:, :2] / local[:, 2:]).max())
+                view = View.looking_at(self.place, self.place + ahead * length.max(), size, field_of_view=width)
+                return [_lamp_view(view, shades, screens)]
+        return [_lamp_view(_side(self.place, axis, sign, size), shades, screens)
+                for axis in range(3) for sign in (1.0, -1.0)]
+
+
+def _round(place: np.ndarray, mirror: TriangleMesh) -> bool:
+    """Whether the mirror's box holds a place, so that some of it may lie any way."""
+    corners = mirror.positions[mirror.triangles].reshape(-1, 3)
+    return bool(((place > corners.min(axis=0)) & (place < corners.max(axis=0))).all())
+
+
+def _side(place: np.ndarray, axis: int, sign: float, size: tuple[int, int]) -> View:
+    """One of the six views round a place; all borders lie in planes x = y, x = z or y = z through it."""
+    placement, projection = np.eye(4), np.zeros((4, 4))
+    placement[:3, :3] = np.roll(np.eye(3), axis + 1, axis=0) * (1.0, -sign, -sign)
+    placement[:3, 3] = place
+    projection[0, 0] = projection[1, 1] = 1.0
+    projection[2, 2], projection[2, 3], projection[3, 2] = -1.0, -0.02, -1.0
+    return View(placement, projection, size)
+
+
+def _lamp_view(view: View, shades: TriangleMesh | None, screens: TriangleMesh | None) -> LampView:
+    return LampView(view.camera_to_world, view.projection, view.resolution, shades, screens)

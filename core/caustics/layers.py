@@ -1,0 +1,25 @@
+"""How many faces of light lie over each other."""
+from __future__ import annotations
+
+import numpy as np
+
+SAMPLES = 256  # faces in whose middles it is counted
+AT_ONCE = 1 << 20
+
+
+def most_layers(positions: np.ndarray, triangles: np.ndarray, source_face: np.ndarray) -> int:
+    """The most faces (m, 3) over each other on one triangle of what is lit, `source_face` (m,), where it was looked."""
+    asked = np.unique(np.linspace(0, len(triangles) - 1, SAMPLES).astype(np.int64))
+    a, b, c = np.moveaxis(positions[triangles], 1, 0)
+    normal = np.cross(b - a, c - a)
+    middle, most = positions[triangles[asked]].mean(axis=1), 0
+    step = max(AT_ONCE // max(len(triangles), 1), 1)
+    for start in range(0, len(asked), step):
+        own = slice(start, start + step)
+        inside = source_face[asked[own], None] == source_face[None]
+        for first, second in ((a, b), (b, c), (c, a)):
+            # (second - first) x (place - first) . normal
+            towards = np.cross(normal, second - first)
+            inside &= middle[own] @ towards.T >= np.einsum("ij,ij->i", towards, first)
+        most = max(most, int(inside.sum(axis=1).max()))
+    return most

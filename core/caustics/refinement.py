@@ -1,0 +1,158 @@
+"""Faces split until their irradiance is nearly linear in each, and so finely towards a caustic, where it is infinite.
+
+Sides are split on both their faces. Those on a side of a receiver's triangle are straight there, and are split in the
+middle; Newton's method tells where the lamp sees it. All others, along the mirror's triangles and what hides, are
+straight in the lamp's picture, and the ray through the middle there tells where its light falls. So the faces have
+their exact share of the picture, which is the flux.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..cameras import ReflectionMap
+from ..geometry import cross, dot, norm, shared_edges, split
+from ..support import breathe
+from .corners import Corners, light_at
+
+LEVELS = 6
+STRAYING = 0.02  # of the irradiance in the middle of a side: by how much that on its ends may miss it
+AT_ONCE = 1 << 16
+STEPS = 8  # of Newton's method
+
+
+@dataclass(frozen=True)
+class LitFaces:
+    """Faces of one map.
+
+    Attributes
+    ----------
+    triangles : (m, 3) int64
+    points : (3, n) float64
+        Of the vertices, on the receivers.
+    face : (m,) int64
+        Of the map.
+    normal : (3, m) float64
+        Unit normal of the receiver.
+    origin : (m,) int64
+        The face of the reflection that each is a part of.
+    on_side : (m, 3) bool
+        Which of the sides 01, 12, 20 lie on a side of their receiver's triangle.
+    light : Corners
+        Of the corners, (3, m) as (3 m,): corner k of face i is the entry k m + i.
+    """
+
+    triangles: np.ndarray
+    points: np.ndarray
+    face: np.ndarray
+    normal: np.ndarray
+    origin: np.ndarray
+    on_side: np.ndarray
+    light: Corners
+
+    def __len__(self) -> int:
+        return len(self.face)
+
+    @property
+    def corners(self) -> np.ndarray:
+        """(3, 3, m): as [component, corner, face]."""
+        return self.points[:, self.triangles.T]
+
+
+def refined(ray_map: ReflectionMap, faces: LitFaces, least: tuple[float, float], most: int) -> LitFaces:
+    """The faces in parts; for none that carries less than the `least` flux, or on sides of less than the least length,
+    and not in more than `most`."""
+    new = np.ones(len(faces), dtype=bool)
+    for _ in range(LEVELS):
+        breathe()
+        _, _, edge = shared_edges(faces.triangles)
+        asked = np.flatnonzero(new)
+        middles, points, found = _middles(ray_map, faces, asked)
+        chosen = np.zeros(int(edge.max(initial=-1)) + 1, dtype=bool)
+        chosen[edge[asked][_astray(faces, asked, middles, least) & found]] = True
+        chosen[edge[asked][~found]] = False
+        beside = np.flatnonzero(~new & chosen[edge].any(axis=1))
+        more, more_points, more_found = _middles(ray_map, faces, beside)
+        chosen[edge[beside][~more_found]] = False
+        marked = chosen[edge]
+        if not marked.any() or len(faces) + marked.sum() > most:
+            break
+        asked = np.concatenate((asked, beside))
+        middles = Corners.joined([middles, more], 3)
+        place = np.full(len(faces), -1)
+        place[asked] = np.arange(len(asked))
+        faces, parent = _split(faces, edge, chosen, (place, middles, np.concatenate((points, more_points), axis=2)))
+        new = marked.any(axis=1)[parent]
+    return faces
+
+
+def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[float, float]) -> np.ndarray:
+    """On which sides (k, 3) of the faces asked the irradiance in the middle is not that between the ends."""
+    ends = faces.light.irradiance.reshape(3, -1)[:, asked].T
+    lit = middles.irradiance.reshape(3, -1).T
+    corners = faces.corners[:, :, asked]
+    with np.errstate(invalid="ignore"):
+        astray = ~(np.abs(0.5 * (ends + np.roll(ends, -1, axis=1)) - lit) <= STRAYING * lit)
+    astray &= norm(corners - np.roll(corners, -1, axis=1)).T > least[1]
+    area = 0.5 * norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    mean = np.where(np.isfinite(lit), lit, 0.0).mean(axis=1)
+    return astray & (area * mean > least[0])[:, None]
+
+
+def _middles(ray_map: ReflectionMap, faces: LitFaces,
+             asked: np.ndarray) -> tuple[Corners, np.ndarray, np.ndarray]:
+    """The light in the middles of the sides 01, 12, 20 of the faces `asked` (k,), where these are, (3, 3, k) as
+    [component, side, face], and whether (k, 3) they were found."""
+    parts, points, found = [], [], []
+    for begin in range(0, max(len(asked), 1), AT_ONCE):
+        breathe()
+        part = asked[begin:begin + AT_ONCE]
+        own, face = np.tile(part, 3), np.tile(faces.face[part], 3)
+        uv = faces.light.uv.reshape(2, 3, -1)[:, :, part]
+        start = 0.5 * (uv + np.roll(uv, -1, axis=1)).reshape(2, -1)
+        corners = faces.corners[:, :, part]
+        chord = 0.5 * (corners + np.roll(corners, -1, axis=1)).reshape(3, -1)
+        normal, straight = faces.normal[:, own], faces.on_side[part].T.ravel()
+        origin, ray = ray_map.leave(face, start)
+        falling = dot(ray, normal)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            point = origin + dot(np.tile(corners[:, 0], 3) - origin, normal) / falling * ray
+        point[:, straight] = chord[:, straight]
+        good = np.isfinite(point).all(axis=0)
+        point[:, ~good] = chord[:, ~good]
+        own = np.flatnonzero(straight)
+        s = dot(point[:, own] - origin[:, own], ray[:, own]) / np.maximum(dot(ray[:, own], ray[:, own]), 1e-300)
+        place = start.copy()
+        place[:, own], _ = ray_map.locate(face[own], start[:, own], s, point[:, own], STEPS)
+        light = light_at(ray_map, face, place, point, normal)
+        # beyond its face Newton's method may have found another image
+        size = np.tile(np.ptp(uv, axis=1).max(axis=0), 3)
+        good &= light.arrived & (np.abs(place - start).max(axis=0) <= 0.5 * size + 1e-12)
+        parts.append(light)
+        points.append(point.reshape(3, 3, -1))
+        found.append(good.reshape(3, -1).T)
+    return Corners.joined(parts, 3), np.concatenate(points, axis=2), np.concatenate(found)
+
+
+def _split(faces: LitFaces, edge: np.ndarray, chosen: np.ndarray,
+           middles: tuple[np.ndarray, Corners, np.ndarray]) -> tuple[LitFaces, np.ndarray]:
+    """The faces split at the middles of the `chosen` edges, and the face that each lies in. Of the `middles` it is told
+    where each face (m,) has them, their light, and where they are."""
+    place, light, points = middles
+    parent, local = split(chosen[edge])
+    vertex = np.cumsum(chosen) - 1 + faces.points.shape[1]
+    # of two faces the first tells where their side's middle is
+    row, side = np.nonzero(chosen[edge] & (place >= 0)[:, None])
+    _, first = np.unique(edge[row, side], return_index=True)
+    new = points[:, side[first], place[row[first]]]
+    six = np.concatenate((faces.triangles, vertex[edge]), axis=1)[parent]
+    triangles = np.take_along_axis(six, local, axis=1)
+    # of a child's side, the ends tell whether it is on a side of its parent
+    ends = np.stack((local, np.roll(local, -1, axis=1)), axis=2)
+    on_side = np.zeros(local.shape, dtype=bool)
+    for number, line in enumerate(((0, 3, 1), (1, 4, 2), (2, 5, 0))):
+        on_side |= np.isin(ends, line).all(axis=2) & faces.on_side[parent, number][:, None]
+    lit = faces.light.of_parts(light, parent, local, place)
+    return LitFaces(triangles, np.concatenate((faces.points, new), axis=1), faces.face[parent], faces.normal[:, parent],
+                    faces.origin[parent], on_side, lit), parent

@@ -1,0 +1,253 @@
+"""Light that mirrors throw, against closed forms and rays traced one by one."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Lamp, ReflectionError, Settings, TriangleMesh, View, caustics
+from core.cameras import MirrorMap
+from core.caustics.corners import light_at
+from tests.oracles.ray_hits import first_hits, plane_hits
+
+SIDE = 1.6
+
+
+def quad(*corners) -> TriangleMesh:
+    return TriangleMesh(np.array(corners, dtype=float), np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+def level(x: float, y: float, z: float, half: float) -> TriangleMesh:
+    """A square that lies flat round a place."""
+    return quad(*((x + sx * half, y + sy * half, z) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))))
+
+
+def upright(x: float, z: float, half: float) -> TriangleMesh:
+    """A square across x."""
+    return quad(*((x, sy * half, z + sz * half) for sy, sz in ((-1, -1), (1, -1), (1, 1), (-1, 1))))
+
+
+def ring(count: int, height: float = 0.5) -> TriangleMesh:
+    """An upright smooth ring of radius 1."""
+    angle = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
+    circle = np.stack((np.cos(angle), np.sin(angle), 0.0 * angle), axis=1)
+    i, j = np.arange(count), (np.arange(count) + 1) % count
+    triangles = np.concatenate((np.stack((i, j, count + j), 1), np.stack((i, count + j, count + i), 1)))
+    return TriangleMesh(np.concatenate((circle, circle + (0, 0, height))), triangles,
+                        np.concatenate((circle, circle))[triangles])
+
+
+def graph(height, slope, radius: float, count: int) -> TriangleMesh:
+    """The surface z = height(r) over a disc, with the exact normals of its `slope`(r)."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 6 * count, endpoint=False)
+    r = np.append(0.0, np.repeat(np.linspace(0.0, radius, count + 1)[1:], len(turn)))
+    angle = np.append(0.0, np.tile(turn, count))
+    out = np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    positions = np.column_stack((r[:, None] * out, height(r)))
+    normals = np.column_stack((-slope(r)[:, None] * out, np.ones(len(r))))
+    k, step = np.arange(len(turn)), np.roll(np.arange(len(turn)), -1)
+    triangles = [np.stack((np.zeros_like(k), 1 + k, 1 + step), axis=1)]
+    for row in range(count - 1):
+        low, high = 1 + row * len(turn), 1 + (row + 1) * len(turn)
+        triangles += [np.stack((low + k, high + k, high + step), 1), np.stack((low + k, high + step, low + step), 1)]
+    triangles = np.concatenate(triangles)
+    return TriangleMesh(positions, triangles, normals[triangles])
+
+
+def areas(mesh) -> np.ndarray:
+    a, b, c = np.moveaxis(mesh.positions[mesh.triangles], 1, 0)
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+
+def received(mesh) -> float:
+    """All of the light, by the irradiance on the faces."""
+    return float((areas(mesh) * mesh.irradiance.mean(axis=1)).sum())
+
+
+def solid_angle(place, mesh: TriangleMesh) -> float:
+    a, b, c = np.moveaxis(mesh.positions[mesh.triangles] - place, 1, 0)
+    la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
+    low = la * lb * lc + (a * b).sum(1) * lc + (b * c).sum(1) * la + (c * a).sum(1) * lb
+    return float(2.0 * np.arctan2(np.abs((a * np.cross(b, c)).sum(1)), low).sum())
+
+
+def by_rays(lamp: Lamp, mirror: TriangleMesh, receiver: TriangleMesh, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Where rays come to, and what each carries: strewn over all that the lamp sees of the mirror."""
+    rng = np.random.default_rng(1)
+    if lamp.sun:
+        middle, size = mirror.positions.mean(axis=0), 1.1 * np.ptp(mirror.positions, axis=0).max()
+        view = View.looking_at(middle - 9.0 * lamp.place, middle, (1024, 1024), orthographic_scale=size)
+        start, way = view.rays(rng.uniform(0.0, 1024.0, (count, 2)))
+        share = np.full(count, size**2 / count)
+    else:
+        way = rng.normal(size=(count, 3))
+        way /= np.linalg.norm(way, axis=1)[:, None]
+        start, share = np.broadcast_to(lamp.place, way.shape), np.full(count, 4.0 * np.pi / count)
+    both = TriangleMesh.joined((mirror, receiver))
+    met, _ = first_hits(both, start, way)
+    own = (met >= 0) & (met < len(mirror.triangles))
+    start, way, share, met = start[own], way[own], share[own], met[own]
+    along, weights = plane_hits(mirror, met, start, way)
+    place = start + along[:, None] * way
+    normal = np.einsum("nk,nkc->nc", weights, mirror.corner_normals[met])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    way = way - 2.0 * (way * normal).sum(axis=1)[:, None] * normal
+    found, _ = first_hits(both, place, way, leaving=met)
+    lit = found >= len(mirror.triangles)
+    along, _ = plane_hits(receiver, found[lit] - len(mirror.triangles), place[lit], way[lit])
+    return place[lit] + along[:, None] * way[lit], share[lit]
+
+
+def binned(points, share, bins: int) -> np.ndarray:
+    return np.histogram2d(points[:, 0], points[:, 1], bins=bins, range=[[-SIDE, SIDE]] * 2, weights=share)[0]
+
+
+def strewn(mesh, count: int = 64) -> tuple[np.ndarray, np.ndarray]:
+    """Places on the faces, and the light of each."""
+    inner = np.random.default_rng(2).dirichlet((1, 1, 1), (len(mesh.triangles), count))
+    points = np.einsum("nsk,nkc->nsc", inner, mesh.positions[mesh.triangles])
+    light = np.einsum("nsk,nk->ns", inner, mesh.irradiance) * (areas(mesh) / count)[:, None]
+    return points.reshape(-1, 3), light.ravel()
+
+
+def test_a_flat_mirror_throws_light_as_from_the_lamp_behind_it():
+    mesh = caustics(Lamp((1.0, 0.0, 3.0)), upright(0.0, 1.5, 0.5), level(0.0, 0.0, 0.0, 9.0))
+    way = mesh.positions[mesh.triangles] - (-1.0, 0.0, 3.0)
+    expected = 3.0 / np.linalg.norm(way, axis=2)**3
+    # no value is off by more than what is linear on a face may be
+    assert np.abs(mesh.irradiance / expected - 1.0).max() < 0.03
+    assert np.median(np.abs(mesh.irradiance / expected - 1.0)) < 1e-3
+    whole = solid_angle((1.0, 0.0, 3.0), upright(0.0, 1.5, 0.5))
+    assert abs(mesh.flux.sum() / whole - 1.0) < 1e-9 and abs(received(mesh) / whole - 1.0) < 1e-9
+    # turned to the side that is lit
+    normal = np.cross(*(mesh.positions[mesh.triangles[:, k]] - mesh.positions[mesh.triangles[:, 0]] for k in (1, 2)))
+    assert (normal[:, 2] > 0.0).all() and (mesh.image_parity == 1).all()
+
+
+def test_irradiance_is_the_solid_angle_of_a_thin_bundle_over_the_area_that_it_lights():
+    mirror = TriangleMesh(np.array([(0.0, -0.4, 1.2), (0.1, 0.5, 1.1), (0.0, 0.0, 1.9)]), np.array([[0, 1, 2]]),
+                          np.array([[(1.0, -0.3, 0.1), (1.0, 0.2, -0.1), (1.0, 0.1, 0.2)]]))
+    view = View.looking_at((1.5, 0.2, 3.0), (0.0, 0.0, 1.4), (64, 64))
+    ray_map, face = MirrorMap(view, mirror), np.zeros(3, dtype=int)
+
+    def landed(uv: np.ndarray) -> np.ndarray:
+        place, way = ray_map.leave(face[:uv.shape[1]], uv)
+        return place - place[2] / way[2] * way
+    for u, v in ((0.2, 0.3), (0.5, 0.1), (0.1, 0.7)):
+        uv = np.array([[u, u + 1e-5, u], [v, v, v + 1e-5]])
+        points = landed(uv)
+        area = 0.5 * np.linalg.norm(np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]))
+        a, b, c = ray_map.places(face, uv).T - view.eye
+        seen = 0.5 * abs(a @ np.cross(b - a, c - a)) / np.linalg.norm(a)**3
+        found = light_at(ray_map, face[:1], uv[:, :1], points[:, :1], np.array([[0.0], [0.0], [1.0]]))
+        assert abs(found.irradiance[0] * area / seen - 1.0) < 1e-3
+        assert found.arrived[0] and found.side[0] == 1.0
+
+
+def test_what_stands_in_the_way_casts_its_shadow_exactly():
+    lamp, mirror, floor = Lamp((1.0, 0.0, 3.0)), upright(0.0, 1.5, 0.5), level(0.0, 0.0, 0.0, 9.0)
+    whole = solid_angle(lamp.place, mirror)
+    before = upright(0.4, 2.1, 0.1)  # between lamp and mirror
+    mesh = caustics(lamp, mirror, floor, blockers=before)
+    assert abs(mesh.flux.sum() - (whole - solid_angle(lamp.place, before))) < 1e-9
+    after = level(0.8, 0.0, 0.6, 0.1)  # between mirror and floor, beside the lamp's own light on the mirror
+    mesh = caustics(lamp, mirror, floor, blockers=after)
+    hidden = solid_angle((-1.0, 0.0, 3.0), after)
+    assert abs(mesh.flux.sum() - (whole - hidden)) < 1e-9
+    # the same square lit instead: it takes the light, and the floor has none behind it
+    mesh = caustics(lamp, mirror, TriangleMesh.joined((floor, after)))
+    high = mesh.source_face >= 2
+    assert abs(mesh.flux[high].sum() - hidden) < 1e-9 and abs(mesh.flux.sum() - whole) < 1e-9
+
+
+def test_a_paraboloid_sends_parallel_light_to_its_focus():
+    dish = graph(lambda r: 0.25 * r**2, lambda r: 0.5 * r, 0.8, 12)  # its focus is (0, 0, 1)
+    before, half = 0.05, 0.06  # of a plate before it
+    mesh = caustics(Lamp.shining((0.0, 0.0, -1.0)), dish, level(0.0, 0.0, 1.0 - before, half))
+    rim = dish.positions[-6 * 12:, :2]
+    area = 0.5 * (rim[:, 0] * np.roll(rim[:, 1], -1) - rim[:, 1] * np.roll(rim[:, 0], -1)).sum()
+    assert abs(mesh.flux.sum() / (area - 4.0 * half**2) - 1.0) < 2e-3
+    # all rays come to the plate on straight ways to the focus
+    shrunk = before / (1.0 - mesh.mirror_position[:, 2:])
+    assert np.abs(mesh.positions[:, :2] - mesh.mirror_position[:, :2] * shrunk).max() < 3e-3
+    assert np.isfinite(mesh.irradiance).all()
+
+
+def test_a_ball_scatters_parallel_light_as_its_closed_form_says():
+    cap = graph(lambda r: np.sqrt(1.0 - r**2), lambda r: -r / np.sqrt(1.0 - r**2), 0.45, 24)
+    height, hole, rim = 3.0, 0.5, 9.0  # a ceiling with a hole for the sun
+    corners = [(sx * k, sy * k, height) for k in (hole, rim) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    sides = [(k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k) for k in range(4)]
+    ceiling = TriangleMesh(np.array(corners), np.array([t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))]))
+    mesh = caustics(Lamp.shining((0.0, 0.0, -1.0)), cap, ceiling)
+    # at the angle t from the top, light comes to r(t), and pi sin(t)^2 of it comes within
+    t = np.arcsin(np.linalg.norm(mesh.mirror_position[:, :2], axis=1))
+    r = np.sin(t) + (height - np.cos(t)) * np.tan(2.0 * t)
+    rise = np.cos(t) + np.sin(t) * np.tan(2.0 * t) + 2.0 * (height - np.cos(t)) / np.cos(2.0 * t)**2
+    assert np.abs(np.linalg.norm(mesh.positions[:, :2], axis=1) - r).max() < 5e-3
+    inside = (r > 0.8) & (t < 0.4)
+    expected = np.where(inside, np.sin(t) * np.cos(t) / np.maximum(r * rise, 1e-12), np.nan)[mesh.triangles]
+    ratio = (mesh.irradiance / expected)[np.isfinite(expected)]
+    assert abs(np.median(ratio) - 1.0) < 5e-3 and np.percentile(np.abs(ratio - 1.0), 95) < 0.05
+
+
+def test_the_light_of_a_ring_is_that_of_rays():
+    table, mirror = level(0.0, 0.0, -1e-3, SIDE), ring(96)
+    for lamp in (Lamp((3.0, 0.3, 1.6)), Lamp.shining((-1.0, 0.0, -0.4)), Lamp((0.3, 0.2, 1.2))):
+        mesh = caustics(lamp, mirror, table)
+        points, share = by_rays(lamp, mirror, table, 500_000 if lamp.sun else 2_500_000)
+        noise = np.sqrt((share**2).sum())
+        assert abs(mesh.flux.sum() - share.sum()) < max(4.0 * noise, 0.002 * share.sum())
+        assert abs(received(mesh) / mesh.flux.sum() - 1.0) < 1e-9
+        ours, theirs = binned(*strewn(mesh), 32), binned(points, share, 32)
+        spread = np.sqrt(theirs * share[0])
+        assert np.abs(ours - theirs).sum() < 1.2 * np.sqrt(2.0 / np.pi) * spread.sum() + 0.01 * theirs.sum()
+        assert np.isfinite(mesh.irradiance).all() and mesh.irradiance.min() >= 0.0
+
+
+def test_the_cusp_of_a_ring_lies_at_half_its_radius():
+    mesh = caustics(Lamp.shining((-1.0, 0.0, -0.4)), ring(360), level(0.0, 0.0, 0.0, SIDE))
+    fold = mesh.positions[mesh.image_parity == 0]
+    fold = fold[np.abs(fold[:, 1]) < 1e-3]
+    assert abs(fold[:, 0].max() + 0.5) < 1e-3
+
+
+def test_several_bounces_go_on_from_mirror_to_mirror():
+    lamp, floor = Lamp((1.0, 0.0, 4.0)), level(0.0, 0.0, 0.0, 9.0)
+    first, second = upright(0.0, 3.0, 0.5), upright(0.5, 2.0, 0.5)
+    one = caustics(lamp, first, floor, mirrors=second)
+    two = caustics(lamp, first, floor, Settings(depth=2), mirrors=second)
+    # by the first mirror the lamp is at x = -1, by the second that is at x = 2
+    window = upright(0.5, 2.0, 0.5)
+    assert one.flux.sum() < solid_angle(lamp.place, first) - 1e-3
+    again = two.bounces == 2
+    assert abs(two.flux[~again].sum() - one.flux.sum()) < 1e-9
+    way = two.positions[two.triangles[again]] - (2.0, 0.0, 4.0)
+    expected = 4.0 / np.linalg.norm(way, axis=2)**3
+    assert np.median(np.abs(two.irradiance[again] / expected - 1.0)) < 1e-3
+    assert two.flux[again].sum() <= solid_angle((-1.0, 0.0, 4.0), window) + 1e-9
+    # a wall that the light of the first mirror meets throws nothing on
+    walled = caustics(lamp, first, floor, Settings(depth=2), second, upright(5.0, 1.0, 1.0))
+    assert walled.flux[walled.bounces == 1].sum() < one.flux.sum() - 1e-3
+    assert abs(walled.flux[walled.bounces == 2].sum() - two.flux[again].sum()) < 1e-9
+
+
+def test_far_from_the_origin_nothing_changes():
+    away = np.array((3e5, -2e5, 1e5))
+    lamp, mirror, floor = Lamp((1.0, 0.0, 3.0)), upright(0.0, 1.5, 0.5), level(0.0, 0.0, 0.0, 9.0)
+    here, there = caustics(lamp, mirror, floor), caustics(
+        Lamp(lamp.place + away), *(TriangleMesh(mesh.positions + away, mesh.triangles) for mesh in (mirror, floor)))
+    assert abs(here.flux.sum() - there.flux.sum()) < 1e-8
+    assert np.abs(np.ptp(here.positions, axis=0) - np.ptp(there.positions, axis=0)).max() < 1e-6
+    assert np.abs(there.positions.min(axis=0) - away - here.positions.min(axis=0)).max() < 1e-6
+
+
+def test_what_cannot_be_is_told_in_one_sentence():
+    mirror, floor = upright(0.0, 1.5, 0.5), level(0.0, 0.0, 0.0, 9.0)
+    with pytest.raises(ReflectionError, match="throws none"):
+        caustics(Lamp((1.0, 0.0, 3.0)), mirror, level(0.0, 0.0, 9.0, 1.0))
+    with pytest.raises(ReflectionError, match="lies on the mirror"):
+        caustics(Lamp((0.0, 0.1, 1.5)), mirror, floor)
+    with pytest.raises(ReflectionError, match="must be a Lamp"):
+        caustics((1.0, 0.0, 3.0), mirror, floor)
+    with pytest.raises(ValueError, match="must not be zero"):
+        Lamp.shining((0.0, 0.0, 0.0))
