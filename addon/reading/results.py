@@ -5,6 +5,8 @@ import bpy
 
 from ...core import ReflectionError
 
+RESULTS = {"REFLECTION", "CAUSTICS"}
+
 
 def is_result(obj: bpy.types.Object) -> bool:
     """Whether an object is a reflection that was generated."""
@@ -38,14 +40,15 @@ def meant(context: bpy.types.Context, active: bpy.types.Object | None) -> list:
     """The results that a selection without objects to reflect means, the active one's first: those in it, the active
     one even where it is not, and those of mirrors in it."""
     selected = [obj for obj in context.view_layer.objects
-                if obj.select_get() or (obj == active and is_result(obj))]
+                if obj.select_get() or (obj == active and obj.reflection_mesh.role in RESULTS)]
     selected.sort(key=lambda obj: obj != active)
     # asked for those alone that are a mirror: thousands of others may be selected
     reflected = {obj.reflection_mesh.mirror for obj in context.scene.objects if is_result(obj)}
     found: dict = {}
     for obj in selected:
-        if is_result(obj) or obj in reflected:
-            own = [obj] if is_result(obj) else results_of(context, obj)
+        made = obj.reflection_mesh.role in RESULTS
+        if made or obj in reflected:
+            own = [obj] if made else results_of(context, obj)
             found.update(dict.fromkeys(result for result in own if result.reflection_mesh.mirror is not None))
     return list(found)
 
