@@ -58,6 +58,8 @@ class LightScene:
         they are alone, with how much of each pixel they cover, else with nothing in the fourth place."""
         self.scene.cycles.samples = samples
         self.scene.render.film_transparent = self.alone
+        # for the other render, if there is one: what is kept for none outlives the scene
+        self.scene.render.use_persistent_data = not self.alone
         return rendered(self.scene)
 
     def coverage(self) -> np.ndarray:
@@ -83,7 +85,7 @@ class LightScene:
                 stage.objects.link(made[-1])
             cycles = scene.cycles
             cycles.samples, cycles.max_bounces, cycles.use_denoising = COVERAGE_SAMPLES, 0, False
-            scene.render.film_transparent = True
+            scene.render.film_transparent, scene.render.use_persistent_data = True, False
             return rendered(scene)[..., 3]
         finally:
             bpy.data.batch_remove([*still_there(made), stage, others])
@@ -138,7 +140,6 @@ def _prepare(scene: bpy.types.Scene, window: Window) -> None:
     for name in ("use_compositing", "use_sequencer", "use_motion_blur", "use_freestyle", "use_multiview", "use_stamp",
                  "film_transparent"):
         setattr(render, name, False)
-    render.use_persistent_data = True
     width, height = window.size
     render.use_border = render.use_crop_to_border = True
     render.border_min_x, render.border_max_x = window.column / width, (window.column + window.width) / width
