@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import compat
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
-from ..lighting import forget_light, new_material
+from ..lighting import forget_light, forget_previews, new_material
 from ..reading import every_result_of, render_size, results_of
 from ..writing import forget_nodes, hide_discs, new_object, set_window, show_own_materials
 from .frame_records import FrameRecord
@@ -85,13 +85,16 @@ def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOr
     obj = _object(context, mirror, player.sequence.name, whole)
     keep_mirror(mirror, whole)
     show_own_materials(obj)
-    mesh = obj.data
+    whole.after(forget_previews)
+    mesh, record = obj.data, obj.reflection_mesh
     mesh.clear_geometry()
     mesh.materials.clear()
+    record.materials.clear()
     for entry in player.materials or [("", "")]:
         mesh.materials.append(_material(*entry))
+        # else those of the frames, which are in another order, count as the user's when it is generated again
+        record.materials.add().material = mesh.materials[-1]
     _add_modifiers(obj, player, whole)
-    record = obj.reflection_mesh
     record.role, record.mirror, record.faces, record.points = "REFLECTION", mirror, 0, 0
     record.resolution = render_size(context.scene)
     record.sources.clear()

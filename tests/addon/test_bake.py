@@ -249,3 +249,19 @@ def test_points_and_windows_play_too(moving, room, tmp_path):
     assert not bpy.data.objects["Mirror"].visible_camera
     bpy.ops.wm.open_mainfile(filepath=str(moving))
     assert_same(told, 3, "Mirror Reflection", expected(3, placement="VIRTUAL"))
+
+
+def test_a_still_again_shows_its_own_materials(moving, tmp_path):
+    """Those of frames are in another order; and the previews of before are gone with what they stood for."""
+    bpy.data.objects["Box"].data.materials[0].name = "Zebra"
+    before = set(bpy.data.materials)
+    parts.select()
+    result = parts.generate(preview=True)
+    wanted = [material.name for material in result.data.materials]
+    assert wanted == ["Zebra", "Red one"] and set(bpy.data.materials) > before
+    parts.select()
+    operate(tmp_path / "out", frames="1-2", samples=0)
+    assert set(bpy.data.materials) == before
+    parts.select()
+    result = parts.generate()
+    assert [material.name for material in result.data.materials] == wanted
