@@ -123,7 +123,9 @@ class LiveUpdater:
 
     def _change(self, context: bpy.types.Context, current: Watched, now: float, started: float) -> str:
         """The results show something else than what there is."""
-        if self._work is not None and self._work.exact and not current.record.same(self._work.record):
+        work = self._work
+        if work is not None and not current.record.same(work.record) and (
+                not work.on_the_way or current.record.members != work.record.members):
             self._drop_work()
         if self._follow(context, current):
             self.milliseconds = 1000.0 * (time.perf_counter() - started)
@@ -141,16 +143,20 @@ class LiveUpdater:
 
     def _begin(self, context: bpy.types.Context, current: Watched, now: float) -> None:
         """Begin new results: coarse ones, or exact ones where nothing moves."""
-        settings = current.record.settings
-        if now - self._changed < PAUSE:
+        settings, on_the_way = current.record.settings, now - self._changed < PAUSE
+        if on_the_way:
             settings = {mirror: replace(own, tolerance=self._pace.coarse(own.tolerance))
                         for mirror, own in settings.items()}
-        self._work = Work.of(context, current, settings)
+        self._work = Work.of(context, current, settings, on_the_way)
 
     def _follow(self, context: bpy.types.Context, current: Watched) -> bool:
         """Let all results follow; whether that is possible."""
         wanted = {mirror.session_uid for group in current.chosen for mirror in group.mirrors}
         if self._record is None or not self._tracks or {track.mirror for track in self._tracks} != wanted:
+            return False
+        if current.record.members != self._record.members:
+            # these may be another camera's results
+            self._tracks = []
             return False
         meshes = self._meshes
         if current.record.digests != self._record.digests:
@@ -175,7 +181,7 @@ class LiveUpdater:
         self._record, self.at_rest = work.record, work.exact
         kind = "exact" if work.exact else "coarse"
         self.updates[kind] += 1
-        if not (work.exact or self._tracks):
+        if work.on_the_way and not self._tracks:
             self._pace.took(work.seconds)
         current = watched(context, view)
         if current.record.same(work.record):

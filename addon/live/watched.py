@@ -22,11 +22,14 @@ class Record(NamedTuple):
         Of each mirror, by its `session_uid`.
     digests : tuple of (str, str)
         Of each mirror and its sources.
+    members : tuple
+        Who takes part, by `session_uid`: the camera, whose results they are; of each group its mirrors and its sources.
     """
 
     view: tuple[float, ...]
     settings: dict[int, Settings]
     digests: tuple[tuple[str, str], ...]
+    members: tuple
 
     def same(self, other: Record | None) -> bool:
         """Whether both tell of the same, but for rounding."""
@@ -52,4 +55,10 @@ def watched(context: bpy.types.Context, view: View, known: Record | None = None)
                         for group in chosen for mirror in group.mirrors)
     else:
         digests = known.digests
-    return Watched(view, chosen, Record(view_numbers(view), settings, digests))
+    return Watched(view, chosen, Record(view_numbers(view), settings, digests, _members(context.scene, chosen)))
+
+
+def _members(scene: bpy.types.Scene, chosen: list[Participants]) -> tuple:
+    groups = [tuple(tuple(obj.session_uid for obj in objects) for objects in (group.mirrors, group.diffuse))
+              for group in chosen]
+    return (scene.camera.session_uid if scene.camera else 0, *groups)

@@ -27,6 +27,8 @@ class Work:
         Of each mirror, by its `session_uid`.
     exact : bool
         Whether these are the file's.
+    on_the_way : bool
+        Whether it was begun while something moved: then it is finished although more moves, to be seen at all.
     seconds : float
         Of work until now.
     outcomes : list of Outcome
@@ -37,16 +39,18 @@ class Work:
     record: Record
     settings: dict[int, Settings]
     exact: bool
+    on_the_way: bool
     _waiting: list[Steps[Outcome]]
     seconds: float = 0.0
     outcomes: list[Outcome] = field(default_factory=list)
     told: str = ""
 
     @classmethod
-    def of(cls, context: bpy.types.Context, current: Watched, settings: dict[int, Settings]) -> Work:
+    def of(cls, context: bpy.types.Context, current: Watched, settings: dict[int, Settings],
+           on_the_way: bool) -> Work:
         def of_mirror(mirror: bpy.types.Object) -> Settings:
             return settings[mirror.session_uid]
-        return cls(current.record, settings, settings == current.record.settings,
+        return cls(current.record, settings, settings == current.record.settings, on_the_way,
                    [generation(context, group, of_mirror, view=current.view) for group in current.chosen])
 
     def go_on(self) -> bool:

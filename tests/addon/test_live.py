@@ -231,6 +231,50 @@ def test_a_camera_that_is_removed_is_told(scene, clock):
     assert "camera" in clock.updater.told
 
 
+def coarse_work_begun(scene, clock, room, monkeypatch) -> None:
+    """The camera has moved, nothing can follow, and a look at a time is taken at new results."""
+    monkeypatch.setattr(room("addon.live.work"), "BUDGET", 0.0)
+    clock.updater._tracks = []
+    scene.camera.location.x += 0.2
+    assert clock.run(2 * TICK) and not clock.updater._work.exact
+
+
+@pytest.mark.parametrize("working", [False, True])
+def test_results_of_another_camera_stay_what_they_are(scene, clock, room, monkeypatch, working):
+    """Each camera's results show its own view and its own objects, also where it becomes the scene's on the way."""
+    first = bpy.context.scene.camera
+    cube = parts.add("cube", "Box", size=0.5, location=(-1.5, -2.0, 1.0))
+    bpy.ops.object.camera_add(location=(0.4, -6.0, 1.0), rotation=(1.45, 0.0, 0.0))
+    bpy.context.scene.camera = second = bpy.context.object
+    # on the way what has other triangles could not follow anyway
+    parts.select(cube if working else scene.leaf, scene.ball)
+    other = parts.generate()
+    bpy.context.scene.camera = first
+    parts.select()
+    clock.rest()
+    before = shape(scene.result), scene.result.reflection_mesh.made_from
+    if working:
+        coarse_work_begun(scene, clock, room, monkeypatch)
+    bpy.context.scene.camera = second
+    clock.rest()
+    assert [source.object for source in other.reflection_mesh.sources] == [cube if working else scene.leaf]
+    assert (shape(scene.result), scene.result.reflection_mesh.made_from) == before
+
+
+def test_what_cannot_follow_is_made_anew_on_the_way_by_a_coarse_files_settings_too(scene, clock, room, monkeypatch):
+    monkeypatch.setattr(room("addon.live.track").Track, "of", classmethod(lambda cls, *arguments: None))
+    bpy.context.scene.reflection_mesh.tolerance = 4.0
+    scene.camera.location.x += 0.1
+    clock.rest()
+    assert not clock.updater._tracks
+    monkeypatch.setattr(room("addon.live.work"), "BUDGET", 0.0)
+    before = sum(clock.updater.updates.values())
+    for _ in range(60):
+        scene.camera.location.x += 0.002
+        clock.run()
+    assert sum(clock.updater.updates.values()) > before
+
+
 def test_undo_and_redo_bring_the_right_results(scene, clock):
     bpy.context.preferences.edit.use_global_undo = True
     bpy.ops.ed.undo_push(message="before")
