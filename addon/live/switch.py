@@ -123,8 +123,7 @@ def _handlers() -> list:
     handlers = bpy.app.handlers
     return [(handlers.depsgraph_update_post, _after_change), (handlers.frame_change_post, _after_change),
             (handlers.undo_pre, _before_other_data), (handlers.redo_pre, _before_other_data),
-            (handlers.undo_post, _after_other_data), (handlers.redo_post, _after_other_data),
-            (handlers.load_pre, _before_opening)]
+            (handlers.undo_post, _after_other_data), (handlers.redo_post, _after_other_data)]
 
 
 def _switch(live: bpy.types.PropertyGroup, on: bool) -> None:
@@ -172,10 +171,13 @@ def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.WindowManager.reflection_mesh_live = PointerProperty(name="Live Reflections", type=ReflectionLive)
+    # not with the others: Blender passes over the next handler where one goes while its list is gone through
+    bpy.app.handlers.load_pre.append(_before_opening)
 
 
 def unregister() -> None:
     stop()
+    bpy.app.handlers.load_pre.remove(_before_opening)
     del bpy.types.WindowManager.reflection_mesh_live
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
+from bpy.app.handlers import persistent
 
 TICK = 0.02
 PAUSE = 1.0  # seconds of the tests' clock in which Live comes to rest
@@ -95,7 +96,19 @@ def test_off_by_default_and_no_file_turns_it_on(blank, room, tmp_path):
     assert not bpy.context.window_manager.reflection_mesh_live.on
     handlers = [entry for name in dir(bpy.app.handlers) if isinstance(getattr(bpy.app.handlers, name), list)
                 for entry in getattr(bpy.app.handlers, name)]
-    assert not [entry for entry in handlers if entry.__module__.endswith("live.switch")]
+    assert [entry.__name__ for entry in handlers if entry.__module__.endswith("live.switch")] == ["_before_opening"]
+
+
+def test_other_add_ons_are_told_that_a_file_is_opened(blank):
+    told = []
+    after = persistent(lambda *_: told.append("pre"))
+    bpy.context.window_manager.reflection_mesh_live.on = True
+    bpy.app.handlers.load_pre.append(after)
+    try:
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    finally:
+        bpy.app.handlers.load_pre.remove(after)
+    assert told == ["pre"] and not bpy.context.window_manager.reflection_mesh_live.on
 
 
 @pytest.mark.parametrize("name", ["camera", "ball", "leaf"])
