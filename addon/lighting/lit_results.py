@@ -17,7 +17,7 @@ from .light_scene import Window
 from .needs_light import needs_light
 from .picture_layout import lay_out as lay_out_picture
 from .picture_light import record_of, window_of
-from .preview import forget_previews
+from .preview import MARK, forget_previews
 
 
 def show_light(result: bpy.types.Object, material: bpy.types.Material, view: View, window: Window,
@@ -95,6 +95,7 @@ def _show(result: bpy.types.Object, material: bpy.types.Material, told: str, lig
     keep_data(result, whole)
     earlier, earlier_map = record.light_material, record.light_map
     lay()
+    _keep_users_materials(result)
     show_own_materials(result)
     whole.after(forget_previews)
     _put_on(result, material)
@@ -104,6 +105,15 @@ def _show(result: bpy.types.Object, material: bpy.types.Material, told: str, lig
         whole.after(forget_light, earlier)
     if earlier_map is not None and earlier_map != light_map:
         whole.after(forget_map, earlier_map)
+
+
+def _keep_users_materials(result: bpy.types.Object) -> None:
+    """Let the mesh have the materials that the user has put in place of previews, so that they outlast the light."""
+    for number, slot in enumerate(result.material_slots):
+        material = slot.material
+        if (slot.link == "OBJECT" and material not in (None, result.reflection_mesh.light_material)
+                and MARK not in material):
+            result.data.materials[number] = material
 
 
 def _identity(scene: DiffuseScene) -> dict:

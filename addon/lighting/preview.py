@@ -28,8 +28,9 @@ def show_previews(results: Iterable[bpy.types.Object], whole: AllOrNothing) -> N
     made: dict = {}
     for result in results:
         tint = _tint_of(result.reflection_mesh.mirror)
-        # a slot that has a material of its own has it from the user
-        for slot in [slot for slot in result.material_slots if slot.link == "DATA"]:
+        # a slot that has a material of its own has it from the user, and so what stands in place of what was made
+        for slot in [slot for slot, made in zip(result.material_slots, result.reflection_mesh.materials)
+                     if slot.link == "DATA" and slot.material == made.material]:
             key = (slot.material, tint)
             if key not in made:
                 made[key] = _preview(slot.material, tint)

@@ -81,6 +81,23 @@ def test_it_stays_and_follows_the_tint_when_generated_again(blank):
     assert set(tints) == {(0.3, 0.6, 0.9)}
 
 
+@pytest.mark.parametrize("link", ["DATA", "OBJECT"])
+def test_what_the_user_put_in_its_place_stays_and_outlasts_light(blank, link):
+    scene_of(blank)
+    result = parts.generate(preview=link == "OBJECT")
+    mine = parts.material("Mine")
+    assert result.material_slots[0].link == link
+    result.material_slots[0].material = mine
+    result = parts.generate(preview=True)
+    assert result.material_slots[0].material == mine and len(previews()) == 1
+    bpy.ops.reflection_mesh.light(samples=1)
+    blank.scene.camera.location.x += 0.1
+    for preview in (False, True):
+        result = parts.generate(preview=preview)
+        assert result.material_slots[0].material == mine
+    assert len(previews()) == 1
+
+
 def test_what_looks_right_as_it_is_needs_none(blank):
     box = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0))
     box.data.materials.append(parts.material("Paint"))
