@@ -13,14 +13,16 @@ def gather(context: bpy.types.Context, objects: list, whole: AllOrNothing) -> No
     """Move new results, which nothing else in the file knows yet, into the scene's collection of results; they stay
     where they are where that is hidden, and where their mirror is held out or seen by indirect rays alone, as they then
     are too."""
-    scene = context.scene
+    scene, layer = context.scene, context.view_layer
+    mirrors = {obj: obj.reflection_mesh.mirror for obj in objects}
+    objects = [obj for obj, mirror in mirrors.items()
+               if not (mirror.holdout_get(view_layer=layer) or mirror.indirect_only_get(view_layer=layer))]
+    if not objects:
+        return
     target = _own(scene) or scene.collection.children.get(NAME) or _new(scene, whole)
-    if target.library is not None or target not in rendered_collections(context.view_layer.layer_collection):
+    if target.library is not None or target not in rendered_collections(layer.layer_collection):
         return
     for obj in objects:
-        mirror, layer = obj.reflection_mesh.mirror, context.view_layer
-        if mirror.holdout_get(view_layer=layer) or mirror.indirect_only_get(view_layer=layer):
-            continue
         for other in list(obj.users_collection):
             other.objects.unlink(obj)
         target.objects.link(obj)

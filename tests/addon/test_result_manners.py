@@ -95,6 +95,21 @@ def test_what_the_user_made_of_the_collection_stays(scene):
     assert list(bpy.data.collections) == [made] and list(made.objects) == [cube]
 
 
+def test_no_collection_is_made_for_nothing(scene):
+    """Where the result is there already, or stays with a mirror that is held out."""
+    mirror, cube = scene
+    result = parts.generate()
+    assert pressed() == result and not bpy.data.collections
+    bpy.ops.reflection_mesh.clear()
+    held = bpy.data.collections.new("Held")
+    bpy.context.scene.collection.children.link(held)
+    bpy.context.scene.collection.objects.unlink(mirror)
+    held.objects.link(mirror)
+    bpy.context.view_layer.layer_collection.children["Held"].holdout = True
+    parts.select(cube, mirror)
+    assert pressed().users_collection[0] == held and list(bpy.data.collections) == [held]
+
+
 def test_what_fails_leaves_no_collection(scene, room, monkeypatch):
     def failing(*_):
         raise OSError("no room")
