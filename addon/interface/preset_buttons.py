@@ -35,7 +35,8 @@ class REFLECTION_MESH_OT_preset_add(AddPresetBase, bpy.types.Operator):
     # 4.2 as a module crashes at its end where a group has any
     preset_defines = [
         "active = bpy.context.view_layer.objects.active",
-        'mirror = active.reflection_mesh.mirror if active and active.reflection_mesh.role == "REFLECTION" else active',
+        'made = active and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS"}',
+        "mirror = active.reflection_mesh.mirror if made else active",
         "settings = (mirror if mirror and mirror.reflection_mesh.own_settings else bpy.context.scene).reflection_mesh"]
     # Memory belongs to the machine
     preset_values = [f"settings.{name}" for name in SETTINGS + LIGHT_SETTINGS if name != "memory"]

@@ -286,6 +286,23 @@ def test_presets_that_come_along_set_what_is_shown(scene, room):
     assert standard == {name: getattr(scene.reflection_mesh, name) for name in standard}
 
 
+@pytest.mark.parametrize("role", ["REFLECTION", "CAUSTICS"])
+def test_a_preset_sets_the_mirrors_settings_from_what_was_made_of_it(scene, role):
+    made, mirror = parts.add("plane", "Made"), bpy.data.objects["Mirror"]
+    made.reflection_mesh.role, made.reflection_mesh.mirror, mirror.reflection_mesh.own_settings = role, mirror, True
+    parts.select(made)
+    add = bpy.ops.reflection_mesh.preset_add
+    mirror.reflection_mesh.tolerance = 3.0
+    try:
+        assert add(name="My Look") == {"FINISHED"}
+        for path in (bpy.utils.preset_find(name, "reflection_mesh") for name in ("My_Look", "Draft")):
+            mirror.reflection_mesh.tolerance = 9.0
+            bpy.ops.script.execute_preset(filepath=path, menu_idname="REFLECTION_MESH_PT_presets")
+            assert mirror.reflection_mesh.tolerance < 9.0 and scene.reflection_mesh.tolerance == 0.5
+    finally:
+        assert add(name="My Look", remove_name=True) == {"FINISHED"}
+
+
 def test_a_preset_of_the_users_own_is_saved_applied_and_removed(scene):
     settings = scene.reflection_mesh
     settings.tolerance, settings.method, settings.light_samples, settings.memory = 3.0, "PARALLEL", 11, 1.5

@@ -1,7 +1,8 @@
 import bpy
 
 active = bpy.context.view_layer.objects.active
-mirror = active.reflection_mesh.mirror if active and active.reflection_mesh.role == "REFLECTION" else active
+made = active and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS"}
+mirror = active.reflection_mesh.mirror if made else active
 settings = (mirror if mirror and mirror.reflection_mesh.own_settings else bpy.context.scene).reflection_mesh
 
 settings.tolerance = 0.5
