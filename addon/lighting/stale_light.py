@@ -4,6 +4,8 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
+from .preview import MARK
+
 # what may change light; all else, such as pictures that are only looked at, does not
 KINDS = (bpy.types.Object, bpy.types.Material, bpy.types.World, bpy.types.Light, bpy.types.Mesh, bpy.types.Curve,
          bpy.types.MetaBall, bpy.types.Camera, bpy.types.NodeTree)
@@ -35,6 +37,9 @@ def _own(scene: bpy.types.Scene) -> set:
     """Results, and what makes them."""
     results = {obj for obj in scene.objects if obj.reflection_mesh.role in {"REFLECTION", "CAUSTICS"}}
     materials = {obj.reflection_mesh.light_material for obj in results} - {None}
+    # previews come and go, and so do the materials of caustics, which mirrors do not show
+    materials |= {slot.material for obj in results for slot in obj.material_slots if slot.material is not None
+                  and (obj.reflection_mesh.role == "CAUSTICS" or MARK in slot.material)}
     meshes = {obj.data for obj in results} | {obj.reflection_mesh.light_map for obj in results}
     return results | materials | meshes | {material.node_tree for material in materials}
 

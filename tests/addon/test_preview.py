@@ -81,6 +81,25 @@ def test_it_stays_and_follows_the_tint_when_generated_again(blank):
     assert set(tints) == {(0.3, 0.6, 0.9)}
 
 
+def test_what_it_adds_leaves_the_light_of_others_as_it_is(blank):
+    wall = scene_of(blank)
+    box = bpy.data.objects["Box"]
+    result = parts.generate()
+    bpy.ops.reflection_mesh.light(samples=1)
+    small = wall.copy()
+    blank.scene.collection.objects.link(small)
+    small.scale = (0.4, 0.4, 0.4)
+    small.location.y -= 0.2
+    blank.view_layer.update()
+    result.reflection_mesh.light_stale = False
+    parts.select(box, small)
+    for make in (lambda: parts.generate(preview=True), lambda: bpy.ops.reflection_mesh.caustics(leave_out=False)):
+        make()
+        blank.view_layer.update()
+        assert not result.reflection_mesh.light_stale
+    assert previews() and "CAUSTICS" in {obj.reflection_mesh.role for obj in blank.scene.objects}
+
+
 @pytest.mark.parametrize("link", ["DATA", "OBJECT"])
 def test_what_the_user_put_in_its_place_stays_and_outlasts_light(blank, link):
     scene_of(blank)
