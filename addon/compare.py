@@ -17,6 +17,7 @@ from .judge import copied_scene
 from .metrics import measure, picture_errors, without_packing
 from .reading import Participants, participants, read_view, results_of
 from .settings import SettingsOfMirrors, SettingsOptions, UsesSettings
+from .writing import as_shown
 
 IN_OBJECT_MODE = "Reflections are compared in Object Mode: leave the present mode first."
 # shares of the work: of all of it what generating takes, where something is missing, and of the rest what follows
@@ -64,11 +65,14 @@ def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
         started = time.perf_counter()
         yield 0.0, "Reading the scene"
         missing = [mirror for mirror in mirrors if not results_of(context, mirror)]
+        shown = as_shown(context.scene)
         if missing:
             yield from part(generation(context, Participants(missing, diffuse, []), settings), 0.0, GENERATING)
         results = _results(context, mirrors)
         if missing:
-            # an error or ESC leaves no reflection behind that was made for this comparison alone
+            # an error or ESC leaves no reflection behind that was made for this comparison alone, and those of other
+            # cameras as they were
+            whole.undo(shown)
             whole.undo(_clear, context, [result for result in results if result not in earlier])
         done = GENERATING if missing else 0.0
         judged = _judged(context, Participants(mirrors, diffuse, []), results, scratch, samples, started)

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 import bpy
 
 from ..faults import still_there
+from ..writing import as_shown
 
 RECORD = ("mirror", "light_stale", "camera", "window")
 
@@ -18,7 +19,8 @@ def set_aside(context: bpy.types.Context, mirrors: list) -> Iterator[None]:
     frame, subframe, camera = scene.frame_current, scene.frame_subframe, scene.camera
     results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION" and obj.library is None
                and obj.reflection_mesh.mirror in mirrors]
-    known = [(obj, obj.hide_render, {name: getattr(obj.reflection_mesh, name) for name in RECORD}) for obj in results]
+    shown = as_shown(scene)
+    known = [(obj, {name: getattr(obj.reflection_mesh, name) for name in RECORD}) for obj in results]
     windows = [(obj, obj.visible_camera, obj.reflection_mesh.camera_hidden) for obj in mirrors if obj.library is None]
     for obj in results:
         # first hidden: nothing without a mirror is to be rendered
@@ -29,10 +31,11 @@ def set_aside(context: bpy.types.Context, mirrors: list) -> Iterator[None]:
     finally:
         scene.frame_set(frame, subframe=subframe)
         scene.camera = camera
+        # baked cameras have put others' results aside
+        shown()
         # what was marked stale by going through frames is not
-        for obj, hidden, record in known:
+        for obj, record in known:
             if still_there([obj]):
-                obj.hide_render = hidden
                 for name, value in record.items():
                     setattr(obj.reflection_mesh, name, value)
         for obj, visible, hidden in windows:

@@ -1,5 +1,5 @@
 """Arrays as Blender's data: meshes, points, the objects that carry them, windows, and records of the making."""
-from .cameras import show_for_camera
+from .cameras import as_shown, show_for_camera
 from .disc_nodes import disc_nodes, forget_nodes, hide_discs
 from .kept_changes import place_of, put_back_materials
 from .light_layer import UV_MAP, light_layer
@@ -14,7 +14,7 @@ from .write_mesh import write_mesh
 from .write_object import RAYS, Reflection, Written, new_beside, new_object, show_own_materials, write_object
 
 __all__ = ["Attribute", "Builder", "LONGEST_RECORD", "MOST_UV_MAPS", "MeshArrays", "RAYS", "Reflection", "UV_MAP",
-           "Written", "close_abandoned_windows", "disc_nodes", "forget_collection", "forget_nodes", "gather",
-           "hide_discs", "light_layer", "mesh_arrays", "mesh_bytes", "new_beside", "new_object", "place_of",
+           "Written", "as_shown", "close_abandoned_windows", "disc_nodes", "forget_collection", "forget_nodes",
+           "gather", "hide_discs", "light_layer", "mesh_arrays", "mesh_bytes", "new_beside", "new_object", "place_of",
            "point_arrays", "put_back_materials", "set_window", "show_for_camera", "show_own_materials",
            "shown_layers", "size_text", "vertices_written", "what_is_in_the_way", "write_mesh", "write_object"]

@@ -5,9 +5,12 @@ scene's. What the user hides stays hidden, what the user shows stays shown until
 """
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import bpy
 from bpy.app.handlers import persistent
 
+from ..faults import still_there
 from ..reading.results import camera_of
 from .windows import close_window, open_window
 
@@ -50,6 +53,28 @@ def bring_back(obj: bpy.types.Object) -> None:
         if aside:
             setattr(obj, switch, False)
     obj.reflection_mesh.aside = (False, False)
+
+
+def as_shown(scene: bpy.types.Scene) -> Callable[[], None]:
+    """What brings back which results a scene shows, and which of their mirrors are windows, as it is now."""
+    results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION" and obj.library is None]
+    mirrors = {obj.reflection_mesh.mirror for obj in results} - {None}
+    shown = [(obj, tuple(getattr(obj, switch) for switch in SWITCHES), tuple(obj.reflection_mesh.aside))
+             for obj in results]
+    windows = [(obj, obj.visible_camera, obj.reflection_mesh.camera_hidden) for obj in mirrors if obj.library is None]
+    seen_by = scene.reflection_mesh.seen_by
+
+    def back() -> None:
+        for obj, hidden, aside in shown:
+            if still_there([obj]):
+                obj.hide_render, obj.hide_viewport = hidden
+                obj.reflection_mesh.aside = aside
+        for obj, visible, hidden in windows:
+            if still_there([obj]):
+                obj.visible_camera, obj.reflection_mesh.camera_hidden = visible, hidden
+        if still_there([scene]):
+            scene.reflection_mesh.seen_by = next(iter(still_there([] if seen_by is None else [seen_by])), None)
+    return back
 
 
 @persistent

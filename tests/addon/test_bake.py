@@ -265,3 +265,22 @@ def test_a_still_again_shows_its_own_materials(moving, tmp_path):
     parts.select()
     result = parts.generate()
     assert [material.name for material in result.data.materials] == wanted
+
+
+def test_results_that_are_not_baked_stay_shown(moving, room, tmp_path):
+    """Also where the frames are for another camera than the one that looks."""
+    box, mirror, scene = bpy.data.objects["Box"], bpy.data.objects["Mirror"], bpy.context.scene
+    small = mirror.copy()
+    scene.collection.objects.link(small)
+    small.scale, small.reflection_mesh.role, mirror.reflection_mesh.role = (0.5, 0.5, 0.5), "MIRROR", "DIFFUSE"
+    parts.select(box, small)
+    other = parts.generate()
+    mirror.reflection_mesh.role, small.reflection_mesh.role = "MIRROR", "IGNORE"
+    second = add_camera("Second", (0.5, -6.0, 1.0), (1.45, 0.0, 0.0))
+    parts.select()
+    frames = room("addon.bake")
+    wanted = room("addon.settings").Wanted(scene, {"light_samples": 0})
+    plan = frames.plan_of(bpy.context, str(tmp_path), "1", wanted, cameras=(second,))
+    room("addon.faults").finished(frames.baking(bpy.context, plan))
+    assert not other.hide_render and not other.hide_viewport and not any(other.reflection_mesh.aside)
+    assert scene.reflection_mesh.seen_by == scene.camera

@@ -143,6 +143,27 @@ def test_a_folder_that_was_made_goes_where_it_is_stopped(scene, job):
     assert_same(whole(scene), before, "made")
 
 
+@pytest.mark.parametrize("placement", ["LAYERED", "VIRTUAL"])
+def test_stopped_it_leaves_the_results_of_other_cameras_shown(scene, job, placement):
+    """One that it needs itself puts them aside, and closes their windows."""
+    mirror, context = bpy.data.objects["Mirror"], bpy.context
+    parts.select(bpy.data.objects["Box"], mirror)
+    bpy.ops.reflection_mesh.generate(placement=placement)
+    first = context.scene.camera
+    bpy.ops.object.camera_add(location=(1.0, -6.0, 1.0), rotation=(1.45, 0.0, 0.1))
+    context.scene.camera = context.object
+    parts.select(bpy.data.objects["Box"], mirror)
+    context.view_layer.update()
+    before = parts.state()
+    running = job(scene)
+    while "Copying" not in next(running)[1]:
+        pass
+    assert "Mirror Reflection Camera.001" in context.scene.objects
+    running.close()
+    context.view_layer.update()
+    assert parts.state() == before and context.scene.reflection_mesh.seen_by == first
+
+
 @pytest.mark.parametrize("names", [("scenes", "Reflection Comparison"), ("objects", "Copy"), ("meshes", "Cube.001"),
                                    ("materials", "Code: Identity"), ("meshes", "Mirror Reflection"),
                                    ("meshes", "Dish Reflection"), ("objects", "Mirror")])
