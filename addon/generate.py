@@ -52,7 +52,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     depsgraph = context.evaluated_depsgraph_get()
     surfaces = [read_mirror(depsgraph, mirror) for mirror in chosen.mirrors]
     scene = read_scene(depsgraph, chosen.diffuse)
-    origins = {mirror: record_of(origin_of(depsgraph, view, mirror, chosen.diffuse)) for mirror in chosen.mirrors}
+    sources = chosen.diffuse + chosen.waiting
+    origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources)) for mirror in chosen.mirrors}
     if not all(map(is_opaque, scene.materials)):
         own = [replace(one, hidden_faces=True) for one in own]
     trees, kinds = {}, [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
@@ -79,7 +80,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             continue
         remarks += shortcomings(mirror.name, result)
         arrays = (mesh_arrays if result.discs is None else point_arrays)(result, scene, surface, view)
-        prepared.append(Reflection(mirror, context.scene.camera, chosen.diffuse, result, arrays, view.resolution,
+        prepared.append(Reflection(mirror, context.scene.camera, sources, result, arrays, view.resolution,
                                    own[index].placement, manners.attributes))
     if not prepared:
         raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])

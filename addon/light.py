@@ -27,7 +27,7 @@ from .lighting import (
     texels_of,
     white_of,
 )
-from .reading import camera_of, is_mirror, is_opaque, read_scene, read_view
+from .reading import camera_of, is_mirror, is_opaque, read_scene, read_view, seen_in
 from .settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
 from .writing import place_of
 
@@ -146,7 +146,9 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int
     if not can_be_baked(lit):
         raise ReflectionError("A reflection of points, or of objects that have been deleted, or one that knows only "
                               "what is seen, has no light on objects: light it in the picture.")
-    sources = list(dict.fromkeys(entry.object for result in lit for entry in result.reflection_mesh.sources))
+    is_seen = seen_in(context)
+    sources = [obj for obj in dict.fromkeys(entry.object for result in lit for entry in result.reflection_mesh.sources)
+               if is_seen(obj)]
     scene = read_scene(context.evaluated_depsgraph_get(), sources)
     light = yield from part(baked(context, lit, view, scene, samples), 0.02, 0.93)
     yield 0.95, "Writing"

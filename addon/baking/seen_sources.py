@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...core import View
+from ...core import ReflectionError, View
 from ..reading import DiffuseScene
 
 ONE_EYE = 0.1   # of the way to what is seen, from which on the eye's mirror images are not one
@@ -71,11 +71,20 @@ def can_be_baked(results: list) -> bool:
 
 def triangle_of(result: bpy.types.Object, scene: DiffuseScene) -> np.ndarray:
     """The triangle of the scene that each face of a result shows, (n,) int64; sources are found by the pointers that
-    the result keeps."""
+    the result keeps.
+
+    Raises
+    ------
+    ReflectionError
+        Where one of them does not take part in the scene.
+    """
     mesh = result.data
     index = {source: number for number, source in enumerate(scene.sources)}
-    table = np.array([index[entry.object] for entry in result.reflection_mesh.sources], dtype=np.int64)
+    table = np.array([index.get(entry.object, -1) for entry in result.reflection_mesh.sources], dtype=np.int64)
     owner = table[_values(mesh, "source_object", len(mesh.polygons))]
+    if (owner < 0).any():
+        raise ReflectionError(f"'{result.name}' shows an object that is hidden now: show it, or generate the "
+                              "reflection again.")
     face = _values(mesh, "source_face", len(mesh.polygons))
     parts = triangles_by_source(scene)
     starts = np.concatenate(([0], np.cumsum([len(part) for part in parts])))[:-1]

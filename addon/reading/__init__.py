@@ -14,10 +14,11 @@ from .roles import (
     choose,
     participants,
     rendered_collections,
+    seen_in,
     visible,
 )
 
 __all__ = ["DiffuseScene", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants", "SURFACES",
            "camera_of", "can_take_part", "candidates", "choose", "every_result_of", "is_mirror", "is_opaque",
            "participants", "read_mirror", "read_scene", "read_view", "rendered_collections", "render_size",
-           "results_of", "visible"]
+           "results_of", "seen_in", "visible"]

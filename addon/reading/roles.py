@@ -1,7 +1,8 @@
 """Who takes part in a reflection: the selected objects by role, or the objects with explicit roles."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import bpy
 
@@ -20,11 +21,13 @@ class NothingSeen(ReflectionError):
 
 @dataclass(frozen=True)
 class Participants:
-    """Mirrors and diffuse objects that take part, and those that would, were they not hidden."""
+    """Mirrors and diffuse objects that take part, and those that would, were they not hidden; of these the diffuse ones
+    of the scene, which take part again when they are shown."""
 
     mirrors: list
     diffuse: list
     hidden: list
+    waiting: list = field(default_factory=list)
 
 
 def participants(context: bpy.types.Context) -> tuple[list, list]:
@@ -101,20 +104,14 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
     ReflectionError
         Where there are none.
     """
-    in_layer = set(context.view_layer.objects)
-    # what each object's own list of collections says, which is worked out anew whenever it is asked
-    rendered = {obj for collection in rendered_collections(context.view_layer.layer_collection)
-                for obj in collection.objects}
-
-    def is_seen(obj: bpy.types.Object) -> bool:
-        return (obj in in_layer and obj.visible_get() and not obj.hide_render
-                and obj in rendered)
-
+    is_seen = seen_in(context)
     # mirrors show what glossy rays meet, as in Cycles
     hidden = [obj for obj in mirrors if not is_seen(obj)]
-    hidden += [obj for obj in diffuse if not (is_seen(obj) and obj.visible_glossy)]
-    out = set(hidden)
-    seen = Participants([obj for obj in mirrors if obj not in out], [obj for obj in diffuse if obj not in out], hidden)
+    there = set(context.scene.objects)
+    unseen = [obj for obj in diffuse if not (is_seen(obj) and obj.visible_glossy)]
+    out = {*hidden, *unseen}
+    seen = Participants([obj for obj in mirrors if obj not in out], [obj for obj in diffuse if obj not in out],
+                        hidden + unseen, [obj for obj in unseen if obj in there and not is_seen(obj)])
     if not seen.mirrors:
         if mirrors:
             raise NothingSeen(f"The mirror '{mirrors[0].name}' is hidden: show it in the viewport and in renders.")
@@ -126,6 +123,15 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
         raise ReflectionError(f"Nothing to reflect in '{seen.mirrors[0].name}': select the objects to reflect together "
                               "with it, or set their role to Reflected in the Reflection tab.")
     return seen
+
+
+def seen_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
+    """Tells of an object whether it is seen, in the viewport and in renders."""
+    in_layer = set(context.view_layer.objects)
+    # what each object's own list of collections says, which is worked out anew whenever it is asked
+    rendered = {obj for collection in rendered_collections(context.view_layer.layer_collection)
+                for obj in collection.objects}
+    return lambda obj: obj in in_layer and obj.visible_get() and not obj.hide_render and obj in rendered
 
 
 def rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:

@@ -29,7 +29,7 @@ class Reflection:
     camera : bpy.types.Object
         That it is right for.
     sources : list of bpy.types.Object
-        What is reflected in it.
+        What is reflected in it, and then what is hidden at the moment.
     result : core.ReflectionMesh
     arrays : MeshArrays
         The same, to be written.

@@ -288,6 +288,35 @@ def test_what_cannot_follow_is_made_anew_on_the_way_by_a_coarse_files_settings_t
     assert sum(clock.updater.updates.values()) > before
 
 
+def test_what_is_hidden_for_a_while_comes_back(scene, clock, room):
+    """In Live and with the button that mends what is stale."""
+    box = parts.add("cube", "Box", size=0.5, location=(-1.5, -2.0, 1.0))
+    parts.select(box, scene.leaf, scene.ball)
+    parts.generate()
+    parts.select()
+    clock.rest()
+    whole = shape(scene.result)
+    for switch in ("hide_viewport", "hide_render"):
+        setattr(box, switch, True)
+        clock.rest()
+        assert shape(scene.result) != whole
+        setattr(box, switch, False)
+        clock.rest()
+        assert shape(scene.result) == whole
+    bpy.context.window_manager.reflection_mesh_live.on = False
+    why = room("addon.freshness").why_stale
+    for hidden in (True, False):
+        box.hide_viewport = hidden
+        bpy.context.view_layer.update()
+        assert "object" in why(bpy.context, scene.result)
+        assert bpy.ops.reflection_mesh.update() == {"FINISHED"}
+        assert (shape(scene.result) == whole) != hidden and not why(bpy.context, scene.result)
+    # what is deleted is not waited for
+    bpy.data.objects.remove(box)
+    bpy.ops.reflection_mesh.update()
+    assert [source.object for source in scene.result.reflection_mesh.sources] == [scene.leaf]
+
+
 def test_undo_and_redo_bring_the_right_results(scene, clock):
     bpy.context.preferences.edit.use_global_undo = True
     bpy.ops.ed.undo_push(message="before")

@@ -62,6 +62,27 @@ def test_another_mesh_does_not_show_it(blank):
     assert all(slot.link == "DATA" for slot in result.material_slots)
 
 
+def test_what_is_hidden_meanwhile_takes_no_part(blank):
+    """A result remembers it for when it is shown again; its light stays what it is."""
+    wall = scene_of(blank)
+    other = parts.add("cube", "Other", size=0.5, location=(-1.0, -1.5, 1.0))
+    other.hide_render = True
+    parts.select(bpy.data.objects["Box"], other, wall)
+    result = parts.generate(tolerance=4.0)
+    assert [source.object.name for source in result.reflection_mesh.sources] == ["Box", "Other"]
+    light(1)
+    parts.select(result)
+    parts.generate(tolerance=4.0)
+    assert not result.reflection_mesh.light_stale
+    assert {slot.material for slot in result.material_slots} == {result.reflection_mesh.light_material}
+    other.hide_render = False
+    parts.generate(tolerance=4.0)
+    assert result.reflection_mesh.light_stale and len(set(parts.attribute(result, "source_object"))) == 2
+    bpy.data.objects["Box"].hide_render = True
+    with pytest.raises(RuntimeError, match="shows an object that is hidden now"):
+        light(1)
+
+
 @pytest.mark.parametrize("stop", [1, 2, 3, 4, 5])
 def test_stopped_after_any_step_it_leaves_no_trace(blank, room, stop):
     scene_of(blank, "Alpha")
