@@ -68,11 +68,13 @@ def _preview(source: bpy.types.Material | None, tint: tuple) -> bpy.types.Materi
     material[MARK] = True
     plain = GREY if source is None else tuple(source.diffuse_color)
     build = _Builder(tree, tint, plain)
-    shader, output = surface_shader(tree), tree.get_output_node("ALL")
+    if source is None or not compat.uses_nodes(source):
+        shader = build.add("ShaderNodeBsdfDiffuse")
+        build.feed(plain, shader.inputs["Color"])
+        tree.links.new(shader.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
+    shader = surface_shader(tree)
     if shader is not None:
-        tree.links.new(build.shown(shader), output.inputs["Surface"])
-    elif source is None or not compat.uses_nodes(source):
-        tree.links.new(build.shaded(plain), output.inputs["Surface"])
+        build.put_out(build.shown(shader))
     return material
 
 
@@ -99,23 +101,43 @@ class _Builder(ShaderBuilder):
         self.feed(share.outputs[0], shown.node.inputs["Strength"])
         return shown
 
+    def put_out(self, surface: bpy.types.NodeSocket) -> None:
+        """Let Cycles and EEVEE show a surface; exporters begin at what the material was before."""
+        known = self.tree.get_output_node("ALL")
+        for other in [node for node in self.tree.nodes if node.type == "OUTPUT_MATERIAL" and node.target != "ALL"]:
+            self.tree.nodes.remove(other)
+        for engine in ("CYCLES", "EEVEE"):
+            output = self.add("ShaderNodeOutputMaterial", target=engine)
+            self.feed(surface, output.inputs["Surface"])
+            for socket in known.inputs:
+                if socket.is_linked and socket.name != "Surface":
+                    self.feed(given(socket), output.inputs[socket.name])
+        known.is_active_output = True
+
     def shown(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
-        """What a shader node becomes."""
+        """What stands for a shader node, which stays as it is."""
         if shader.type in AS_THEY_ARE:
             return shader.outputs[0]
-        if shader.type in {"MIX_SHADER", "ADD_SHADER"}:
-            for socket in [socket for socket in shader.inputs if socket.type == "SHADER"]:
-                behind = node_behind(socket)
-                if behind is not None:
-                    self.feed(self.shown(behind), socket)
-            return shader.outputs[0]
+        if shader.type == "MIX_SHADER":
+            return self.mixed(given(shader.inputs[0]), *map(self.behind, shader.inputs[1:]))
+        if shader.type == "ADD_SHADER":
+            both = self.add("ShaderNodeAddShader")
+            for part, socket in zip(map(self.behind, shader.inputs), both.inputs):
+                if part is not None:
+                    self.feed(part, socket)
+            return both.outputs[0]
         if shader.type == "EMISSION":
-            if self.tint != WHITE:
-                self.feed(self.tinted(given(shader.inputs["Color"])), shader.inputs["Color"])
-            return shader.outputs[0]
+            own = self.glow(self.tinted(given(shader.inputs["Color"])))
+            self.feed(given(shader.inputs["Strength"]), own.node.inputs["Strength"])
+            return own
         colour = shader.inputs.get("Base Color") or shader.inputs.get("Color")
         shown = self.shaded(self.plain if colour is None else given(colour))
         return self.principled(shader, shown) if shader.type == "BSDF_PRINCIPLED" else shown
+
+    def behind(self, socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
+        """What stands for the shader that feeds a socket."""
+        node = node_behind(socket)
+        return None if node is None else self.shown(node)
 
     def principled(self, shader: bpy.types.Node, shown: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
         """With what a Principled BSDF emits, and open where it is."""

@@ -126,6 +126,22 @@ def test_what_is_lit_arrives_as_it_is_seen(blank, room, tmp_path, kind):
     assert differs_by(seen, picture_brought_back(room, result, kind, tmp_path)) < 0.01
 
 
+@pytest.mark.parametrize("preview", [False, True])
+def test_what_is_not_lit_yet_has_the_colours_of_what_it_shows(blank, tmp_path, preview):
+    """Also where the scene shows a preview, whose nodes exporters would take for white light."""
+    paint = parts.material("Paint", "PRINCIPLED", 1.0, 0.0)
+    paint.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.9, 0.3, 0.1, 1.0)
+    floor_mirror(blank, paint, lamp=False)
+    result = parts.generate(preview=preview)
+    assert ("Preview" in result.material_slots[0].material.name) == preview
+    parts.select(result)
+    path = tmp_path / "result.gltf"
+    bpy.ops.export_scene.gltf(filepath=str(path), export_format="GLTF_SEPARATE", use_selection=True)
+    told, = json.loads(path.read_text())["materials"]
+    assert np.allclose(told["pbrMetallicRoughness"]["baseColorFactor"], (0.9, 0.3, 0.1, 1.0))
+    assert "emissiveFactor" not in told
+
+
 @pytest.mark.parametrize("kind", ["glb", "usdc"])
 def test_vertex_colours_arrive_where_every_result_is_lit(blank, room, tmp_path, kind):
     """Emission by vertex colours needs no light, and in glTF is white: the picture of it is not."""
