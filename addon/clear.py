@@ -6,7 +6,7 @@ import bpy
 from . import polls
 from .faults import in_one_sentence
 from .frames import stop_playing
-from .illumination import bring_back_own_caustics, forget_added_light
+from .illumination import bring_back_abandoned, forget_added_light
 from .lighting import forget_light, forget_map, forget_previews
 from .writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
 
@@ -61,16 +61,16 @@ def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:
 
 
 def clear_caustics(caustics: list) -> None:
-    """Remove `caustics` with their meshes and materials, and let Cycles show its own again."""
+    """Remove `caustics` with their meshes and materials, and let Cycles show its own again where none are left."""
     meshes = {obj.data for obj in caustics if isinstance(obj.data, bpy.types.Mesh)}
     materials = {material for mesh in meshes for material in mesh.materials} - {None}
     for obj in caustics:
-        bring_back_own_caustics(obj.reflection_mesh.lamp, obj.reflection_mesh.mirror)
         bpy.data.objects.remove(obj)
     for mesh in meshes:
         if mesh.users == 0:
             bpy.data.meshes.remove(mesh)
     forget_added_light(list(materials))
+    bring_back_abandoned()
 
 
 class REFLECTION_MESH_OT_clear(bpy.types.Operator):
@@ -93,7 +93,8 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
         selected = set(context.selected_objects)
         if named != any(obj in selected or obj.reflection_mesh.mirror in selected for obj in results):
             results, caustics = ([], caustics) if named else (results, [])
-        if not results and not caustics and not any(obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
+        if not results and not caustics and not bring_back_abandoned() and not any(
+                obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
             self.report({"WARNING"}, "The scene has no reflection to clear.")
             return {"CANCELLED"}
         clear(context, results)

@@ -42,6 +42,25 @@ def bring_back_own_caustics(lamp: bpy.types.Object | None, mirror: bpy.types.Obj
         bpy.data.collections.remove(collection)
 
 
+def bring_back_abandoned() -> bool:
+    """As `bring_back_own_caustics`, for each lamp and mirror whose light no mesh shows any more, whatever removed it;
+    whether there were any."""
+    # what is deleted may live on where something still points to it, but in no scene
+    made = {(obj.reflection_mesh.lamp, obj.reflection_mesh.mirror) for scene in bpy.data.scenes
+            for obj in scene.objects if obj.reflection_mesh.role == "CAUSTICS"}
+    lamps: dict = {}
+    for lamp in [obj for obj in bpy.data.objects if obj.type == "LIGHT"]:
+        collection = lamp.light_linking.receiver_collection
+        if collection is not None and _is_ours(collection, lamp):
+            # a copy of a lamp shares it
+            lamps.setdefault(collection, []).append(lamp)
+    abandoned = [(own[0], mirror) for collection, own in lamps.items() for mirror in [*collection.objects] or [None]
+                 if not any((lamp, mirror) in made for lamp in own)]
+    for pair in abandoned:
+        bring_back_own_caustics(*pair)
+    return bool(abandoned)
+
+
 _MARK = "reflection_mesh_left_out"
 
 

@@ -129,6 +129,26 @@ def test_one_object_per_mirror_and_lamp_updated_in_place_and_cleared(blank):
     assert parts.state() == before and lamp.light_linking.receiver_collection is None
 
 
+def test_the_lamp_lights_the_mirror_again_when_the_last_of_its_light_goes(blank):
+    """A copy that is cleared leaves it; and what was deleted by hand leaves nothing behind that Clear does not find."""
+    floor, mirror, lamp = scene_of(shadow_soft_size=0.1)
+    collections = list(bpy.data.collections)
+    assert bpy.ops.reflection_mesh.caustics() == {"FINISHED"}
+    result = bpy.data.objects["Mirror Caustics"]
+    linked = lamp.light_linking.receiver_collection
+    copy = result.copy()
+    blank.scene.collection.objects.link(copy)
+    blank.view_layer.update()
+    parts.select(copy)
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert lamp.light_linking.receiver_collection == linked and list(linked.objects) == [mirror]
+    parts.select(result)
+    bpy.ops.object.delete()
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert lamp.light_linking.receiver_collection is None and list(bpy.data.collections) == collections
+    assert bpy.ops.reflection_mesh.clear() == {"CANCELLED"}
+
+
 def test_the_light_is_there_once(blank, tmp_path):
     """Cycles' own light from a lamp of some size goes where the mesh brings it."""
     floor, mirror, lamp = scene_of(shadow_soft_size=0.3)
