@@ -150,8 +150,10 @@ def light_and_clear(screen: Screen):
 
 def elsewhere(screen: Screen):
     """Object properties, and the menu."""
-    ball = bpy.data.objects["Golden Ball"]
-    bpy.context.view_layer.objects.active = ball
+    # the result alone was selected, and is gone
+    for obj in bpy.context.view_layer.objects:
+        obj.select_set(obj.type == "MESH")
+    bpy.context.view_layer.objects.active = bpy.data.objects["Golden Ball"]
     editor = next(area for area in screen.window.screen.areas if area.type == "PROPERTIES")
     editor.spaces.active.context = "OBJECT"
     yield 1.0
