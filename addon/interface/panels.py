@@ -35,8 +35,8 @@ class _Main:
     def draw(self, context: bpy.types.Context) -> None:
         layout = aligned(self.layout)
         draw_object(layout.box().column(), context, active(context))
-        draw_live(layout, context)
         draw_buttons(layout, WORK)
+        draw_live(layout, context)
 
 
 class _Settings:
