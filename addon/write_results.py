@@ -33,10 +33,13 @@ class Manners:
         What their points and faces know; None keeps it as each result has it.
     collect : bool
         New ones go into the scene's collection of results, instead of beside their mirrors.
+    preview_unlit : bool
+        Those that lose their light show a preview, instead of materials on which lamps fall.
     """
 
     attributes: str | None = None
     collect: bool = False
+    preview_unlit: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,7 +88,8 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
                   preview: bool, manners: Manners) -> Outcome:
     """Write all results or none; `view` saw what they show of `scene`."""
     there, remarks = set(context.scene.objects), []
-    previewed = {obj for made in prepared for obj in results_of(context, made.mirror) if shows_preview(obj)}
+    previewed = {obj for made in prepared for obj in results_of(context, made.mirror)
+                 if shows_preview(obj) or (manners.preview_unlit and is_lit(obj))}
     with AllOrNothing() as whole:
         written = [write_object(context, made, whole) for made in prepared]
         for made, group in zip(prepared, written):

@@ -8,6 +8,7 @@ from ..faults import SteppedOperator, Steps, part
 from ..freshness import why_stale
 from ..generate import IN_OBJECT_MODE, generation
 from ..settings import Wanted
+from ..write_results import Manners
 from .kept import groups, kept_results
 
 NOTHING_STALE = "No reflection is stale."
@@ -20,9 +21,16 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
     bl_label = "Update Reflections"
     bl_options = {"REGISTER", "UNDO"}
 
+    # no annotation: Blender takes those of an operator for its properties
+    _pressed = False
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_camera)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
+        self._pressed = True
+        return SteppedOperator.invoke(self, context, event)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
@@ -31,7 +39,7 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
         if not chosen:
             self.report({"INFO"}, NOTHING_STALE)
         for number, group in enumerate(chosen):
-            steps = generation(context, group, Wanted(context.scene))
+            steps = generation(context, group, Wanted(context.scene), manners=Manners(preview_unlit=self._pressed))
             outcome = yield from part(steps, number / len(chosen), 1.0 / len(chosen))
             for remark in outcome.remarks:
                 self.report({"WARNING"}, remark)

@@ -9,6 +9,7 @@ import bpy
 from ...core import ReflectionError, Settings
 from ..faults import Steps
 from ..generate import Outcome, generation
+from ..write_results import Manners
 from .watched import Record, Watched
 
 BUDGET = 0.05   # seconds of work between two looks at what has changed
@@ -51,7 +52,8 @@ class Work:
         def of_mirror(mirror: bpy.types.Object) -> Settings:
             return settings[mirror.session_uid]
         return cls(current.record, settings, settings == current.record.settings, on_the_way,
-                   [generation(context, group, of_mirror, view=current.view) for group in current.chosen])
+                   [generation(context, group, of_mirror, manners=Manners(preview_unlit=True), view=current.view)
+                    for group in current.chosen])
 
     def go_on(self) -> bool:
         """Work for a while; whether all is done."""

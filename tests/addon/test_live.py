@@ -317,6 +317,29 @@ def test_what_is_hidden_for_a_while_comes_back(scene, clock, room):
     assert [source.object for source in scene.result.reflection_mesh.sources] == [scene.leaf]
 
 
+@pytest.mark.parametrize("way", ["Live", "button", "script"])
+def test_what_loses_its_light_shows_a_preview_where_somebody_looks(scene, clock, way, room, monkeypatch):
+    if way != "Live":
+        bpy.context.window_manager.reflection_mesh_live.on = False
+    scene.leaf.data.materials.append(parts.material("Green", "DIFFUSE"))
+    parts.select(scene.leaf, scene.ball)
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
+    bpy.context.view_layer.update()
+    scene.camera.location.x += 0.3
+    if way == "Live":
+        clock.rest()
+    else:
+        # in the background none is pressed
+        operator = room("addon.live.update").REFLECTION_MESH_OT_update
+        pressed = SimpleNamespace(execute=lambda context: {"FINISHED"})
+        operator.invoke(pressed, bpy.context, None)
+        monkeypatch.setattr(operator, "_pressed", pressed._pressed if way == "button" else operator._pressed)
+        bpy.ops.reflection_mesh.update()
+    shown, = [slot.material.name for slot in scene.result.material_slots]
+    assert shown == ("Green" if way == "script" else "Green Preview")
+
+
 def test_undo_and_redo_bring_the_right_results(scene, clock):
     bpy.context.preferences.edit.use_global_undo = True
     bpy.ops.ed.undo_push(message="before")
