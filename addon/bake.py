@@ -31,6 +31,7 @@ from .frames import (
     write_image,
     write_record,
     write_result,
+    writes_usd,
 )
 from .generate import generation
 from .light import lighting
@@ -39,6 +40,7 @@ from .settings import SAMPLES, SETTINGS, SettingsOfMirrors, SettingsOptions, Use
 
 FOLDER = "//reflection frames"
 IN_OBJECT_MODE = "Reflections are baked in Object Mode: leave the present mode first."
+NO_USD = "This Blender cannot write USD files: bake with one that can."
 
 
 @dataclass(frozen=True)
@@ -109,6 +111,8 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
     """
     if context.mode != "OBJECT":
         raise core.ReflectionError(IN_OBJECT_MODE)
+    if not writes_usd():
+        raise core.ReflectionError(NO_USD)
     mirrors, diffuse = candidates(context)
     if not (mirrors and diffuse):
         choose(context)     # which says what is missing
@@ -263,7 +267,8 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE),
+                            lambda context: "" if writes_usd() else NO_USD, polls.has_mirror, polls.has_camera)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()

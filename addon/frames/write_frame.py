@@ -95,10 +95,13 @@ def _fill(mesh: bpy.types.Mesh, shown: bpy.types.Mesh, slots) -> tuple[list, lis
     return attributes, list(dict.fromkeys(materials))
 
 
+def writes_usd() -> bool:
+    """Whether this Blender was built with USD; those of Linux distributions may not be."""
+    return bool(bpy.app.build_options.usd)
+
+
 def _export(context: bpy.types.Context, mesh: bpy.types.Mesh, matrix, path: str) -> None:
     """Write a mesh alone, from a scene of its own, whose objects have the names that players look for."""
-    if not bpy.app.build_options.usd:
-        raise ReflectionError("This Blender cannot write USD files: bake with one that can.")
     scene = bpy.data.scenes.new("Reflection Frame")
     obj = bpy.data.objects.new(NAME, mesh)
     try:

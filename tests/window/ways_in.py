@@ -111,6 +111,11 @@ def baked(screen: Screen):
     bpy.context.view_layer.objects.active = bpy.data.objects["Golden Ball"]
     bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
     yield 0.5
+    if not bpy.app.build_options.usd:
+        # Linux distributions build Blender without it: the button is grey, and says why
+        with screen.context():
+            assert not bpy.ops.reflection_mesh.bake.poll()
+        return
     yield from screen.search("bake reflection")
     screen.press("RET")
     yield from waiting(lambda: browser(screen) is not None, "a file browser", 20.0)
@@ -121,14 +126,6 @@ def baked(screen: Screen):
     screen.point(area.x + area.width // 2, area.y + area.height // 2)
     yield 0.5
     screen.press("RET")
-    if not bpy.app.build_options.usd:
-        # Linux distributions build Blender without it: a sentence says so, in a box that goes with the mouse
-        yield 4.0
-        shot("9_no_usd")
-        assert not list(folder.iterdir()) and not results()
-        screen.point(screen.area.x + 60, screen.area.y + 60)
-        yield 1.0
-        return
     yield from waiting(lambda: len(list(folder.glob("**/Frame.*.json"))) == 2, "two frames", 120.0)
     yield from waiting(lambda: not screen.window.modal_operators, "the end of baking")
     shot("9_baked")
