@@ -1,6 +1,8 @@
 """The differences between Blender 4.2, 4.5 and 5.2, in one place."""
 from __future__ import annotations
 
+import atexit
+
 import bpy
 import numpy as np
 
@@ -84,3 +86,12 @@ def curves_of(data: bpy.types.ID) -> list:
         return list(action.fcurves)
     return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags
             for curve in bag.fcurves]
+
+
+def let_go_at_exit(cls: type) -> None:
+    """Let a class of properties that have functions (for updates, of their own values) forget these when Python ends.
+
+    4.2 as a module crashes at its end where such a class, though unregistered, still holds them.
+    """
+    if bpy.app.version < (4, 5, 0):
+        atexit.register(cls.__annotations__.clear)

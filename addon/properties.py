@@ -13,6 +13,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from . import compat
 from .settings import SettingsOfMirror, SettingsOfScene, make_own
 
 ROLES = (
@@ -114,6 +115,7 @@ CLASSES = (ReflectionSource, ReflectionMaterial, ReflectionObject, ReflectionSce
 def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
+    compat.let_go_at_exit(ReflectionObject)
     bpy.types.Object.reflection_mesh = PointerProperty(name="Reflection Mesh", type=ReflectionObject,
                                                         override=OVERRIDABLE)
     bpy.types.Scene.reflection_mesh = PointerProperty(name="Reflection Mesh", type=ReflectionScene)

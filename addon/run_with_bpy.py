@@ -3,10 +3,7 @@
     python addon/run_with_bpy.py scene.blend generate --tolerance 0.5 --output result.blend
     python addon/run_with_bpy.py one.blend two.blend benchmark --output folder
 """
-import ctypes
 import importlib.util
-import os
-import shutil
 import sys
 from pathlib import Path
 
@@ -54,24 +51,11 @@ def _run(arguments: list[str], scene: str) -> int:
     try:
         return importlib.import_module(f"{PACKAGE}.addon.command_line").run(arguments, scene)
     finally:
-        # 4.2 may crash at its end where classes are still registered
+        # bpy may crash at its end where classes are still registered
         extension.unregister()
-
-
-def _end(status: int) -> None:
-    """End the process; 4.2 crashes where it ends itself after properties had functions for their updates."""
-    if "bpy" not in sys.modules or sys.modules["bpy"].app.version >= (4, 5, 0):
-        sys.exit(status)
-    sys.stdout.flush()
-    sys.stderr.flush()
-    shutil.rmtree(sys.modules["bpy"].app.tempdir, ignore_errors=True)
-    if os.name == "posix":
-        # what Blender itself has printed
-        ctypes.CDLL(None).fflush(None)
-    os._exit(status)
 
 
 if __name__ == "__main__":
     # Python puts this folder first, where Blender's own add-ons would find ours in place of theirs
     sys.path.pop(0)
-    _end(main(sys.argv[1:]))
+    sys.exit(main(sys.argv[1:]))

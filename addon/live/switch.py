@@ -5,7 +5,7 @@ import bpy
 from bpy.app.handlers import persistent
 from bpy.props import BoolProperty, EnumProperty, PointerProperty
 
-from .. import polls
+from .. import compat, polls
 from .updater import LiveUpdater
 
 INTERVAL = 0.02     # seconds between two looks
@@ -170,6 +170,7 @@ CLASSES = (ReflectionLive, REFLECTION_MESH_OT_live)
 def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
+    compat.let_go_at_exit(ReflectionLive)
     bpy.types.WindowManager.reflection_mesh_live = PointerProperty(name="Live Reflections", type=ReflectionLive)
     # not with the others: Blender passes over the next handler where one goes while its list is gone through
     bpy.app.handlers.load_pre.append(_before_opening)
