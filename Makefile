@@ -83,6 +83,7 @@ pictures: environment
 	$(RUN) tools/line_pictures.py
 	$(RUN) tools/caustic_pictures.py
 	$(RUN) tools/manual_pictures.py
+	$(RUN) tools/animation_picture.py
 	$(RUN) tools/parts.py
 
 test: lint test-core test-addon

@@ -30,7 +30,7 @@ def main(folder: Path, seconds: float) -> None:
     # one palette and no dither: what stands still takes no bytes
     frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
     folder.mkdir(parents=True, exist_ok=True)
-    frames[0].save(folder / "animation.gif", save_all=True, append_images=frames[1:], duration=round(1000 / RATE),
+    frames[0].save(folder / "animation.gif", save_all=True, append_images=frames[1:], duration=10 * round(100 / RATE),
                    loop=0, optimize=False)
 
 
