@@ -97,7 +97,7 @@ def normals_of(placed: list[Placed]) -> PlacedValues:
 def lines_of(placed: list[Placed]) -> tuple[PlacedValues, ...]:
     """Faces that are sharp (m,), those that are marked, sides that are sharp (m, 3), those that are marked."""
     def sides(part: Part, kind: str) -> np.ndarray:
-        flags = (part.mesh.lines.sharp_sides(part.triangle, cofactors(part.placed.matrices)[part.place])
+        flags = (part.mesh.lines.sharp_sides(part.triangle, cofactors(part.placed.matrices), part.place)
                  if kind == "sharp" else part.mesh.lines.marked_sides(part.triangle))
         # side k leads to the next corner: of a triangle turned over, from the last corner to the one before
         flags[part.turned_over] = flags[part.turned_over][:, ::-1]
