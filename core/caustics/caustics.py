@@ -14,7 +14,7 @@ from ..result import ReflectionMesh
 from ..support import NothingInView, ReflectionError, Settings, in_steps, tell
 from .caustic_mesh import CausticMesh
 from .corners import light_at
-from .energy import balanced, flux_of
+from .energy import balanced, flux_of, shown_area
 from .hiding import screens_of, shades_of
 from .lamps import Lamp
 from .refinement import LitFaces, refined
@@ -125,7 +125,7 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
         if not len(chosen):
             continue
         faces = _faces(ray_map, seen, chosen, receivers)
-        faces = refined(ray_map, faces, (LEAST * whole, FINEST * reach), settings.maximum_faces)
+        faces = refined(ray_map, faces, receivers, (LEAST * whole, FINEST * reach), settings.maximum_faces)
         places = np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2)
         lit.append((faces, flux_of(view, places), seen, number, receivers))
     return lit
@@ -135,15 +135,16 @@ def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, rec
     assert seen.map_face is not None  # a lamp's view tells it
     triangles, face = seen.triangles[chosen], seen.map_face[chosen]
     corner, owner = triangles.T.ravel(), np.tile(face, 3)
-    normal = receivers.face_normals()[seen.source_face[chosen]].T
+    source = seen.source_face[chosen]
+    normal = receivers.face_normals()[source].T
     points = seen.reflected_position.T
     uv = ray_map.coordinates(owner, seen.mirror_position[corner].T)
     light = light_at(ray_map, owner, uv, points[:, corner], np.tile(normal, 3))
-    return LitFaces(triangles, points, face, normal, chosen, seen.source_sides[chosen] >= 0, light)
+    return LitFaces(triangles, points, face, normal, source, chosen, seen.source_sides[chosen] >= 0, light)
 
 
 def _joined(parts: list) -> CausticMesh:
-    found = [_arrays(*entry) for part in parts for entry in part]
+    found = [arrays for arrays in (_arrays(*entry) for part in parts for entry in part) if len(arrays["triangles"])]
     if not found:
         raise NothingInView("The mirror throws none of the lamp's light on the objects; move the lamp, the mirror or "
                             "the objects.")
@@ -166,14 +167,15 @@ def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int
     kept = np.flatnonzero((area > NO_AREA * size**2) & (flux > 0.0) & arrived)
     irradiance, cosine, side = (value.reshape(3, -1).T[kept] for value in (
         light.irradiance, light.cosine, light.side))
-    irradiance = balanced(irradiance, flux[kept], area[kept], faces.triangles[kept])
+    irradiance = balanced(irradiance, flux[kept], area[kept], faces.triangles[kept],
+                          shown_area(corners[kept], area[kept]))
     # turned to the side that is lit
     over = (side.sum(axis=1) < 0.0) != ((normal[kept] * faces.normal[:, kept].T).sum(axis=1) < 0.0)
     order = np.where(over[:, None], (0, 2, 1), (0, 1, 2))
     triangles, irradiance, cosine = (np.take_along_axis(values, order, axis=1) for values in (
         faces.triangles[kept], irradiance, cosine))
     corners = np.take_along_axis(corners[kept], order[:, :, None], axis=1)
-    source = seen.source_face[faces.origin[kept]]
+    source = faces.source[kept]
     used, first = np.unique(faces.triangles[kept], return_index=True)
     number_of = np.zeros(faces.points.shape[1], dtype=np.int64)
     number_of[used] = np.arange(len(used))

@@ -61,13 +61,11 @@ class Corners:
     def of_parts(self, middles: Corners, parent: np.ndarray, local: np.ndarray, place: np.ndarray) -> Corners:
         """Of parts of faces, whose corners `local` (m, 3) are 0 1 2 of these of their `parent` (m,), or 3 4 5 of the
         `middles` of its sides, which stand at its `place`; all are runs of the first, second and third corners."""
+        count, more, corner = self.uv.shape[1] // 3, middles.uv.shape[1] // 3, local.T
+        index = np.where(corner < 3, corner * count + parent, (3 * count) + (corner - 3) * more + place[parent]).ravel()
+
         def chosen(name: str) -> np.ndarray:
-            own, new = (getattr(light, name) for light in (self, middles))
-            own, new = (values.reshape(*values.shape[:-1], 3, -1) for values in (own, new))
-            corner = local.T
-            found = np.where(corner < 3, own[..., np.minimum(corner, 2), parent],
-                             new[..., np.maximum(corner - 3, 0), place[parent]])
-            return found.reshape(*found.shape[:-2], -1)
+            return np.concatenate((getattr(self, name), getattr(middles, name)), axis=-1).take(index, axis=-1)
         return Corners(*(chosen(name) for name in NAMES))
 
 

@@ -7,6 +7,8 @@ from ..geometry import View
 
 MOST = 2.0  # of the mean round a vertex: how much more a corner may have, near a caustic, where the map tells infinity
 
+SINGLE = 2.0**-23  # of what is lit: by how much single precision may move its corners
+
 
 def flux_of(view: View, places: np.ndarray) -> np.ndarray:
     """The part of the lamp's picture that triangles with corners (m, 3, 3) cover: their solid angle, or for parallel
@@ -25,12 +27,20 @@ def flux_of(view: View, places: np.ndarray) -> np.ndarray:
     return 2.0 * np.arctan2(triple, 1.0 + (a * b).sum(axis=1) + (b * c).sum(axis=1) + (c * a).sum(axis=1))
 
 
-def balanced(irradiance: np.ndarray, flux: np.ndarray, area: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+def shown_area(corners: np.ndarray, area: np.ndarray) -> np.ndarray:
+    """What the `area` (m,) of faces with `corners` (m, 3, 3) may be where they are drawn, in single precision: that of
+    slivers is rounding."""
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1, initial=0.0)
+    return area + SINGLE * np.ptp(corners.reshape(-1, 3), axis=0).max() * longest if len(area) else area
+
+
+def balanced(irradiance: np.ndarray, flux: np.ndarray, area: np.ndarray, triangles: np.ndarray,
+             shown: np.ndarray) -> np.ndarray:
     """Irradiance (m, 3) at the corners of faces, infinite on caustics, as finite values that amount to the `flux` (m,)
     over the `area` (m,).
 
-    What the values of a face lack of its flux, or have too much, is shared out between the faces round its corners:
-    slivers, whose area is rounding, do not keep it to themselves.
+    What the values of a face lack of its flux over the area that is `shown` (m,), or have too much, is shared out
+    between the faces round its corners: slivers, whose area is rounding, do not keep it to themselves.
     """
     corner = triangles.ravel()
     count = int(corner.max(initial=-1)) + 1
@@ -38,9 +48,9 @@ def balanced(irradiance: np.ndarray, flux: np.ndarray, area: np.ndarray, triangl
     def round_vertices(values: np.ndarray) -> np.ndarray:
         return np.bincount(corner, np.repeat(values, 3), minlength=count)
 
-    round_area = round_vertices(area)
+    round_area = round_vertices(shown)
     mean = round_vertices(flux) / np.where(round_area > 0.0, round_area, 1.0)
     bounded = np.minimum(irradiance, MOST * mean[triangles])
-    missing = round_vertices(flux - area * bounded.mean(axis=1)) / np.where(round_area > 0.0, round_area, 1.0)
+    missing = round_vertices(flux - shown * bounded.mean(axis=1)) / np.where(round_area > 0.0, round_area, 1.0)
     found = np.maximum(bounded + missing[triangles], 0.0)
     return found * (flux.sum() / max((area * found.mean(axis=1)).sum(), 1e-300))

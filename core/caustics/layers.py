@@ -5,18 +5,21 @@ import numpy as np
 
 SAMPLES = 256  # faces in whose middles it is counted
 AT_ONCE = 1 << 20
+SLIVER = 1e-6  # of the square of its size: what a face is larger than, that hides anything
 
 
 def most_layers(positions: np.ndarray, triangles: np.ndarray, source_face: np.ndarray) -> int:
     """The most faces (m, 3) over each other on one triangle of what is lit, `source_face` (m,), where it was looked."""
     asked = np.unique(np.linspace(0, len(triangles) - 1, SAMPLES).astype(np.int64))
-    a, b, c = np.moveaxis(positions[triangles], 1, 0)
-    normal = np.cross(b - a, c - a)
-    middle, most = positions[triangles[asked]].mean(axis=1), 0
+    corners = positions[triangles].astype(np.float64)
+    a, b, c = np.moveaxis(corners, 1, 0)
+    normal, size = np.cross(b - a, c - a), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
+    covers = np.linalg.norm(normal, axis=1) > SLIVER * size**2
+    middle, most = corners[asked].mean(axis=1), 0
     step = max(AT_ONCE // max(len(triangles), 1), 1)
     for start in range(0, len(asked), step):
         own = slice(start, start + step)
-        inside = source_face[asked[own], None] == source_face[None]
+        inside = (source_face[asked[own], None] == source_face[None]) & covers
         for first, second in ((a, b), (b, c), (c, a)):
             # (second - first) x (place - first) . normal
             towards = np.cross(normal, second - first)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import cross, dot, norm, shared_edges, split
+from ..geometry import TriangleMesh, cross, dot, norm, rows, shared_edges, split
 from ..support import breathe
 from .corners import Corners, light_at
 
@@ -20,6 +20,7 @@ LEVELS = 6
 STRAYING = 0.02  # of the irradiance in the middle of a side: by how much that on its ends may miss it
 AT_ONCE = 1 << 16
 STEPS = 8  # of Newton's method
+BESIDE = 1e-9  # barycentric: what lies that little beside a triangle lies in it
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,8 @@ class LitFaces:
         Of the map.
     normal : (3, m) float64
         Unit normal of the receiver.
+    source : (m,) int64
+        Triangle of the receivers.
     origin : (m,) int64
         The face of the reflection that each is a part of.
     on_side : (m, 3) bool
@@ -47,6 +50,7 @@ class LitFaces:
     points: np.ndarray
     face: np.ndarray
     normal: np.ndarray
+    source: np.ndarray
     origin: np.ndarray
     on_side: np.ndarray
     light: Corners
@@ -60,20 +64,22 @@ class LitFaces:
         return self.points[:, self.triangles.T]
 
 
-def refined(ray_map: ReflectionMap, faces: LitFaces, least: tuple[float, float], most: int) -> LitFaces:
+def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, least: tuple[float, float],
+            most: int) -> LitFaces:
     """The faces in parts; for none that carries less than the `least` flux, or on sides of less than the least length,
     and not in more than `most`."""
+    within = _Within(receivers)
     new = np.ones(len(faces), dtype=bool)
     for _ in range(LEVELS):
         breathe()
         _, _, edge = shared_edges(faces.triangles)
         asked = np.flatnonzero(new)
-        middles, points, found = _middles(ray_map, faces, asked)
+        middles, points, found = _middles(ray_map, faces, asked, within)
         chosen = np.zeros(int(edge.max(initial=-1)) + 1, dtype=bool)
         chosen[edge[asked][_astray(faces, asked, middles, least) & found]] = True
         chosen[edge[asked][~found]] = False
         beside = np.flatnonzero(~new & chosen[edge].any(axis=1))
-        more, more_points, more_found = _middles(ray_map, faces, beside)
+        more, more_points, more_found = _middles(ray_map, faces, beside, within)
         chosen[edge[beside][~more_found]] = False
         marked = chosen[edge]
         if not marked.any() or len(faces) + marked.sum() > most:
@@ -100,8 +106,24 @@ def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[f
     return astray & (area * mean > least[0])[:, None]
 
 
-def _middles(ray_map: ReflectionMap, faces: LitFaces,
-             asked: np.ndarray) -> tuple[Corners, np.ndarray, np.ndarray]:
+class _Within:
+    """Tells which points lie in triangles, on their planes."""
+
+    def __init__(self, mesh: TriangleMesh) -> None:
+        a, b, c = (rows(mesh.positions[corner]) for corner in mesh.triangles.T)
+        normal = cross(b - a, c - a)
+        squared = np.maximum(dot(normal, normal), 1e-300)
+        # barycentric coordinates of the second and third corner, by their gradients
+        self._start, self._second, self._third = a, cross(c - a, normal) / squared, cross(normal, b - a) / squared
+
+    def __call__(self, triangle: np.ndarray, points: np.ndarray) -> np.ndarray:
+        offset = points - self._start[:, triangle]
+        second, third = (dot(offset, gradient[:, triangle]) for gradient in (self._second, self._third))
+        return np.minimum(np.minimum(second, third), 1.0 - second - third) >= -BESIDE
+
+
+def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray,
+             within: _Within) -> tuple[Corners, np.ndarray, np.ndarray]:
     """The light in the middles of the sides 01, 12, 20 of the faces `asked` (k,), where these are, (3, 3, k) as
     [component, side, face], and whether (k, 3) they were found."""
     parts, points, found = [], [], []
@@ -121,6 +143,8 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces,
         point[:, straight] = chord[:, straight]
         good = np.isfinite(point).all(axis=0)
         point[:, ~good] = chord[:, ~good]
+        # where light grazes, a line of the picture within the tolerance may run far out over the receiver's side
+        good &= straight | within(faces.source[own], point)
         own = np.flatnonzero(straight)
         s = dot(point[:, own] - origin[:, own], ray[:, own]) / np.maximum(dot(ray[:, own], ray[:, own]), 1e-300)
         place = start.copy()
@@ -149,10 +173,11 @@ def _split(faces: LitFaces, edge: np.ndarray, chosen: np.ndarray,
     six = np.concatenate((faces.triangles, vertex[edge]), axis=1)[parent]
     triangles = np.take_along_axis(six, local, axis=1)
     # of a child's side, the ends tell whether it is on a side of its parent
-    ends = np.stack((local, np.roll(local, -1, axis=1)), axis=2)
-    on_side = np.zeros(local.shape, dtype=bool)
+    after, on_side = np.roll(local, -1, axis=1), np.zeros(local.shape, dtype=bool)
     for number, line in enumerate(((0, 3, 1), (1, 4, 2), (2, 5, 0))):
-        on_side |= np.isin(ends, line).all(axis=2) & faces.on_side[parent, number][:, None]
+        lies = np.zeros(6, dtype=bool)
+        lies[list(line)] = True
+        on_side |= lies[local] & lies[after] & faces.on_side[parent, number][:, None]
     lit = faces.light.of_parts(light, parent, local, place)
     return LitFaces(triangles, np.concatenate((faces.points, new), axis=1), faces.face[parent], faces.normal[:, parent],
-                    faces.origin[parent], on_side, lit), parent
+                    faces.source[parent], faces.origin[parent], on_side, lit), parent

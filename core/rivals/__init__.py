@@ -1,6 +1,7 @@
 """What the method is compared with: every rival a room of its own, on the parts of the method that the talk shares.
 
-The method does not know of its rivals: nothing but the tools and the benchmark of `addon` may import it.
+The method does not know of its rivals: nothing but the tools, the benchmark and the comparisons of `addon` may import
+it.
 """
 from __future__ import annotations
 
