@@ -6,9 +6,10 @@ from .geometry import TriangleMesh, View, draw
 from .reflection import ReflectionError, reflect, reflection_steps
 from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
 from .solver import Images, project
-from .support import METHODS, PLACEMENTS, Settings, in_steps
+from .standing import Standing
+from .support import METHODS, PLACEMENTS, NothingInView, Settings, in_steps
 
-__all__ = ["CausticMesh", "Discs", "FollowedImages", "Images", "Lamp", "METHODS", "PLACEMENTS", "PicturePieces",
-           "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "TriangleMesh", "View",
-           "caustic_steps", "caustics", "draw", "in_steps", "picture_pieces", "project", "reflect",
-           "reflecting_normals", "reflection_steps"]
+__all__ = ["CausticMesh", "Discs", "FollowedImages", "Images", "Lamp", "METHODS", "NothingInView", "PLACEMENTS",
+           "PicturePieces", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "Standing",
+           "TriangleMesh", "View", "caustic_steps", "caustics", "draw", "in_steps", "picture_pieces", "project",
+           "reflect", "reflecting_normals", "reflection_steps"]

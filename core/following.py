@@ -9,12 +9,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .cameras import MirrorMap, drawn_in, settle
+from .cameras import INSIDE, MirrorMap, drawn_in, settle
 from .culling import SceneTree, first_crossed
 from .geometry import TriangleMesh, View, norm, rows, unit
 from .result import ReflectionMesh, place
 
 STEPS = 3  # of Newton's method, before an image is looked for on other triangles of the mirror
+LOOKS = 4  # times that images are followed between two looks for one that is lost
 LIFTED = 3e-3  # of the viewing distance: faces that leave the mirror's triangles would sink behind its edges
 CLOSE = 1e-3  # of its viewing distance: where the ray of an image that was found may pass its point
 
@@ -35,6 +36,11 @@ class FollowedImages:
         Where there.
     distance : (n,) float64
         s: how many viewing distances, or in orthographic views units, the point is away from there.
+    lost : (n,) bool
+        Which were no images any more when they were followed last: they are looked for on other triangles of the
+        mirror only every `LOOKS` times.
+    times : int
+        How often they have been followed.
 
     Examples
     --------
@@ -55,6 +61,8 @@ class FollowedImages:
     face: np.ndarray
     uv: np.ndarray
     distance: np.ndarray
+    lost: np.ndarray
+    times: int = 0
 
     @classmethod
     def of(cls, view: View, mirror: TriangleMesh, mesh: ReflectionMesh) -> FollowedImages:
@@ -80,15 +88,20 @@ class FollowedImages:
         mirror_map = MirrorMap(view, mirror)
         uv = drawn_in(mirror_map.coordinates(face, places))
         distance = norm(rows(mesh.reflected_position) - places) / norm(mirror_map.arriving(places))
-        return cls(source, rows(weights), face, uv, distance)
+        return cls(source, rows(weights), face, uv, distance, np.zeros(count, dtype=bool))
 
     def seen(self, view: View, mirror: TriangleMesh, scene: TriangleMesh, placement: str) -> Followed:
         """Where the view sees the images now, in a mirror and a scene of as many triangles as before."""
         corners = scene.positions[scene.triangles[self.source]]
         points = rows(np.einsum("kn,nkc->nc", self.weights, corners))
         mirror_map = MirrorMap(view, mirror)
-        face, uv, s, found = settle(mirror_map, self.face, *mirror_map.locate(
-            self.face, self.uv, self.distance, points, STEPS), points)
+        uv, s = mirror_map.locate(self.face, self.uv, self.distance, points, STEPS)
+        face, found = self.face.copy(), np.minimum(uv.min(axis=0), 1.0 - uv.sum(axis=0)) >= -INSIDE
+        # most of what is lost stays so, and costs the longest walks
+        turn = np.arange(len(found)) % LOOKS == self.times % LOOKS
+        near = np.flatnonzero(~found & (turn | ~self.lost))
+        face[near], uv[:, near], s[near], found[near] = settle(
+            mirror_map, face[near], uv[:, near], s[near], points[:, near])
         origin, ray = mirror_map.leave(face, uv)
         lost = ~(found & (s > 0.0) & (norm(origin + s * ray - points) < CLOSE * norm(ray)))
         uv = np.where(lost, drawn_in(np.nan_to_num(uv)), uv)
@@ -100,7 +113,8 @@ class FollowedImages:
             # towards the eye, who sees no difference
             ahead = view.directions(positions.T).T
             positions = positions - LIFTED * (np.ptp(seen, axis=1).max() if view.orthographic else 1.0) * ahead
-        return Followed(replace(self, face=face, uv=uv, distance=s), positions.T, points.T, seen.T, path, lost)
+        images = replace(self, face=face, uv=uv, distance=s, lost=lost, times=self.times + 1)
+        return Followed(images, positions.T, points.T, seen.T, path, lost)
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 
@@ -20,11 +20,12 @@ from .cameras import (
 )
 from .culling import PointTree, SceneAndMirrors, SceneTree
 from .filling import Limits, missed_probes
-from .geometry import LampView, TriangleMesh, View, area_normals, cross, dot, norm, ordered, rows
+from .geometry import LampView, Order, TriangleMesh, View, area_normals, cross, dot, norm, ordered, rows
 from .patches import Patch, speck
 from .points import reflected_points
 from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
+from .standing import Standing
 from .support import LARGEST, NothingInView, Progress, ReflectionError, Settings, in_steps
 from .visibility import cut_at_borders, cut_before_eye, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces
@@ -33,7 +34,7 @@ INSIDE_WHOLE = 1.1  # of whole faces, which are judged in their middles too
 INSIDE = 4.0 / 3.0  # a quadratic that is zero at a triangle's corners exceeds its values at the edges' middles by this
 
 
-def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree,
+def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
             settings: Settings = Settings(), mirrors: TriangleMesh | None = None) -> ReflectionMesh:
     """The reflection of a diffuse scene in a mirror as the view sees it.
 
@@ -42,13 +43,13 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
     view : View
     mirror : TriangleMesh
         In world space, with shading normals. Two-sided.
-    scene : TriangleMesh or SceneTree or PointTree
-        In world space; a tree built before saves the time to build it. The method POINTS takes a `PointTree`, and
-        scenes of vertices without faces.
+    scene : TriangleMesh or SceneTree or PointTree or Standing
+        In world space; a tree built before saves the time to build it, and what stands still together with the mirrors
+        more. The method POINTS takes a `PointTree`, and scenes of vertices without faces.
     settings : Settings
     mirrors : TriangleMesh, optional
-        In world space, all mirrors that may be seen in this one, itself among them; this one alone where omitted. They
-        hide what lies behind them, and from a depth of two on they reflect in their turn.
+        In world space, all mirrors that may be seen in this one, itself among them; this one alone where omitted, or
+        those of a `Standing`. They hide what lies behind them, and from a depth of two on they reflect in their turn.
 
     Returns
     -------
@@ -76,7 +77,8 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
 
 
 def reflection_steps(
-        view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings = Settings(),
+        view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
+        settings: Settings = Settings(),
         mirrors: TriangleMesh | None = None) -> Generator[tuple[float, str], None, ReflectionMesh]:
     """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end.
 
@@ -95,33 +97,37 @@ def reflection_steps(
     return (yield from in_steps(lambda: _reflected(view, mirror, scene, settings, mirrors)))
 
 
-def _reflected(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
-               mirrors: TriangleMesh | None) -> ReflectionMesh:
+def _reflected(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
+               settings: Settings, mirrors: TriangleMesh | None) -> ReflectionMesh:
     progress = Progress()
-    _check(view, mirror, scene, settings, mirrors)
+    tree = scene.tree if isinstance(scene, Standing) else scene
+    mirrors = scene.mirrors if isinstance(scene, Standing) and mirrors is None else mirrors
+    _check(view, mirror, tree, settings, mirrors)
     corner = far_corner(mirror)
     if corner is None:
         return _near_origin(view, mirror, scene, settings, mirrors, progress)
-    mesh = _near_origin(moved_view(view, -corner), moved_surface(mirror, -corner), moved_surface(scene, -corner),
+    mesh = _near_origin(moved_view(view, -corner), moved_surface(mirror, -corner), moved_surface(tree, -corner),
                         settings, None if mirrors is None else moved_surface(mirrors, -corner), progress)
     return moved_mesh(mesh, corner)
 
 
-def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
-                 mirrors: TriangleMesh | None, progress: Progress) -> ReflectionMesh:
+def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
+                 settings: Settings, mirrors: TriangleMesh | None, progress: Progress) -> ReflectionMesh:
     """The reflection of a scene whose coordinates tell the mirror's shape well."""
     progress.next(0.0, "k-d tree")
     kind: type[SceneTree] | type[PointTree] = PointTree if settings.method == "POINTS" else SceneTree
-    tree = scene if isinstance(scene, kind) else kind.build(scene if isinstance(scene, TriangleMesh) else scene.mesh)
+    given_tree = scene.tree if isinstance(scene, Standing) else scene
+    tree = given_tree if isinstance(given_tree, kind) else kind.build(
+        given_tree if isinstance(given_tree, TriangleMesh) else given_tree.mesh)
     if not len(tree):
         raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
-    mirror, given = ordered(mirror, shading=True)
-    met = _met(view, tree, mirror, mirrors)
+    known = scene if isinstance(scene, Standing) and scene.tree is tree and scene.mirrors is mirrors else None
+    mirror, given, met = _with_mirrors(view, tree, mirror, mirrors, known)
     progress.done("tree")
 
     progress.next(0.1, "cameras")
     body, faces = with_shades(view, mirror, visible_triangles(view, mirror))
-    mirror_map = MirrorMap(view, body, settings.method == "PARALLEL")
+    mirror_map = MirrorMap(view, body, settings.method == "PARALLEL", met.surface if body is met.mirrors else None)
     cameras = three_ray_cameras(mirror_map, body, faces)
     uncut = cameras.places.shape[1]
     cameras = _seen(cameras.select(in_picture(cameras)))
@@ -146,23 +152,24 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     task = Task(met, settings, limits, settings.depth == 1, progress)
     showing, plainly = faces_showing_mirrors(cameras, met, limits)
     whole, task = (None, task) if overlaid else _whole_first(cameras, uncut, task, plainly)
-    bounces, seams = _bounces(cameras, task, showing), None
+    bounces, seams, error, reach = _bounces(cameras, task, showing), None, 0.0, 0.0
     if whole is not None and task.met.pieces is not None:
         seams, nodes = seamed(whole, bounces[0], task.met.pieces.on_patch)
         bounces[0] = replace(bounces[0], nodes=nodes)
+        # whole faces were told apart by where they would lie if this were the longest path
+        reach, error = task.reach(cameras), INSIDE_WHOLE * _over_length(*whole.straying)
+    del whole  # what is assembled needs the room
 
     progress.start, progress.share = 0.0, 1.0
     progress.next(0.95, "depth order")
-    # whole faces were told apart by where they would lie if this were the longest path
-    reach = 0.0 if whole is None else task.reach(cameras)
     mesh = assemble(mirror_map, bounces, task.met, settings.placement, reach, seams)
     mesh = in_given_order(mesh, tree.given, given)
     progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
     probes, missed = missed_probes(view, mirror, mirror_map, task.met, mesh.mirror_position, mesh.triangles)
     progress.done("probes", probes=probes, missed=missed)
     left = np.concatenate([bounce.left for bounce in bounces], axis=1)
-    error = max(_estimate(*left), 0.0 if whole is None else INSIDE_WHOLE * _over_length(*whole.straying))
-    return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=error)
+    return replace(mesh, counts=progress.counts, seconds=progress.seconds,
+                   estimated_error=max(_estimate(*left), error))
 
 
 def _seen(cameras: Cameras) -> Cameras:
@@ -171,14 +178,20 @@ def _seen(cameras: Cameras) -> Cameras:
     return cameras
 
 
-def _met(view: View, tree: SceneTree | PointTree, mirror: TriangleMesh,
-         mirrors: TriangleMesh | None) -> SceneAndMirrors:
-    """What rays may meet: the diffuse scene, the mirrors, and, of a lamp's light, what else hides."""
-    if not isinstance(view, LampView) or view.screens is None:
-        return SceneAndMirrors(tree, mirror if mirrors is None else ordered(mirrors, shading=True)[0])
-    mirrors = mirror if mirrors is None else mirrors
-    met, order = ordered(TriangleMesh.joined((mirrors, view.screens)), shading=True)
-    return SceneAndMirrors(tree, met, order.triangle < len(mirrors.triangles))
+def _with_mirrors(view: View, tree: SceneTree | PointTree, mirror: TriangleMesh, mirrors: TriangleMesh | None,
+                  known: Standing | None) -> tuple[TriangleMesh, Order, SceneAndMirrors]:
+    """The mirror in its canonical order, and what rays may meet: the diffuse scene, the mirrors, and, of a lamp's
+    light, what else hides. What is `known` is of the same tree and the same mirrors."""
+    screens = view.screens if isinstance(view, LampView) else None
+    if known is not None and screens is None:
+        own = (known.met.mirrors, known.order) if mirror is mirrors else ordered(mirror, shading=True)
+        return *own, known.met
+    every, (mirror, given) = mirrors, ordered(mirror, shading=True)
+    if screens is not None:
+        every = mirror if every is None else every
+        met, order = ordered(TriangleMesh.joined((every, screens)), shading=True)
+        return mirror, given, SceneAndMirrors(tree, met, order.triangle < len(every.triangles))
+    return mirror, given, SceneAndMirrors(tree, mirror if every is None else ordered(every, shading=True)[0])
 
 
 def _whole_first(cameras: Cameras, uncut: int, task: Task,
@@ -196,8 +209,9 @@ def _whole_first(cameras: Cameras, uncut: int, task: Task,
     drawn = int(whole.drawn.sum())
     task.progress.done("whole faces", whole=drawn, left=whole.left.sum(), pieces=len(whole.pieces),
                        hidden=whole.hidden, limited=whole.limited)
+    held = sum(getattr(part, field.name).nbytes for part in (whole.images, whole.pieces) for field in fields(part))
     return whole, replace(task, met=task.met.left_to(whole.scene_pieces()),
-                          limits=replace(limits, faces=max(limits.faces - drawn, 1)))
+                          limits=replace(limits.beside(held), faces=max(limits.faces - drawn, 1)))
 
 
 def _entire(cameras: Cameras, uncut: int) -> np.ndarray:

@@ -8,6 +8,7 @@ from .three_ray_cameras import Cameras
 
 WELD = 1e-9  # of the mirror's size: corners closer than this are one
 SAME_RAY = 1e-6  # radians: at a sharp edge of the mirror each side has rays of its own
+CORNERS_AT_ONCE = 32768  # new ones: what their arrays take fits the cache
 
 
 def split_cameras(cameras: Cameras,
@@ -64,7 +65,11 @@ def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
     number, piece = own // max(len(parent), 1), own % max(len(parent), 1)
     corner[own] = cameras.corners[parent[piece], np.argmax(weights[:, number, piece], axis=0)]
     places, face = places[:, new], face[new]
-    origins, rays = mirror_map.leave(face, mirror_map.coordinates(face, places))
+    origins, rays = np.empty_like(places), np.empty_like(places)
+    for start in range(0, len(face), CORNERS_AT_ONCE):
+        part = slice(start, start + CORNERS_AT_ONCE)
+        origins[:, part], rays[:, part] = mirror_map.leave(face[part],
+                                                           mirror_map.coordinates(face[part], places[:, part]))
     low = cameras.places.min(axis=1, keepdims=True)
     size = np.ptp(cameras.places, axis=1).max()
     first, group = groups(*np.rint((places - low) / (WELD * size)).astype(np.int64),

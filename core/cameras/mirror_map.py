@@ -4,11 +4,9 @@ The three-ray camera interpolates rays instead and is O(h^2) off; Newton steps o
 """
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
-from ..geometry import TriangleMesh, View, neighbours, unit
+from ..geometry import TriangleMesh, View, unit
 from .mirror_surface import MirrorSurface, Way, along
 from .reflection_map import ReflectionMap
 
@@ -20,12 +18,14 @@ class MirrorMap(ReflectionMap):
     """Rays of the mirror's triangles as the view sees them; the origin of a ray is its place.
 
     With `parallel`, every triangle sends all its rays along one direction, that of its middle: the parallel
-    three-ray camera, whose projection is linear and jumps between triangles.
+    three-ray camera, whose projection is linear and jumps between triangles. The `surface` of the mirror is worked out
+    where it is not given.
     """
 
-    def __init__(self, view: View, mirror: TriangleMesh, parallel: bool = False) -> None:
+    def __init__(self, view: View, mirror: TriangleMesh, parallel: bool = False,
+                 surface: MirrorSurface | None = None) -> None:
         self.view, self.bounce = view, 1
-        self.surface, self._mirror = MirrorSurface(mirror), mirror
+        self.surface = MirrorSurface(mirror) if surface is None else surface
         self.orthographic = view.orthographic
         self.eye, self.forward = view.eye[:, None], view.forward[:, None]
         self.parallel = parallel
@@ -43,9 +43,9 @@ class MirrorMap(ReflectionMap):
             ray = self.surface.unbent(every, uv, direction)
             self.grazing |= self.surface.rise(every, ray, direction) < NEARLY_GRAZING
 
-    @cached_property
+    @property
     def across(self) -> np.ndarray:
-        return neighbours(self._mirror)
+        return self.surface.across
 
     def arriving(self, places: np.ndarray) -> np.ndarray:
         """View directions (3, n), as long as the way from the eye (1 in orthographic views)."""

@@ -15,7 +15,7 @@ from .cones import Balls, Cones
 
 FIRST_LEVEL = 4
 STRIDE = 2
-CONES_AT_ONCE, NODES_AT_ONCE = 8192, 1 << 18
+CONES_AT_ONCE, NODES_AT_ONCE = 8192, 1 << 16
 CURVE_BITS = 21  # of each coordinate: three of them fit one number
 _SPREADING = ((32, 0x1f00000000ffff), (16, 0x1f0000ff0000ff), (8, 0x100f00f00f00f00f), (4, 0x10c30c30c30c30c3),
               (2, 0x1249249249249249))

@@ -7,11 +7,13 @@ where much lies over one another in few pixels, as in crowds of mirrors. There w
 """
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 
 from ..support import Settings
 
-CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES, PIECE_BYTES = 1200, 160, 1100, 400  # of arrays, at most at one time
+# of arrays, at most at one time
+CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES, PIECE_BYTES, TRIANGLE_BYTES = 1400, 160, 1100, 400, 140
+LEAST = 1.0 / 4.0  # of the memory, whatever else takes it
 LATER = 1.0 / 2.0  # of the limits of a bounce: those of the next
 
 
@@ -36,6 +38,8 @@ class Limits:
         Cameras that a bounce hands on to the next.
     pieces : int
         Of the scene's triangles, whole faces among them.
+    memory : int
+        Bytes of arrays beside those of the meshes.
     """
 
     cameras: int
@@ -46,18 +50,26 @@ class Limits:
     rays: int
     bounced: int
     pieces: int
+    memory: int
 
     @classmethod
     def of(cls, settings: Settings, pixels: int, triangles: int) -> Limits:
         """Limits for a mirror that is seen in so many pixels, of meshes with so many `triangles` altogether."""
         memory, faces = 1e9 * settings.maximum_memory, settings.maximum_faces
+        memory = max(memory - TRIANGLE_BYTES * triangles, LEAST * memory)
         return cls(int(min(10_000 + 4 * pixels, faces)),
                    int(min(400_000 + 16 * pixels + 8 * triangles, memory / PAIR_BYTES)),
                    int(min(100_000 + 8 * pixels + 4 * triangles, memory / CANDIDATE_BYTES, faces)),
                    int(50_000 + 10 * pixels + 8 * triangles),
                    int(min(200_000 + 32 * pixels + 16 * triangles, memory / FACE_BYTES, faces)),
                    int(min(8000 + pixels, 250_000, faces)), int(min(8000 + pixels // 2, faces // 16)),
-                   int(min(200_000 + 32 * pixels + triangles, memory / PIECE_BYTES)))
+                   int(min(200_000 + 32 * pixels + triangles, memory / PIECE_BYTES)), int(min(memory, 2.0**62)))
+
+    def beside(self, held: int) -> Limits:
+        """The limits where so many bytes are held by what has been done."""
+        room = max(self.memory - held, LEAST * self.memory)
+        return replace(self, pairs=int(min(self.pairs, room / PAIR_BYTES)),
+                       candidates=int(min(self.candidates, room / CANDIDATE_BYTES)))
 
     def of_next_bounce(self) -> Limits:
         """Light that has met one mirror more shows less, each part of it smaller."""

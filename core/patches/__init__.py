@@ -4,6 +4,6 @@ In come cameras and points; out come the mirror's triangles, places on them and 
 (N. Greene, IEEE CG&A 1986), and Newton's method walks from there.
 """
 from .patch import Patch, speck
-from .walk import Starts, derivatives, find, jacobians
+from .walk import Starts, changes, find, find_near, jacobians
 
-__all__ = ["Patch", "Starts", "derivatives", "find", "jacobians", "speck"]
+__all__ = ["Patch", "Starts", "changes", "find", "find_near", "jacobians", "speck"]

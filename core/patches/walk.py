@@ -6,7 +6,7 @@ and Other Applications of World Projections", IEEE CG&A 1986), asked again from 
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,7 +19,10 @@ SIDE = 48  # cells along a side of the cube map
 ASKED = 3  # times, each from the place of the last answer
 AT_ONCE = 8192  # points: what their arrays take fits the cache
 STEPS, LOOKS = 2, 40  # of Newton's method between looks at where it is; of such looks
+NEAR_LOOKS = 6  # of one step each, from a near start
+FEW = 4  # looks after which most have arrived
 ARRIVED = 1e-7  # of a mirror triangle: the step after which the next is rounding
+NEARLY = 3e-5  # the same, where the next is about the square of this
 LONGEST = 1.5  # mirror triangles: no step goes further
 INSIDE = 1e-6  # of a triangle: rounding
 
@@ -78,29 +81,66 @@ def _cell(direction: np.ndarray) -> np.ndarray:
     return ((axis * 2 + (along < 0.0)) * SIDE + x.astype(np.int64)) * SIDE + y.astype(np.int64)
 
 
-def find(patch: Patch, member: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray,
-         looks: int = LOOKS) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def find(patch: Patch, member: np.ndarray, uv: np.ndarray, s: np.ndarray,
+         points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Triangles, (u, v) and s of the images of `points` (3, n) from the eye, and which of them there are, each looked
     for from a start."""
-    member, uv, s = member.copy(), uv.copy(), s.copy()
-    found = np.zeros(len(member), dtype=bool)
-    for start in range(0, len(member), AT_ONCE):
-        breathe()
-        part = slice(start, start + AT_ONCE)
-        found[part] = _find(patch, member[part], uv[:, part], s[part], points[:, part], looks)
-    return member, uv, s, found
+    return _found(_Walk.of(patch, member, uv, s, points), LOOKS)
 
 
-def _find(patch: Patch, member, uv, s, points, looks: int) -> np.ndarray:
-    """As `find`, in the arrays given."""
-    found = np.zeros(len(member), dtype=bool)
-    active, before = np.arange(len(member)), np.full(len(member), -1)
-    for _ in range(looks):
-        on, far, moved = newton(patch, member[active], columns(uv, active), s[active], columns(points, active))
-        uv[:, active], s[active] = on, far
+def find_near(patch: Patch, member: np.ndarray, uv: np.ndarray, s: np.ndarray,
+              points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """The same, from starts most of which are so near that one step arrives."""
+    return _found(replace(_Walk.of(patch, member, uv, s, points), steps=1, arrived=NEARLY), NEAR_LOOKS)
+
+
+def _found(walk: _Walk, looks: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    left = walk.walked(np.arange(len(walk.member)), FEW)
+    # some go on far longer than the others: those of all chunks do so together
+    walk.walked(left, looks - FEW)
+    return walk.member, walk.uv, walk.s, walk.found
+
+
+@dataclass(frozen=True)
+class _Walk:
+    """Points (n) on their way to their images, with so many steps between looks; `before` (n,) are the triangles that
+    they came from, and a step of less than `arrived` is the last."""
+
+    patch: Patch
+    member: np.ndarray
+    uv: np.ndarray
+    s: np.ndarray
+    points: np.ndarray
+    before: np.ndarray
+    found: np.ndarray
+    steps: int = STEPS
+    arrived: float = ARRIVED
+
+    @classmethod
+    def of(cls, patch: Patch, member, uv, s, points) -> _Walk:
+        count = len(member)
+        return cls(patch, member.copy(), uv.copy(), s.copy(), points, np.full(count, -1), np.zeros(count, dtype=bool))
+
+    def walked(self, active: np.ndarray, looks: int) -> np.ndarray:
+        """Those of the points `active` that are still on their way after so many looks."""
+        left = [active[:0]]
+        for start in range(0, len(active), AT_ONCE):
+            breathe()
+            left.append(active[start:start + AT_ONCE])
+            for _ in range(looks):
+                if not len(left[-1]):
+                    break
+                left[-1] = self._look(left[-1])
+        return np.concatenate(left)
+
+    def _look(self, active: np.ndarray) -> np.ndarray:
+        patch, member, uv, before = self.patch, self.member, self.uv, self.before
+        on, far, moved = newton(patch, member[active], columns(uv, active), self.s[active],
+                                columns(self.points, active), self.steps)
+        uv[:, active], self.s[active] = on, far
         inside = least_weight(on) >= -INSIDE
-        done = inside & (moved < ARRIVED)
-        found[active[done]] = far[done] > 0.0
+        done = inside & (moved < self.arrived)
+        self.found[active[done]] = far[done] > 0.0
         rest = np.flatnonzero(~done)
         active, moved, inside = active[rest], moved[rest], inside[rest]
         u, v = columns(on, rest)
@@ -116,16 +156,13 @@ def _find(patch: Patch, member, uv, s, points, looks: int) -> np.ndarray:
             place = patch.places(member[i], drawn[1:] / drawn.sum(axis=0))
             before[i], member[i] = member[i], beyond[walking]
             uv[:, i] = patch.coordinates(member[i], place)
-        active = active[walking | (moved >= ARRIVED)]
-        if not len(active):
-            break
-    return found
+        return active[walking | (moved >= self.arrived)]
 
 
-def newton(patch: Patch, member, uv, s, points) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def newton(patch: Patch, member, uv, s, points, steps: int = STEPS) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(u, v) and s after steps of Newton's method, and how long the last one was in (u, v)."""
     shape = columns(patch.shape, member).reshape(6, 3, -1)
-    for _ in range(STEPS):
+    for _ in range(steps):
         place, c0, c1, ray = _moved(patch, shape, uv, s)
         right = np.subtract(points, place, out=place)
         right -= s * ray
@@ -173,16 +210,17 @@ def _solved(c0, c1, ray, right) -> np.ndarray:
 
 def jacobians(patch: Patch, member, uv, s) -> np.ndarray:
     """(2, 3, n): pixels by which images move where their points move."""
+    return changes(patch, member, uv, s)[1]
+
+
+def changes(patch: Patch, member, uv, s) -> tuple[np.ndarray, np.ndarray]:
+    """(3, 3, n): by what u, v and s of images change where their points move, as [which, component]; and (2, 3, n), by
+    how many pixels they move then."""
     shape = columns(patch.shape, member).reshape(6, 3, -1)
     place, *moved = _moved(patch, shape, uv, s)
-    by_u, by_v, _ = _inverse(*moved)
-    return np.stack([dot(gradient, shape[1]) * by_u + dot(gradient, shape[2]) * by_v
-                     for gradient in patch.view.pixel_gradients(place + patch.eye)])
-
-
-def derivatives(patch: Patch, member, uv, s) -> np.ndarray:
-    """(3, 3, n): by what u, v and s of images change where their points move, as [which, component]."""
-    return np.stack(_inverse(*_moved(patch, columns(patch.shape, member).reshape(6, 3, -1), uv, s)[1:]))
+    inverse = _inverse(*moved)
+    return np.stack(inverse), np.stack([dot(gradient, shape[1]) * inverse[0] + dot(gradient, shape[2]) * inverse[1]
+                                        for gradient in patch.view.pixel_gradients(place + patch.eye)])
 
 
 def _inverse(c0, c1, ray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

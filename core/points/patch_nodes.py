@@ -12,7 +12,7 @@ import numpy as np
 
 from ..culling import Cones, PointTree, median_leaves
 from ..geometry import columns, dot, norm, unit
-from ..patches import Patch, derivatives, find, jacobians
+from ..patches import Patch, changes, find, find_near
 from ..support import breathe
 
 NODES_AT_ONCE = 2048  # what they hold fits the cache
@@ -20,7 +20,6 @@ RAYS, SHEAVES = 9, 6  # two to the power of so many rays from all over the patch
 FAR_AT_ONCE = 512  # points of which all these rays are asked
 WIDER = 1.25  # than the rays at the corners of triangles: those between them
 LARGER = 1.25  # than where a node's middle is seen: what the rest of it is magnified by at most
-FEW_LOOKS = 4  # from a near start
 
 
 class Walk:
@@ -36,7 +35,7 @@ class Walk:
         """As `find`, from where the `nodes` tell, of which each point lies in one, `node` (n,): most are found so."""
         self.asked += points.shape[1]
         place = nodes.around(node, points)
-        member, uv, s, found = find(self.patch, nodes.member[node], place[:2], place[2], points, FEW_LOOKS)
+        member, uv, s, found = find_near(self.patch, nodes.member[node], place[:2], place[2], points)
         return member, uv, s, found & nodes.found[node]
 
     def afresh(self, points: np.ndarray) -> tuple:
@@ -86,8 +85,7 @@ class NodeImages:
             member, uv, s, found = walk.images(points, above, parent)
             far = np.flatnonzero(~found)
             member[far], uv[:, far], s[far], found[far] = walk.afresh(points[:, far])
-        change = derivatives(walk.patch, member, uv, s)
-        right, up = jacobians(walk.patch, member, uv, s)
+        change, (right, up) = changes(walk.patch, member, uv, s)
         scale = np.sqrt(0.5 * (dot(right, right) + dot(up, up))
                         + np.hypot(0.5 * (dot(right, right) - dot(up, up)), dot(right, up)))
         return cls(found, points, member, np.concatenate((uv, s[None])), change.reshape(9, -1), scale)

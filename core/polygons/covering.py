@@ -115,6 +115,8 @@ def _overlaps(candidates: Candidates, met: SceneAndMirrors) -> Overlaps:
         for side, room, goes_on in zip(own.sides, own.room, inner):
             value = dot(np.repeat(side, wide.size, axis=1), wide.weights)
             ends[some] |= (np.minimum.reduceat(value, wide.start[:-1]) < room) & ~goes_on
+        # where sides are straight, without room, the overlap may end on one to the last bit
+        ends[some] |= outlines[:, some].any(axis=0)
     return Overlaps(replace(candidates, outlines=outlines), mirror, ends)
 
 

@@ -18,7 +18,7 @@ from .covering import Overlaps
 
 LEVELS = 10
 SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
-CROWD = 12  # outlines of mirrors that a camera may hold: all that it sees is cut along those that run through it
+CROWD = 24  # outlines of mirrors that a camera may hold: all that it sees is cut along those that run through it
 ENDING = 0.4  # of the tolerance: what outlines of mirrors may miss, at which all ends that lies behind
 
 

@@ -62,6 +62,9 @@ class PicturePieces:
     def holding(self, face: np.ndarray, weights: np.ndarray) -> np.ndarray:
         """Piece (n,) of the largest image that holds points of the scene; -1 where none does.
 
+        A triangle that is seen edge on is known badly there: of two pieces of one image that hold a point, that counts
+        whose part of the triangle is larger in the picture.
+
         Parameters
         ----------
         face : (n,) int64
@@ -76,7 +79,10 @@ class PicturePieces:
         shares = np.linalg.solve(np.swapaxes(_regular(self.weights[piece]), 1, 2), weights[point, :, None])[..., 0]
         held = (shares >= -TOUCHING).all(axis=1)
         point, piece = point[held], piece[held]
-        order = np.lexsort((self.image[piece], point))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            enlarged = np.nan_to_num(np.abs(np.linalg.det(self.pixels[piece, 1:] - self.pixels[piece, :1])
+                                            / np.linalg.det(self.weights[piece])))
+        order = np.lexsort((-enlarged, self.image[piece], point))
         first = order[np.unique(point[order], return_index=True)[1]]
         found[point[first]] = piece[first]
         return found

@@ -18,4 +18,16 @@ class ReflectionError(ValueError):
 
 
 class NothingInView(ReflectionError):
-    """The view sees nothing of the mirror."""
+    """The view sees nothing of the mirror.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core import NothingInView, TriangleMesh, View, reflect
+    >>> mirror = TriangleMesh(np.array([[-2, -2, 0], [2, -2, 0], [0, 2, 0]]), np.array([[0, 1, 2]]))
+    >>> try:
+    ...     reflect(View.looking_at((0, -4, 3), (0, -8, 6), (320, 240)), mirror, mirror)
+    ... except NothingInView as error:
+    ...     print(error)
+    The view does not see the mirror; turn the camera to the mirror or move it into view.
+    """

@@ -1,6 +1,6 @@
 """Tries seeds, one after another, in a process of its own that may crash or be killed:
 
-    python -m tests.fuzz.worker core|scenes
+    python -m tests.fuzz.worker core|light|scenes|lamps
 
 reads a seed a line and answers each with a line of JSON: {"seed": ..., "name": ..., "problems": [...]}.
 """
@@ -17,7 +17,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-SECONDS = {"core": 60, "scenes": 120}  # of processor time, for a seed with all that is done to it
+# of processor time, for a seed with all that is done to it
+SECONDS = {"core": 60, "light": 90, "scenes": 120, "lamps": 300}
 GIGABYTES = 8  # of address space, for all seeds
 
 
@@ -26,7 +27,7 @@ def main(kind: str) -> None:
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    with {"core": _core, "scenes": _scenes}[kind]() as tried:
+    with {"core": _core, "light": _light, "scenes": _scenes, "lamps": _lamps}[kind]() as tried:
         resource.setrlimit(resource.RLIMIT_AS, (GIGABYTES * 10**9, resource.RLIM_INFINITY))
         for line in sys.stdin:
             # SIGXCPU ends the process where a seed takes longer
@@ -48,16 +49,35 @@ def _core() -> Iterator[Callable[[int], dict]]:
 
 
 @contextmanager
+def _light() -> Iterator[Callable[[int], dict]]:
+    from tests.fuzz.light_trial import tried_light
+    yield tried_light
+
+
+@contextmanager
 def _scenes() -> Iterator[Callable[[int], dict]]:
+    with _extension():
+        from tests.fuzz.scene_trial import tried_scene
+        yield tried_scene
+
+
+@contextmanager
+def _lamps() -> Iterator[Callable[[int], dict]]:
+    with _extension():
+        from tests.fuzz.scene_light_trial import tried_lamps
+        yield tried_lamps
+
+
+@contextmanager
+def _extension() -> Iterator[None]:
     """With the extension as users have it, in preferences of its own."""
     from tools import extension_zip
     folder = Path(tempfile.mkdtemp(prefix="reflection_mesh_fuzz_"))
     # before anything imports bpy
     extension_zip.use_throw_away_preferences(folder)
     extension_zip.install(extension_zip.build(folder / "zip"))
-    from tests.fuzz.scene_trial import tried_scene
     try:
-        yield tried_scene
+        yield
     finally:
         extension_zip.switch_off()
         shutil.rmtree(folder, ignore_errors=True)

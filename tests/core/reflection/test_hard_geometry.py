@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from core import METHODS, PLACEMENTS, ReflectionError, SceneTree, Settings, TriangleMesh, View, reflect
 from core.culling.point_tree import PointTree
-from tests.core.test_bad_input import SENTENCE, assert_sane
+from tests.core.calling.test_bad_input import SENTENCE, assert_sane
 from tests.inputs import hard_meshes, shapes
 from tests.inputs.hard_meshes import Case
 from tests.inputs.scenes import SCENES
@@ -262,7 +262,7 @@ print(len(mesh.triangles), (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss -
                                                  ("a scene in one cone", 1000)])
 def test_crowds_stay_within_bounds(name, megabytes):
     pytest.importorskip("resource")
-    found = subprocess.run([sys.executable, "-c", CROWDS, name], cwd=Path(__file__).parents[2], capture_output=True,
+    found = subprocess.run([sys.executable, "-c", CROWDS, name], cwd=Path(__file__).parents[3], capture_output=True,
                            text=True, timeout=60, check=True)
     faces, used = map(int, found.stdout.split())
     assert used < megabytes

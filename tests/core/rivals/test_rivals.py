@@ -15,7 +15,7 @@ from tests.oracles.true_map import case_of, mesh_of, truth_of
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 PIXELS = 256
 
 

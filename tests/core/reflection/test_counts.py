@@ -1,6 +1,6 @@
 """How much work each scene takes, counted: a change that does more, or less, says so here.
 
-    python -m tests.core.test_counts
+    python -m tests.core.reflection.test_counts
 
 writes counts.json anew. Counts that follow from what is seen are held exactly; how tight bounding cones are, and
 where refinement stops, depends on the last digits of sums, which NumPys and processors add in different orders.

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core import FollowedImages, Settings, TriangleMesh, View, reflect
+from core import FollowedImages, Settings, TriangleMesh, View, following, reflect
 from tests.inputs import scenes, shapes
 from tests.oracles.judge import judge
 from tests.oracles.truth import trace
@@ -44,6 +44,35 @@ def test_in_a_flat_mirror_they_lie_before_their_twins(orthographic, known):
         # what is lost waits on the mirror
         assert np.abs(now.mirror_position[:, :2]).max() < 4.0 + 1e-9
         assert np.abs(now.mirror_position[:, 2]).max() < 1e-12
+
+
+def test_what_is_lost_is_looked_for_in_turns_and_as_good_as_ever(monkeypatch):
+    """On a ball, whose rim takes images away: each is looked for every few times, and few are missed by that."""
+    case = scenes.sphere((96, 96))
+    images = FollowedImages.of(case.view, case.mirror, reflect(case.view, case.mirror, case.scene))
+    looked, look = [], following.settle
+
+    def settle(mirror_map, face, *more):
+        looked.append(len(face))
+        return look(mirror_map, face, *more)
+    monkeypatch.setattr(following, "settle", settle)
+    lost = {}
+    for always in (False, True):
+        now, lost[always] = images, []
+        for step in [*range(12), *range(12, -1, -1)]:
+            placement = case.view.camera_to_world.copy()
+            placement[:3, 3] += 0.03 * step * placement[:3, 0]
+            view = replace(case.view, camera_to_world=placement)
+            followed = now.seen(view, case.mirror, case.scene, "SURFACE")
+            now = replace(followed.images, lost=np.zeros_like(followed.lost)) if always else followed.images
+            lost[always].append(followed.lost.sum())
+        if not always:
+            # standing still, nothing else is out of its triangle
+            for _ in range(following.LOOKS):
+                now = now.seen(view, case.mirror, case.scene, "SURFACE").images
+            assert max(looked[-following.LOOKS:]) < 0.4 * now.lost.sum()
+            assert sum(looked[-following.LOOKS:]) > 0.8 * now.lost.sum()
+    assert np.mean(lost[False]) < 1.1 * np.mean(lost[True])
 
 
 @pytest.mark.parametrize("known", [False, True])

@@ -7,7 +7,7 @@ import pytest
 
 from core import Settings, reflect, reflection_steps
 from core.support.stepping import INTERVAL, breathe, in_steps, tell
-from tests.core.test_filling import VIEW, soup
+from tests.core.filling.test_filling import VIEW, soup
 from tests.oracles.true_map import case_of
 
 pytestmark = pytest.mark.slow

@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 import core.culling.point_tree
 import core.reflection
 from core import PointTree, Settings, TriangleMesh, View, reflect
-from tests.core.test_vertex_images import brute_force, floating
+from tests.core.polygons.test_vertex_images import brute_force, floating
 from tests.inputs import shapes
 from tests.inputs.dense_scenes import dense as on_floors
 from tests.inputs.disc_mesh import polygons_of

@@ -1,6 +1,7 @@
 """Crowds: what is too much for the picture or the memory is shown by rays, within bounds, and the result says so."""
 import time
 import tracemalloc
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -125,7 +126,17 @@ def test_limits_grow_with_the_picture_and_the_memory():
     tight = Limits.of(Settings(maximum_memory=0.01), 100_000, 1000)
     assert tight.candidates < large.candidates and tight.faces < large.faces and tight.pairs < large.pairs
     free = Limits.of(Settings(maximum_memory=np.inf, maximum_faces=2**40), 100, 1000)
-    assert free == small and Limits.of(Settings(maximum_faces=500), 100, 1000).faces == 500
+    # the memory itself is none of what it bounds
+    assert replace(free, memory=small.memory) == small
+    assert Limits.of(Settings(maximum_faces=500), 100, 1000).faces == 500
+
+
+def test_what_is_held_already_leaves_less_room():
+    limits = Limits.of(Settings(maximum_memory=0.3), 400_000, 200_000)
+    tight = limits.beside(limits.memory // 2)
+    assert tight.candidates < limits.candidates and tight.faces == limits.faces
+    assert 0 < limits.beside(2**40).candidates < tight.candidates and limits.beside(0) == limits
+    assert Limits.of(Settings(maximum_memory=0.3), 400_000, 1_000_000).candidates < limits.candidates
 
 
 def test_what_rays_filled_is_no_more_than_the_mirror_however_much_lies_over_one_another():
