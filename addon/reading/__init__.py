@@ -1,10 +1,12 @@
 """Blender's data as arrays: who takes part, meshes with their layers, materials, the view."""
-from .join_meshes import DiffuseScene, MirrorSurface, read_mirror, read_scene
+from .join_meshes import DiffuseScene, MirrorSurface, join_mirror, join_scene, read_mirror, read_scene
+from .known_results import forget_known, known_results, register, unregister
+from .material_nodes import all_nodes
 from .mirror_materials import is_mirror
 from .opaque_materials import is_opaque
-from .read_meshes import SURFACES
+from .read_meshes import SURFACES, LocalMesh, Placed, read_meshes
 from .read_view import NO_CAMERA, read_view, render_size
-from .results import camera_of, every_result_of, results_of
+from .results import camera_of, every_result_of, results_of, with_copies
 from .roles import (
     NO_MIRROR,
     NothingSeen,
@@ -18,7 +20,8 @@ from .roles import (
     visible,
 )
 
-__all__ = ["DiffuseScene", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants", "SURFACES",
-           "camera_of", "can_take_part", "candidates", "choose", "every_result_of", "is_mirror", "is_opaque",
-           "participants", "read_mirror", "read_scene", "read_view", "rendered_collections", "render_size",
-           "results_of", "seen_in", "visible"]
+__all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
+           "Placed", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose", "every_result_of",
+           "forget_known", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results", "participants",
+           "read_meshes", "read_mirror", "read_scene", "read_view", "register", "render_size", "rendered_collections",
+           "results_of", "seen_in", "unregister", "visible", "with_copies"]

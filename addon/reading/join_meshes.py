@@ -9,7 +9,7 @@ import numpy as np
 from ...core import ReflectionError, TriangleMesh
 from .join_layers import join_layers
 from .mirror_materials import is_mirror
-from .placed_values import PlacedValues, lines_of, normals_of, turned_over
+from .placed_values import PlacedValues, generated_places, lines_of, normals_of, own_places
 from .read_meshes import Placed, read_meshes
 
 
@@ -41,6 +41,8 @@ class DiffuseScene:
     numbers : dict of str to (type, (m, 3, c) float32)
         Other attributes that materials ask for; type is FLOAT or FLOAT_VECTOR.
     active_uv, active_colour : str
+    generated, own_places : PlacedValues of (m, 3, 3) float32
+        The corners in Generated and in Object coordinates.
     """
 
     mesh: TriangleMesh
@@ -59,14 +61,19 @@ class DiffuseScene:
     numbers: dict
     active_uv: str
     active_colour: str
+    generated: PlacedValues
+    own_places: PlacedValues
 
 
 @dataclass(frozen=True)
 class MirrorSurface:
-    """The reflecting triangles of one mirror: `triangle` (m,) are their indices in the object's triangulation."""
+    """The reflecting triangles of one mirror: `triangle` (m,) are their indices in the object's triangulation,
+    `material` (m,) those of their materials in `materials`."""
 
     mesh: TriangleMesh
     triangle: np.ndarray
+    material: np.ndarray
+    materials: list
 
 
 def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
@@ -77,12 +84,17 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
     ReflectionError
         Where they have no faces, or a coordinate is not a finite number.
     """
-    placed = read_meshes(depsgraph, objects, mirror=False)
+    return join_scene(read_meshes(depsgraph, objects, mirror=False), objects)
+
+
+def join_scene(placed: list[Placed], objects: list) -> DiffuseScene:
+    """As `read_scene`, of meshes that have been read."""
     if not placed:
         raise ReflectionError(f"'{objects[0].name}' has no faces to reflect: choose diffuse objects with faces.")
     positions, triangles, owners, faces, material, materials = _join(placed, len(objects))
     return DiffuseScene(_triangle_mesh(objects, positions, triangles), list(objects), owners, faces, material,
-                        materials, normals_of(placed), *lines_of(placed), *join_layers(placed))
+                        materials, normals_of(placed), *lines_of(placed), *join_layers(placed),
+                        generated_places(placed), own_places(placed))
 
 
 def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> MirrorSurface:
@@ -95,13 +107,18 @@ def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> Mirror
     ReflectionError
         Where the mirror has no faces, or a coordinate or a normal is not a finite number.
     """
-    placed = read_meshes(depsgraph, [obj], mirror=True)
+    return join_mirror(read_meshes(depsgraph, [obj], mirror=True), obj)
+
+
+def join_mirror(placed: list[Placed], obj: bpy.types.Object) -> MirrorSurface:
+    """As `read_mirror`, of meshes that have been read."""
     if not placed:
         raise ReflectionError(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
     positions, triangles, _, faces, material, materials = _join(placed, 1)
     reflects = np.array([is_mirror(entry) for entry in materials])[material]
     kept = np.flatnonzero(reflects) if reflects.any() else np.arange(len(triangles))
-    return MirrorSurface(_triangle_mesh([obj], positions, triangles[kept], normals_of(placed)[kept]), faces[kept])
+    mesh = _triangle_mesh([obj], positions, triangles[kept], normals_of(placed)[kept])
+    return MirrorSurface(mesh, faces[kept], material[kept], materials)
 
 
 def _triangle_mesh(objects: list, positions, triangles, normals=None) -> TriangleMesh:
@@ -123,7 +140,8 @@ def _join(placed: list[Placed], count: int) -> tuple:
         world += item.matrices[:, None, :3, 3]
         positions.append(world.reshape(-1, 3))
         vertices, count = len(mesh.positions), len(mesh.triangles)
-        triangles.append(_repeated(mesh.triangles, _corner_order(item.matrices), vertices, vertex_start))
+        turned = np.where(item.turned_over[:, None], (0, 2, 1), (0, 1, 2))
+        triangles.append(_repeated(mesh.triangles, turned, vertices, vertex_start))
         vertex_start += places * vertices
         owners.append(np.repeat(item.owners.astype(np.int32), count))
         faces.append((_counted_on(item.owners, counted, count)[:, None] + np.arange(count, dtype=np.int32)).ravel())
@@ -151,13 +169,9 @@ def _counted_on(owners: np.ndarray, counted: np.ndarray, count: int) -> np.ndarr
     return starts.astype(np.int32)
 
 
-def _corner_order(matrices: np.ndarray) -> np.ndarray:
-    """Order (k, 3) of a triangle's corners: a transform that turns space inside out turns its faces over."""
-    return np.where(turned_over(matrices)[:, None], (0, 2, 1), (0, 1, 2))
-
-
 def _repeated(indices: np.ndarray, order: np.ndarray, stride: int, start: int) -> np.ndarray:
-    """Indices (m, 3) for each of k places, as (k m, 3), counted on by `stride` from place to place."""
+    """Indices (m, 3) for each of k places, as (k m, 3), counted on by `stride` from place to place, in the `order`
+    (k, 3) of corners: a transform that turns space inside out turns its faces over."""
     shift = start + stride * np.arange(len(order), dtype=np.int64)
     if (order == order[0]).all():
         return (indices[:, order[0]].astype(np.int64) + shift[:, None, None]).reshape(-1, 3)

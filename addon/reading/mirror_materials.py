@@ -7,6 +7,8 @@ from .. import compat
 
 SHARP_ROUGHNESS = 0.1
 FULL_METALLIC = 0.9
+MIRRORS = {"BSDF_GLOSSY", "BSDF_METALLIC"}
+"""Shaders that are nothing but a mirror where they are sharp."""
 
 
 def is_mirror(material: bpy.types.Material | None) -> bool:
@@ -19,11 +21,16 @@ def is_mirror(material: bpy.types.Material | None) -> bool:
     if not compat.uses_nodes(material):
         return material.metallic >= FULL_METALLIC and material.roughness <= SHARP_ROUGHNESS
     shader = surface_shader(material.node_tree)
-    if shader is None or not _constant(shader, "Roughness", at_most=SHARP_ROUGHNESS):
+    if shader is None or not is_sharp(shader):
         return False
     if shader.type == "BSDF_PRINCIPLED":
         return _constant(shader, "Metallic", at_least=FULL_METALLIC)
-    return shader.type in {"BSDF_GLOSSY", "BSDF_METALLIC"}
+    return shader.type in MIRRORS
+
+
+def is_sharp(shader: bpy.types.Node) -> bool:
+    """Whether a shader's roughness is near 0 all over."""
+    return _constant(shader, "Roughness", at_most=SHARP_ROUGHNESS)
 
 
 def surface_shader(tree: bpy.types.NodeTree) -> bpy.types.Node | None:

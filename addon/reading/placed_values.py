@@ -10,6 +10,8 @@ import numpy as np
 
 from .read_meshes import LocalMesh, Placed
 
+AT_ONCE = 1 << 17  # triangles: what is worked out on the way takes little memory beside the values themselves
+
 
 @dataclass(frozen=True)
 class Part:
@@ -26,7 +28,7 @@ class Part:
     @cached_property
     def turned_over(self) -> np.ndarray:
         """Which of the triangles (n,) are turned inside out where they stand; their corners are in another order."""
-        return turned_over(self.placed.matrices)[self.place]
+        return self.placed.turned_over[self.place]
 
     @cached_property
     def corners(self) -> np.ndarray:
@@ -66,28 +68,19 @@ class PlacedValues:
         bounds = np.searchsorted(item[order], np.arange(len(self._placed) + 1))
         for number in np.flatnonzero(np.diff(bounds)).tolist():
             own = order[bounds[number]:bounds[number + 1]]
-            place, triangle = np.divmod(flat[own] - self._starts[number], len(self._placed[number].mesh.triangles))
-            found[own] = self._values(Part(self._placed[number], place, triangle))
+            count = len(self._placed[number].mesh.triangles)
+            for start in range(0, len(own), AT_ONCE):
+                some = own[start:start + AT_ONCE]
+                place, triangle = np.divmod(flat[some] - self._starts[number], count)
+                found[some] = self._values(Part(self._placed[number], place, triangle))
         found = found.reshape(rows.shape + self._shape)
         return found[(np.arange(len(rows)), *rest)] if rest else found
-
-
-def turned_over(matrices: np.ndarray) -> np.ndarray:
-    """Which transforms (k,) turn space inside out."""
-    return np.linalg.det(matrices[:, :3, :3]) < 0.0
-
-
-def cofactors(matrices: np.ndarray) -> np.ndarray:
-    """What takes normals to world space, (k, 3, 3): also where a scale is zero."""
-    linear = matrices[:, :3, :3]
-    across = np.stack([np.cross(linear[:, (i + 1) % 3], linear[:, (i + 2) % 3]) for i in range(3)], axis=1)
-    return across * np.where(turned_over(matrices), -1.0, 1.0)[:, None, None]
 
 
 def normals_of(placed: list[Placed]) -> PlacedValues:
     """Corner normals (m, 3, 3) float64 in world space."""
     def values(part: Part) -> np.ndarray:
-        turning = cofactors(part.placed.matrices).swapaxes(1, 2)[part.place]
+        turning = part.placed.cofactors.swapaxes(1, 2)[part.place]
         normals = np.matmul(part.mesh.normals[part.triangle].astype(np.float64), turning)
         normals[part.turned_over] = normals[part.turned_over][:, [0, 2, 1]]
         return normals
@@ -97,7 +90,7 @@ def normals_of(placed: list[Placed]) -> PlacedValues:
 def lines_of(placed: list[Placed]) -> tuple[PlacedValues, ...]:
     """Faces that are sharp (m,), those that are marked, sides that are sharp (m, 3), those that are marked."""
     def sides(part: Part, kind: str) -> np.ndarray:
-        flags = (part.mesh.lines.sharp_sides(part.triangle, cofactors(part.placed.matrices), part.place)
+        flags = (part.mesh.lines.sharp_sides(part.triangle, part.placed.creases, part.place)
                  if kind == "sharp" else part.mesh.lines.marked_sides(part.triangle))
         # side k leads to the next corner: of a triangle turned over, from the last corner to the one before
         flags[part.turned_over] = flags[part.turned_over][:, ::-1]
@@ -108,3 +101,24 @@ def lines_of(placed: list[Placed]) -> tuple[PlacedValues, ...]:
         return (lines.sharp_faces if kind == "sharp" else lines.marked_faces)[lines.face[part.triangle]]
     return tuple(PlacedValues(placed, shape, bool, partial(flags, kind=kind))
                  for flags, shape in ((faces, ()), (sides, (3,))) for kind in ("sharp", "marked"))
+
+
+def own_places(placed: list[Placed]) -> PlacedValues:
+    """Corners (m, 3, 3) float32 in the space of the object that each triangle is of."""
+    return PlacedValues(placed, (3, 3), np.float32, _own)
+
+
+def generated_places(placed: list[Placed]) -> PlacedValues:
+    """The same in the box that Generated coordinates are counted in, which goes from 0 to 1."""
+    def values(part: Part) -> np.ndarray:
+        middle, half = part.mesh.texture_space
+        # as Cycles has it: in the middle where the box is flat
+        share = np.divide(0.5, half, out=np.zeros_like(half), where=half != 0.0)
+        return (_own(part) - middle) * share + 0.5
+    return PlacedValues(placed, (3, 3), np.float32, values)
+
+
+def _own(part: Part) -> np.ndarray:
+    corners = part.mesh.positions[part.mesh.triangles[part.triangle]]
+    corners[part.turned_over] = corners[part.turned_over][:, [0, 2, 1]]
+    return corners

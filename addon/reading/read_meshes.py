@@ -1,13 +1,17 @@
 """Evaluated Blender meshes -> arrays, in each object's own space, with the places where they stand."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, partial
 
 import bpy
 import numpy as np
 
 from ...core import ReflectionError
 from .. import compat
+from .creases import Creases
+from .material_nodes import asked_attributes
 from .read_layers import NO_LAYERS, read_layers
 from .source_lines import SourceLines
 
@@ -69,12 +73,32 @@ class Placed:
     matrices: np.ndarray
     instances: np.ndarray
 
+    @cached_property
+    def turned_over(self) -> np.ndarray:
+        """Which of the places (k,) turn the mesh inside out."""
+        return np.linalg.det(self.matrices[:, :3, :3]) < 0.0
 
-def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool) -> list[Placed]:
+    @cached_property
+    def cofactors(self) -> np.ndarray:
+        """What takes normals to world space, (k, 3, 3): also where a scale is zero."""
+        linear = self.matrices[:, :3, :3]
+        across = np.stack([np.cross(linear[:, (i + 1) % 3], linear[:, (i + 2) % 3]) for i in range(3)], axis=1)
+        return across * np.where(self.turned_over, -1.0, 1.0)[:, None, None]
+
+    @cached_property
+    def creases(self) -> Creases:
+        """The creases of the mesh in its places; a mirror has none."""
+        assert self.mesh.lines is not None
+        return self.mesh.lines.creases(self.cofactors)
+
+
+def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool,
+                known: Callable | None = None) -> list[Placed]:
     """Each distinct mesh of `objects`, modifiers applied, with every place where it or an instance of it stands.
 
     Instances count as their instancer: an object that instances others owns them. Of a `mirror`
-    only its shape is read, and its normals must be numbers.
+    only its shape is read, and its normals must be numbers. What has been read before may be `known`: asked for with
+    the name of a mesh, the `session_uid` of all that it depends on, and how to read it.
 
     Raises
     ------
@@ -83,6 +107,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool) -> 
     """
     owner_of = {obj: index for index, obj in enumerate(objects)}
     meshes, owners, matrices, instances = {}, {}, {}, {}
+    asked: dict[tuple, frozenset] = {}
     for instance in depsgraph.object_instances:
         evaluated = instance.object
         original = evaluated.original
@@ -94,7 +119,11 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool) -> 
         materials = tuple(slot.material.original if slot.material else None for slot in evaluated.material_slots)
         key = (evaluated.data.as_pointer(), materials) if evaluated.type == "MESH" else (original, materials)
         if key not in meshes:
-            meshes[key] = _read(evaluated, materials, mirror)
+            read = partial(_read, evaluated, materials, mirror)
+            if known is None or evaluated.type != "MESH":
+                meshes[key] = read()
+            else:
+                meshes[key] = known(*_name(instance, materials, mirror, asked), read)
             owners[key], matrices[key], instances[key] = [], [], []
         owners[key].append(owner)
         instances[key].append(instance.is_instance)
@@ -113,6 +142,22 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool) -> 
                                   "where Blender's numbers end: make it smaller or move it nearer.")
         placed.append(Placed(mesh, np.array(owners[key]), matrix, np.array(instances[key])))
     return placed
+
+
+def _name(instance: bpy.types.DepsgraphObjectInstance, materials: tuple, mirror: bool,
+          asked: dict[tuple, frozenset]) -> tuple[tuple, frozenset]:
+    """What tells the mesh of an instance from all others of its depsgraph while that tells no change of any whose
+    `session_uid` is returned beside it; `asked` are the attributes that each tuple of materials reads."""
+    evaluated = instance.object
+    original = evaluated.original
+    owners = [original, instance.parent.original] if instance.is_instance else [original]
+    uids = [item.session_uid for owner in owners for item in (owner, owner.data) if item is not None]
+    if materials not in asked:
+        asked[materials] = frozenset(asked_attributes(materials or tuple(evaluated.data.materials)))
+    shown = tuple(0 if material is None else material.session_uid for material in materials)
+    mesh = evaluated.data
+    return (mirror, mesh.as_pointer(), len(mesh.vertices), len(mesh.loops), len(mesh.polygons), *uids, shown,
+            asked[materials]), frozenset(uids)
 
 
 def _takes_part(obj: bpy.types.Object) -> bool:

@@ -13,20 +13,30 @@ def is_result(obj: bpy.types.Object) -> bool:
     return obj.reflection_mesh.role == "REFLECTION"
 
 
-def results_of(context: bpy.types.Context, mirror: bpy.types.Object) -> list:
-    """Results in the scene that show the reflection in `mirror` to the scene's camera, and can be changed.
+def results_of(context: bpy.types.Context, mirror: bpy.types.Object, among: list | None = None) -> list:
+    """Results in the scene, or `among` some of it, that show the reflection in `mirror` to the scene's camera, and can
+    be changed.
 
     Where none is that camera's own, those of no camera in particular are, which earlier versions made.
     """
-    every = every_result_of(context, mirror)
+    every = every_result_of(context, mirror, among)
     own = [obj for obj in every if camera_of(obj) == context.scene.camera]
     return own or [obj for obj in every if camera_of(obj) is None]
 
 
-def every_result_of(context: bpy.types.Context, mirror: bpy.types.Object) -> list:
+def every_result_of(context: bpy.types.Context, mirror: bpy.types.Object, among: list | None = None) -> list:
     """As `results_of`, for every camera."""
-    return [obj for obj in context.scene.objects if is_result(obj)
+    return [obj for obj in (context.scene.objects if among is None else among) if is_result(obj)
             and obj.reflection_mesh.mirror == mirror and obj.type == "MESH" and obj.library is None]
+
+
+def with_copies(context: bpy.types.Context, results: list) -> list:
+    """Results, and the copies that the user has made of them: those of the same mirror for the same camera."""
+    found = dict.fromkeys(results)
+    for result in results:
+        found.update(dict.fromkeys(obj for obj in every_result_of(context, result.reflection_mesh.mirror)
+                                   if camera_of(obj) == camera_of(result)))
+    return list(found)
 
 
 def camera_of(result: bpy.types.Object) -> bpy.types.Object | None:

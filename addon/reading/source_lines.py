@@ -7,9 +7,7 @@ import bpy
 import numpy as np
 
 from .. import compat
-
-# faces that meet at less than 140 degrees, Line Art's own default, make a crease
-CREASE = np.cos(np.radians(180.0 - 140.0))
+from .creases import Creases
 
 
 @dataclass(frozen=True)
@@ -67,39 +65,19 @@ class SourceLines:
                    _flags(mesh, "sharp_face", "FACE", faces), compat.freestyle_marks(mesh, "FACE"),
                    meeting[:, two], meeting_of, normals)
 
-    def sharp_sides(self, triangle: np.ndarray, cofactors: np.ndarray, place: np.ndarray) -> np.ndarray:
-        """Which sides (n, 3) of triangles (n,) are sharp or creased, where the mesh stands in the places (n,) of those
-        with the `cofactors` (k, 3, 3) that take its normals there."""
+    def creases(self, cofactors: np.ndarray) -> Creases:
+        """The creases where the mesh stands in places with the `cofactors` (k, 3, 3) that take its normals there."""
+        return Creases.of(self.meeting, self.meeting_of, self.normals, cofactors)
+
+    def sharp_sides(self, triangle: np.ndarray, creases: Creases, place: np.ndarray) -> np.ndarray:
+        """Which sides (n, 3) of triangles (n,) are sharp or creased, where the mesh stands in the places (n,)."""
         side = self.side[triangle]
-        sharp = self.sharp_edges[side]
-        metrics = np.matmul(cofactors.swapaxes(1, 2), cofactors)
-        normals = self.normals.astype(np.float64)
-        if len(metrics) == 1:
-            # each edge once
-            creased = np.zeros(len(self.sharp_edges), dtype=bool)
-            one, other = normals[self.meeting]
-            creased[self.meeting_of >= 0] = _creased(one, other, one @ metrics[0], other @ metrics[0])
-            return (sharp | creased[side]) & (side >= 0)
-        row, at = np.nonzero((side >= 0) & ~sharp & (self.meeting_of[side] >= 0))
-        metric = metrics[place[row]]
-        one, other = normals[self.meeting[:, self.meeting_of[side[row, at]]]]
-        sharp[row, at] = _creased(one, other, *(np.matmul(normal[:, None], metric)[:, 0] for normal in (one, other)))
-        return sharp & (side >= 0)
+        return (self.sharp_edges[side] | creases.among(side, place)) & (side >= 0)
 
     def marked_sides(self, triangle: np.ndarray) -> np.ndarray:
         """Which sides (n, 3) of triangles (n,) are marked."""
         side = self.side[triangle]
         return self.marked_edges[side] & (side >= 0)
-
-
-def _creased(one: np.ndarray, other: np.ndarray, turned: np.ndarray, other_turned: np.ndarray) -> np.ndarray:
-    """Whether faces with the normals (n, 3) `one` and `other` meet in a crease, by these times the metric of the place
-    where they stand."""
-    return _dot(turned, other) < CREASE * np.sqrt(_dot(turned, one) * _dot(other_turned, other))
-
-
-def _dot(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    return np.einsum("...i,...i->...", one, other)
 
 
 def _flags(mesh: bpy.types.Mesh, name: str, domain: str, count: int) -> np.ndarray:

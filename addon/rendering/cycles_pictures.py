@@ -36,6 +36,17 @@ def with_cycles(scene: bpy.types.Scene) -> None:
     settings.exr_codec = "ZIP"
 
 
+def denoise(cycles: bpy.types.PropertyGroup) -> None:
+    """Let Cycles' settings `cycles` denoise what is rendered or baked."""
+    cycles.use_denoising = True
+    try:
+        cycles.denoiser = "OPENIMAGEDENOISE"
+        cycles.denoising_input_passes, cycles.denoising_prefilter = "RGB_ALBEDO_NORMAL", "ACCURATE"
+    except TypeError:
+        # Linux distributions build Blender without it: then the light has the noise of its samples
+        cycles.use_denoising = False
+
+
 def rendered(scene: bpy.types.Scene) -> np.ndarray:
     """The picture of a temporary scene, (height, width, 4) float32 in linear light from the lowest row up.
 

@@ -17,12 +17,20 @@ def copied_scene(context: bpy.types.Context, name: str) -> Iterator[tuple[bpy.ty
     scene = context.scene.copy()
     with ExitStack() as back:
         back.callback(bpy.data.scenes.remove, scene)
+        # an engine that is kept for a scene that goes, be it by the user's setting or by one that an error has left,
+        # would be found by the name of the next such scene, and still hold this one; switched off Blender frees it
+        back.callback(_keep_no_engine, scene)
+        _keep_no_engine(scene)
         scene.name = name
         with_cycles(scene)
         for other in [other for other in scene.view_layers if other.name != context.view_layer.name]:
             scene.view_layers.remove(other)
         scene.cycles.seed = scene.cycles.seed + 1
         yield scene, back
+
+
+def _keep_no_engine(scene: bpy.types.Scene) -> None:
+    scene.render.use_persistent_data = False
 
 
 def look_through(scene: bpy.types.Scene, camera: bpy.types.Object, back: ExitStack) -> None:

@@ -1,0 +1,8 @@
+"""What stands still from one generation to the next is kept as arrays: meshes, the scene with its tree, the mirrors.
+
+The depsgraph tells what no longer stands; where that is in doubt all is read again.
+"""
+from .kept import Kept
+from .told import register, unregister
+
+__all__ = ["Kept", "register", "unregister"]

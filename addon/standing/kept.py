@@ -1,0 +1,179 @@
+"""The arrays of what was reflected last, for whoever reflects it again."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+
+from ...core import PointTree, SceneTree, Standing, TriangleMesh
+from ..reading import (
+    DiffuseScene,
+    LocalMesh,
+    MirrorSurface,
+    Placed,
+    is_mirror,
+    join_mirror,
+    join_scene,
+    read_meshes,
+)
+from .told import listen, trusted
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What a generation reflects, and in what: nothing of it changes any more.
+
+    Attributes
+    ----------
+    scene : DiffuseScene
+    surfaces : list of MirrorSurface
+    mirrors : core.TriangleMesh
+        All mirrors joined.
+    trees : dict
+        Of the scene, by their kind.
+    """
+
+    scene: DiffuseScene
+    surfaces: list[MirrorSurface]
+    mirrors: TriangleMesh
+    trees: dict[type, SceneTree | PointTree] = field(default_factory=dict)
+    _built: dict[type, Standing] = field(default_factory=dict)
+
+    def has(self, kind: type) -> bool:
+        """Whether the tree of that kind is there."""
+        return kind in self.trees
+
+    def built(self, kind: type[SceneTree] | type[PointTree]) -> Standing:
+        """What is reflected, with a tree of that kind, which is built once."""
+        if kind not in self.trees:
+            self.trees[kind] = kind.build(self.scene.mesh)
+        if kind not in self._built:
+            self._built[kind] = Standing.of(self.trees[kind], self.mirrors)
+        return self._built[kind]
+
+
+@dataclass
+class Kept:
+    """What one depsgraph showed when it was read last.
+
+    A mesh is kept until its object, what instances it, or its data are told to have changed, or it shows another
+    material; where everything stands, and what takes part, is read anew each time. What is made of meshes is kept while
+    these, and where they stand, are the same.
+
+    Attributes
+    ----------
+    depsgraph : tuple
+        Which one.
+    meshes : dict
+        By whose they are and what was asked of them, with the `session_uid` of all that they depend on.
+    surfaces : dict
+        Of mirrors by their `session_uid`: where their meshes stand, which materials reflect, and the surface.
+    placed : list of Placed
+        Where the meshes of the diffuse scene stand.
+    stage : Stage or None
+    """
+
+    depsgraph: tuple = ()
+    meshes: dict[tuple, tuple[LocalMesh, frozenset]] = field(default_factory=dict)
+    surfaces: dict[int, tuple[list[Placed], list[bool], MirrorSurface]] = field(default_factory=dict)
+    placed: list[Placed] = field(default_factory=list)
+    stage: Stage | None = None
+
+    @staticmethod
+    def of(depsgraph: bpy.types.Depsgraph) -> Kept:
+        """What is kept of an evaluated depsgraph: nothing where it cannot be trusted to tell what changes, or is not
+        the one that was read last."""
+        name = depsgraph.as_pointer(), depsgraph.scene.original.session_uid, depsgraph.view_layer.name
+        trust = trusted(depsgraph)
+        if not trust or _last.depsgraph != name:
+            _forget(None)
+        _last.depsgraph = name
+        return _last if trust else Kept()
+
+    def read(self, depsgraph: bpy.types.Depsgraph, mirrors: list, diffuse: list) -> Stage:
+        """The mirrors and the diffuse objects, of which what is new is read; what takes no part any more is let go.
+
+        Raises
+        ------
+        ReflectionError
+        """
+        used: dict[tuple, tuple[LocalMesh, frozenset]] = {}
+
+        def known(name: tuple, depends: frozenset, read: Callable[[], LocalMesh | None]) -> LocalMesh | None:
+            there = used.get(name) or self.meshes.get(name)
+            mesh = read() if there is None else there[0]
+            if mesh is not None:
+                used[name] = mesh, depends
+            return mesh
+        surfaces = {mirror.session_uid: self._surface(mirror, read_meshes(depsgraph, [mirror], True, known))
+                    for mirror in mirrors}
+        placed = read_meshes(depsgraph, diffuse, False, known)
+        self.meshes, self.surfaces = used, surfaces
+        before, own = self.stage, [surface for *_, surface in surfaces.values()]
+        same = before is not None and list(map(id, own)) == list(map(id, before.surfaces))
+        mirrors = before.mirrors if same else TriangleMesh.joined([surface.mesh for surface in own])
+        if before is not None and not (before.scene.sources == diffuse and _same(placed, self.placed)):
+            # what is let go makes room for what comes
+            before = self.stage = None
+        if before is None:
+            self.placed, self.stage = placed, Stage(join_scene(placed, diffuse), own, mirrors)
+        elif not same:
+            self.stage = Stage(before.scene, own, mirrors, before.trees)
+        return self.stage
+
+    def within(self, gigabytes: float) -> None:
+        """Let everything go where it takes more."""
+        if self is _last and held_bytes(self) > 1e9 * gigabytes:
+            _forget(None)
+
+    def _surface(self, mirror: bpy.types.Object, placed: list[Placed]) -> tuple:
+        reflecting = [is_mirror(material) for item in placed for material in item.mesh.materials or (None,)]
+        known = self.surfaces.get(mirror.session_uid)
+        if known is not None and known[1] == reflecting and _same(placed, known[0]):
+            return known
+        return placed, reflecting, join_mirror(placed, mirror)
+
+
+_last = Kept()
+
+
+def held_bytes(item: object = _last) -> int:
+    """Of all arrays in what is kept, each once."""
+    return _bytes(item, set())
+
+
+def _forget(changed: set[int] | None) -> None:
+    """Let the meshes go that depend on what has changed, or all."""
+    if changed is None:
+        vars(_last).update(vars(Kept()))
+        return
+    for name in [name for name, (_, depends) in _last.meshes.items() if not depends.isdisjoint(changed)]:
+        del _last.meshes[name]
+
+
+listen(_forget)
+
+
+def _same(placed: list[Placed], others: list[Placed]) -> bool:
+    """Whether the same meshes stand in the same places."""
+    return len(placed) == len(others) and all(
+        one.mesh is other.mesh and np.array_equal(one.owners, other.owners)
+        and np.array_equal(one.matrices, other.matrices) and np.array_equal(one.instances, other.instances)
+        for one, other in zip(placed, others))
+
+
+def _bytes(item: object, seen: set[int]) -> int:
+    if id(item) in seen:
+        return 0
+    seen.add(id(item))
+    if isinstance(item, np.ndarray):
+        return item.nbytes if item.base is None else _bytes(item.base, seen)
+    if isinstance(item, dict):
+        return sum(_bytes(part, seen) for part in item.values())
+    if isinstance(item, (list, tuple)):
+        return sum(_bytes(part, seen) for part in item)
+    # of this package's own
+    own = type(item).__module__.startswith(__package__.rsplit(".", 2)[0])
+    return sum(_bytes(part, seen) for part in vars(item).values()) if own and hasattr(item, "__dict__") else 0
