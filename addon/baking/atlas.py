@@ -50,9 +50,11 @@ def packed(corners: np.ndarray, density: float) -> Atlas:
         Texels per unit of length.
     """
     legs, first = _legs(corners)
-    exponents = _exponents(legs * density)
+    texels = legs * density
+    exponents = _exponents(texels)
     size = _side(int((4 ** _squares(exponents)[2]).sum()))
-    return Atlas(size, _placed(exponents, first, size))
+    # no more than is asked for is baked, but for the smallest, which need the room
+    return Atlas(size, _placed(exponents, np.where(exponents == SMALLEST, np.inf, texels), first, size))
 
 
 def _legs(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -105,8 +107,8 @@ def _squares(exponents: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     return square, place, np.repeat(shapes[:, 0], squares)
 
 
-def _placed(exponents: np.ndarray, first: np.ndarray, size: int) -> np.ndarray:
-    """Coordinates (n, 3, 2) of the triangles' corners."""
+def _placed(exponents: np.ndarray, texels: np.ndarray, first: np.ndarray, size: int) -> np.ndarray:
+    """Coordinates (n, 3, 2) of the triangles' corners, legs as long as `texels` (n, 2) where there is room."""
     square, place, sides = _squares(exponents)
     area = 4 ** sides
     # each square starts where the curve has gone over the larger ones
@@ -116,8 +118,8 @@ def _placed(exponents: np.ndarray, first: np.ndarray, size: int) -> np.ndarray:
     low = np.full((len(cell), 2), RIM)
     across, up = low.copy(), low.copy()
     gap = np.where(exponents == SMALLEST, NARROW, DIAGONAL)
-    across[:, 0] = cell[:, 0] - RIM - gap[:, 0]
-    up[:, 1] = cell[:, 1] - RIM - gap[:, 1]
+    across[:, 0] += np.minimum(cell[:, 0] - 2.0 * RIM - gap[:, 0], texels[:, 0])
+    up[:, 1] += np.minimum(cell[:, 1] - 2.0 * RIM - gap[:, 1], texels[:, 1])
     spots = np.stack((low, across, up), axis=1)
     turned = (place % 2 == 1)[:, None, None]
     spots = np.where(turned, cell[:, None] - spots, spots) + at[:, None]

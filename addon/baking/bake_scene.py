@@ -12,9 +12,9 @@ from mathutils import Matrix
 from ...core import ReflectionError
 from .. import compat
 from ..faults import interrupt_held, still_there
-from ..rendering import copied_scene, look_through
+from ..rendering import copied_scene, denoise, look_through
 from ..writing import UV_MAP
-from .opacity import show_opacity, without_openings
+from .opacity import show_opacity, turn_over, without_openings
 from .stand_ins import StandIn, new_mesh, new_object, swap_names
 
 UNTOUCHED = -1.0  # of a texel that nothing was baked into; light is never below zero
@@ -29,12 +29,15 @@ class BakeScene:
     objects: list
     targets: dict
 
-    def bake(self, owner: int, size: int, seen_from: np.ndarray, gloss: bool, samples: int) -> np.ndarray:
+    def bake(self, owner: int, size: int, seen_from: np.ndarray, gloss: bool, samples: int,
+             denoised: bool = False) -> np.ndarray:
         """One participant's picture, (size, size, 4) float32, `UNTOUCHED` where it is not, as seen from a place, or
         without what goes by that."""
         objects = [obj for number, obj in self.objects if number == owner]
         scene = self.scene
-        scene.cycles.samples = samples
+        scene.cycles.samples, scene.cycles.use_denoising = samples, False
+        if denoised:
+            denoise(scene.cycles)
         scene.render.bake.use_pass_glossy = gloss
         scene.camera.matrix_world = Matrix.Translation(seen_from)
         image = bpy.data.images.new(UV_MAP, size, size, float_buffer=True, is_data=True, alpha=True)
@@ -66,10 +69,10 @@ class BakeScene:
 
 
 @contextmanager
-def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn], *,
-               opacity: bool) -> Iterator[BakeScene]:
+def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn], *, opacity: bool,
+               backs: bool) -> Iterator[BakeScene]:
     """The user's scene as a copy, with stand-ins in place of `sources`; with `opacity` they glow by how opaque they
-    are."""
+    are, and with `backs` what is baked is turned over."""
     with copied_scene(context, UV_MAP) as (scene, back):
         _prepare(scene)
         look_through(scene, bpy.data.objects.new(UV_MAP, bpy.data.cameras.new(UV_MAP)), back)
@@ -79,7 +82,7 @@ def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn],
         made: list = []
         back.callback(lambda: bpy.data.batch_remove(still_there(made)))
         materials = dict.fromkeys(material for stand in stands for material in stand.mesh.materials or (None,))
-        targets = {material: _target(material, opacity) for material in materials}
+        targets = {material: _target(material, opacity, backs) for material in materials}
         made += targets.values()
         objects = []
         for stand in stands:
@@ -102,16 +105,16 @@ def _prepare(scene: bpy.types.Scene) -> None:
         setattr(bake, name, True)
     bake.view_from = "ACTIVE_CAMERA"
     scene.cycles.use_adaptive_sampling = False
-    # triangles that lie side by side in the picture do not in the scene
-    scene.cycles.use_denoising = False
 
 
-def _target(material: bpy.types.Material | None, opacity: bool) -> bpy.types.Material:
+def _target(material: bpy.types.Material | None, opacity: bool, backs: bool) -> bpy.types.Material:
     """A copy of a material that bakes into the image: its light, as if nothing went through, or how opaque it is."""
     made = bpy.data.materials.new(UV_MAP) if material is None else material.copy()
     if not compat.uses_nodes(made):
         compat.use_nodes(made)
     tree = made.node_tree
+    if backs:
+        turn_over(tree)
     (show_opacity if opacity else without_openings)(tree)
     node = tree.nodes.new("ShaderNodeTexImage")
     for other in tree.nodes:

@@ -1,19 +1,41 @@
 """What a mirror makes of the light that it shows: its own shader, with light in place of what is glossy in it."""
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import bpy
 
 from .. import compat
+from ..lamps import ShownLamp, lamp_light
 from ..reading.mirror_materials import surface_shader
 from ..writing import UV_MAP
 from ..writing.shader_builder import ShaderBuilder, cut, given, node_behind
+from .later_mirrors import LaterMirrors
+from .mirror_coordinates import MirrorCoordinates
+from .mirror_share import GLOSSY, NORMAL
 
-NORMAL = "mirror_normal"
-GLOSSY = {"BSDF_GLOSSY", "BSDF_METALLIC"}
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What a mirror makes of light goes by, beside its material.
+
+    Attributes
+    ----------
+    mirror : bpy.types.Object or None
+        On which its textures lie.
+    lamps : tuple of ShownLamp
+        That stand before what is shown.
+    later : LaterMirrors
+        That it shows mirrors in.
+    """
+
+    mirror: bpy.types.Object | None = None
+    lamps: tuple[ShownLamp, ...] = ()
+    later: LaterMirrors = LaterMirrors()
 
 
-def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Material | None,
-                        opaque: bool) -> bpy.types.Material:
+def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Material | None, opaque: bool,
+                        around: Surroundings) -> bpy.types.Material:
     """A material that shows light that stays with objects as `mirror` would: tinted, by Fresnel, mixed with what else
     it is; `None` shows all of the light.
 
@@ -24,14 +46,16 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
         tree = compat.use_nodes(material)
         tree.nodes.clear()
         tree.nodes.new("ShaderNodeOutputMaterial")
-        build = _Builder(tree, image)
-        shown = build.glow(build.light.outputs["Color"])
+        build = _Builder(tree, image, around)
+        shown = build.glow(build.lit)
     else:
         material = mirror.copy()
         material.name = name
         tree = material.node_tree
-        build = _Builder(tree, image)
+        build = _Builder(tree, image, around)
         shader = surface_shader(tree)
+        if around.mirror is not None:
+            MirrorCoordinates(build, around.mirror).take_over()
         shown = None if shader is None else build.shown(shader)
         build.bend_normals()
         build.reflect_outside()
@@ -51,23 +75,25 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
 
 
 class _Builder(ShaderBuilder):
-    """Adds nodes to a tree; `light` is the picture of the light."""
+    """Adds nodes to a tree; `light` is the picture of the light, `lit` what the mirror meets."""
 
-    def __init__(self, tree: bpy.types.NodeTree, image: bpy.types.Image) -> None:
+    def __init__(self, tree: bpy.types.NodeTree, image: bpy.types.Image, around: Surroundings) -> None:
         super().__init__(tree)
         where = self.add("ShaderNodeUVMap", uv_map=UV_MAP)
         self.light = self.add("ShaderNodeTexImage", name=image.name, image=image, interpolation="Linear",
                               extension="EXTEND")
         tree.links.new(where.outputs[0], self.light.inputs["Vector"])
+        self.lit = around.later.leave(self, self.light.outputs["Color"])
+        if around.lamps:
+            self.lit = self.vector("ADD", self.lit, lamp_light(self, around.lamps))
 
     def shown(self, shader: bpy.types.Node) -> bpy.types.NodeSocket | None:
         """What a shader node becomes: light where it is glossy, itself where it is not."""
-        light = self.light.outputs["Color"]
         if shader.type in GLOSSY:
             tint = given(shader.inputs.get("Color") or shader.inputs["Base Color"])
             if shader.type == "BSDF_METALLIC":
                 tint = self.at_grazing(tint)
-            return self.glow(self.blended("MULTIPLY", 1.0, tint, light))
+            return self.glow(self.blended("MULTIPLY", 1.0, tint, self.lit))
         if shader.type == "BSDF_PRINCIPLED":
             return self.principled(shader)
         if shader.type in {"MIX_SHADER", "ADD_SHADER"}:
@@ -81,10 +107,9 @@ class _Builder(ShaderBuilder):
     def principled(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
         """Light by the reflection of a Principled BSDF, over what else it is."""
         metallic = given(shader.inputs["Metallic"])
-        light = self.light.outputs["Color"]
         metal = None if metallic == 0.0 else self.at_grazing(given(shader.inputs["Base Color"]))
         if metallic == 1.0:
-            return self.glow(self.blended("MULTIPLY", 1.0, metal, light))
+            return self.glow(self.blended("MULTIPLY", 1.0, metal, self.lit))
         glass = self.dielectric(shader)
         coat = self.blended("MULTIPLY", 1.0, given(shader.inputs["Specular Tint"]), glass)
         reflected = coat if metal is None else self.blended("MIX", metallic, coat, metal)
@@ -92,10 +117,7 @@ class _Builder(ShaderBuilder):
         cut(self.tree, shader.inputs["Metallic"], 0.0)
         rest = self.mixed(glass, shader.outputs[0], None)
         rest = rest if metal is None else self.mixed(metallic, rest, None)
-        both = self.add("ShaderNodeAddShader")
-        self.feed(self.glow(self.blended("MULTIPLY", 1.0, reflected, light)), both.inputs[0])
-        self.feed(rest, both.inputs[1])
-        return both.outputs[0]
+        return self.added(self.glow(self.blended("MULTIPLY", 1.0, reflected, self.lit)), rest)
 
     def at_grazing(self, tint) -> bpy.types.NodeSocket:
         """The colour of a metal by the angle.

@@ -9,7 +9,7 @@ import numpy as np
 from ...core import View, reflecting_normals
 from ..reading import DiffuseScene
 from ..writing import light_layer
-from .mirror_part import NORMAL
+from .mirror_share import NORMAL
 from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, vectors
 
 
@@ -43,9 +43,7 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     """Tell each corner of a result where in the map the point lies that it shows, and each point how the mirror stands
     there."""
     mesh = result.data
-    normals = reflecting_normals(view, vectors(mesh, "mirror_position"), vectors(mesh, "reflected_position"))
-    attribute = mesh.attributes.get(NORMAL) or mesh.attributes.new(NORMAL, "FLOAT_VECTOR", "POINT")
-    attribute.data.foreach_set("vector", normals.astype(np.float32).reshape(-1))
+    write_mirror_normals(mesh, view)
     # engines darken what is shaded by one normal and stands by another, and here the mirror is what is shaded
     own = mesh.attributes.get("custom_normal")
     if own is not None:
@@ -60,6 +58,16 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     layer = light_layer(mesh)
     layer.uv.foreach_set("vector", spots.reshape(-1))
     layer.active = layer.active_render = True
+
+
+def write_mirror_normals(mesh: bpy.types.Mesh, view: View) -> bool:
+    """Tell each point of a result how the mirror stands there; whether the result knows enough for that."""
+    if any(name not in mesh.attributes for name in ("mirror_position", "reflected_position")):
+        return False
+    normals = reflecting_normals(view, vectors(mesh, "mirror_position"), vectors(mesh, "reflected_position"))
+    attribute = mesh.attributes.get(NORMAL) or mesh.attributes.new(NORMAL, "FLOAT_VECTOR", "POINT")
+    attribute.data.foreach_set("vector", normals.astype(np.float32).reshape(-1))
+    return True
 
 
 def _rows(scene: DiffuseScene, sheets: list) -> tuple[np.ndarray, np.ndarray]:

@@ -21,6 +21,19 @@ def without_openings(tree: bpy.types.NodeTree) -> None:
                 _unless_baked(tree, node.inputs[0], float(through[0]))
 
 
+def turn_over(tree: bpy.types.NodeTree) -> None:
+    """Let a material take the front of what it is on for the back."""
+    for node in [node for node in tree.nodes if node.type == "NEW_GEOMETRY"]:
+        links = list(node.outputs["Backfacing"].links)
+        if links:
+            other = tree.nodes.new("ShaderNodeMath")
+            other.operation = "SUBTRACT"
+            other.inputs[0].default_value = 1.0
+            tree.links.new(node.outputs["Backfacing"], other.inputs[1])
+        for link in links:
+            tree.links.new(other.outputs[0], link.to_socket)
+
+
 def show_opacity(tree: bpy.types.NodeTree) -> None:
     """Let a material emit how opaque it is, from 0 to 1."""
     output = tree.get_output_node("ALL")

@@ -11,7 +11,8 @@ from ..reading import DiffuseScene
 
 ONE_EYE = 0.1   # of the way to what is seen, from which on the eye's mirror images are not one
 SHARPEST = 0.9  # quantile of the pixels of an object that have no more than one texel
-SOLID = 0.1     # of an object's picture: where fronts are more of it they hide the backs
+SOLID = 0.1     # of a closed object's picture: where fronts are more of it they hide the backs
+HAIR = 0.01     # of an object's picture: what outlines show of a side that is hidden
 UNSEEN = 0.5    # of the others' middle density, where nothing of an object is seen
 
 
@@ -28,14 +29,17 @@ class SeenSources:
     one_eye : (k,) bool
         Whether that is one place, as flat mirrors have it, and not spread about.
     backs : (k,) bool
-        Of which sources only backs are seen. Those of others lie behind their fronts, but for a hair of them that looks
-        out at outlines.
+        Of which sources only backs are seen. Those of closed others lie behind their fronts, but for a hair of them
+        that looks out at outlines.
+    both : (k,) bool
+        Of which sources more than that is seen of both sides.
     """
 
     density: np.ndarray
     seen_from: np.ndarray
     one_eye: np.ndarray
     backs: np.ndarray
+    both: np.ndarray
 
 
 def seen_sources(results: list, view: View, scene: DiffuseScene) -> SeenSources:
@@ -52,7 +56,7 @@ def seen_sources(results: list, view: View, scene: DiffuseScene) -> SeenSources:
     strays = np.bincount(owner, weights=area * np.linalg.norm(eye - seen_from[owner], axis=1), minlength=count)
     far = np.bincount(owner, weights=area * np.linalg.norm(eye - shown, axis=1), minlength=count)
     return SeenSources(_densities(owner, density, area, count), seen_from, strays <= ONE_EYE * far,
-                       fronts < SOLID * whole)
+                       fronts < SOLID * whole, (fronts > HAIR * whole) & (fronts < (1.0 - HAIR) * whole))
 
 
 def fronts_seen(scene: DiffuseScene, triangle: np.ndarray, towards: np.ndarray) -> np.ndarray:
@@ -60,6 +64,12 @@ def fronts_seen(scene: DiffuseScene, triangle: np.ndarray, towards: np.ndarray) 
     corners = scene.mesh.positions[scene.mesh.triangles[triangle]]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return np.einsum("ni,ni->n", normal, towards) > 0.0
+
+
+def has_rim(triangles: np.ndarray) -> bool:
+    """Whether a surface of triangles (n, 3) ends somewhere."""
+    edges = np.sort(np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2), axis=1)
+    return bool((np.unique(edges, axis=0, return_counts=True)[1] == 1).any())
 
 
 def can_be_baked(results: list) -> bool:

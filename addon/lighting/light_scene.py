@@ -13,7 +13,7 @@ from ...core import View
 from .. import compat
 from ..faults import still_there
 from ..reading import is_opaque
-from ..rendering import copied_scene, look_through, rendered
+from ..rendering import copied_scene, denoise, look_through, rendered
 
 MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
 COVERAGE_SAMPLES = 64
@@ -145,17 +145,7 @@ def _prepare(scene: bpy.types.Scene, window: Window) -> None:
     render.border_min_x, render.border_max_x = window.column / width, (window.column + window.width) / width
     render.border_min_y, render.border_max_y = window.row / height, (window.row + window.height) / height
     cycles.film_exposure, cycles.film_transparent_glass = 1.0, False
-    _denoise(cycles)
-
-
-def _denoise(cycles: bpy.types.PropertyGroup) -> None:
-    cycles.use_denoising = True
-    try:
-        cycles.denoiser = "OPENIMAGEDENOISE"
-        cycles.denoising_input_passes, cycles.denoising_prefilter = "RGB_ALBEDO_NORMAL", "ACCURATE"
-    except TypeError:
-        # Linux distributions build Blender without it: then the light has the noise of its samples
-        cycles.use_denoising = False
+    denoise(cycles)
 
 
 def _sharp_camera(camera: bpy.types.Object) -> bpy.types.Object:

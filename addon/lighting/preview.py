@@ -5,13 +5,15 @@ from collections.abc import Iterable
 
 import bpy
 
+from ...core import View
 from .. import compat
+from ..baking import WHITE, LaterMirrors, Share, opacity_of, write_mirror_normals
 from ..faults import AllOrNothing
-from ..reading.mirror_materials import is_mirror, surface_shader
+from ..lamps import ShownLamp, lamp_light, lamps_before
+from ..reading.mirror_materials import surface_shader
 from ..writing.kept_changes import PREVIEW as MARK
 from ..writing.shader_builder import ShaderBuilder, given, node_behind
 
-WHITE = (1.0, 1.0, 1.0, 1.0)
 GREY = (0.8, 0.8, 0.8, 1.0)  # of what has no material
 AS_THEY_ARE = {"BSDF_TRANSPARENT", "HOLDOUT"}
 SIDEWAYS = 0.45  # of the colour of what faces the eye, shown where it does not: a head light, so that shapes are seen
@@ -23,17 +25,22 @@ def shows_preview(result: bpy.types.Object) -> bool:
                for slot in result.material_slots)
 
 
-def show_previews(results: Iterable[bpy.types.Object], whole: AllOrNothing) -> None:
-    """Let results that show the materials of their meshes show previews of them; the meshes keep theirs."""
+def show_previews(results: Iterable[bpy.types.Object], scene: bpy.types.Scene, view: View, shown: list[ShownLamp],
+                  whole: AllOrNothing) -> None:
+    """Let results of a scene that show the materials of their meshes to `view` show previews of them, and lamps that
+    are `shown` with them; the meshes keep theirs."""
     made: dict = {}
     for result in results:
-        tint = _tint_of(result.reflection_mesh.mirror)
+        lamps, later = lamps_before(result, shown), LaterMirrors.of(result, scene.objects)
+        share = Share.of(result.reflection_mesh.mirror)
+        if share.kind != "ALL" and not (len(result.data.polygons) and write_mirror_normals(result.data, view)):
+            share = Share(share.tint)
         # a slot that has a material of its own has it from the user, and so what stands in place of what was made
         for slot in [slot for slot, made in zip(result.material_slots, result.reflection_mesh.materials)
                      if slot.link == "DATA" and slot.material == made.material]:
-            key = (slot.material, tint)
+            key = slot.material, share, later, tuple(map(id, lamps))
             if key not in made:
-                made[key] = _preview(slot.material, tint)
+                made[key] = _preview(slot.material, share, later, lamps)
                 whole.undo(bpy.data.materials.remove, made[key])
             slot.link = "OBJECT"
             slot.material = made[key]
@@ -45,17 +52,8 @@ def forget_previews() -> None:
                            if MARK in material and not material.users and material.library is None])
 
 
-def _tint_of(mirror: bpy.types.Object) -> tuple:
-    """The colour in which a mirror shows all light alike; white where it has none, or one that changes over it."""
-    materials = [] if mirror is None else [slot.material for slot in mirror.material_slots if is_mirror(slot.material)]
-    if not materials or not compat.uses_nodes(materials[0]):
-        return WHITE
-    inputs = surface_shader(materials[0].node_tree).inputs
-    tint = inputs.get("Color") or inputs["Base Color"]
-    return WHITE if tint.is_linked else tuple(tint.default_value)
-
-
-def _preview(source: bpy.types.Material | None, tint: tuple) -> bpy.types.Material:
+def _preview(source: bpy.types.Material | None, share: Share, later: LaterMirrors,
+             lamps: tuple[ShownLamp, ...]) -> bpy.types.Material:
     if source is not None and compat.uses_nodes(source):
         material = source.copy()
         tree = material.node_tree
@@ -67,14 +65,18 @@ def _preview(source: bpy.types.Material | None, tint: tuple) -> bpy.types.Materi
     material.name = f"{'Reflection' if source is None else source.name} Preview"
     material[MARK] = True
     plain = GREY if source is None else tuple(source.diffuse_color)
-    build = _Builder(tree, tint, plain)
+    build = _Builder(tree, share.tint, plain)
+    build.tint = later.leave(build, share.tint)
     if source is None or not compat.uses_nodes(source):
         shader = build.add("ShaderNodeBsdfDiffuse")
         build.feed(plain, shader.inputs["Color"])
         tree.links.new(shader.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
     shader = surface_shader(tree)
     if shader is not None:
-        build.put_out(build.shown(shader))
+        surface, opacity = build.shown(shader), opacity_of(tree, shader)
+        if lamps:
+            surface = build.with_lamps(surface, lamps, opacity)
+        build.put_out(share.of_the_whole(build, surface, opacity))
     return material
 
 
@@ -100,6 +102,13 @@ class _Builder(ShaderBuilder):
         shown = self.glow(self.tinted(colour))
         self.feed(share.outputs[0], shown.node.inputs["Strength"])
         return shown
+
+    def with_lamps(self, surface: bpy.types.NodeSocket, lamps: tuple[ShownLamp, ...], opacity) -> bpy.types.NodeSocket:
+        """A surface with the light of what lamps stand before it; what is open leaves its share to what lies behind,
+        before which they stand as well."""
+        own = self.glow(self.tinted(lamp_light(self, lamps)))
+        self.feed(opacity, own.node.inputs["Strength"])
+        return self.added(surface, own)
 
     def put_out(self, surface: bpy.types.NodeSocket) -> None:
         """Let Cycles and EEVEE show a surface; exporters begin at what the material was before."""
@@ -145,10 +154,7 @@ class _Builder(ShaderBuilder):
         if strength != 0.0:
             own = self.glow(self.tinted(given(shader.inputs["Emission Color"])))
             self.feed(strength, own.node.inputs["Strength"])
-            both = self.add("ShaderNodeAddShader")
-            self.feed(shown, both.inputs[0])
-            self.feed(own, both.inputs[1])
-            shown = both.outputs[0]
+            shown = self.added(shown, own)
         alpha = given(shader.inputs["Alpha"])
         if alpha == 1.0:
             return shown

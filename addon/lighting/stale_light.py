@@ -4,6 +4,7 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
+from ..registration import Handlers
 from .preview import MARK
 
 # what may change light; all else, such as pictures that are only looked at, does not
@@ -60,11 +61,5 @@ def _tells(update: bpy.types.DepsgraphUpdate, own: set) -> bool:
     return changed and isinstance(update.id, KINDS) and update.id.original not in own
 
 
-def register() -> None:
-    bpy.app.handlers.depsgraph_update_post.append(_mark)
-    bpy.app.handlers.frame_change_post.append(_mark)
-
-
-def unregister() -> None:
-    bpy.app.handlers.frame_change_post.remove(_mark)
-    bpy.app.handlers.depsgraph_update_post.remove(_mark)
+HANDLERS = Handlers((_mark, "depsgraph_update_post", "frame_change_post"))
+register, unregister = HANDLERS.register, HANDLERS.unregister

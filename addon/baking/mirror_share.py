@@ -1,0 +1,118 @@
+"""How much of what a mirror shows is its reflection, and what else it shows, as far as a preview needs to know."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+
+from .. import compat
+from ..reading.mirror_materials import is_mirror, surface_shader
+from ..writing.shader_builder import ShaderBuilder, node_behind
+
+NORMAL = "mirror_normal"
+"""The attribute with the unit normal of the mirror at each point."""
+GLOSSY = {"BSDF_GLOSSY", "BSDF_METALLIC"}
+WHITE = (1.0, 1.0, 1.0, 1.0)
+GROUNDS = {"BSDF_DIFFUSE": "Color", "BSDF_PRINCIPLED": "Base Color"}
+BLACK = (0.0, 0.0, 0.0, 1.0)  # of grounds whose colour is not one
+
+
+@dataclass(frozen=True)
+class Share:
+    """What a mirror makes of what it reflects.
+
+    Attributes
+    ----------
+    tint : tuple of float
+        Its colour; white where it has none, or one that changes over it.
+    kind : {'ALL', 'FRESNEL', 'FACING', 'EVEN'}
+        What tells how much it reflects: by Fresnel's equations of an index of refraction, by a layer weight, or evenly.
+    value : float
+        The index, the blend, or how much.
+    turned : bool
+        Whether that tells what is not reflected.
+    ground : tuple of float
+        The colour of the rest.
+    """
+
+    tint: tuple = WHITE
+    kind: str = "ALL"
+    value: float = 1.0
+    turned: bool = False
+    ground: tuple = BLACK
+
+    @classmethod
+    def of(cls, mirror: bpy.types.Object | None) -> Share:
+        """Of the material of a mirror that reflects, or of its first one."""
+        materials = [] if mirror is None else [slot.material for slot in mirror.material_slots
+                                               if slot.material is not None and compat.uses_nodes(slot.material)]
+        material = next(iter([material for material in materials if is_mirror(material)] + materials), None)
+        shader = None if material is None else surface_shader(material.node_tree)
+        if shader is None:
+            return cls()
+        if shader.type == "MIX_SHADER":
+            return cls._mixed(shader)
+        if shader.type == "BSDF_PRINCIPLED" and not is_mirror(material):
+            index = shader.inputs["IOR"]
+            return cls() if index.is_linked else cls(kind="FRESNEL", value=index.default_value, ground=_ground(shader))
+        return cls(_tint(shader))
+
+    @classmethod
+    def _mixed(cls, shader: bpy.types.Node) -> Share:
+        first, second = (node_behind(socket) for socket in shader.inputs[1:3])
+        glossy = [node is not None and node.type in GLOSSY for node in (first, second)]
+        if glossy[0] == glossy[1]:
+            return cls()
+        gloss, ground = (first, second) if glossy[0] else (second, first)
+        told = {"tint": _tint(gloss), "turned": glossy[0], "ground": _ground(ground)}
+        factor = shader.inputs[0]
+        if not factor.is_linked:
+            return cls(kind="EVEN", value=factor.default_value, **told)
+        weight, output = node_behind(factor), factor.links[0].from_socket.name
+        value = None if weight is None else weight.inputs.get("IOR") or weight.inputs.get("Blend")
+        if weight is None or weight.type not in {"FRESNEL", "LAYER_WEIGHT"} or value.is_linked:
+            return cls()
+        if output == "Facing":
+            return cls(kind="FACING", value=value.default_value, **told)
+        index = value.default_value if weight.type == "FRESNEL" else 1.0 / max(1.0 - value.default_value, 1e-5)
+        return cls(kind="FRESNEL", value=index, **told)
+
+    def of_the_whole(self, build: ShaderBuilder, reflected: bpy.types.NodeSocket, opacity) -> bpy.types.NodeSocket:
+        """What the mirror shows, a surface, of what it reflects, beside the colour of the rest of it; both are open
+        where what is reflected is."""
+        if self.kind == "ALL":
+            return reflected
+        rest = build.glow(self.ground)
+        if opacity != 1.0:
+            rest = build.mixed(opacity, build.add("ShaderNodeBsdfTransparent").outputs[0], rest)
+        share = self.value if self.kind == "EVEN" else _weight(build, self.kind, self.value)
+        return build.mixed(share, *((reflected, rest) if self.turned else (rest, reflected)))
+
+
+def _weight(build: ShaderBuilder, kind: str, value: float) -> bpy.types.NodeSocket:
+    """How much a mirror reflects by the true angle, which the attribute `NORMAL` tells."""
+    normal = build.add("ShaderNodeAttribute", attribute_name=NORMAL)
+    if kind == "FACING":
+        weight = build.add("ShaderNodeLayerWeight")
+        weight.inputs["Blend"].default_value = value
+    else:
+        weight = build.add("ShaderNodeFresnel")
+        # where a face shows the back of what is reflected, Cycles takes the eye to be inside
+        inside = build.add("ShaderNodeNewGeometry").outputs["Backfacing"]
+        index = build.add("ShaderNodeMapRange")
+        for name, number in (("To Min", value), ("To Max", 1.0 / value)):
+            index.inputs[name].default_value = number
+        build.feed(inside, index.inputs["Value"])
+        build.feed(index.outputs[0], weight.inputs["IOR"])
+    build.feed(normal.outputs["Vector"], weight.inputs["Normal"])
+    return weight.outputs["Facing" if kind == "FACING" else 0]
+
+
+def _tint(gloss: bpy.types.Node) -> tuple:
+    tint = gloss.inputs.get("Color") or gloss.inputs.get("Base Color")
+    return WHITE if tint is None or tint.is_linked else tuple(tint.default_value)
+
+
+def _ground(shader: bpy.types.Node | None) -> tuple:
+    colour = None if shader is None or shader.type not in GROUNDS else shader.inputs[GROUNDS[shader.type]]
+    return BLACK if colour is None or colour.is_linked else tuple(colour.default_value)

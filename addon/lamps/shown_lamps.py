@@ -1,0 +1,145 @@
+"""The lamps that a mirror may show as bodies, and those of them that a result has before what it shows."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ...core import ReflectionError
+from .. import compat
+from ..illumination import eyes_of, has_a_size
+from ..reading import seen_in
+
+KNOWN = ("mirror_position", "reflected_position", "bounces")  # what a result must tell
+CHUNK = 1 << 14  # faces at once
+
+
+@dataclass(frozen=True)
+class ShownLamp:
+    """A lamp as a body that shines.
+
+    Attributes
+    ----------
+    place : (3,) float64
+        Its middle, in world space.
+    axes : (3, 3) float64
+        World axes x, y, z, unit columns; it shines along -z.
+    shape : {'RECTANGLE', 'ELLIPSE', 'BALL', 'DISC'}
+        The first two lie across z; a disc faces what sees it.
+    size : tuple of float
+        Along x and y, or twice the radius.
+    radiance : tuple of float
+        Red, green and blue, in W/m2/sr, along -z.
+    cone : tuple of float
+        As `illumination.Eye` has it.
+    spot : bool
+        Whether it shines within a cone alone.
+    """
+
+    place: np.ndarray
+    axes: np.ndarray
+    shape: str
+    size: tuple[float, float]
+    radiance: tuple[float, float, float]
+    cone: tuple[float, float]
+    spot: bool
+
+    @property
+    def reach(self) -> float:
+        """No part of it is farther from its middle."""
+        return 0.5 * float(np.hypot(*self.size))
+
+
+def lamps_that_show(context: bpy.types.Context) -> list[ShownLamp]:
+    """The scene's lamps that mirrors show before what they reflect: suns lie behind all of it."""
+    lamps = [obj for obj in context.view_layer.objects if obj.type == "LIGHT" and obj.data.type != "SUN"
+             and obj.visible_glossy and has_a_size(obj) and _is_met(obj.data)]
+    if not lamps:
+        return []
+    depsgraph, shown = context.evaluated_depsgraph_get(), []
+    for obj in filter(seen_in(context), lamps):
+        try:
+            shown.append(_shown(depsgraph, obj))
+        except ReflectionError:
+            # it gives no light
+            continue
+    return shown
+
+
+def _is_met(data: bpy.types.Light) -> bool:
+    """Whether Cycles lets rays that mirrors send meet a lamp; other engines have no such switch."""
+    own = getattr(data, "cycles", None)
+    return own is None or (own.use_multiple_importance_sampling and not own.is_portal)
+
+
+def _shown(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> ShownLamp:
+    data = lamp.evaluated_get(depsgraph).data
+    eye, = eyes_of(depsgraph, lamp, 1, np.zeros(3))
+    matrix = np.array(lamp.evaluated_get(depsgraph).matrix_world, dtype=np.float64)
+    if data.type == "AREA":
+        round_, oblong = data.shape in {"DISK", "ELLIPSE"}, data.shape in {"RECTANGLE", "ELLIPSE"}
+        width, height = np.linalg.norm(matrix[:3, :2], axis=0) * (data.size, data.size_y if oblong else data.size)
+        shape, area = "ELLIPSE" if round_ else "RECTANGLE", width * height * (np.pi / 4.0 if round_ else 1.0)
+    else:
+        width = height = 2.0 * data.shadow_soft_size
+        shape, area = "DISC" if data.use_soft_falloff else "BALL", np.pi * data.shadow_soft_size**2
+    radiance = eye.power / max(area, 1e-30) * _by_nodes(data)
+    return ShownLamp(matrix[:3, 3], eye.axes, shape, (float(width), float(height)), tuple(radiance.tolist()), eye.cone,
+                     data.type == "SPOT")
+
+
+def _by_nodes(data: bpy.types.Light) -> np.ndarray:
+    """What a lamp's nodes make of its light, where that is one colour; white elsewhere."""
+    output = data.node_tree.get_output_node("ALL") if compat.uses_nodes(data) else None
+    if output is None or not output.inputs["Surface"].is_linked:
+        return np.ones(3)
+    shader = output.inputs["Surface"].links[0].from_node
+    if shader.type != "EMISSION" or any(socket.is_linked for socket in shader.inputs):
+        return np.ones(3)
+    return np.array(shader.inputs["Color"].default_value[:3]) * shader.inputs["Strength"].default_value
+
+
+def lamps_before(result: bpy.types.Object, lamps: list[ShownLamp]) -> tuple[ShownLamp, ...]:
+    """Those of `lamps` that may stand between the mirror and what a face of a result shows.
+
+    A lamp that none of the faces' rays comes near costs nothing then.
+    """
+    mesh = result.data
+    if not len(mesh.polygons) or any(name not in mesh.attributes for name in KNOWN):
+        return ()
+    corners = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.attributes[".corner_vert"].data.foreach_get("value", corners)
+    bounces = np.empty(len(mesh.polygons), dtype=np.int32)
+    mesh.attributes["bounces"].data.foreach_get("value", bounces)
+    corners = corners.reshape(-1, 3)[bounces == 1]
+    if not len(corners):
+        return ()
+    start, end = (_vectors(mesh, name)[corners] for name in KNOWN[:2])
+    before = np.zeros(len(lamps), dtype=bool)
+    for first in range(0, len(corners), CHUNK):
+        axes, lowest, highest = _slabs(start[first:first + CHUNK], end[first:first + CHUNK])
+        for number, lamp in enumerate(lamps):
+            at = axes @ lamp.place
+            before[number] |= ((at >= lowest - lamp.reach) & (at <= highest + lamp.reach)).all(axis=0).any()
+    return tuple(lamp for lamp, stands in zip(lamps, before, strict=True) if stands)
+
+
+def _slabs(start: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What bounds the beams (n,) that go from triangles (n, 3, 3) to triangles (n, 3, 3): unit axes (k, n, 3), and from
+    where (k, n) to where along them beams reach (S. Gottschalk et al., "OBBTree", 1996: separating axes)."""
+    ways = end - start
+    sides = [corners[:, (1, 2, 0)] - corners for corners in (start, end)]
+    axes = [ways.mean(axis=1), *(np.cross(side[:, 0], side[:, 1]) for side in sides),
+            *(np.cross(side[:, k], way[:, k]) for side in sides for way in (ways, np.roll(ways, -1, axis=1))
+              for k in range(3))]
+    axes = np.stack(axes)
+    axes /= np.maximum(np.linalg.norm(axes, axis=2, keepdims=True), 1e-30)
+    along = np.einsum("kni,nci->knc", axes, np.concatenate((start, end), axis=1))
+    return axes, along.min(axis=2), along.max(axis=2)
+
+
+def _vectors(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
+    values = np.empty((len(mesh.vertices), 3), dtype=np.float32)
+    mesh.attributes[name].data.foreach_get("vector", values.reshape(-1))
+    return values.astype(np.float64)
