@@ -44,9 +44,9 @@ def comparison_pictures(folder: str, scene: bpy.types.Scene, pictures: Pictures,
     small = {}
     for name, linear in (("reference", pictures.reference), ("result", pictures.result)):
         yield 0.6 if name == "reference" else 0.8, f"Writing {name}.png"
-        _save(os.path.join(folder, f"{name}.png"), scene, linear, "PNG")
+        save_picture(os.path.join(folder, f"{name}.png"), scene, linear, "PNG")
         path = os.path.join(folder, f"{name}.jpg")
-        _save(path, scene, linear, "JPEG")
+        save_picture(path, scene, linear, "JPEG")
         with open(path, "rb") as file:
             small[name] = file.read()
         os.unlink(path)
@@ -89,11 +89,11 @@ def coverage_picture(measurement: Measurement) -> np.ndarray:
     picture[measurement.judged] = names.index("right")
     for name, mask in (("spill", measurement.spill), ("wrong layer", measurement.wrong_layer),
                        ("hole", measurement.hole)):
-        picture[_enlarged(mask, mirror.shape[1] // 400)] = names.index(name)
+        picture[enlarged(mask, mirror.shape[1] // 400)] = names.index(name)
     return picture
 
 
-def _enlarged(mask: np.ndarray, reach: int) -> np.ndarray:
+def enlarged(mask: np.ndarray, reach: int) -> np.ndarray:
     """Every pixel within `reach` rows and columns of one of the mask."""
     for axis in (0, 1):
         pad = [(0, 0), (0, 0)]
@@ -103,7 +103,7 @@ def _enlarged(mask: np.ndarray, reach: int) -> np.ndarray:
     return mask
 
 
-def _save(path: str, scene: bpy.types.Scene, linear: np.ndarray, kind: str) -> None:
+def save_picture(path: str, scene: bpy.types.Scene, linear: np.ndarray, kind: str) -> None:
     """Write a linear picture as the scene's view settings show it."""
     settings = scene.render.image_settings
     settings.file_format, settings.color_mode, settings.quality = kind, "RGB", 92

@@ -9,16 +9,18 @@ from bpy.app.translations import pgettext_iface
 
 from ..writing import records
 
-TITLES = {"reference": "Reference", "displacement": "Displacement", "difference": "Difference", "holes": "Holes",
-          "result": "Result"}
+REFLECTION_PICTURES = ("reference", "displacement", "difference", "holes", "result")
+"""The pictures of a comparison of reflections, the result last."""
 # by scene and record, so that undo leads back to the page of the numbers that are shown
 _pages: dict[tuple[int, str], str] = {}
 
 
-def load_pictures(folder: str) -> list[bpy.types.Image]:
-    """The folder's pictures as images 'Reflection Comparison ...'; those of an earlier comparison are loaded anew."""
+def load_pictures(folder: str, names: tuple[str, ...]) -> list[bpy.types.Image]:
+    """The folder's pictures of these names as images 'Reflection Comparison ...'; those of an earlier comparison are
+    loaded anew."""
     images = []
-    for name, title in TITLES.items():
+    for name in names:
+        title = name.replace("_", " ").title()
         path = os.path.join(folder, f"{name}.png")
         known = bpy.data.images.get(f"Reflection Comparison {title}")
         if known is not None and known.library is None and known.source == "FILE":
@@ -44,14 +46,17 @@ def show_picture(window_manager: bpy.types.WindowManager, image: bpy.types.Image
 
 def remember(scene: bpy.types.Scene, report: dict, folder: str) -> None:
     """Keep what the panel shows of a report in the scene; where its page lies, this session alone knows."""
-    text = records.comparison_text(report)
+    text = records.light_text(report) if "light" in report else records.comparison_text(report)
     scene.reflection_mesh.comparison = text
     _pages[scene.session_uid, text] = Path(folder, "report.html").as_uri()
 
 
 def lines(scene: bpy.types.Scene) -> list[str]:
     """The last comparison in a few short lines; none where nothing was compared."""
-    known = records.comparison(scene.reflection_mesh.comparison)
+    text = scene.reflection_mesh.comparison
+    known, light = records.comparison(text), records.light_comparison(text)
+    if light is not None:
+        return _of_light(light)
     if known is None:
         return []
     width, height = known.resolution
@@ -63,6 +68,17 @@ def lines(scene: bpy.types.Scene) -> list[str]:
     if known.ssim is not None:
         told.append(f"SSIM {known.ssim:.4f}, FLIP {known.flip:.4f}"
                     + (f", PSNR {known.psnr:.1f} dB" if known.psnr is not None else ""))
+    return told
+
+
+def _of_light(known: records.LightComparison) -> list[str]:
+    width, height = known.resolution
+    told = [pgettext_iface("Against Cycles at {width} x {height}").format(width=width, height=height)]
+    if known.psnr is not None and known.psnr_own is not None:
+        told.append(pgettext_iface("Caustics PSNR {mesh:.1f} dB; Cycles' own, {samples} samples: {own:.1f} dB").format(
+            mesh=known.psnr, samples=known.samples, own=known.psnr_own))
+    if known.flux is not None:
+        told.append(pgettext_iface("Flux {flux:+.3f} % from rays").format(flux=known.flux))
     return told
 
 

@@ -4,10 +4,21 @@ In come lamps, a mirror's material and faces with irradiance; out come objects t
 """
 from .caustic_arrays import caustic_arrays
 from .caustic_material import adds_light, forget_added_light
-from .lamps import Eye, chosen_lamps, eyes_of, has_a_size
-from .own_caustics import bring_back_abandoned, leave_out_own_caustics
+from .eye import Eye
+from .lamps import NoLight, chosen_lamps, eyes_of, has_a_size, lights_renders, meant_lamps
+from .mesh_lamps import radiance_of
+from .mirror_parts import MirrorPart, parts_of
+from .own_caustics import (
+    bring_back_abandoned,
+    leave_out_own_caustics,
+    leaves_out,
+    let_lamps_light_mirrors,
+    makes_own_caustics,
+)
 from .tint import Tint
-from .write_caustics import Caustic, results_with, write_caustics
+from .write_caustics import Caustic, caustics_object, places_kept, results_with, write_caustics
 
-__all__ = ["Caustic", "Eye", "Tint", "adds_light", "bring_back_abandoned", "caustic_arrays", "chosen_lamps",
-           "eyes_of", "forget_added_light", "has_a_size", "leave_out_own_caustics", "results_with", "write_caustics"]
+__all__ = ["Caustic", "Eye", "MirrorPart", "NoLight", "Tint", "adds_light", "bring_back_abandoned", "caustic_arrays",
+           "caustics_object", "chosen_lamps", "eyes_of", "forget_added_light", "has_a_size", "leave_out_own_caustics",
+           "leaves_out", "let_lamps_light_mirrors", "lights_renders", "makes_own_caustics", "meant_lamps", "parts_of",
+           "places_kept", "radiance_of", "results_with", "write_caustics"]

@@ -8,7 +8,8 @@ from ...core import CausticMesh
 from ..reading import DiffuseScene
 from ..writing import Attribute, MeshArrays, shown_layers
 from .caustic_material import LIGHT
-from .lamps import Eye
+from .eye import Eye
+from .receiver_places import PLACES, places_asked
 from .tint import Tint
 
 LIFT = 1e-4  # of the size of what is lit: how far the mesh lies before it
@@ -19,19 +20,19 @@ ACROSS = np.array((0.6180, 0.7071, 0.3437))  # an odd direction, along which few
 MOST_LIFT = 2e-3  # of the size of what is lit
 
 
-def caustic_arrays(lit: list[tuple[Eye, CausticMesh]], scene: DiffuseScene, tint: Tint,
+def caustic_arrays(lit: list[tuple[Eye, Tint, CausticMesh]], scene: DiffuseScene,
                    camera: bpy.types.Object | None) -> MeshArrays:
-    """The arrays of one object: the light of all of a lamp's places that a mirror throws.
+    """The arrays of one object: the light of all of a lamp's places that all parts of a mirror throw.
 
     Its faces are transparent and add their own light, so they may lie over each other in any order.
     """
-    meshes = [mesh for _, mesh in lit]
+    meshes = [mesh for *_, mesh in lit]
     positions = np.concatenate([mesh.positions for mesh in meshes])
     start = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])
     triangles = np.concatenate([mesh.triangles + first for mesh, first in zip(meshes, start)])
     together = {name: np.concatenate([getattr(mesh, name) for mesh in meshes]) for name in (
         "mirror_position", "image_parity", "source_face", "source_weights", "bounces")}
-    irradiance, light = _light(lit, tint)
+    irradiance, light = _light(lit)
     low, high = positions.min(axis=0), positions.max(axis=0)
     origin = (0.5 * (low + high)).astype(np.float32).astype(np.float64)
     size = float((high - low).max())
@@ -49,15 +50,18 @@ def caustic_arrays(lit: list[tuple[Eye, CausticMesh]], scene: DiffuseScene, tint
         Attribute("source_object", "INT", "FACE", scene.source_object[source].astype(np.int32)),
         Attribute("source_face", "INT", "FACE", scene.source_face[source].astype(np.int32)),
         Attribute("bounces", "INT", "FACE", together["bounces"].astype(np.int32)))
+    places = {"Generated": scene.generated, "Object": scene.own_places}
+    own += tuple(Attribute(PLACES[name], "FLOAT_VECTOR", "CORNER", np.matmul(weights, places[name][source]))
+                 for name in places_asked(scene.materials))
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
     return MeshArrays(origin, (positions - origin).astype(np.float32), triangles.astype(np.int32), own + shown,
                       scene.materials)
 
 
-def _light(lit: list[tuple[Eye, CausticMesh]], tint: Tint) -> tuple[np.ndarray, np.ndarray]:
+def _light(lit: list[tuple[Eye, Tint, CausticMesh]]) -> tuple[np.ndarray, np.ndarray]:
     """Irradiance (m, 3) in W/m2, the mean of the colours, and of each colour (m, 3, 3), at the corners."""
     coloured = []
-    for eye, mesh in lit:
+    for eye, tint, mesh in lit:
         share = mesh.irradiance * eye.share(mesh.mirror_position[mesh.triangles])
         coloured.append(share[:, :, None] * eye.power * tint.at(mesh.cosine, mesh.bounces))
     light = np.concatenate(coloured)

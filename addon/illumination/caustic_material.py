@@ -7,12 +7,11 @@ import bpy
 
 from .. import compat
 from ..faults import AllOrNothing
-from ..reading.material_nodes import all_nodes
 from ..reading.mirror_materials import surface_shader
+from .receiver_places import MARK, asks_for_more, forget_groups, show_by_places
 
 LIGHT = "caustic_light"
 """The attribute with red, green and blue of the light, in W/m2."""
-MARK = "reflection_mesh_adds_light"
 COLOURS = {"BSDF_PRINCIPLED": "Base Color", "BSDF_DIFFUSE": "Color"}
 
 
@@ -41,7 +40,8 @@ def adds_light(receiver: bpy.types.Material | None, whole: AllOrNothing) -> tupl
         colour = socket.links[0].from_socket if socket.is_linked else None
         metallic = shader.inputs.get("Metallic")
         share = 1.0 - metallic.default_value if metallic is not None and not metallic.is_linked else 1.0
-        known = known and (colour is None or not _by_its_box(tree))
+        known = known and (colour is None or not asks_for_more(tree))
+        show_by_places(tree, whole)
     _show(tree, albedo, colour, share / math.pi)
     material.surface_render_method = "BLENDED"
     material.use_transparency_overlap = True
@@ -55,6 +55,7 @@ def forget_added_light(materials: list) -> None:
     for material in materials:
         if material is not None and material.get(MARK) and material.users == 0:
             bpy.data.materials.remove(material)
+    forget_groups()
 
 
 def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket | None, share: float) -> None:
@@ -81,13 +82,3 @@ def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket 
     tree.links.new(clear.outputs["BSDF"], both.inputs[1])
     tree.links.new(both.outputs["Shader"], output.inputs["Surface"])
 
-
-def _by_its_box(tree: bpy.types.NodeTree) -> bool:
-    """Whether textures of a tree may be laid out by the object that shows them, which is another one here."""
-    for node in all_nodes(tree):
-        if node.type == "TEX_COORD" and any(node.outputs[name].is_linked for name in ("Generated", "Object")):
-            return True
-        vector = node.inputs.get("Vector") if node.type.startswith("TEX_") and node.type != "TEX_IMAGE" else None
-        if vector is not None and not vector.is_linked:
-            return True
-    return False

@@ -5,104 +5,97 @@ radiance P / (pi A) in W/m2/sr on its front; a sun is given by its irradiance in
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import bpy
 import numpy as np
 
 from ...core import Lamp, ReflectionError
+from .eye import Eye, across
+from .mesh_lamps import eyes_of_mesh, is_mesh_lamp
 
 SPREAD_LEAST = 1e-3  # radians: narrower area lamps are taken for as wide
 
 
-@dataclass(frozen=True)
-class Eye:
-    """A place on a lamp.
-
-    Attributes
-    ----------
-    lamp : core.Lamp
-    power : (3,) float64
-        Red, green and blue: intensity along the axis in W/sr, or a sun's irradiance in W/m2.
-    axes : (3, 3) float64
-        World axes x, y, z of the lamp, unit columns; it shines along -z.
-    kind : str
-        As `bpy.types.Light.type`.
-    cone : tuple of float
-        Of a spot lamp the cosine of half its angle and the width of the blend beside it; of an area lamp the
-        cotangent of half its spread and what makes up for it.
-    """
-
-    lamp: Lamp
-    power: np.ndarray
-    axes: np.ndarray
-    kind: str
-    cone: tuple[float, float]
-
-    def share(self, places: np.ndarray) -> np.ndarray:
-        """How much of the power goes towards `places` (..., 3)."""
-        if self.kind in {"POINT", "SUN"}:
-            return np.ones(places.shape[:-1])
-        way = (places - self.lamp.place) @ self.axes
-        ahead = -way[..., 2] / np.maximum(np.linalg.norm(way, axis=-1), 1e-300)
-        if self.kind == "SPOT":
-            # the blend is Cycles' smoothstep (`spot_light_attenuation` of its kernel)
-            t = np.clip((ahead - self.cone[0]) / self.cone[1], 0.0, 1.0)
-            return t * t * (3.0 - 2.0 * t)
-        cosine = np.maximum(ahead, 0.0)
-        if self.cone[0] <= 0.0:
-            return cosine
-        # a spread below 180 degrees (`area_light_spread_attenuation` of Cycles' kernel)
-        tangent = np.sqrt(np.maximum(1.0 - cosine**2, 0.0)) / np.maximum(cosine, 1e-12)
-        return cosine * np.maximum(1.0 - self.cone[0] * tangent, 0.0) * self.cone[1]
+class NoLight(ReflectionError):
+    """A lamp gives no light at the moment."""
 
 
 def chosen_lamps(context: bpy.types.Context) -> list:
-    """The selected lamps; where none is selected that of active caustics, else all that light the view layer's renders.
+    """Those of the lamps that are meant that light the view layer's renders.
 
     Raises
     ------
     ReflectionError
         Where there are none.
     """
-    lamps = [obj for obj in context.view_layer.objects
-             if obj.type == "LIGHT" and obj.visible_get() and not obj.hide_render]
-    active = context.view_layer.objects.active
-    own = [obj for obj in lamps if active is not None and active.reflection_mesh.role == "CAUSTICS"
-           and obj == active.reflection_mesh.lamp]
-    lamps = [obj for obj in lamps if obj.select_get()] or own or lamps
+    lamps = _meant(context, [obj for obj in context.view_layer.objects if lights_renders(obj)])
     if not lamps:
         raise ReflectionError("There is no lamp: add one (Add > Light) or show it in the viewport and in renders.")
     return lamps
 
 
+def meant_lamps(context: bpy.types.Context) -> list:
+    """As `chosen_lamps`, but of all lamps: those too that are hidden at the moment.
+
+    Raises
+    ------
+    ReflectionError
+        Where there are none.
+    """
+    lamps = _meant(context, list(context.view_layer.objects))
+    return lamps or chosen_lamps(context)
+
+
+def lights_renders(lamp: bpy.types.Object) -> bool:
+    """Whether a lamp is seen in the viewport and in renders."""
+    return lamp.visible_get() and not lamp.hide_render
+
+
+def _meant(context: bpy.types.Context, objects: list) -> list:
+    """Of some objects the selected lamps, and meshes that emit light; where none is selected that of active caustics,
+    else all lamps but meshes."""
+    active = context.view_layer.objects.active
+    own = [obj for obj in objects if active is not None and active.reflection_mesh.role == "CAUSTICS"
+           and obj == active.reflection_mesh.lamp]
+    chosen = [obj for obj in objects if obj.select_get() and (obj.type == "LIGHT" or is_mesh_lamp(obj))]
+    return chosen or own or [obj for obj in objects if obj.type == "LIGHT"]
+
+
 def has_a_size(lamp: bpy.types.Object) -> bool:
     """Whether Cycles' rays can meet the lamp, so that it makes caustics of its own."""
     data = lamp.data
+    if lamp.type != "LIGHT":
+        return True
     return {"POINT": lambda: data.shadow_soft_size > 0.0, "SPOT": lambda: data.shadow_soft_size > 0.0,
             "SUN": lambda: data.angle > 0.0, "AREA": lambda: True}[data.type]()
 
 
 def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, towards: np.ndarray) -> list[Eye]:
-    """A lamp as `count` places of equal power, spread evenly over what lights `towards` (3,); its middle for one.
+    """A lamp as `count` places of equal power, spread evenly over what lights the places `towards` (n, 3), or one
+    of them (3,); its middle for one.
 
     Raises
     ------
     ReflectionError
-        Where the lamp's place is no finite number, or it gives no light.
+        Where the lamp's place is no finite number; `NoLight` where it gives none.
     """
-    evaluated = lamp.evaluated_get(depsgraph)
+    evaluated, towards = lamp.evaluated_get(depsgraph), np.atleast_2d(towards)
     data, matrix = evaluated.data, np.array(evaluated.matrix_world, dtype=np.float64)
     length = np.linalg.norm(matrix[:3, :3], axis=0)
-    if not np.isfinite(matrix).all() or not (length > 0.0).all():
+    # a mesh may be flat
+    if not np.isfinite(matrix).all() or (lamp.type == "LIGHT" and not (length > 0.0).all()):
         raise ReflectionError(f"The lamp '{lamp.name}' has a scale of zero or a position that is no number: clear its "
                               "transform.")
+    if lamp.type != "LIGHT":
+        eyes = eyes_of_mesh(depsgraph, lamp, count, towards)
+        if not eyes:
+            raise NoLight(f"The lamp '{lamp.name}' gives no light to the mirror: raise the strength of its emission.")
+        return eyes
     axes, place = matrix[:3, :3] / length, matrix[:3, 3]
     power = np.array(data.color, dtype=np.float64) * data.energy * 2.0**getattr(data, "exposure", 0.0)
     if getattr(data, "use_temperature", False):
         power = power * np.array(data.temperature_color, dtype=np.float64)
     if not (power > 0.0).any():
-        raise ReflectionError(f"The lamp '{lamp.name}' gives no light: raise its power.")
+        raise NoLight(f"The lamp '{lamp.name}' gives no light: raise its power.")
     if data.type == "SUN":
         offsets = np.tan(0.5 * data.angle) * _disc(count)
         ways = -axes[:, 2] + offsets @ axes[:, :2].T
@@ -119,7 +112,7 @@ def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, 
         radius = data.shadow_soft_size
         power = power / (4.0 * np.pi) if normalised or not radius > 0.0 else power * np.pi * radius**2 / np.pi
         # a ball looks like a disc, as bright everywhere
-        offsets = radius * _disc(count) @ _across(towards - place).T
+        offsets = radius * _disc(count) @ across(towards.mean(axis=0) - place).T
     if data.type == "SPOT":
         half = np.cos(0.5 * data.spot_size)
         cone = half, max((1.0 - half) * data.spot_blend, 1e-6)
@@ -137,18 +130,6 @@ def _square(count: int) -> np.ndarray:
     """Places (count, 2) spread evenly over the square from -1/2 to 1/2: a lattice of rank one."""
     number = np.arange(count)
     return np.stack((((number + 0.5) / count) - 0.5, (number * 0.6180339887498949 + 0.5) % 1.0 - 0.5), axis=1)
-
-
-def _across(way: np.ndarray) -> np.ndarray:
-    """Two unit vectors across a way (3,), as columns (3, 2)."""
-    length = np.linalg.norm(way)
-    if not length > 0.0:
-        return np.eye(3)[:, :2]
-    way = way / length
-    other = np.eye(3)[np.argmin(np.abs(way))]
-    first = np.cross(way, other)
-    first /= np.linalg.norm(first)
-    return np.stack((first, np.cross(way, first)), axis=1)
 
 
 def _spread(spread: float) -> tuple[float, float]:

@@ -5,9 +5,25 @@ everything else, and to be lit by all other lamps; what goes with it is the lamp
 """
 from __future__ import annotations
 
+from contextlib import ExitStack
+
 import bpy
 
+from .. import compat
 from ..faults import AllOrNothing
+from ..reading import is_mirror
+from ..reading.material_nodes import all_nodes
+from ..reading.mirror_materials import MIRRORS, is_sharp
+
+
+def makes_own_caustics(mirror: bpy.types.Object) -> tuple[bool, bool]:
+    """Whether Cycles finds lamps in a mirror, as far as its materials tell, and whether that is all that these do: what
+    is lit as well, as water over its ground, cannot be taken out of what a lamp lights."""
+    materials = [slot.material for slot in mirror.material_slots if slot.material is not None]
+    whole = [is_mirror(material) for material in materials]
+    sharp = (node for material in materials if compat.uses_nodes(material) for node in all_nodes(material.node_tree)
+             if node.type in {*MIRRORS, "BSDF_PRINCIPLED"})
+    return any(whole) or any(map(is_sharp, sharp)), bool(whole) and all(whole)
 
 
 def leave_out_own_caustics(lamp: bpy.types.Object, mirror: bpy.types.Object, whole: AllOrNothing) -> bool:
@@ -33,7 +49,7 @@ def leave_out_own_caustics(lamp: bpy.types.Object, mirror: bpy.types.Object, who
 
 def bring_back_own_caustics(lamp: bpy.types.Object | None, mirror: bpy.types.Object | None) -> None:
     """Let a lamp light a mirror again."""
-    collection = None if lamp is None or lamp.type != "LIGHT" else lamp.light_linking.receiver_collection
+    collection = None if lamp is None else lamp.light_linking.receiver_collection
     if collection is None or not _is_ours(collection, lamp):
         return
     if mirror is not None and mirror.name in collection.objects:
@@ -49,7 +65,7 @@ def bring_back_abandoned() -> bool:
     made = {(obj.reflection_mesh.lamp, obj.reflection_mesh.mirror) for scene in bpy.data.scenes
             for obj in scene.objects if obj.reflection_mesh.role == "CAUSTICS"}
     lamps: dict = {}
-    for lamp in [obj for obj in bpy.data.objects if obj.type == "LIGHT"]:
+    for lamp in bpy.data.objects:
         collection = lamp.light_linking.receiver_collection
         if collection is not None and _is_ours(collection, lamp):
             # a copy of a lamp shares it
@@ -59,6 +75,21 @@ def bring_back_abandoned() -> bool:
     for pair in abandoned:
         bring_back_own_caustics(*pair)
     return bool(abandoned)
+
+
+def leaves_out(lamp: bpy.types.Object, mirror: bpy.types.Object) -> bool:
+    """Whether a lamp does not light a mirror because its caustics are a mesh."""
+    collection = lamp.light_linking.receiver_collection
+    return collection is not None and _is_ours(collection, lamp) and mirror.name in collection.objects
+
+
+def let_lamps_light_mirrors(lamps: list, back: ExitStack) -> None:
+    """Let lamps light the mirrors that they leave out, until the stack takes it back."""
+    for lamp in dict.fromkeys(lamps):
+        collection = lamp.light_linking.receiver_collection
+        if collection is not None and _is_ours(collection, lamp):
+            back.callback(setattr, lamp.light_linking, "receiver_collection", collection)
+            lamp.light_linking.receiver_collection = None
 
 
 _MARK = "reflection_mesh_left_out"

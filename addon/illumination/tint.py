@@ -1,15 +1,41 @@
 """What a mirror's material makes of light: its colour, and by which angle it becomes white."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
 
 from .. import compat
-from ..reading.mirror_materials import is_mirror, surface_shader
+from ..reading.mirror_materials import MIRRORS, is_mirror, is_sharp, surface_shader
 
 F82 = 1.0 / 7.0  # cosine of the angle at which the edge tint is given
+
+
+@dataclass(frozen=True)
+class Coat:
+    """The share of a mirror in a Mix Shader: `factor`, or what a dielectric of the refractive index `ior` reflects,
+    where that is none of 0; or what these leave."""
+
+    factor: float = 1.0
+    ior: float = 0.0
+    rest: bool = False
+
+    def at(self, cosine: np.ndarray) -> np.ndarray:
+        """The share by the cosine of the angle of incidence, outside of the dielectric.
+
+        As `fresnel_dielectric_cos` of Cycles' kernel has it.
+        """
+        share = np.full(cosine.shape, self.factor)
+        if self.ior:
+            c = np.clip(cosine, 0.0, 1.0)
+            g = np.sqrt(np.maximum(self.ior**2 - 1.0 + c**2, 0.0))
+            a, b = (g - c) / np.maximum(g + c, 1e-300), (c * (g + c) - 1.0) / (c * (g - c) + 1.0)
+            share = 0.5 * a**2 * (1.0 + b**2)
+        return 1.0 - share if self.rest else share
+
+
+WHOLE = Coat()
 
 
 @dataclass(frozen=True)
@@ -24,30 +50,48 @@ class Tint:
         Whether the angle matters.
     constant : bool
         Whether the material is one colour all over, as far as its nodes tell.
+    coat : Coat
+        How much of the light the mirror sends back where it is mixed with something else.
     """
 
     colour: np.ndarray
     edge: np.ndarray
     fresnel: bool
     constant: bool
+    coat: Coat = WHOLE
 
     @classmethod
     def of(cls, mirror: bpy.types.Object) -> Tint:
         """Of the mirror's first reflecting material; white where it has none."""
+        materials = [slot.material for slot in mirror.material_slots if slot.material is not None]
+        reflecting = (one for one in materials if is_mirror(one) or (compat.uses_nodes(one) and _coated(one)))
+        return cls.of_material(next(reflecting, None))
+
+    @classmethod
+    def of_material(cls, material: bpy.types.Material | None) -> Tint:
+        """Of a mirror's material; white where it mirrors nothing, as far as its nodes tell."""
         white = np.ones(3)
-        material = next((slot.material for slot in mirror.material_slots if is_mirror(slot.material)), None)
         if material is None:
             return cls(white, white, False, True)
         if not compat.uses_nodes(material):
-            return cls(np.array(material.diffuse_color[:3], dtype=np.float64), white, True, True)
-        shader = surface_shader(material.node_tree)
+            return (cls(np.array(material.diffuse_color[:3], dtype=np.float64), white, True, True)
+                    if is_mirror(material) else cls(white, white, False, True))
+        shader, coat, known = (surface_shader(material.node_tree), WHOLE, True) if is_mirror(material) else (
+            _coated(material) or (None, WHOLE, True))
+        if shader is None:
+            return cls(white, white, False, True)
         metal = shader.type in {"BSDF_PRINCIPLED", "BSDF_METALLIC"}
         edge = {"BSDF_PRINCIPLED": "Specular Tint", "BSDF_METALLIC": "Edge Tint"}.get(shader.type)
         sockets = [shader.inputs.get("Base Color") or shader.inputs.get("Color"), shader.inputs.get(edge or "")]
         colours = [white if socket is None else np.array(socket.default_value[:3], dtype=np.float64)
                    for socket in sockets]
         plain = not any(socket is not None and socket.is_linked for socket in sockets)
-        return cls(*colours, metal, plain and getattr(shader, "fresnel_type", "F82") == "F82")
+        return cls(*colours, metal, known and plain and getattr(shader, "fresnel_type", "F82") == "F82", coat)
+
+    def same(self, other: Tint) -> bool:
+        """Whether both make the same of light."""
+        return (np.array_equal(self.colour, other.colour) and np.array_equal(self.edge, other.edge)
+                and (self.fresnel, self.constant, self.coat) == (other.fresnel, other.constant, other.coat))
 
     def at(self, cosine: np.ndarray, bounces: np.ndarray) -> np.ndarray:
         """(m, 3, 3): what is left of red, green and blue at corners that light came to over `bounces` (m,) mirrors, the
@@ -61,4 +105,30 @@ class Tint:
             schlick = self.colour + (1.0 - self.colour) * (1.0 - F82)**5
             fall = schlick * (7.0 / (1.0 - F82)**6) * (1.0 - self.edge)
             first = self.colour + (1.0 - self.colour) * grazing**5 - fall * (1.0 - grazing) * grazing**6
-        return np.clip(first, 0.0, 1.0) * self.colour**(bounces[:, None, None] - 1.0)
+        later = self.colour * float(self.coat.at(np.ones(1))[0])
+        return self.coat.at(cosine)[..., None] * np.clip(first, 0.0, 1.0) * later**(bounces[:, None, None] - 1.0)
+
+
+def _coated(material: bpy.types.Material) -> tuple[bpy.types.Node, Coat, bool] | None:
+    """The mirror that a material mixes with something else, its share, and whether that is known; None where it mixes
+    none."""
+    mixed = surface_shader(material.node_tree)
+    if mixed is None or mixed.type != "MIX_SHADER":
+        return None
+    factor, *both = mixed.inputs
+    for place, socket in enumerate(both):
+        shader = socket.links[0].from_node if socket.is_linked else None
+        if shader is not None and shader.type in MIRRORS and is_sharp(shader):
+            share, known = _share(factor)
+            return shader, replace(share, rest=place == 0), known
+    return None
+
+
+def _share(factor: bpy.types.NodeSocket) -> tuple[Coat, bool]:
+    """What the factor of a Mix Shader is, and whether that is all over the mirror."""
+    if not factor.is_linked:
+        return Coat(factor.default_value), True
+    node = factor.links[0].from_node
+    if node.type == "FRESNEL" and not any(socket.is_linked for socket in node.inputs):
+        return Coat(ior=max(node.inputs["IOR"].default_value, 1e-5)), True
+    return Coat(factor.default_value), False

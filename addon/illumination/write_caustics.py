@@ -28,6 +28,10 @@ class Caustic:
     counts : dict
     layers : int
         The most faces over each other.
+    eyes : int
+        Places on the lamp that it comes from.
+    plain : bool
+        Whether each of the mirror's materials is one colour.
     """
 
     name: str
@@ -37,6 +41,8 @@ class Caustic:
     arrays: MeshArrays
     counts: dict
     layers: int
+    eyes: int
+    plain: bool
 
 
 def results_with(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.types.Object) -> list:
@@ -45,24 +51,50 @@ def results_with(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy
             and obj.reflection_mesh.mirror == mirror and obj.reflection_mesh.lamp == lamp and obj.library is None]
 
 
-def write_caustics(context: bpy.types.Context, made: Caustic,
-                   whole: AllOrNothing) -> tuple[bpy.types.Object, list]:
-    """The light as an object, a new one or the one that is there already, updated in place; and the receivers'
-    materials whose colour it does not know. Where something fails, `whole` takes back all that is changed here."""
-    earlier = results_with(context, made.mirror, made.lamp)
+def caustics_object(context: bpy.types.Context, name: str, pair: tuple, sources: list,
+                    whole: AllOrNothing) -> bpy.types.Object:
+    """The object for the light of `pair`, a mirror and a lamp: the one that is there already, whose mesh may then be
+    written, or a new one of that name."""
+    earlier = results_with(context, *pair)
     if earlier:
         obj = earlier[0]
-        # what is to be done at last is said first
-        whole.after(forget_added_light, list(obj.data.materials))
         keep_object(obj, whole)
         keep_data(obj, whole)
     else:
-        obj = new_beside(context, made.name, made.mirror, whole)
+        obj = new_beside(context, name, pair[0], whole)
         for rays in RAYS:
             setattr(obj, rays, False)
         obj.lineart.usage = "EXCLUDE"
+    record = obj.reflection_mesh
+    record.role, (record.mirror, record.lamp) = "CAUSTICS", pair
+    record.sources.clear()
+    for source in sources:
+        record.sources.add().object = source
+    return obj
+
+
+def write_caustics(context: bpy.types.Context, made: Caustic, whole: AllOrNothing,
+                   keep_materials: bool = False) -> tuple[bpy.types.Object, list]:
+    """The light as an object, a new one or the one that is there already, updated in place; and the receivers'
+    materials whose colour it does not know. Where something fails, `whole` takes back all that is changed here.
+
+    Parameters
+    ----------
+    keep_materials : bool
+        Show the present materials further, where they are for the same receivers: engines need not make them ready
+        again.
+    """
+    earlier = results_with(context, made.mirror, made.lamp)[:1]
+    # what is to be done at last is said first
+    whole.after(forget_added_light, [material for obj in earlier for material in obj.data.materials])
+    kept = [list(obj.data.materials) for obj in earlier
+            if [entry.material for entry in obj.reflection_mesh.materials] == made.arrays.materials]
+    obj = caustics_object(context, made.name, (made.mirror, made.lamp), made.sources, whole)
     materials, unknown = [], []
     for receiver in made.arrays.materials:
+        if keep_materials and kept and len(kept[0]) == len(made.arrays.materials):
+            materials = kept[0]
+            break
         material, known = adds_light(receiver, whole)
         materials.append(material)
         if not known:
@@ -70,10 +102,16 @@ def write_caustics(context: bpy.types.Context, made: Caustic,
     write_mesh(obj.data, replace(made.arrays, materials=materials))
     obj.matrix_world = Matrix.Translation(made.arrays.origin)
     record = obj.reflection_mesh
-    record.role, record.mirror, record.lamp = "CAUSTICS", made.mirror, made.lamp
-    record.sources.clear()
-    for source in made.sources:
-        record.sources.add().object = source
+    record.eyes = made.eyes
+    record.materials.clear()
+    for receiver in made.arrays.materials:
+        record.materials.add().material = receiver
     record.counts = json.dumps({name: int(count) for name, count in made.counts.items()})
     record.faces = len(obj.data.polygons)
     return obj, unknown
+
+
+def places_kept(context: bpy.types.Context, mirrors: list, lamps: list) -> dict:
+    """On how many places of its lamp the light of each (mirror, lamp) comes from that there is."""
+    return {(mirror, lamp): max(obj.reflection_mesh.eyes, 1) for mirror in mirrors for lamp in lamps
+            for obj in results_with(context, mirror, lamp)[:1]}

@@ -1,4 +1,6 @@
-"""Errors in numbers, on arrays alone: displacement and coverage of pixels, and metrics of pictures."""
+"""Errors in numbers, on arrays alone: displacement and coverage of pixels, metrics of pictures, light on surfaces."""
+from .bright_lines import line_offsets
+from .light_errors import Squares, added, light_errors, light_in_squares
 from .picture_metrics import picture_errors
 from .pixel_errors import (
     ITSELF,
@@ -11,5 +13,5 @@ from .pixel_errors import (
     without_packing,
 )
 
-__all__ = ["CodedPicture", "ITSELF", "Measurement", "NOTHING", "OTHER_SURFACE", "measure", "motion_per_pixel",
-           "picture_errors", "without_packing"]
+__all__ = ["CodedPicture", "ITSELF", "Measurement", "NOTHING", "OTHER_SURFACE", "Squares", "added", "light_errors",
+           "light_in_squares", "line_offsets", "measure", "motion_per_pixel", "picture_errors", "without_packing"]

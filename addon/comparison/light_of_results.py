@@ -1,0 +1,163 @@
+"""The light that meshes of caustics bring, and what rays traced one by one bring to the same places, in watts."""
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ...core import TriangleMesh
+from ...core.rivals.light_rays import Landed, LightRays, by_boxes
+from ..illumination import Eye, Tint, eyes_of
+from ..metrics import Squares, added, light_errors, light_in_squares
+from ..reading import DiffuseScene, read_mirror, read_scene
+
+THROWS = 4  # of rays at least, whose differences tell their noise
+RAYS_AT_ONCE = 2_000_000
+
+
+@dataclass(frozen=True)
+class Lit:
+    """The faces of one result, in world space.
+
+    Attributes
+    ----------
+    positions : (n, 3) float64
+    triangles : (m, 3) int64
+    irradiance : (m, 3) float64
+        At the corners, in W/m2.
+    parity : (n,) int64
+    source_object, source_face : (m,) int64
+    bounces : int
+        The most mirrors that light has met.
+    """
+
+    positions: np.ndarray
+    triangles: np.ndarray
+    irradiance: np.ndarray
+    parity: np.ndarray
+    source_object: np.ndarray
+    source_face: np.ndarray
+    bounces: int
+
+    @classmethod
+    def of(cls, result: bpy.types.Object) -> Lit | None:
+        """None where whoever worked on the mesh has lost what it knows."""
+        mesh = result.data
+        kinds = {"irradiance": ("FLOAT", "CORNER"), "image_parity": ("INT", "POINT"), "source_object": ("INT", "FACE"),
+                 "source_face": ("INT", "FACE"), "bounces": ("INT", "FACE")}
+        values = {}
+        for name, kind in kinds.items():
+            found = mesh.attributes.get(name)
+            if found is None or (found.data_type, found.domain) != kind:
+                return None
+            values[name] = np.empty(len(found.data), dtype=np.float32 if kind[0] == "FLOAT" else np.int32)
+            found.data.foreach_get("value", values[name])
+        corners, places = np.empty(len(mesh.loops), dtype=np.int32), np.empty(3 * len(mesh.vertices), dtype=np.float32)
+        mesh.loops.foreach_get("vertex_index", corners)
+        mesh.vertices.foreach_get("co", places)
+        if len(corners) != 3 * len(mesh.polygons) or not len(corners):
+            return None
+        matrix = np.array(result.matrix_world, dtype=np.float64)
+        positions = places.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]
+        irradiance = values["irradiance"].astype(np.float64).reshape(-1, 3)
+        return cls(positions, corners.reshape(-1, 3).astype(np.int64), irradiance, values["image_parity"],
+                   values["source_object"], values["source_face"], int(values["bounces"].max()))
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What the light of one result meets, in world space.
+
+    Attributes
+    ----------
+    surfaces : list of core.TriangleMesh
+        The mirrors, that of the result first.
+    tints : list of Tint
+        Of all materials of the mirrors.
+    tint_of : (m,) int64
+        Which of them each triangle of the surfaces has, one behind another.
+    scene : DiffuseScene
+        What may be lit.
+    blockers : core.TriangleMesh or None
+    """
+
+    surfaces: list
+    tints: list
+    tint_of: np.ndarray
+    scene: DiffuseScene
+    blockers: TriangleMesh | None
+
+    @classmethod
+    def of(cls, depsgraph: bpy.types.Depsgraph, mirrors: list, sources: list,
+           blockers: TriangleMesh | None) -> Surroundings:
+        surfaces, tints, tint_of = [read_mirror(depsgraph, mirror) for mirror in mirrors], [], []
+        for surface in surfaces:
+            tint_of.append(len(tints) + surface.material)
+            tints += [Tint.of(material) for material in surface.materials]
+        return cls([surface.mesh for surface in surfaces], tints, np.concatenate(tint_of),
+                   read_scene(depsgraph, sources), blockers)
+
+    def rays(self, tracer: Callable = by_boxes, body: TriangleMesh | None = None) -> LightRays:
+        """The rays of one of the lamp's places; a lamp that is a mesh may hide with its `body`."""
+        others, blockers = (TriangleMesh.joined([mesh for mesh in meshes if mesh is not None])
+                            for meshes in (self.surfaces[1:], (self.blockers, body)))
+        return LightRays(self.surfaces[0], self.scene.mesh, others if len(others.triangles) else None,
+                         blockers if len(blockers.triangles) else None, tracer)
+
+    def watts(self, eye: Eye, landed: Landed) -> np.ndarray:
+        """What each ray (n,) of one of the lamp's places brings, the mean of its colours."""
+        colour = eye.power * (landed.flux * eye.share(landed.start))[:, None]
+        for met, cosine in zip(landed.met, landed.cosine):
+            tint = np.where(met >= 0, self.tint_of[met], -1)
+            for index, one in enumerate(self.tints):
+                own = np.flatnonzero(tint == index)
+                colour[own] *= one.at(cosine[own, None], np.ones(len(own), dtype=np.int64))[:, 0]
+        return colour.mean(axis=1)
+
+    def on_surfaces(self, lit: Lit) -> tuple[np.ndarray, np.ndarray]:
+        """The corners (m, 3, 3) of faces brought back to the surfaces before which they lie, and the normals (m, 3) of
+        these; where they have gone since, as if they faced upwards."""
+        scene = self.scene
+        key, asked = (one.astype(np.int64) * (1 << 32) + face for one, face in (
+            (scene.source_object, scene.source_face), (lit.source_object, lit.source_face)))
+        order = np.argsort(key)
+        place = order[np.minimum(np.searchsorted(key[order], asked), len(key) - 1)]
+        known = (key[place] == asked)[:, None]
+        normal = np.where(known, scene.mesh.face_normals()[place], (0.0, 0.0, 1.0))
+        corners = lit.positions[lit.triangles]
+        start = np.where(known, scene.mesh.positions[scene.mesh.triangles[place, 0]], corners[:, 0])
+        height = np.einsum("nkc,nc->nk", corners - start[:, None], normal)
+        return corners - height[:, :, None] * normal[:, None], normal
+
+
+def against_rays(depsgraph: bpy.types.Depsgraph, result: bpy.types.Object, lit: Lit, around: Surroundings,
+                 count: int, tracer: Callable = by_boxes) -> Generator[float, None, dict]:
+    """As `light_errors`, of one result and about `count` rays by a tracer as `LightRays` takes them; yields how much is
+    done before each throw."""
+    corners, facing = around.on_surfaces(lit)
+    squares = Squares(corners.min(axis=(0, 1)), corners.max(axis=(0, 1)))
+    light = light_in_squares(corners, lit.irradiance, facing, squares)
+    surface = around.surfaces[0]
+    eyes = eyes_of(depsgraph, result.reflection_mesh.lamp, places_of(result),
+                   surface.positions[surface.triangles].reshape(-1, 3))
+    rays = [around.rays(tracer)] if not any(eye.body for eye in eyes) else [around.rays(tracer, eye.body)
+                                                                           for eye in eyes]
+    normals, thrown = around.scene.mesh.face_normals(), []
+    throws = max(THROWS, -(-count // RAYS_AT_ONCE))
+    for number in range(throws):
+        names, flux = [], []
+        for index, eye in enumerate(eyes):
+            yield (number + index / len(eyes)) / throws
+            landed = rays[index % len(rays)].thrown(eye.lamp, max(count // (throws * len(eyes)), 1),
+                                                    number * len(eyes) + index, lit.bounces)
+            names.append(squares.names(landed.points, normals[landed.source_face]))
+            flux.append(around.watts(eye, landed))
+        thrown.append(added(np.concatenate(names), np.concatenate(flux)))
+    return light_errors(light, thrown)
+
+
+def places_of(result: bpy.types.Object) -> int:
+    """On how many places of its lamp the light of a result comes from."""
+    return max(result.reflection_mesh.eyes, 1)

@@ -1,0 +1,83 @@
+"""One place on a lamp, and how much of its light goes where."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core import Lamp, TriangleMesh
+
+AT_ONCE = 1 << 22
+
+
+@dataclass(frozen=True)
+class Eye:
+    """A place on a lamp.
+
+    Attributes
+    ----------
+    lamp : core.Lamp
+    power : (3,) float64
+        Red, green and blue: intensity along the axis in W/sr, or a sun's irradiance in W/m2.
+    axes : (3, 3) float64
+        World axes x, y, z of the lamp, unit columns; it shines along -z.
+    kind : str
+        As `bpy.types.Light.type`.
+    cone : tuple of float
+        Of a spot lamp the cosine of half its angle and the width of the blend beside it; of an area lamp the
+        cotangent of half its spread and what makes up for it.
+    facets : (k, 3) float64, optional
+        Of a mesh that is taken as one place: its triangles' normals, as long as their area.
+    body : core.TriangleMesh, optional
+        What of the lamp itself may stand before this place.
+    """
+
+    lamp: Lamp
+    power: np.ndarray
+    axes: np.ndarray
+    kind: str
+    cone: tuple[float, float]
+    facets: np.ndarray | None = None
+    body: TriangleMesh | None = None
+
+    def share(self, places: np.ndarray) -> np.ndarray:
+        """How much of the power goes towards `places` (..., 3)."""
+        if self.facets is not None:
+            return self._seen_area(places)
+        if self.kind in {"POINT", "SUN"}:
+            return np.ones(places.shape[:-1])
+        way = (places - self.lamp.place) @ self.axes
+        ahead = -way[..., 2] / np.maximum(np.linalg.norm(way, axis=-1), 1e-300)
+        if self.kind == "SPOT":
+            # the blend is Cycles' smoothstep (`spot_light_attenuation` of its kernel)
+            t = np.clip((ahead - self.cone[0]) / self.cone[1], 0.0, 1.0)
+            return t * t * (3.0 - 2.0 * t)
+        cosine = np.maximum(ahead, 0.0)
+        if self.cone[0] <= 0.0:
+            return cosine
+        # a spread below 180 degrees (`area_light_spread_attenuation` of Cycles' kernel)
+        tangent = np.sqrt(np.maximum(1.0 - cosine**2, 0.0)) / np.maximum(cosine, 1e-12)
+        return cosine * np.maximum(1.0 - self.cone[0] * tangent, 0.0) * self.cone[1]
+
+    def _seen_area(self, places: np.ndarray) -> np.ndarray:
+        """The area of the mesh as it is seen from `places` (..., 3): a way through a convex one meets two triangles
+        that face each other, or one at its open side."""
+        way = (places - self.lamp.place).reshape(-1, 3)
+        way = way / np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)
+        through = np.abs(way @ self.facets.sum(axis=0))
+        step = max(AT_ONCE // len(self.facets), 1)
+        for start in range(0, len(way), step):
+            through[start:start + step] += np.abs(way[start:start + step] @ self.facets.T).sum(axis=1)
+        return (0.5 * through).reshape(places.shape[:-1])
+
+
+def across(way: np.ndarray) -> np.ndarray:
+    """Two unit vectors across a way (3,), as columns (3, 2)."""
+    length = np.linalg.norm(way)
+    if not length > 0.0:
+        return np.eye(3)[:, :2]
+    way = way / length
+    other = np.eye(3)[np.argmin(np.abs(way))]
+    first = np.cross(way, other)
+    first /= np.linalg.norm(first)
+    return np.stack((first, np.cross(way, first)), axis=1)

@@ -1,0 +1,129 @@
+"""Meshes that emit light, as lamps: triangles of one radiance each, both of whose sides shine.
+
+Cycles' Emission of the strength S has the radiance S times its colour in W/m2/sr.
+"""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...core import Lamp, TriangleMesh
+from .. import compat
+from ..reading import is_mirror, read_scene
+from ..reading.mirror_materials import surface_shader
+from .eye import Eye, across
+
+EMISSION = {"EMISSION": ("Color", "Strength"), "BSDF_PRINCIPLED": ("Emission Color", "Emission Strength")}
+MANY = 1 << 14  # places that stand for all of a mesh
+GOLDEN = 0.6180339887498949
+IN_PLANE = 1e-6  # of the lamp's size: what lies nearer to a plane lies in it
+
+
+def is_mesh_lamp(obj: bpy.types.Object) -> bool:
+    """Whether an object is a mesh that emits light, of one colour for each of its materials."""
+    materials = [slot.material for slot in obj.material_slots]
+    return (obj.type == "MESH" and obj.reflection_mesh.role == "AUTO" and not any(map(is_mirror, materials))
+            and any(radiance_of(material).any() for material in materials))
+
+
+def radiance_of(material: bpy.types.Material | None) -> np.ndarray:
+    """Red, green and blue of what a material emits, in W/m2/sr; zeros where it emits none, or not everywhere the
+    same."""
+    shader = surface_shader(material.node_tree) if material is not None and compat.uses_nodes(material) else None
+    if shader is None or shader.type not in EMISSION:
+        return np.zeros(3)
+    colour, strength = (shader.inputs[name] for name in EMISSION[shader.type])
+    if colour.is_linked or strength.is_linked:
+        return np.zeros(3)
+    return np.maximum(np.array(colour.default_value[:3], dtype=np.float64) * strength.default_value, 0.0)
+
+
+def eyes_of_mesh(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int,
+                 towards: np.ndarray) -> list[Eye]:
+    """A mesh as `count` places spread evenly over the power of what emits; its middle for one.
+
+    Parameters
+    ----------
+    towards : (n, 3) float64
+        What is lit. Of a place that lights it by both of its sides, there are two.
+    """
+    scene = read_scene(depsgraph, [lamp])
+    mesh = scene.mesh
+    radiance = np.array([radiance_of(material) for material in scene.materials])[scene.material]
+    corners = mesh.positions[mesh.triangles]
+    facets = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.linalg.norm(facets, axis=1)
+    weight = weight_of_all = area * radiance.sum(axis=1)
+    chosen = np.flatnonzero(weight > 0.0)
+    if not len(chosen):
+        return []
+    corners, facets, area, radiance, weight = (
+        values[chosen] for values in (corners, facets, area, radiance, weight))
+    if count == 1:
+        middle = np.average(corners.mean(axis=1), axis=0, weights=weight)
+        mean = np.average(radiance, axis=0, weights=area)
+        return [Eye(Lamp(middle), mean, np.eye(3), "MESH", (0.0, 0.0), facets, _of(mesh, weight_of_all == 0.0))]
+    corners, facets, area, radiance, weight = (
+        values[_along_a_curve(corners.mean(axis=1))] for values in (corners, facets, area, radiance, weight))
+    normals = facets / area[:, None]
+    triangle, places = _spread(corners, weight, count)
+    # as much power for each place, but for what so few of them miss of the light that the middle gets
+    power = weight.sum() / count * _made_up(corners, weight, normals, (triangle, places), towards.mean(axis=0))
+    found = []
+    for index, place, share in zip(triangle, places, power):
+        normal = normals[index]
+        height = (towards - place) @ normal
+        colour = share * radiance[index] / radiance[index].sum()
+        away = np.abs((mesh.positions[mesh.triangles] - place) @ normal).max(axis=1)
+        body = _of(mesh, away > IN_PLANE * float(np.ptp(corners.reshape(-1, 3), axis=0).max()))
+        for side in (1.0, -1.0):
+            if (side * height).max() > 0.0:
+                axes = np.column_stack((across(normal), -side * normal))
+                found.append(Eye(Lamp(place), colour, axes, "AREA", (0.0, 1.0), body=body))
+    return found
+
+
+def _made_up(corners: np.ndarray, weight: np.ndarray, normals: np.ndarray, chosen: tuple,
+             middle: np.ndarray) -> np.ndarray:
+    """By how much more (count,) than its share each of the `chosen` places (triangles, places) sends, so that those on
+    the triangles that face the `middle` (3,) light it as all of these do, and those on the others too."""
+    def sent(triangle: np.ndarray, places: np.ndarray) -> np.ndarray:
+        way = middle - places
+        return np.einsum("ij,ij->i", way, normals[triangle]) / np.maximum((way**2).sum(axis=1), 1e-300)**1.5
+    some, all_of_it = sent(*chosen), sent(*_spread(corners, weight, MANY))
+    factor = np.ones(len(some))
+    for facing in (1.0, -1.0):
+        few, many = (np.maximum(facing * light, 0.0) for light in (some, all_of_it))
+        if few.sum() > 0.0:
+            factor[few > 0.0] = many.mean() / few.mean()
+    return factor
+
+
+def _along_a_curve(points: np.ndarray) -> np.ndarray:
+    """An order (n,) of points in which neighbours are near each other: Morton's."""
+    low = points.min(axis=0)
+    cell = ((points - low) / max(float(np.ptp(points, axis=0).max()), 1e-300) * 1023.0).astype(np.int64)
+    code = np.zeros(len(points), dtype=np.int64)
+    for bit in range(10):
+        for axis in range(3):
+            code |= ((cell[:, axis] >> bit) & 1) << (3 * bit + axis)
+    return np.argsort(code, kind="stable")
+
+
+def _of(mesh: TriangleMesh, chosen: np.ndarray) -> TriangleMesh | None:
+    """Those of a mesh's triangles that are chosen; None where none is."""
+    return TriangleMesh(mesh.positions, mesh.triangles[chosen]) if chosen.any() else None
+
+
+def _spread(corners: np.ndarray, weight: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """In which triangles (count,) places (count, 3) lie that are spread evenly by weight: a lattice of rank one."""
+    number = np.arange(count)
+    ends = np.cumsum(weight) / weight.sum()
+    along = (number + 0.5) / count
+    triangle = np.minimum(np.searchsorted(ends, along), len(weight) - 1)
+    inside = (along - (ends - weight / weight.sum())[triangle]) / (weight / weight.sum())[triangle]
+    beside = (number * GOLDEN + 0.5) % 1.0
+    # of the unit square to the triangle, areas kept
+    root = np.sqrt(np.clip(inside, 0.0, 1.0))
+    shares = np.stack((1.0 - root, root * (1.0 - beside), root * beside), axis=1)
+    return triangle, np.einsum("ij,ijk->ik", shares, corners[triangle])

@@ -1,0 +1,73 @@
+"""Textures that are laid out by the object they are on, shown on another one: by attributes that know where they are.
+
+A mesh of light has other corners and another box than what it lies on. Nodes that ask for the object's own coordinates
+are given those of what is lit, in a copy of its material.
+"""
+from __future__ import annotations
+
+import bpy
+
+from .. import compat
+from ..faults import AllOrNothing
+from ..reading import all_nodes
+
+MARK = "reflection_mesh_adds_light"
+PLACES = {"Generated": "lit_generated", "Object": "lit_object"}
+"""Outputs of the node Texture Coordinate, and the attributes that stand for them."""
+OF_THE_OBJECT = {"OBJECT_INFO": None, "TEX_COORD": {"Normal"}, "HAIR_INFO": None, "PARTICLE_INFO": None,
+                 "NEW_GEOMETRY": {"Normal", "Tangent", "True Normal", "Pointiness", "Random Per Island", "Parametric"}}
+"""What nothing stands for, all outputs or some: it is the mesh of light's own."""
+
+
+def places_asked(materials: list) -> list[str]:
+    """Outputs of Texture Coordinate that materials ask for, as they are or as what textures take without being told."""
+    found: set = set()
+    for material in materials:
+        if material is not None and compat.uses_nodes(material):
+            for node in all_nodes(material.node_tree):
+                found |= _asked(node)
+    return [name for name in PLACES if name in found]
+
+
+def show_by_places(tree: bpy.types.NodeTree, whole: AllOrNothing) -> None:
+    """Let the nodes of a tree, which is our own, ask for the attributes; groups that ask for any are copied."""
+    for node in list(tree.nodes):
+        if node.type == "GROUP" and node.node_tree is not None and any(map(_asked, all_nodes(node.node_tree))):
+            node.node_tree = node.node_tree.copy()
+            node.node_tree[MARK] = True
+            whole.undo(bpy.data.node_groups.remove, node.node_tree)
+            show_by_places(node.node_tree, whole)
+        for name in _asked(node):
+            targets = ([link.to_socket for link in node.outputs[name].links] if node.type == "TEX_COORD"
+                       else [node.inputs["Vector"]])
+            place = tree.nodes.new("ShaderNodeAttribute")
+            place.attribute_name, place.location = PLACES[name], (node.location[0] - 200.0, node.location[1])
+            for socket in targets:
+                tree.links.new(place.outputs["Vector"], socket)
+
+
+def asks_for_more(tree: bpy.types.NodeTree) -> bool:
+    """Whether nodes ask the object that shows them for what no attribute stands for."""
+    for node in all_nodes(tree):
+        if node.type in OF_THE_OBJECT:
+            outputs = OF_THE_OBJECT[node.type]
+            if any(socket.is_linked for socket in node.outputs if outputs is None or socket.name in outputs):
+                return True
+        if node.type == "ATTRIBUTE" and node.attribute_type != "GEOMETRY" and any(
+                socket.is_linked for socket in node.outputs):
+            return True
+    return False
+
+
+def forget_groups() -> None:
+    """Remove the copies of groups that nothing uses any more, those within others after these."""
+    while abandoned := [group for group in bpy.data.node_groups if group.get(MARK) and not group.users]:
+        for group in abandoned:
+            bpy.data.node_groups.remove(group)
+
+
+def _asked(node: bpy.types.Node) -> set[str]:
+    if node.type == "TEX_COORD" and not node.from_instancer:
+        return {name for name in PLACES if node.outputs[name].is_linked and (name != "Object" or node.object is None)}
+    vector = node.inputs.get("Vector") if node.type.startswith("TEX_") and node.type != "TEX_IMAGE" else None
+    return {"Generated"} if vector is not None and vector.enabled and not vector.is_linked else set()
