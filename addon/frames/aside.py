@@ -13,13 +13,14 @@ RECORD = ("mirror", "light_stale", "camera", "window")
 
 
 @contextmanager
-def set_aside(context: bpy.types.Context, mirrors: list) -> Iterator[None]:
-    """Within, `mirrors` have no results and renders show none; the frame and the camera may change."""
+def set_aside(context: bpy.types.Context, mirrors: list, role: str = "REFLECTION") -> Iterator[None]:
+    """Within, `mirrors` have no results of a role and renders show none; the frame and the camera may change."""
     scene = context.scene
     frame, subframe, camera = scene.frame_current, scene.frame_subframe, scene.camera
-    results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION" and obj.library is None
+    results = [obj for obj in scene.objects if obj.reflection_mesh.role == role and obj.library is None
                and obj.reflection_mesh.mirror in mirrors]
     shown = as_shown(scene)
+    hidden = [(obj, obj.hide_render) for obj in results]
     known = [(obj, {name: getattr(obj.reflection_mesh, name) for name in RECORD}) for obj in results]
     windows = [(obj, obj.visible_camera, obj.reflection_mesh.camera_hidden) for obj in mirrors if obj.library is None]
     for obj in results:
@@ -31,6 +32,9 @@ def set_aside(context: bpy.types.Context, mirrors: list) -> Iterator[None]:
     finally:
         scene.frame_set(frame, subframe=subframe)
         scene.camera = camera
+        for obj, was in hidden:
+            if still_there([obj]):
+                obj.hide_render = was
         # baked cameras have put others' results aside
         shown()
         # what was marked stale by going through frames is not

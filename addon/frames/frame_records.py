@@ -4,7 +4,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 
 import bpy
 
@@ -35,12 +35,14 @@ class ResultRecord:
 
 @dataclass(frozen=True)
 class FrameRecord:
-    """One frame: what it was made with, its results by the names of their mirrors, and its picture of light or ""."""
+    """One frame: what it was made with, its results by the names of their mirrors, its picture of light or "", and what
+    it was made from, as freshness tells it; empty in frames of earlier versions."""
 
     frame: int
     made_with: dict
     results: dict
     image: str
+    made_from: dict = field(default_factory=dict)
 
     @property
     def files(self) -> list[str]:
@@ -76,7 +78,8 @@ def read_record(path: str) -> FrameRecord | None:
                                              tuple((str(name), str(library)) for name, library in entry["materials"]),
                                              bool(entry["lit"]))
                    for mirror, entry in known["results"].items()}
-        record = FrameRecord(int(known["frame"]), dict(known["made_with"]), results, str(known["image"]))
+        record = FrameRecord(int(known["frame"]), dict(known["made_with"]), results, str(known["image"]),
+                             {str(name): str(text) for name, text in known.get("made_from", {}).items()})
     except (OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
     # names of files, not ways to other places

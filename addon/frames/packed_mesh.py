@@ -16,20 +16,20 @@ WIDTHS = {"FLOAT": (1, "value"), "INT": (1, "value"), "BOOLEAN": (1, "value"), "
           "FLOAT2": (2, "vector"), "FLOAT_VECTOR": (3, "vector"), "FLOAT_COLOR": (4, "color"),
           "BYTE_COLOR": (4, "color")}
 READ_AS = {"INT": np.int32, "INT8": np.int8, "BOOLEAN": np.bool_}
-# of the mesh itself, or worked out anew
-LEFT_OUT = {"position", "material_index", "sharp_edge"}
+# of the mesh itself
+LEFT_OUT = {"position", "material_index"}
 MATERIAL = "corner_material"
 
 
 def packable(mesh: bpy.types.Mesh) -> list[tuple[str, str, str]]:
-    """The attributes (name, kind, domain) of a mesh that are packed; those of edges have no place in such files."""
+    """The attributes (name, kind, domain) of a mesh that are packed."""
     return [(entry.name, entry.data_type, entry.domain) for entry in mesh.attributes
-            if entry.data_type in WIDTHS and entry.domain in {"POINT", "FACE", "CORNER"}
+            if entry.data_type in WIDTHS and entry.domain in {"POINT", "EDGE", "FACE", "CORNER"}
             and not entry.name.startswith(".") and entry.name not in LEFT_OUT]
 
 
 def colour_names(name: str, kind: str, domain: str) -> list[str]:
-    """The colours that hold an attribute; those of faces lie at their corners, for want of others."""
+    """The colours that hold an attribute; those of faces, and of edges, lie at their corners, for want of others."""
     place = "point" if domain == "POINT" else "corner"
     key = zlib.crc32(f"{domain} {kind} {name}".encode())
     return [f"{place}_{key:08x}_{number}" for number in range((WIDTHS[kind][0] + 2) // 3)]
@@ -40,16 +40,21 @@ def packed(mesh: bpy.types.Mesh, attributes: list, material: np.ndarray) -> dict
 
     Parameters
     ----------
-    material : (faces,) int
-        A number for the material of each face.
+    material : (faces, 3) int
+        A number for the material of each face, in parts.
     """
     sizes = np.empty(len(mesh.polygons), dtype=np.int32)
     mesh.polygons.foreach_get("loop_total", sizes)
-    made = {MATERIAL: ("CORNER", _colour(np.repeat(material, sizes)[:, None]))}
+    made = {MATERIAL: ("CORNER", _colour(np.repeat(material, sizes, axis=0)))}
     for name, kind, domain in attributes:
         values = _values(mesh.attributes[name], kind)
         if domain == "FACE":
             values = np.repeat(values, sizes, axis=0)
+        elif domain == "EDGE":
+            # of the edge that leads from a corner to the next one
+            edges = np.empty(len(mesh.loops), dtype=np.int32)
+            mesh.loops.foreach_get("edge_index", edges)
+            values = values[edges]
         for number, colour in enumerate(colour_names(name, kind, domain)):
             made[colour] = ("POINT" if domain == "POINT" else "CORNER", _colour(values[:, 3 * number:3 * number + 3]))
     return made

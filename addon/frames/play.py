@@ -10,7 +10,7 @@ import numpy as np
 from .. import compat
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from ..lighting import forget_light, forget_previews, new_material
-from ..reading import every_result_of, render_size, results_of
+from ..reading import camera_of, every_result_of, render_size, results_of
 from ..writing import forget_nodes, hide_discs, new_object, set_window, show_own_materials
 from .frame_records import FrameRecord
 from .play_nodes import NAME, unpacking_nodes
@@ -30,15 +30,21 @@ class Sequence:
     records : list of FrameRecord
         In the order of their frames.
     name : str
-        What tells it from sequences of other cameras; empty where there are none.
+        What tells it from other sequences of the same mirrors; empty where there are none.
     placements : dict
         Where each mirror's reflection lies, by the mirror's name.
+    camera : str
+        The name of its camera where others have sequences too; empty where it is right for every camera.
+    layers : int
+        How many faces of light lie over each other in those frames that were made just now.
     """
 
     folder: str
     records: list[FrameRecord]
     name: str
     placements: dict
+    camera: str = ""
+    layers: int = 0
 
 
 @dataclass(frozen=True)
@@ -63,15 +69,17 @@ class Player:
 
 
 def player_of(sequence: Sequence, mirror: bpy.types.Object, light: bpy.types.Material | None,
-              whole: AllOrNothing) -> Player:
+              whole: AllOrNothing, key: str = "") -> Player:
     """Read the files of one mirror; nothing that the user has is changed.
 
     Parameters
     ----------
+    key : str
+        Of its result in the records; empty where that is the mirror's name.
     light : bpy.types.Material or None
         What shows the sequence's light, from `light_of`.
     """
-    known = [record.results[mirror.name] for record in sequence.records]
+    known = [record.results[key or mirror.name] for record in sequence.records]
     materials = sorted({entry for result in known for entry in result.materials})
     nodes = unpacking_nodes(sorted({entry for result in known for entry in result.attributes}), materials)
     whole.undo(_remove, nodes)
@@ -82,19 +90,16 @@ def player_of(sequence: Sequence, mirror: bpy.types.Object, light: bpy.types.Mat
 def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOrNothing) -> bpy.types.Object:
     """Let the result of a mirror play: the one that it has, or a new one."""
     mirror = player.mirror
-    obj = _object(context, mirror, player.sequence.name, whole)
+    obj = _object(context, mirror, player.sequence, whole)
     keep_mirror(mirror, whole)
     show_own_materials(obj)
     whole.after(forget_previews)
-    mesh, record = obj.data, obj.reflection_mesh
-    mesh.clear_geometry()
-    mesh.materials.clear()
+    record = obj.reflection_mesh
+    show_frames(obj, player, [material_of(*entry) for entry in player.materials or [("", "")]], whole)
     record.materials.clear()
-    for entry in player.materials or [("", "")]:
-        mesh.materials.append(_material(*entry))
+    for material in obj.data.materials:
         # else those of the frames, which are in another order, count as the user's when it is generated again
-        record.materials.add().material = mesh.materials[-1]
-    _add_modifiers(obj, player, whole)
+        record.materials.add().material = material
     record.role, record.mirror, record.faces, record.points = "REFLECTION", mirror, 0, 0
     record.resolution = render_size(context.scene)
     record.sources.clear()
@@ -107,10 +112,19 @@ def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOr
     if player.light is not None:
         for slot in obj.material_slots:
             slot.link, slot.material = "OBJECT", player.light
-    # without a name it plays what markers choose, and is right for every camera
-    record.camera = context.scene.objects.get(player.sequence.name) if player.sequence.name else None
+    # without one it plays what markers choose, and is right for every camera
+    record.camera = context.scene.objects.get(player.sequence.camera) if player.sequence.camera else None
     set_window(obj, player.sequence.placements[mirror.name])
     return obj
+
+
+def show_frames(obj: bpy.types.Object, player: Player, materials: list, whole: AllOrNothing) -> None:
+    """Let an object play instead of showing its own mesh, with these materials in its slots."""
+    obj.data.clear_geometry()
+    obj.data.materials.clear()
+    for material in materials:
+        obj.data.materials.append(material)
+    _add_modifiers(obj, player, whole)
 
 
 def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
@@ -175,24 +189,33 @@ def stop_playing(obj: bpy.types.Object) -> None:
         forget_light(light)
 
 
-def _object(context: bpy.types.Context, mirror: bpy.types.Object, name: str,
+def _object(context: bpy.types.Context, mirror: bpy.types.Object, sequence: Sequence,
             whole: AllOrNothing) -> bpy.types.Object:
-    """The result that is to play, which is the mirror's own, or with several sequences the one that is called so."""
-    called = f"{mirror.name} Reflection {name}"
-    earlier = [obj for obj in every_result_of(context, mirror) if obj.name == called] if name else results_of(
-        context, mirror)
+    """The result that is to play, which is the mirror's own; of several sequences the one that is called so, or a still
+    that its camera sees, and would see besides."""
+    name, called = sequence.name, f"{mirror.name} Reflection {sequence.name}".strip()
+    earlier = results_of(context, mirror)
+    if name:
+        every = every_result_of(context, mirror)
+        stills = [obj for obj in every
+                  if not plays(obj) and sequence.camera in ("", getattr(camera_of(obj), "name", ""))]
+        earlier = [obj for obj in every if obj.name == called] or stills
     if not earlier:
         obj = new_object(context, mirror, whole)
         if name:
             obj.name = called
         return obj
-    keep_object(earlier[0], whole)
-    keep_data(earlier[0], whole)
-    hide_discs(earlier[0])
-    return earlier[0]
+    obj = earlier[0]
+    keep_object(obj, whole)
+    keep_data(obj, whole)
+    hide_discs(obj)
+    if name:
+        whole.undo(setattr, obj, "name", obj.name)
+        obj.name = called
+    return obj
 
 
-def _material(name: str, library: str) -> bpy.types.Material | None:
+def material_of(name: str, library: str) -> bpy.types.Material | None:
     """A material of the file by its name; None where it is gone."""
     found = [material for material in bpy.data.materials if material.name == name
              and (material.library.filepath if material.library else "") == library]

@@ -42,21 +42,32 @@ class _Unpack:
     def __init__(self, tree: bpy.types.NodeTree) -> None:
         self.builder = Builder(tree)
 
-    def with_material(self, geometry: bpy.types.NodeSocket, index: int, key: int) -> bpy.types.NodeSocket:
-        """Faces whose number is `key` show the material of slot `index`."""
-        same = self.builder.add("FunctionNodeCompare", data_type="INT", operation="EQUAL")
-        first, second = (socket for socket in same.inputs if socket.enabled)
-        self.builder.join(self._rounded(self._numbers(MATERIAL)[0]), first)
-        second.default_value = key
+    def with_material(self, geometry: bpy.types.NodeSocket, index: int, key: tuple) -> bpy.types.NodeSocket:
+        """Faces whose number is `key`, in parts, show the material of slot `index`."""
+        chosen = None
+        for part, number in zip(key, self._numbers(MATERIAL), strict=True):
+            same = self.builder.add("FunctionNodeCompare", data_type="INT", operation="EQUAL")
+            first, second = (socket for socket in same.inputs if socket.enabled)
+            self.builder.join(self._rounded(number), first)
+            second.default_value = part
+            chosen = same.outputs[0] if chosen is None else self._both(chosen, same.outputs[0])
         node = self.builder.add("GeometryNodeSetMaterialIndex")
         self.builder.join(geometry, node.inputs["Geometry"])
-        self.builder.join(same.outputs[0], node.inputs["Selection"])
+        self.builder.join(chosen, node.inputs["Selection"])
         node.inputs["Material Index"].default_value = index
         return node.outputs["Geometry"]
+
+    def _both(self, one: bpy.types.NodeSocket, other: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+        node = self.builder.add("FunctionNodeBooleanMath", operation="AND")
+        self.builder.join(one, node.inputs[0])
+        self.builder.join(other, node.inputs[1])
+        return node.outputs[0]
 
     def stored(self, geometry: bpy.types.NodeSocket, name: str, kind: str, domain: str) -> bpy.types.NodeSocket:
         """An attribute under its own name."""
         numbers = [number for colour in colour_names(name, kind, domain) for number in self._numbers(colour)]
+        if domain == "EDGE":
+            numbers = list(map(self._at_first_corner, numbers))
         node = self.builder.add("GeometryNodeStoreNamedAttribute", data_type=kind, domain=domain)
         node.inputs["Name"].default_value = name
         self.builder.join(geometry, node.inputs["Geometry"])
@@ -68,6 +79,16 @@ class _Unpack:
         node = self.builder.add("FunctionNodeSeparateColor", mode="RGB")
         self.builder.join(self.builder.read(colour, "FLOAT_COLOR"), node.inputs[0])
         return list(node.outputs[:3])
+
+    def _at_first_corner(self, number: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+        """What one of the corners that an edge leads from says; all of them say the same."""
+        corner = self.builder.add("GeometryNodeCornersOfEdge")
+        there = self.builder.add("GeometryNodeFieldAtIndex", data_type="FLOAT", domain="CORNER")
+        index = next(socket for socket in there.inputs if socket.name == "Index")
+        value = next(socket for socket in there.inputs if socket.name == "Value" and socket.enabled)
+        self.builder.join(corner.outputs["Corner Index"], index)
+        self.builder.join(number, value)
+        return next(socket for socket in there.outputs if socket.enabled)
 
     def _together(self, kind: str, numbers: list) -> bpy.types.NodeSocket:
         if kind in {"INT", "INT8", "BOOLEAN"}:

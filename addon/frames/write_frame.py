@@ -16,16 +16,27 @@ from .packed_mesh import packable, packed
 NAME = "reflection"
 OBJECT_PATH = f"/root/{NAME}"
 MESH_PATH = f"{OBJECT_PATH}/{NAME}"
-MOST_KEYS = 1 << 23     # whole numbers that a colour holds exactly, and their sums too
+BITS = (12, 12, 8)      # of a material's number in each part of a colour: means of so small ones are exact
 
 
-def material_key(name: str, library: str) -> int:
-    """A number for a material, the same in whatever process and whatever else the file holds; 0 for none."""
-    return zlib.crc32(f"{library}\n{name}".encode()) % (MOST_KEYS - 1) + 1 if name else 0
+def material_key(name: str, library: str) -> tuple[int, ...]:
+    """A number for a material in three parts, the same in whatever process and whatever else the file holds; zeros for
+    none."""
+    number, parts = (max(zlib.crc32(f"{library}\n{name}".encode()), 1) if name else 0), []
+    for bits in BITS:
+        parts.append(number & ((1 << bits) - 1))
+        number >>= bits
+    return tuple(parts)
 
 
-def write_result(context: bpy.types.Context, result: bpy.types.Object | None, path: str, lit: bool) -> ResultRecord:
+def write_result(context: bpy.types.Context, result: bpy.types.Object | None, path: str, lit: bool,
+                 materials: list | None = None) -> ResultRecord:
     """Write what a result shows, modifiers included, or nothing where there is none.
+
+    Parameters
+    ----------
+    materials : list, optional
+        What is told of its materials instead of these.
 
     Raises
     ------
@@ -34,17 +45,17 @@ def write_result(context: bpy.types.Context, result: bpy.types.Object | None, pa
     """
     mesh = bpy.data.meshes.new(NAME)
     try:
-        attributes, materials, matrix = [], [], None
+        attributes, slots, matrix = [], [], None
         if result is not None:
             depsgraph = context.evaluated_depsgraph_get()
             shown = result.evaluated_get(depsgraph)
-            attributes, materials = _fill(mesh, shown.to_mesh(), result.data.materials)
+            attributes, slots = _fill(mesh, shown.to_mesh(), result.data.materials if materials is None else materials)
             matrix = result.matrix_world
             shown.to_mesh_clear()
         _export(context, mesh, matrix, path)
     finally:
         bpy.data.meshes.remove(mesh)
-    return ResultRecord(os.path.basename(path), tuple(attributes), tuple(materials), lit)
+    return ResultRecord(os.path.basename(path), tuple(attributes), tuple(slots), lit)
 
 
 def write_image(material: bpy.types.Material, path: str) -> None:
@@ -87,7 +98,7 @@ def _fill(mesh: bpy.types.Mesh, shown: bpy.types.Mesh, slots) -> tuple[list, lis
     mesh.loops.foreach_set("vertex_index", corners)
     mesh.polygons.foreach_set("loop_start", starts)
     materials = [(slot.name, slot.library.filepath if slot.library else "") if slot else ("", "") for slot in slots]
-    keys = np.array([material_key(*entry) for entry in materials] or [0])
+    keys = np.array([material_key(*entry) for entry in materials] or [(0,) * len(BITS)])
     attributes = packable(shown)
     for name, (domain, values) in packed(shown, attributes, keys[np.minimum(index, len(keys) - 1)]).items():
         mesh.attributes.new(name, "FLOAT_COLOR", domain).data.foreach_set("color", values.ravel())

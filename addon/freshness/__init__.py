@@ -1,6 +1,16 @@
 """What a result was made from, and whether that has changed since: told in one sentence, and mended by Generate."""
-from .digests import register, unregister
-from .made_from import COARSE, Origin, origin_of, record_of, same_view, view_numbers, why_stale
+from .digests import digest_of, register, unregister
+from .frame_origin import frame_difference, frame_origin
+from .made_from import (
+    COARSE,
+    Origin,
+    origin_of,
+    record_of,
+    same_view,
+    settings_of,
+    view_numbers,
+    why_stale,
+)
 
-__all__ = ["COARSE", "Origin", "origin_of", "record_of", "register", "same_view", "unregister", "view_numbers",
-           "why_stale"]
+__all__ = ["COARSE", "Origin", "digest_of", "frame_difference", "frame_origin", "origin_of", "record_of", "register",
+           "same_view", "settings_of", "unregister", "view_numbers", "why_stale"]

@@ -12,6 +12,8 @@ import numpy as np
 from bpy.app.handlers import persistent
 
 from ..reading import SURFACES
+from ..registration import Handlers
+from .materials import forget_materials
 
 # how the values of an attribute are read: property, components, type
 LAYOUTS = {"FLOAT": ("value", 1, np.float32), "FLOAT_VECTOR": ("vector", 3, np.float32),
@@ -83,6 +85,7 @@ def _after_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> No
     if depsgraph.mode != "VIEWPORT":
         return
     _ticks[0] += 1
+    forget_materials([update.id for update in depsgraph.updates])
     for update in depsgraph.updates:
         if update.is_updated_geometry and isinstance(update.id, bpy.types.Object):
             forget(update.id.original.session_uid)
@@ -93,21 +96,15 @@ def _after_all(*_) -> None:
     """After whatever may have exchanged everything."""
     _ticks[0] += 1
     forget()
+    forget_materials()
 
 
-def _handlers() -> list:
-    handlers = bpy.app.handlers
-    return [(handlers.depsgraph_update_post, _after_change), (handlers.frame_change_post, _after_change),
-            *((handlers_of, _after_all) for handlers_of in (handlers.undo_post, handlers.redo_post,
-                                                            handlers.load_post))]
-
-
-def register() -> None:
-    for handlers, function in _handlers():
-        handlers.append(function)
+HANDLERS = Handlers((_after_change, "depsgraph_update_post", "frame_change_post"),
+                    (_after_all, "undo_post", "redo_post", "load_post"))
+register = HANDLERS.register
 
 
 def unregister() -> None:
-    for handlers, function in _handlers():
-        handlers.remove(function)
+    HANDLERS.unregister()
     forget()
+    forget_materials()

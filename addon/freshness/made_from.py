@@ -9,8 +9,11 @@ import numpy as np
 
 from ...core import ReflectionError, View
 from ..frames import plays
+from ..lighting import shows_preview
 from ..reading import read_view
+from ..settings import SETTINGS, Wanted
 from . import digests
+from .materials import colours_of, materials_of
 
 SAME = 1e-6  # of a matrix's largest number: what differs by less has been there and back
 LONGEST = 20_000  # characters of a record; its own are below a thousand
@@ -21,21 +24,33 @@ _told: dict[int, tuple] = {}
 
 
 class Origin(NamedTuple):
-    """What a result is made from: the numbers of the view, and digests of the mirror and of the sources."""
+    """What a result is made from: the numbers of the view, and digests of the mirror, of the sources, of which
+    materials all of these show and of what the materials are made of; None where an earlier version did not tell."""
 
     view: tuple[float, ...]
     mirror: str
     sources: str
+    materials: str | None
+    colours: str | None
 
 
 def origin_of(depsgraph: bpy.types.Depsgraph, view: View, mirror: bpy.types.Object, sources: list) -> Origin:
     """What a result would be made from now."""
-    return Origin(view_numbers(view), digests.digest_of(depsgraph, [mirror]), digests.digest_of(depsgraph, sources))
+    return Origin(view_numbers(view), digests.digest_of(depsgraph, [mirror]), digests.digest_of(depsgraph, sources),
+                  materials_of([mirror, *sources]), colours_of([mirror, *sources]))
 
 
-def record_of(origin: Origin) -> str:
-    """The text that a result keeps."""
-    return json.dumps({**origin._asdict(), "view": [float(f"{number:.8g}") for number in origin.view]})
+def record_of(origin: Origin, settings: dict) -> str:
+    """The text that a result keeps; `settings` are those that its file held for it."""
+    return json.dumps({**origin._asdict(), "view": [float(f"{number:.8g}") for number in origin.view],
+                       "settings": settings})
+
+
+def settings_of(scene: bpy.types.Scene, mirror: bpy.types.Object) -> dict:
+    """The settings that a scene holds for a mirror, and that its reflection depends on."""
+    wanted = Wanted(scene)
+    # memory bounds the work, and seldom what comes of it
+    return {name: wanted.value(mirror, name) for name in SETTINGS if name != "memory"}
 
 
 def same_view(one: tuple, other: tuple) -> bool:
@@ -51,44 +66,60 @@ def why_stale(context: bpy.types.Context, result: bpy.types.Object) -> str:
 
     As cheap as a look: what it finds is kept until something changes again.
     """
-    text = result.reflection_mesh.made_from
-    if not text or plays(result):
+    record = result.reflection_mesh
+    if not record.made_from or plays(result):
         return ""
-    key = digests.tick(), text
+    # settings are no change that Blender tells of
+    key = digests.tick(), record.made_from, *settings_of(context.scene, record.mirror).values()
     if _told.get(result.session_uid, (None,))[0] != key:
-        made = _read(text)
-        _told[result.session_uid] = key, "" if made is None else _changed(context, result, made)
+        _told[result.session_uid] = key, _changed(context, result)
     return _told[result.session_uid][1]
 
 
-def _changed(context: bpy.types.Context, result: bpy.types.Object, made: Origin | str) -> str:
-    """What is no longer as it was `made` from."""
+def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
+    """What is no longer as it was when a result was made."""
     record = result.reflection_mesh
-    sources = [source.object for source in record.sources]
-    if isinstance(made, str):
+    if record.made_from == COARSE:
         return "Live was stopped before it was exact"
+    made = read_record(record.made_from)
+    if made is None:
+        return ""
+    sources = [source.object for source in record.sources]
     if record.mirror is None or None in sources:
         return "an object was removed"
     try:
         now = origin_of(context.evaluated_depsgraph_get(), read_view(context), record.mirror, sources)
     except ReflectionError:
         return ""
+    origin, settings = made
+    why = difference(origin, now)
+    if not why and settings not in ({}, settings_of(context.scene, record.mirror)):
+        why = "the settings have changed"
+    # a result shows the very materials of its sources, but for previews, which are made of them
+    if not why and shows_preview(result) and origin.colours not in (None, now.colours):
+        why = "the colours of materials have changed"
+    return why
+
+
+def difference(made: Origin, now: Origin) -> str:
+    """What tells two origins apart, but for colours, in a few words; empty where nothing does."""
     if not same_view(made.view, now.view):
         return "the camera or the picture's size has changed"
     if made.mirror != now.mirror:
         return "the mirror has changed"
-    return "a reflected object has changed" if made.sources != now.sources else ""
+    if made.sources != now.sources:
+        return "a reflected object has changed"
+    return "materials have been exchanged" if made.materials not in (None, now.materials) else ""
 
 
-def _read(text: str) -> Origin | str | None:
-    """What a record tells; None where it is none of this extension's."""
+def read_record(text: str) -> tuple[Origin, dict] | None:
+    """The origin and the settings that `record_of` wrote; None where it wrote none."""
     if not text or len(text) > LONGEST:
         return None
     try:
         known = json.loads(text)
-        if known.get("coarse") is True:
-            return text
-        return Origin(tuple(float(number) for number in known["view"]), str(known["mirror"]), str(known["sources"]))
+        return Origin(tuple(float(number) for number in known["view"]), str(known["mirror"]), str(known["sources"]),
+                      known.get("materials"), known.get("colours")), dict(known.get("settings") or {})
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
 

@@ -3,6 +3,7 @@
 `LiveUpdater` is told of changes (`note`) and asked to work (`step`); handlers and a timer do both. What is written, is
 written by `generation`; between two of its results their vertices follow what moves.
 """
+from ..registration import together
 from . import switch, update
 from .kept import kept_results
 from .switch import present
@@ -11,11 +12,4 @@ from .updater import LiveUpdater
 __all__ = ["LiveUpdater", "kept_results", "present", "register", "unregister"]
 
 
-def register() -> None:
-    switch.register()
-    update.register()
-
-
-def unregister() -> None:
-    update.unregister()
-    switch.unregister()
+register, unregister = together(switch, update)

@@ -5,15 +5,15 @@ import bpy
 
 from ...core import ReflectionError
 from ..frames import plays
-from ..reading import Participants, results_of, visible
+from ..reading import Participants, known_results, results_of, visible
 
 
 def kept_results(context: bpy.types.Context) -> list:
     """The results of the scene that are made anew when something moves."""
-    layer = set(context.view_layer.objects)
-    return [obj for obj in context.scene.objects if obj.reflection_mesh.role == "REFLECTION" and obj in layer
-            and obj.type == "MESH" and obj.reflection_mesh.mirror is not None and not plays(obj)
-            and obj in results_of(context, obj.reflection_mesh.mirror)]
+    known = known_results(context.scene, context.view_layer)
+    return [obj for obj in known if obj.reflection_mesh.role == "REFLECTION" and obj.type == "MESH"
+            and obj.reflection_mesh.mirror is not None and not plays(obj)
+            and obj in results_of(context, obj.reflection_mesh.mirror, known)]
 
 
 def groups(context: bpy.types.Context) -> list[Participants]:

@@ -5,7 +5,10 @@ import bpy
 from bpy.app.handlers import persistent
 from bpy.props import BoolProperty, EnumProperty, PointerProperty
 
-from .. import compat, polls
+from .. import compat
+from ..operators import polls
+from ..reading import known_results
+from ..registration import Handlers
 from .updater import LiveUpdater
 
 INTERVAL = 0.02     # seconds between two looks
@@ -30,8 +33,7 @@ def start(of_viewport: bool) -> None:
     global updater
     stop()
     updater = LiveUpdater(of_viewport)
-    for handlers, function in _handlers():
-        handlers.append(function)
+    HANDLERS.register()
     bpy.app.timers.register(_tick, first_interval=INTERVAL)
 
 
@@ -40,9 +42,7 @@ def stop() -> None:
     global updater
     if updater is not None:
         updater.forget()
-        for handlers, function in _handlers():
-            if function in handlers:
-                handlers.remove(function)
+        HANDLERS.unregister()
         if bpy.app.timers.is_registered(_tick):
             bpy.app.timers.unregister(_tick)
     updater = None
@@ -84,15 +84,15 @@ def _after_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Non
     # a render's depsgraph tells of nothing that has happened in the file
     if updater is None or depsgraph.mode != "VIEWPORT":
         return
-    own = _own(scene)
+    own = _own(scene, depsgraph.view_layer)
     changed = [update.id for update in depsgraph.updates if update.id.original not in own]
     if changed:
         updater.note(not all(map(_is_camera, changed)))
 
 
-def _own(scene: bpy.types.Scene) -> set:
+def _own(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set:
     """Results and their meshes, which Live itself writes."""
-    results = {obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
+    results = set(known_results(scene, layer))
     return results | {obj.data for obj in results}
 
 
@@ -119,11 +119,10 @@ def _before_opening(*_) -> None:
     stop()
 
 
-def _handlers() -> list:
-    handlers = bpy.app.handlers
-    return [(handlers.depsgraph_update_post, _after_change), (handlers.frame_change_post, _after_change),
-            (handlers.undo_pre, _before_other_data), (handlers.redo_pre, _before_other_data),
-            (handlers.undo_post, _after_other_data), (handlers.redo_post, _after_other_data)]
+HANDLERS = Handlers((_after_change, "depsgraph_update_post", "frame_change_post"),
+                    (_before_other_data, "undo_pre", "redo_pre"), (_after_other_data, "undo_post", "redo_post"))
+# not with the others: Blender passes over the next handler where one goes while its list is gone through
+OPENING = Handlers((_before_opening, "load_pre"))
 
 
 def _switch(live: bpy.types.PropertyGroup, on: bool) -> None:
@@ -172,13 +171,12 @@ def register() -> None:
         bpy.utils.register_class(cls)
     compat.let_go_at_exit(ReflectionLive)
     bpy.types.WindowManager.reflection_mesh_live = PointerProperty(name="Live Reflections", type=ReflectionLive)
-    # not with the others: Blender passes over the next handler where one goes while its list is gone through
-    bpy.app.handlers.load_pre.append(_before_opening)
+    OPENING.register()
 
 
 def unregister() -> None:
     stop()
-    bpy.app.handlers.load_pre.remove(_before_opening)
+    OPENING.unregister()
     del bpy.types.WindowManager.reflection_mesh_live
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -19,8 +19,10 @@ class Track:
 
     Attributes
     ----------
-    result, mirror : int
-        `session_uid` of the objects: what has a name may be renamed, and what is pointed to may go.
+    results : tuple of int
+        `session_uid` of the result and of its copies: what has a name may be renamed, and what is pointed to may go.
+    mirror : int
+        The same of the mirror.
     placement : str
     origin : (3,) float64
         From where the positions of the mesh are told.
@@ -30,7 +32,7 @@ class Track:
         How many the mirror and the scene have.
     """
 
-    result: int
+    results: tuple[int, ...]
     mirror: int
     placement: str
     origin: np.ndarray
@@ -38,33 +40,37 @@ class Track:
     triangles: tuple[int, int]
 
     @classmethod
-    def of(cls, obj: bpy.types.Object, result: ReflectionMesh, placement: str, view: View, mirror: TriangleMesh,
+    def of(cls, written: list, result: ReflectionMesh, placement: str, view: View, mirror: TriangleMesh,
            scene: TriangleMesh) -> Track | None:
-        """The way of a result that was written just now; None where it cannot be followed: it shows mirrors in mirrors,
-        or points."""
+        """The way of a result that was written just now, to the objects `written`; None where it cannot be followed: it
+        shows mirrors in mirrors, or points."""
         if result.discs is not None or (result.bounces > 1).any():
             return None
         result, origin = vertices_written(result, mirror, view)
-        if len(result.positions) != len(obj.data.vertices):
+        if any(len(result.positions) != len(obj.data.vertices) for obj in written):
             return None
         images = FollowedImages.of(view, mirror, result)
-        return cls(obj.session_uid, obj.reflection_mesh.mirror.session_uid, placement, origin, images,
-                   (len(mirror.triangles), len(scene.triangles)))
+        return cls(tuple(obj.session_uid for obj in written), written[0].reflection_mesh.mirror.session_uid, placement,
+                   origin, images, (len(mirror.triangles), len(scene.triangles)))
 
-    def fits(self, obj: bpy.types.Object | None, mirror: TriangleMesh, scene: TriangleMesh) -> bool:
-        """Whether the result is still the one that was written, and what it shows has not changed but for its place."""
-        return (obj is not None and len(obj.data.vertices) == self.images.source.size
+    def fits(self, objects: dict, mirror: TriangleMesh, scene: TriangleMesh) -> bool:
+        """Whether the results, by their `session_uid`, are still those that were written, and what they show has not
+        changed but for its place."""
+        results = [objects.get(uid) for uid in self.results]
+        return (all(obj is not None and len(obj.data.vertices) == self.images.source.size for obj in results)
                 and (len(mirror.triangles), len(scene.triangles)) == self.triangles)
 
-    def moved(self, obj: bpy.types.Object, view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Track:
-        """The result where the view sees it now, written."""
+    def moved(self, objects: dict, view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Track:
+        """The results where the view sees them now, written."""
         now = self.images.seen(view, mirror, scene, self.placement)
-        mesh = obj.data
-        _write(mesh, "position", now.positions - self.origin)
-        for name in ATTRIBUTES:
-            _write(mesh, name, getattr(now, name))
-        obj.reflection_mesh.made_from = COARSE
-        mesh.update()
+        results = [objects[uid] for uid in self.results]
+        for mesh in {obj.data for obj in results}:
+            _write(mesh, "position", now.positions - self.origin)
+            for name in ATTRIBUTES:
+                _write(mesh, name, getattr(now, name))
+            mesh.update()
+        for obj in results:
+            obj.reflection_mesh.made_from = COARSE
         return replace(self, images=now.images)
 
 

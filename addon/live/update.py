@@ -3,12 +3,12 @@ import time
 
 import bpy
 
-from .. import polls
-from ..faults import SteppedOperator, Steps, part
+from ..faults import SteppedOperator, Steps, part, tell
 from ..freshness import why_stale
-from ..generate import IN_OBJECT_MODE, generation
+from ..operators import polls
+from ..operators.generate import IN_OBJECT_MODE, generation
+from ..operators.write_results import Manners
 from ..settings import Wanted
-from ..write_results import Manners
 from .kept import groups, kept_results
 
 NOTHING_STALE = "No reflection is stale."
@@ -37,13 +37,13 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
         stale = {obj.reflection_mesh.mirror for obj in kept_results(context) if why_stale(context, obj)}
         chosen = [group for group in groups(context) if stale.intersection(group.mirrors)]
         if not chosen:
-            self.report({"INFO"}, NOTHING_STALE)
+            tell(self, {"INFO"}, NOTHING_STALE)
         for number, group in enumerate(chosen):
             steps = generation(context, group, Wanted(context.scene), manners=Manners(preview_unlit=self._pressed))
             outcome = yield from part(steps, number / len(chosen), 1.0 / len(chosen))
             for remark in outcome.remarks:
-                self.report({"WARNING"}, remark)
-            self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
+                tell(self, {"WARNING"}, remark)
+            tell(self, {"INFO"}, outcome.summary(time.perf_counter() - started))
 
 
 def register() -> None:

@@ -9,9 +9,11 @@ import bpy
 from ...core import ReflectionError, View
 from ..faults import sentence
 from ..freshness import COARSE, same_view, view_numbers
-from ..reading import read_mirror, read_scene
+from ..reading import known_results
+from ..standing import Kept
 from .eye import read_eye
 from .pace import Pace
+from .thrown import ThrownLight
 from .track import Track
 from .watched import Record, Watched, watched
 from .work import Work
@@ -24,7 +26,7 @@ REST = 4.0      # how many times what these take
 
 
 class LiveUpdater:
-    """Keeps the results of a scene right.
+    """Keeps the results of a scene right: reflections here, and light that mirrors throw by `thrown`.
 
     `note` is told that something may have changed; `step`, asked every now and then, finds out what, and works a
     little. Between two steps it holds nothing of Blender's but the work that is under way, which `forget` ends.
@@ -35,17 +37,15 @@ class LiveUpdater:
         Whether results are right for the 3D viewport's view.
     milliseconds : float
         What the last update took.
-    told : str
-        What keeps it from working, or what went wrong; empty where nothing does.
-    at_rest : bool
-        Whether all is as it is to be.
+    thrown : ThrownLight
     updates : dict of str to int
         How many there were: `followed`, `coarse` and `exact`.
     """
 
     def __init__(self, of_viewport: bool = False) -> None:
         self.of_viewport = of_viewport
-        self.milliseconds, self.told, self.at_rest = 0.0, "", False
+        self.milliseconds, self.thrown = 0.0, ThrownLight()
+        self._told, self._rests = "", False
         self.updates = {"followed": 0, "coarse": 0, "exact": 0}
         self._pace = Pace()
         self._noted = self._moved = True
@@ -58,32 +58,51 @@ class LiveUpdater:
         self._moving: float | None = None   # since when vertices have followed
         self._took = 0.0                    # seconds that the last new results took
 
+    @property
+    def told(self) -> str:
+        """What keeps it from working, or what went wrong; empty where nothing does."""
+        only_light = self._told == NOTHING_YET and self.thrown.is_there
+        return self.thrown.told or ("" if only_light else self._told)
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether all is as it is to be."""
+        return self._rests and self.thrown.at_rest
+
     def note(self, moved: bool = True) -> None:
         """Something may have changed: the view alone, or, where it `moved`, what mirrors or is reflected."""
         self._noted, self._moved = True, self._moved or moved
+        if moved:
+            self.thrown.note()
 
     def forget(self) -> None:
         """Let go of all that is Blender's and of what is known of the file, which may be another one now."""
         self._drop_work()
-        self._tracks, self._meshes, self._record, self._looked, self.at_rest = [], {}, None, None, False
+        self._tracks, self._meshes, self._record, self._looked, self._rests = [], {}, None, None, False
+        self.thrown.forget()
         self.note()
 
     def step(self, context: bpy.types.Context, now: float) -> str:
         """Work a little; returns what was done: "followed", "coarse", "exact", "working", or "" for nothing."""
         try:
-            return self._step(context, now)
+            done = self._step(context, now)
         except ReflectionError as error:
-            return self._give_up(str(error))
+            done = self._give_up(str(error))
         except Exception as error:
-            return self._give_up(sentence(error, "Live"))
+            done = self._give_up(sentence(error, "Live"))
+        light = self.thrown.step(context, now)
+        if light in self.updates:
+            self.updates[light] += 1
+            self.milliseconds = 1000.0 * self.thrown.seconds
+        return done or light
 
     def _step(self, context: bpy.types.Context, now: float) -> str:
         if context.mode != "OBJECT":
             self._drop_work()
-            self.told = WAITS
+            self._told = WAITS
             return ""
         if not (self._noted or self.of_viewport):
-            if self.at_rest or (self._work is None and now - self._changed < PAUSE):
+            if self._rests or (self._work is None and now - self._changed < PAUSE):
                 return ""
         started = time.perf_counter()
         view = read_eye(context, self.of_viewport)
@@ -93,7 +112,7 @@ class LiveUpdater:
                 return ""
             if not current.record.same(self._record):
                 return self._change(context, current, now, started)
-        if self.at_rest:
+        if self._rests:
             return ""
         rested = now - self._changed >= PAUSE
         if rested and self._work is not None and self._tracks and not self._work.exact:
@@ -110,14 +129,14 @@ class LiveUpdater:
         self._noted = self._moved = False
         if not current.chosen:
             self._drop_work()
-            self.told, self._looked, self._record, self._tracks = NOTHING_YET, None, None, []
-            self.at_rest = True
+            self._told, self._looked, self._record, self._tracks = NOTHING_YET, None, None, []
+            self._rests = True
             return None
-        self.told = ""
+        self._told = ""
         if not current.record.same(self._looked):
             # what Live begins with is made exact at once
             self._changed = now if self._looked is not None else now - PAUSE
-            self.at_rest = False
+            self._rests = False
         self._looked = current.record
         return current
 
@@ -161,12 +180,11 @@ class LiveUpdater:
         meshes = self._meshes
         if current.record.digests != self._record.digests:
             meshes = _read(context, current)
-        objects = {obj.session_uid: obj for obj in context.scene.objects}
-        if not all(track.fits(objects.get(track.result), *meshes[track.mirror]) for track in self._tracks):
+        objects = {obj.session_uid: obj for obj in known_results(context.scene, context.view_layer)}
+        if not all(track.fits(objects, *meshes[track.mirror]) for track in self._tracks):
             self._tracks = []
             return False
-        self._tracks = [track.moved(objects[track.result], current.view, *meshes[track.mirror])
-                        for track in self._tracks]
+        self._tracks = [track.moved(objects, current.view, *meshes[track.mirror]) for track in self._tracks]
         self._meshes, self._record = meshes, current.record
         return True
 
@@ -176,9 +194,9 @@ class LiveUpdater:
         if not work.go_on():
             return "working"
         self._work, self._moving, self._took = None, None, work.seconds
-        self.told, self.milliseconds = work.told, 1000.0 * work.seconds
+        self._told, self.milliseconds = work.told, 1000.0 * work.seconds
         self._keep_track(work)
-        self._record, self.at_rest = work.record, work.exact
+        self._record, self._rests = work.record, work.exact
         kind = "exact" if work.exact else "coarse"
         self.updates[kind] += 1
         if work.on_the_way and not self._tracks:
@@ -187,7 +205,7 @@ class LiveUpdater:
         if current.record.same(work.record):
             return kind
         # all has moved on meanwhile, and nobody is to see where it was
-        self._noted, self._moved, self.at_rest = True, True, False
+        self._noted, self._moved, self._rests = True, True, False
         self._follow(context, current)
         return kind
 
@@ -200,10 +218,12 @@ class LiveUpdater:
             for obj, result in outcome.results:
                 mirror = obj.reflection_mesh.mirror
                 meshes = surfaces[mirror].mesh, scene.mesh
-                tracks.append(Track.of(obj, result, work.settings[mirror.session_uid].placement, view, *meshes))
+                written = [obj, *(copy for copy in outcome.copies if copy.reflection_mesh.mirror == mirror)]
+                tracks.append(Track.of(written, result, work.settings[mirror.session_uid].placement, view, *meshes))
                 self._meshes[mirror.session_uid] = meshes
                 if not work.exact:
-                    obj.reflection_mesh.made_from = COARSE
+                    for one in written:
+                        one.reflection_mesh.made_from = COARSE
         if all(track is not None for track in tracks):
             self._tracks = tracks
 
@@ -215,7 +235,7 @@ class LiveUpdater:
     def _give_up(self, told: str) -> str:
         """Nothing can be done before the next change."""
         self._drop_work()
-        self._tracks, self._record, self._looked, self.at_rest, self.told = [], None, None, True, told
+        self._tracks, self._record, self._looked, self._rests, self._told = [], None, None, True, told
         return ""
 
 
@@ -224,6 +244,7 @@ def _read(context: bpy.types.Context, current: Watched) -> dict:
     depsgraph = context.evaluated_depsgraph_get()
     meshes = {}
     for group in current.chosen:
-        scene = read_scene(depsgraph, group.diffuse).mesh
-        meshes.update({mirror.session_uid: (read_mirror(depsgraph, mirror).mesh, scene) for mirror in group.mirrors})
+        stage = Kept.of(depsgraph).read(depsgraph, group.mirrors, group.diffuse)
+        meshes.update({mirror.session_uid: (surface.mesh, stage.scene.mesh)
+                       for mirror, surface in zip(group.mirrors, stage.surfaces)})
     return meshes

@@ -7,9 +7,10 @@ import bpy
 
 from ...core import Settings, View
 from ..freshness import origin_of, same_view, view_numbers
+from ..lighting import shows_preview
 from ..reading import Participants
 from ..settings import Wanted
-from .kept import groups
+from .kept import groups, kept_results
 
 
 class Record(NamedTuple):
@@ -20,20 +21,26 @@ class Record(NamedTuple):
     view : tuple of float
     settings : dict of int to Settings
         Of each mirror, by its `session_uid`.
-    digests : tuple of (str, str)
-        Of each mirror and its sources.
+    digests : tuple of (str, ...)
+        Of each mirror, its sources, and which materials these show.
+    colours : tuple of (str or None)
+        Of what the materials are made of, where a result shows previews of them.
     members : tuple
-        Who takes part, by `session_uid`: the camera, whose results they are; of each group its mirrors and its sources.
+        Who takes part, by `session_uid`: the camera, whose results they are; these, copies among them; of each group
+        its mirrors and its sources.
     """
 
     view: tuple[float, ...]
     settings: dict[int, Settings]
-    digests: tuple[tuple[str, str], ...]
+    digests: tuple[tuple[str, ...], ...]
+    colours: tuple[str | None, ...]
     members: tuple
 
     def same(self, other: Record | None) -> bool:
         """Whether both tell of the same, but for rounding."""
-        return other is not None and self[1:] == other[1:] and same_view(self.view, other.view)
+        return (other is not None and self.settings == other.settings and self.digests == other.digests
+                and self.members == other.members and same_view(self.view, other.view)
+                and not any(one != last for one, last in zip(self.colours, other.colours) if None not in (one, last)))
 
 
 class Watched(NamedTuple):
@@ -50,15 +57,24 @@ def watched(context: bpy.types.Context, view: View, known: Record | None = None)
     chosen, wanted = groups(context), Wanted(context.scene)
     settings = {mirror.session_uid: wanted(mirror) for group in chosen for mirror in group.mirrors}
     if known is None:
-        depsgraph = context.evaluated_depsgraph_get()
-        digests = tuple(origin_of(depsgraph, view, mirror, group.diffuse)[1:]
-                        for group in chosen for mirror in group.mirrors)
+        depsgraph, previewed = context.evaluated_depsgraph_get(), _previewed(context)
+        origins = [(mirror, origin_of(depsgraph, view, mirror, group.diffuse))
+                   for group in chosen for mirror in group.mirrors]
+        digests = tuple((origin.mirror, origin.sources, origin.materials) for _, origin in origins)
+        colours = tuple(origin.colours if mirror in previewed else None for mirror, origin in origins)
     else:
-        digests = known.digests
-    return Watched(view, chosen, Record(view_numbers(view), settings, digests, _members(context.scene, chosen)))
+        digests, colours = known.digests, known.colours
+    record = Record(view_numbers(view), settings, digests, colours, _members(context, chosen))
+    return Watched(view, chosen, record)
 
 
-def _members(scene: bpy.types.Scene, chosen: list[Participants]) -> tuple:
+def _previewed(context: bpy.types.Context) -> set:
+    """The mirrors of results that show previews, which are made of materials and do not change with them."""
+    return {obj.reflection_mesh.mirror for obj in kept_results(context) if shows_preview(obj)}
+
+
+def _members(context: bpy.types.Context, chosen: list[Participants]) -> tuple:
     groups = [tuple(tuple(obj.session_uid for obj in objects) for objects in (group.mirrors, group.diffuse))
               for group in chosen]
-    return (scene.camera.session_uid if scene.camera else 0, *groups)
+    camera = context.scene.camera
+    return (camera.session_uid if camera else 0, tuple(obj.session_uid for obj in kept_results(context)), *groups)

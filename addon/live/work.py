@@ -8,8 +8,8 @@ import bpy
 
 from ...core import ReflectionError, Settings
 from ..faults import Steps
-from ..generate import Outcome, generation
-from ..write_results import Manners
+from ..operators.generate import Outcome, generation
+from ..operators.write_results import Manners
 from .watched import Record, Watched
 
 BUDGET = 0.05   # seconds of work between two looks at what has changed

@@ -1,0 +1,24 @@
+"""Light that mirrors throw, played from baked frames."""
+from __future__ import annotations
+
+import bpy
+
+from ..faults import AllOrNothing
+from ..illumination import adds_light, caustics_object, forget_added_light, results_with
+from .play import Player, material_of, show_frames
+
+
+def play_caustics(context: bpy.types.Context, player: Player, name: str, pair: tuple, sources: list,
+                  whole: AllOrNothing) -> bpy.types.Object:
+    """Let the caustics of a mirror and a lamp, `pair`, play: those that there are, or new ones of that name.
+
+    The records tell of the receivers' materials; theirs, which add light, are made anew.
+    """
+    # what is to be done at last is said first
+    whole.after(forget_added_light, [material for obj in results_with(context, *pair)[:1]
+                                     for material in obj.data.materials])
+    obj = caustics_object(context, name, pair, sources, whole)
+    materials = [adds_light(material_of(*entry), whole)[0] for entry in player.materials or [("", "")]]
+    show_frames(obj, player, materials, whole)
+    obj.reflection_mesh.faces = 0
+    return obj

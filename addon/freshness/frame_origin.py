@@ -1,0 +1,41 @@
+"""What a frame of an animation is made from, and whether another state of the scene would make it otherwise."""
+from __future__ import annotations
+
+import bpy
+
+from ..reading import Participants, read_view
+from .lamps import lamps_of
+from .made_from import difference, origin_of, read_record, record_of
+
+LIGHT = ""  # no mirror is called so
+
+
+def frame_origin(context: bpy.types.Context, chosen: Participants | None, lit: bool) -> dict[str, str]:
+    """The records of what the open frame's results are made from, by the names of their mirrors; where the frame is
+    `lit`, a digest of its lamps as well."""
+    mirrors = [] if chosen is None else chosen.mirrors
+    # in an order that does not go by what is selected
+    sources = [] if chosen is None else sorted(chosen.diffuse, key=lambda obj: obj.name_full)
+    depsgraph, view = context.evaluated_depsgraph_get(), read_view(context)
+    made = {mirror.name: record_of(origin_of(depsgraph, view, mirror, sources), {}) for mirror in mirrors}
+    return {**made, LIGHT: lamps_of(context)} if lit else made
+
+
+def frame_difference(made: dict[str, str], now: dict[str, str]) -> str:
+    """What tells two of them apart, in a few words; empty where nothing does, or where nobody can tell."""
+    if not made:
+        return ""
+    if made.keys() != now.keys():
+        return "mirrors have been shown or hidden"
+    if made.get(LIGHT) != now.get(LIGHT):
+        return "the lamps or the world have changed"
+    for name in made.keys() - {LIGHT}:
+        before, after = read_record(made[name]), read_record(now[name])
+        if before is None:
+            return ""
+        why = difference(before[0], after[0])
+        if not why and LIGHT in made and before[0].colours != after[0].colours:
+            why = "the colours of materials have changed"
+        if why:
+            return why
+    return ""

@@ -1,0 +1,25 @@
+"""Digests of what shines on a scene: its lamps and its world."""
+from __future__ import annotations
+
+from hashlib import blake2b
+
+import bpy
+import numpy as np
+
+from .materials import SIZE, made_of
+
+# of a lamp and of a world, what their light depends on besides nodes
+VALUES = ("type", "color", "energy", "exposure", "temperature", "use_temperature", "normalize", "shadow_soft_size",
+          "use_soft_falloff", "spot_size", "spot_blend", "angle", "shape", "size", "size_y", "spread")
+
+
+def lamps_of(context: bpy.types.Context) -> str:
+    """A digest of the lamps that a view layer's renders know, where they stand, and of the world."""
+    lamps = [obj for obj in context.view_layer.objects if obj.type == "LIGHT" and not obj.hide_render]
+    told = sorted(np.array(lamp.matrix_world, dtype=np.float32).tobytes() + _made_of(lamp.data) for lamp in lamps)
+    world = context.scene.world
+    return blake2b(b"".join(told) + (b"" if world is None else _made_of(world)), digest_size=SIZE).hexdigest()
+
+
+def _made_of(data: bpy.types.Light | bpy.types.World) -> bytes:
+    return repr(list(made_of(data, [name for name in VALUES if hasattr(data, name)]))).encode()

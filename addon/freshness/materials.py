@@ -1,0 +1,97 @@
+"""Digests of materials: which ones objects show, as far as a result depends on that, and what these are made of.
+
+Nodes are gone through again only where Blender has told that they may be other ones.
+"""
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from hashlib import blake2b
+
+import bpy
+
+from .. import compat
+from ..reading import all_nodes, is_mirror, is_opaque
+
+SIZE = 12   # bytes of a digest
+DEEPEST = 4  # settings inside a node's settings: the points of a curve of a mapping
+KINDS = (bpy.types.Material, bpy.types.NodeTree)
+COLOURS = ("diffuse_color", "metallic", "roughness")  # of a material besides its nodes
+
+_colours: dict[int, bytes] = {}
+
+
+def forget_materials(changed: Iterable[bpy.types.ID] | None = None) -> None:
+    """Go through the nodes of all materials anew when they are asked for next, where one of them is among what has
+    `changed`, or nobody knows."""
+    if changed is None or any(isinstance(item, KINDS) for item in changed):
+        _colours.clear()
+
+
+def materials_of(objects: list) -> str:
+    """A digest of which materials objects show, and which of these are mirrors or let light through."""
+    return _digest(repr([[(material.name_full, is_mirror(material), is_opaque(material)) if material else None
+                          for material in _slots(obj)] for obj in objects]).encode())
+
+
+def colours_of(objects: list) -> str:
+    """A digest of what the materials of objects are made of."""
+    told = blake2b(digest_size=SIZE)
+    for material in [material for obj in objects for material in _slots(obj) if material is not None]:
+        if material.session_uid not in _colours:
+            _colours[material.session_uid] = repr(list(made_of(material, COLOURS))).encode()
+        told.update(_colours[material.session_uid])
+    return told.hexdigest()
+
+
+def _slots(obj: bpy.types.Object) -> list:
+    return [slot.material for slot in obj.material_slots]
+
+
+def _digest(told: bytes) -> str:
+    return blake2b(told, digest_size=SIZE).hexdigest()
+
+
+def made_of(data: bpy.types.Material | bpy.types.Light | bpy.types.World, plain: Iterable[str]) -> Iterator:
+    """The nodes that make something, with all that is set in them, and what is set of it besides, by its names."""
+    yield [_plain(getattr(data, name)) for name in plain]
+    if not compat.uses_nodes(data):
+        return
+    trees: dict = {}
+    for node in all_nodes(data.node_tree):
+        trees[node.id_data] = None
+        # what is animated is another one in each frame, and so is what was made of it
+        if node.id_data.animation_data is None:
+            yield list(_values(node, _own_settings(node), 0))
+            yield [_plain(socket.default_value) for socket in node.inputs if hasattr(socket, "default_value")]
+        yield node.name, node.bl_idname, node.mute
+    for tree in trees:
+        yield sorted((link.from_node.name, link.from_socket.identifier, link.to_node.name, link.to_socket.identifier)
+                     for link in tree.links)
+
+
+def _own_settings(node: bpy.types.Node) -> list[str]:
+    """The settings of a kind of node, without those that each node has."""
+    return [name for name in node.bl_rna.properties.keys() if name not in bpy.types.Node.bl_rna.properties]
+
+
+def _values(struct, names: Iterable[str], depth: int) -> Iterator:
+    """The values of settings, those of what they point to among them."""
+    for name in names:
+        kind, value = struct.bl_rna.properties[name].type, getattr(struct, name)
+        if isinstance(value, bpy.types.ID):
+            yield name, value.name_full
+        elif kind not in {"POINTER", "COLLECTION"}:
+            yield name, _plain(value)
+        elif value is not None and depth < DEEPEST:
+            for item in [value] if kind == "POINTER" else value:
+                inner = [key for key in item.bl_rna.properties.keys() if key != "rna_type"]
+                yield name, list(_values(item, inner, depth + 1))
+
+
+def _plain(value):
+    """A value as it is written down, arrays and sets in their order."""
+    if isinstance(value, str | bool | int | float) or value is None:
+        return value
+    if isinstance(value, bpy.types.ID):
+        return value.name_full
+    return sorted(value) if isinstance(value, set) else tuple(value)

@@ -1,0 +1,229 @@
+"""The light that mirrors throw, kept right: made anew at a coarse tolerance on the way, and exactly at rest."""
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import bpy
+import numpy as np
+
+from ...core import ReflectionError, Settings
+from ..faults import Steps, sentence
+from ..frames import plays
+from ..freshness import digest_of
+from ..illumination import Tint, lights_renders, places_kept, radiance_of, results_with
+from ..operators.caustics import Asked, NothingThrown, blocking, throwing
+from ..reading import NothingSeen, Participants, visible
+from ..settings import Wanted
+from .pace import Pace
+
+PAUSE = 0.25    # seconds without a change after which all is made exact
+BUDGET = 0.05   # seconds of work between two looks at what has changed
+NUMBERS = {"FLOAT", "INT", "BOOLEAN", "ENUM"}
+
+
+class Group(NamedTuple):
+    """What is made together: the light of `pairs` of a mirror and a lamp that falls on the same objects; None where
+    these or all mirrors are hidden."""
+
+    pairs: set
+    chosen: Participants | None
+    lamps: list
+
+
+class Record(NamedTuple):
+    """What the light is made from, without anything of Blender's, which may go: of each group digests, the settings
+    and who takes part."""
+
+    digests: tuple
+    settings: tuple
+    members: tuple
+
+
+@dataclass
+class Work:
+    """The making of all groups, one after another, a little at a time."""
+
+    record: Record
+    exact: bool
+    waiting: list
+    seconds: float = 0.0
+
+
+class ThrownLight:
+    """Keeps the caustics of a scene right, as `LiveUpdater` its reflections.
+
+    Attributes
+    ----------
+    at_rest, is_there : bool
+        Whether all is as it is to be, and whether there is any.
+    told : str
+        What went wrong; empty where nothing did.
+    seconds : float
+        What the last update took.
+    """
+
+    def __init__(self) -> None:
+        self.at_rest, self.is_there, self.told, self.seconds = False, False, "", 0.0
+        self._pace, self._noted, self._changed = Pace(), True, 0.0
+        self._shown: Record | None = None   # what the light is made from that is seen, where it is exact
+        self._coarse: Record | None = None  # the same where it is coarse
+        self._looked: Record | None = None  # what was found at the last look
+        self._work: Work | None = None
+
+    def note(self) -> None:
+        """Something may have changed."""
+        self._noted = True
+
+    def forget(self) -> None:
+        """Let go of all that is Blender's and of what is known of the file."""
+        self._drop()
+        self._shown = self._coarse = self._looked = None
+        self._noted, self.at_rest = True, False
+
+    def step(self, context: bpy.types.Context, now: float) -> str:
+        """Work a little; returns what was done: "coarse", "exact", "working", or "" for nothing."""
+        if context.mode != "OBJECT":
+            self._drop()
+            return ""
+        try:
+            if self._noted:
+                self._look(context, now)
+            if self.at_rest:
+                return ""
+            if self._work is None and not self._begin(context, now):
+                return ""
+            return self._go_on()
+        except Exception as error:
+            self._drop()
+            self._shown, self.at_rest = None, True
+            self.told = str(error) if isinstance(error, ReflectionError) else sentence(error, "Live")
+            return ""
+
+    def _look(self, context: bpy.types.Context, now: float) -> None:
+        """How all stands now."""
+        self._noted, groups = False, _groups(context)
+        self.is_there = bool(groups)
+        if not groups:
+            self._drop()
+            self._looked, self.at_rest, self.told = None, True, ""
+            return
+        record = _record(context, groups)
+        if record != self._looked:
+            # what Live begins with is made exact at once
+            self._changed = now if self._looked is not None else now - PAUSE
+            # coarse light is finished, to be seen at all
+            if self._work is not None and (self._work.exact or record.members != self._work.record.members):
+                self._drop()
+        self._looked, self.at_rest = record, record == self._shown
+
+    def _begin(self, context: bpy.types.Context, now: float) -> bool:
+        """Begin new light, coarse while something moves; whether any is wanted."""
+        rests = now - self._changed >= PAUSE
+        if not rests and self._coarse == self._looked:
+            return False
+        groups, wanted = _groups(context), Wanted(context.scene)
+        exact = {mirror: wanted(mirror) for group in groups for mirror, _ in group.pairs}
+        settings = exact if rests else {mirror: replace(own, tolerance=self._pace.coarse(own.tolerance))
+                                        for mirror, own in exact.items()}
+        self._work = Work(self._looked, settings == exact, [_steps(context, group, settings) for group in groups])
+        return True
+
+    def _go_on(self) -> str:
+        work, started = self._work, time.perf_counter()
+        while work.waiting and time.perf_counter() - started < BUDGET:
+            try:
+                next(work.waiting[0])
+            except StopIteration:
+                del work.waiting[0]
+        work.seconds += time.perf_counter() - started
+        if work.waiting:
+            return "working"
+        self._work, self.seconds, self.told = None, work.seconds, ""
+        self._pace.took(work.seconds)
+        self._shown, self._coarse = (work.record, None) if work.exact else (None, work.record)
+        self.at_rest = self._shown == self._looked
+        return "exact" if work.exact else "coarse"
+
+    def _drop(self) -> None:
+        work, self._work = self._work, None
+        if work is not None:
+            # some of it may have been written
+            self._shown = None
+            for steps in work.waiting:
+                steps.close()
+
+
+def _groups(context: bpy.types.Context) -> list[Group]:
+    """The caustics of the scene that are made anew, those on the same objects together."""
+    layer, found = set(context.view_layer.objects), {}
+    for obj in context.scene.objects:
+        record = obj.reflection_mesh
+        if record.role != "CAUSTICS" or obj not in layer or record.mirror not in layer or record.lamp not in layer or (
+                plays(obj) or obj not in results_with(context, record.mirror, record.lamp)):
+            continue
+        sources = tuple(source.object for source in record.sources if source.object is not None)
+        if sources and record.mirror not in sources:
+            found.setdefault(sources, {})[record.mirror, record.lamp] = None
+    groups = []
+    for sources, pairs in found.items():
+        try:
+            chosen = visible(context, list(dict.fromkeys(mirror for mirror, _ in pairs)), list(sources))
+        except NothingSeen:
+            chosen = None
+        lamps = list(dict.fromkeys(lamp for _, lamp in pairs))
+        groups.append(Group(set(pairs), chosen, [lamp for lamp in lamps if lights_renders(lamp)]))
+    return groups
+
+
+def _record(context: bpy.types.Context, groups: list[Group]) -> Record:
+    depsgraph, wanted = context.evaluated_depsgraph_get(), Wanted(context.scene)
+    digests, settings, members = [], [], []
+    for group in groups:
+        chosen = group.chosen or Participants([], [], [])
+        mirrors = sorted({mirror for mirror, _ in group.pairs}, key=lambda mirror: mirror.session_uid)
+        objects = [chosen.mirrors, chosen.diffuse, blocking(context, chosen)]
+        places = places_kept(context, mirrors, group.lamps)
+        digests.append((tuple(digest_of(depsgraph, some) for some in objects),
+                        tuple(_lamp_numbers(depsgraph, lamp) for lamp in group.lamps),
+                        tuple(repr(Tint.of_material(slot.material))
+                              for mirror in mirrors for slot in mirror.material_slots)))
+        settings.append((tuple(wanted(mirror) for mirror in mirrors), tuple(places.values())))
+        members.append(tuple(tuple(obj.session_uid for obj in some) for some in (*objects, group.lamps))
+                       + tuple(sorted((mirror.session_uid, lamp.session_uid) for mirror, lamp in group.pairs)))
+    return Record(tuple(digests), tuple(settings), tuple(members))
+
+
+def _lamp_numbers(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> tuple:
+    """Where a lamp stands and all that its data tells in numbers; of a mesh its shape and what it emits."""
+    if lamp.type != "LIGHT":
+        return digest_of(depsgraph, [lamp]), *(radiance_of(slot.material).tobytes() for slot in lamp.material_slots)
+    evaluated = lamp.evaluated_get(depsgraph)
+    data = evaluated.data
+    values = (getattr(data, prop.identifier) for prop in data.bl_rna.properties
+              if prop.type in NUMBERS and prop.identifier != "use_nodes")
+    return (np.array(evaluated.matrix_world, dtype=np.float32).tobytes(),
+            *(tuple(value) if hasattr(value, "__len__") and not isinstance(value, str | set) else str(value)
+              for value in values))
+
+
+def _steps(context: bpy.types.Context, group: Group, settings: dict[bpy.types.Object, Settings]) -> Steps[None]:
+    """Make a group's light; of pairs that throw none at the moment, the mesh is empty."""
+    dark = group.pairs
+    if group.chosen is not None and group.lamps:
+        mirrors = list(dict.fromkeys(mirror for mirror, _ in group.pairs))
+        places = places_kept(context, mirrors, group.lamps)
+        asked = Asked(places, lambda mirror: settings[mirror], False, keep_materials=True)
+        try:
+            thrown = yield from throwing(context, group.chosen, group.lamps, asked, group.pairs)
+            made = {(obj.reflection_mesh.mirror, obj.reflection_mesh.lamp) for obj in thrown.objects}
+            tried = {(mirror, lamp) for mirror, lamp in group.pairs
+                     if mirror in group.chosen.mirrors and lamp in group.lamps}
+            dark = {pair for pair in group.pairs - made if pair in thrown.dark or pair not in tried}
+        except NothingThrown:
+            pass
+    for pair in dark:
+        for obj in results_with(context, *pair)[:1]:
+            if len(obj.data.vertices):
+                obj.data.clear_geometry()
