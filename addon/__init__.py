@@ -1,34 +1,11 @@
 """What Blender sees of the extension: roles, operators, panels, a menu and a command; the optics are in `core`."""
-from . import (
-    bake,
-    caustics,
-    clear,
-    command_line,
-    compare,
-    freshness,
-    generate,
-    interface,
-    light,
-    live,
-    mirror_uvs,
-    print_sheet,
-    properties,
-)
+from . import command_line, freshness, interface, live, operators, properties, reading, standing
 from .gltf_attributes import AttributesOfResults
 from .lighting import stale_light
+from .registration import together
 from .writing import cameras, windows
 
 __all__ = ["AttributesOfResults", "register", "unregister"]
 
-MODULES = (properties, windows, cameras, stale_light, freshness, generate, live, light, caustics, bake, mirror_uvs,
-           print_sheet, compare, clear, interface, command_line)
-
-
-def register() -> None:
-    for module in MODULES:
-        module.register()
-
-
-def unregister() -> None:
-    for module in reversed(MODULES):
-        module.unregister()
+register, unregister = together(properties, reading, windows, cameras, stale_light, freshness, standing, operators,
+                                live, interface, command_line)

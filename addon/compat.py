@@ -10,8 +10,9 @@ import numpy as np
 RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
 
 
-def uses_nodes(material: bpy.types.Material) -> bool:
-    """Whether a node tree makes the material; from Blender 5.0 on one always does, and the switch is deprecated."""
+def uses_nodes(material: bpy.types.Material | bpy.types.Light) -> bool:
+    """Whether a node tree makes the material, or a lamp's light; from Blender 5.0 on one always does, and the switch
+    is deprecated."""
     if bpy.app.version >= (5, 0, 0):
         return material.node_tree is not None
     return material.use_nodes and material.node_tree is not None

@@ -14,6 +14,7 @@ from bpy.props import (
 )
 
 from . import compat
+from .reading import forget_known
 from .settings import SettingsOfMirror, SettingsOfScene, make_own
 
 ROLES = (
@@ -38,6 +39,11 @@ def _begin_own(self, context: bpy.types.Context) -> None:
         make_own(self.id_data, context.scene)
 
 
+def _after_role(_record, _context: bpy.types.Context) -> None:
+    # Blender tells of no change of a property
+    forget_known()
+
+
 class ReflectionSource(bpy.types.PropertyGroup):
     """One diffuse object of a result."""
 
@@ -55,11 +61,12 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     from."""
 
     role: EnumProperty(name="Role", description="The part that this object plays in a reflection", items=ROLES,
-                       default="AUTO", override=OVERRIDABLE)
+                       default="AUTO", override=OVERRIDABLE, update=_after_role)
     own_settings: BoolProperty(name="Own Settings", description="This mirror has settings of its own; else the scene's "
                                "hold for it", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object)
     lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object)
+    eyes: IntProperty(name="Lamp Places", description="On how many places of its lamp these caustics come from")
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
     camera: PointerProperty(name="Camera", description="The camera that this reflection is right for; none: the "

@@ -85,7 +85,8 @@ def _shown(context: bpy.types.Context, copied: CopiedScene, contest: Contest, fo
 
 def _add(copied: CopiedScene, case: Case, result) -> None:
     """The reflection mesh as an object of the copied scene, seen by the camera only, as `generate` makes it."""
-    arrays = mesh_arrays(result, case.scene, MirrorSurface(case.mirror, case.triangle), case.view)
+    surface = MirrorSurface(case.mirror, case.triangle, np.zeros_like(case.triangle), [None])
+    arrays = mesh_arrays(result, case.scene, surface, case.view)
     mesh = bpy.data.meshes.new("Benchmark")
     copied.owned.append(mesh)
     write_mesh(mesh, arrays)

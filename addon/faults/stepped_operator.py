@@ -4,9 +4,11 @@ from __future__ import annotations
 import time
 
 import bpy
+from bpy.app.translations import pgettext_iface
 
 from .status_bar import StatusBar
 from .steps import Steps, Undivided
+from .told import tell
 from .unforeseen import sentence
 
 INTERVAL = 0.02
@@ -54,7 +56,7 @@ class SteppedOperator:
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
         if event.type == "ESC" and event.value == "PRESS":
             self.cancel(context)
-            self.report({"INFO"}, f"{self.bl_label}: cancelled, {self.unchanged}.")
+            tell(self, {"INFO"}, f"{pgettext_iface(self.bl_label)}: cancelled, {self.unchanged}.")
             return {"CANCELLED"}
         # all other events end here: nobody may change the scene between two steps
         if event.type != "TIMER":
@@ -90,7 +92,7 @@ class SteppedOperator:
         except StopIteration:
             return {"FINISHED"}
         except Exception as error:
-            self.report({"ERROR"}, sentence(error, self.bl_label))
+            tell(self, {"ERROR"}, sentence(error, pgettext_iface(self.bl_label)))
             return {"CANCELLED"}
         return None
 

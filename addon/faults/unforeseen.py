@@ -6,8 +6,10 @@ import traceback
 from collections.abc import Callable
 
 import bpy
+from bpy.app.translations import pgettext_iface
 
 from ...core import ReflectionError
+from .told import tell
 
 LONGEST = 200   # characters of an error's own words
 
@@ -44,6 +46,6 @@ def in_one_sentence(execute: Callable) -> Callable:
         try:
             return execute(self, context)
         except Exception as error:
-            self.report({"ERROR"}, sentence(error, self.bl_label))
+            tell(self, {"ERROR"}, sentence(error, pgettext_iface(self.bl_label)))
             return {"CANCELLED"}
     return guarded

@@ -2,16 +2,7 @@
 
 Nothing is computed here and nothing changed: what is drawn is read from the file, and buttons call operators.
 """
+from ..registration import together
 from . import manual, menus, panels, preset_buttons, translations
 
-MODULES = (translations, manual, preset_buttons, panels, menus)
-
-
-def register() -> None:
-    for module in MODULES:
-        module.register()
-
-
-def unregister() -> None:
-    for module in reversed(MODULES):
-        module.unregister()
+register, unregister = together(translations, manual, preset_buttons, panels, menus)

@@ -4,6 +4,7 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_iface
 
+from ..faults import translated
 from ..freshness import why_stale
 from ..live import kept_results, present
 
@@ -31,6 +32,6 @@ def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
 def state_of(updater) -> str:
     """What Live is doing, in a few words."""
     if updater.told:
-        return pgettext_iface(updater.told)
+        return translated(pgettext_iface(updater.told))
     text = pgettext_iface("Exact, {milliseconds:.0f} ms" if updater.at_rest else "Coarse, {milliseconds:.0f} ms")
     return text.format(milliseconds=updater.milliseconds)

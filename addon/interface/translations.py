@@ -3,7 +3,8 @@ from __future__ import annotations
 
 import bpy
 
-from .german import GERMAN
+from ..faults import know_sentences
+from .german import GERMAN, SENTENCES
 
 OPERATORS = bpy.app.translations.contexts.operator_default
 
@@ -14,12 +15,14 @@ def entries(language: dict) -> dict:
 
 
 # Blender has called German both
-LANGUAGES = {locale: entries(GERMAN) for locale in ("de", "de_DE")}
+LANGUAGES = {locale: entries(GERMAN | SENTENCES) for locale in ("de", "de_DE")}
 
 
 def register() -> None:
     bpy.app.translations.register(__name__, LANGUAGES)
+    know_sentences(SENTENCES)
 
 
 def unregister() -> None:
+    know_sentences(())
     bpy.app.translations.unregister(__name__)

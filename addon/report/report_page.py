@@ -17,7 +17,11 @@ COLUMNS = (("mean error over the area (px)", "area.mean_error_px", ".4f"),
            ("99 % (px)", "displacement_px.p99", ".3f"),
            ("holes, spill, wrong layer (%)", "coverage_percent.all", ".4f"),
            ("PSNR (dB)", "picture.mirror.psnr", ".1f"), ("SSIM", "picture.mirror.ssim", ".4f"),
-           ("FLIP", "picture.mirror.flip", ".4f"))
+           ("FLIP", "picture.mirror.flip", ".4f"),
+           ("RMSE over what may be lit", "picture.receivers.rmse", ".5f"),
+           ("PSNR there (dB)", "picture.receivers.psnr", ".1f"),
+           ("RMSE by noise alone", "picture.noise.rmse", ".5f"),
+           ("SSIM there", "picture.receivers.ssim", ".4f"), ("FLIP there", "picture.receivers.flip", ".4f"))
 
 
 def page(report: Report) -> str:

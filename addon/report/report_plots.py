@@ -16,7 +16,9 @@ ERRORS = (("area.mean_error_px", "mean error over the pixels' area (px)", "Displ
            "ray tracing is exact by definition: the truth takes the same rays. Less than 0.001 px is drawn as that.",
            LEAST),
           ("displacement_px.p99", "displacement, 99th percentile (px)", "", 1e-4),
-          ("picture.mirror.flip", "FLIP (0 equal, 1 worst)", "", 0.0))
+          ("picture.mirror.flip", "FLIP (0 equal, 1 worst)", "", 0.0),
+          ("picture.receivers.rmse", "RMSE over what may be lit (linear light)", "Against Cycles' own caustics, "
+           "converged.", 0.0))
 KINDS = ("intersections", "traversals", "projections", "rays")
 
 

@@ -7,14 +7,24 @@ from .mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, mesh_arrays, shown
 from .node_builder import Builder
 from .point_arrays import point_arrays
 from .records import LONGEST as LONGEST_RECORD
-from .result_collection import forget_collection, gather
+from .result_collection import forget_collection, gather, show_in_layer
 from .result_size import mesh_bytes, size_text
 from .windows import close_abandoned_windows, set_window, what_is_in_the_way
 from .write_mesh import write_mesh
-from .write_object import RAYS, Reflection, Written, new_beside, new_object, show_own_materials, write_object
+from .write_object import (
+    RAYS,
+    Reflection,
+    Written,
+    forget_mesh,
+    new_beside,
+    new_object,
+    show_own_materials,
+    write_object,
+)
 
 __all__ = ["Attribute", "Builder", "LONGEST_RECORD", "MOST_UV_MAPS", "MeshArrays", "RAYS", "Reflection", "UV_MAP",
-           "Written", "as_shown", "close_abandoned_windows", "disc_nodes", "forget_collection", "forget_nodes",
-           "gather", "hide_discs", "light_layer", "mesh_arrays", "mesh_bytes", "new_beside", "new_object", "place_of",
-           "point_arrays", "put_back_materials", "set_window", "show_for_camera", "show_own_materials",
-           "shown_layers", "size_text", "vertices_written", "what_is_in_the_way", "write_mesh", "write_object"]
+           "Written", "as_shown", "close_abandoned_windows", "disc_nodes", "forget_collection", "forget_mesh",
+           "forget_nodes", "gather", "hide_discs", "light_layer", "mesh_arrays", "mesh_bytes", "new_beside",
+           "new_object", "place_of", "point_arrays", "put_back_materials", "set_window", "show_for_camera",
+           "show_in_layer", "show_own_materials", "shown_layers", "size_text", "vertices_written",
+           "what_is_in_the_way", "write_mesh", "write_object"]

@@ -12,6 +12,7 @@ from bpy.app.handlers import persistent
 
 from ..faults import still_there
 from ..reading.results import camera_of
+from ..registration import Handlers
 from .windows import close_window, open_window
 
 SWITCHES = ("hide_render", "hide_viewport")
@@ -90,13 +91,5 @@ def _after_opening(*_) -> None:
         show_for_camera(scene)
 
 
-def register() -> None:
-    bpy.app.handlers.depsgraph_update_post.append(_after_change)
-    bpy.app.handlers.frame_change_post.append(_after_change)
-    bpy.app.handlers.load_post.append(_after_opening)
-
-
-def unregister() -> None:
-    bpy.app.handlers.load_post.remove(_after_opening)
-    bpy.app.handlers.frame_change_post.remove(_after_change)
-    bpy.app.handlers.depsgraph_update_post.remove(_after_change)
+HANDLERS = Handlers((_after_change, "depsgraph_update_post", "frame_change_post"), (_after_opening, "load_post"))
+register, unregister = HANDLERS.register, HANDLERS.unregister

@@ -128,9 +128,11 @@ def _lines(result: ReflectionMesh, scene: DiffuseScene) -> Lines:
     edges = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).astype(np.int32)
     ends = _once(edges.reshape(-1, 2)).reshape(side.shape)
     on_side = side >= 0
-    edges, ends, shown = edges[on_side], ends[on_side], (result.source_face[np.nonzero(on_side)[0]], side[on_side])
-    sharp = scene.sharp_side[shown]
-    marked = sharp | scene.marked_side[shown] | ends
+    # of each face's source all sides at once
+    shown = np.nonzero(on_side)[0], side[on_side]
+    edges, ends = edges[on_side], ends[on_side]
+    sharp = scene.sharp_side[result.source_face][shown]
+    marked = sharp | scene.marked_side[result.source_face][shown] | ends
     return Lines(edges[sharp], edges[marked], scene.marked_face[result.source_face])
 
 

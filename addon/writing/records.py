@@ -28,6 +28,40 @@ class Comparison(NamedTuple):
     flip: float | None
 
 
+class LightComparison(NamedTuple):
+    """The numbers of a comparison of caustics with Cycles'; None where there was nothing to measure.
+
+    PSNR are those of the picture with meshes and of Cycles' own at `samples` samples, to its own converged; the flux is
+    how far that is from rays, in per cent.
+    """
+
+    resolution: tuple[int, int]
+    samples: int
+    psnr: float | None
+    psnr_own: float | None
+    flux: float | None
+
+
+def light_text(report: dict) -> str:
+    """The record of a report on caustics."""
+    last = {run["method"]: run for run in report["runs"]}
+    flux = [one["flux_percent"] for one in report["light"].values() if one["flux_percent"] is not None]
+    return json.dumps({
+        "resolution": report["resolution"], "light_samples": last["CYCLES"]["samples"],
+        "light_psnr": last["MESH"]["picture"]["receivers"]["psnr"],
+        "own_psnr": last["CYCLES"]["picture"]["receivers"]["psnr"], "flux": max(flux, key=abs, default=None)})
+
+
+def light_comparison(text: str) -> LightComparison | None:
+    """What `light_text` wrote; None where the text is anything else."""
+    known = _entries(text) if len(text) <= LONGEST else NOTHING
+    size, samples = known.get("resolution"), known.get("light_samples")
+    numbers = [known.get(name) for name in ("light_psnr", "own_psnr", "flux")]
+    if not (_is_size(size) and _is_count(samples) and all(value is None or _is_number(value) for value in numbers)):
+        return None
+    return LightComparison(tuple(size), samples, *numbers)
+
+
 def comparison_text(report: dict) -> str:
     """The record of a comparison's report."""
     picture = report["picture"]["mirror"]
@@ -53,7 +87,7 @@ def counts(obj: bpy.types.Object) -> MappingProxyType:
 def _comparison(text: str) -> Comparison | None:
     known = _entries(text)
     size = known.get("resolution")
-    if not (isinstance(size, list) and len(size) == 2 and all(_is_count(side) for side in size)):
+    if not _is_size(size):
         return None
     numbers = {name: known.get(name) for name in Comparison._fields[1:]}
     if not _is_number(numbers["coverage"]) or not all(value is None or _is_number(value) for value in numbers.values()):
@@ -76,6 +110,10 @@ def _entries(text: str) -> dict | MappingProxyType:
     except (ValueError, RecursionError):
         return NOTHING
     return known if isinstance(known, dict) else NOTHING
+
+
+def _is_size(value) -> bool:
+    return isinstance(value, list) and len(value) == 2 and all(_is_count(side) for side in value)
 
 
 def _is_number(value) -> bool:

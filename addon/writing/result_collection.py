@@ -7,6 +7,7 @@ from ..faults import AllOrNothing
 from ..reading.roles import rendered_collections
 
 NAME = "Reflections"
+LAYER = "reflection_mesh_layer"  # custom property of the collections that one view layer alone shows
 
 
 def gather(context: bpy.types.Context, objects: list, whole: AllOrNothing) -> None:
@@ -28,11 +29,26 @@ def gather(context: bpy.types.Context, objects: list, whole: AllOrNothing) -> No
         target.objects.link(obj)
 
 
+def show_in_layer(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, objects: list) -> None:
+    """Let one view layer show results, and no other."""
+    made = next((other for other in scene.collection.children if other.get(LAYER) == layer.name), None)
+    if made is None:
+        made = bpy.data.collections.new(f"{NAME} {layer.name}")
+        made[LAYER] = layer.name
+        scene.collection.children.link(made)
+    for obj in objects:
+        for other in list(obj.users_collection):
+            other.objects.unlink(obj)
+        made.objects.link(obj)
+    for other in scene.view_layers:
+        other.layer_collection.children[made.name].exclude = other != layer
+
+
 def forget_collection(scene: bpy.types.Scene) -> None:
-    """Remove the scene's collection of results where it was made for them and is empty."""
-    made = _own(scene)
-    if made is not None and made.library is None and not made.objects and not made.children:
-        bpy.data.collections.remove(made)
+    """Remove the scene's collections of results where they were made for them and are empty."""
+    for made in [_own(scene), *(other for other in scene.collection.children if LAYER in other)]:
+        if made is not None and made.library is None and not made.objects and not made.children:
+            bpy.data.collections.remove(made)
 
 
 def _own(scene: bpy.types.Scene) -> bpy.types.Collection | None:

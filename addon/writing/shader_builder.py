@@ -37,9 +37,29 @@ class ShaderBuilder(Builder):
             self.feed(value, socket)
         return node.outputs[2]
 
-    def calculated(self, how: str, first, second) -> bpy.types.NodeSocket:
-        """A number from two."""
+    def calculated(self, how: str, first, second=0.0) -> bpy.types.NodeSocket:
+        """A number from two, or from one."""
         node = self.add("ShaderNodeMath", operation=how)
+        self.feed(first, node.inputs[0])
+        self.feed(second, node.inputs[1])
+        return node.outputs[0]
+
+    def vector(self, how: str, first, second=None, **inputs) -> bpy.types.NodeSocket:
+        """A vector, or a length, from one or two vectors, and from numbers by the names of their inputs."""
+        node = self.add("ShaderNodeVectorMath", operation=how)
+        for value, socket in ((first, node.inputs[0]), (second, node.inputs[1]),
+                              *((value, node.inputs[name]) for name, value in inputs.items())):
+            if value is not None:
+                self.feed(value, socket)
+        return next(socket for socket in node.outputs if socket.enabled)
+
+    def dot(self, first, second) -> bpy.types.NodeSocket:
+        """The product of two vectors, a number."""
+        return self.vector("DOT_PRODUCT", first, second)
+
+    def added(self, first: bpy.types.NodeSocket, second: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+        """Two surfaces at once."""
+        node = self.add("ShaderNodeAddShader")
         self.feed(first, node.inputs[0])
         self.feed(second, node.inputs[1])
         return node.outputs[0]

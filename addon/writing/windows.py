@@ -12,6 +12,7 @@ from bpy.app.handlers import persistent
 from mathutils import Vector
 
 from ...core import ReflectionMesh
+from ..registration import Handlers
 
 RAYS = 200          # by which the view through a window is tried
 NEARLY = 1e-4       # of a ray's length: what lies in the image itself fights with it
@@ -107,11 +108,5 @@ def _after_opening(*_) -> None:
     close_abandoned_windows()
 
 
-def register() -> None:
-    bpy.app.handlers.depsgraph_update_post.append(_after_change)
-    bpy.app.handlers.load_post.append(_after_opening)
-
-
-def unregister() -> None:
-    bpy.app.handlers.load_post.remove(_after_opening)
-    bpy.app.handlers.depsgraph_update_post.remove(_after_change)
+HANDLERS = Handlers((_after_change, "depsgraph_update_post"), (_after_opening, "load_post"))
+register, unregister = HANDLERS.register, HANDLERS.unregister

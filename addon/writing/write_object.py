@@ -94,11 +94,12 @@ def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothi
             keep_data(obj, whole)
         _fill(obj, made, whole, entry.changes, None if linked else obj.data)
         set_window(obj, made.placement)
-    whole.after(_forget, shared)
+    whole.after(forget_mesh, shared)
     return written
 
 
-def _forget(mesh: bpy.types.Mesh) -> None:
+def forget_mesh(mesh: bpy.types.Mesh) -> None:
+    """Remove a mesh that nothing shows any more."""
     if still_there([mesh]) and not mesh.users and mesh.library is None:
         bpy.data.meshes.remove(mesh)
 

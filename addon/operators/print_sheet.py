@@ -5,11 +5,12 @@ import os
 
 import bpy
 
-from ..core import ReflectionError
-from . import compat, polls
-from .anamorphosis import encoded, flat_sheet, load_picture, picture_of, pixels_of, print_size, printed
-from .faults import AllOrNothing, BrowsingOperator, Steps, part
-from .files import check_place, staged
+from ...core import ReflectionError
+from .. import compat
+from ..anamorphosis import encoded, flat_sheet, load_picture, picture_of, pixels_of, print_size, printed
+from ..faults import AllOrNothing, BrowsingOperator, Steps, part, tell
+from ..files import check_place, staged
+from . import polls
 
 NO_SHEET = "No sheet: make the object that carries the mirror UVs the active one."
 KINDS = (".png", ".svg")
@@ -88,7 +89,7 @@ class REFLECTION_MESH_OT_print_sheet(BrowsingOperator, bpy.types.Operator):
             raise ReflectionError("The file has not been saved: save it, or choose an absolute path.")
         path = os.path.abspath(bpy.path.abspath(self.filepath))
         told = yield from printing(context, context.view_layer.objects.active, path, self.picture, self.dpi)
-        self.report({"INFO"}, told)
+        tell(self, {"INFO"}, told)
 
 
 def register() -> None:

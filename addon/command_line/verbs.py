@@ -10,25 +10,25 @@ from contextlib import nullcontext
 
 import bpy
 
-from .. import core
-from . import benchmark
-from .caustics import Asked, throwing
-from .clear import chosen_results
-from .command_bake import add_bake
-from .command_place import add_place, placed
-from .command_progress import announced
-from .command_settings import add_light, add_settings, given
-from .compare import comparison, summary
-from .faults import STATUS, sentence
-from .files import check_place, save_blend, staged
-from .generate import generation
-from .illumination import chosen_lamps
-from .light import lighting_groups
-from .light import summary as lighting_summary
-from .mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
-from .print_sheet import DPI, check_print, printing
-from .reading import Participants, choose
-from .settings import Wanted
+from ... import core
+from .. import benchmark
+from ..faults import STATUS, sentence
+from ..files import check_place, save_blend, staged
+from ..illumination import chosen_lamps
+from ..operators.caustics import Asked, throwing
+from ..operators.clear import chosen_results
+from ..operators.generate import generation
+from ..operators.light import lighting_groups
+from ..operators.light import summary as lighting_summary
+from ..operators.mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
+from ..operators.print_sheet import DPI, check_print, printing
+from ..reading import Participants, choose, with_copies
+from ..settings import Wanted
+from .bake_verb import add_bake
+from .compare_verb import add_compare
+from .options import add_light, add_settings, given
+from .place import add_place, placed
+from .progress import announced
 
 COMMAND = "reflection_mesh"
 FILES = object()    # `--light` without a number: the samples that the file holds
@@ -76,12 +76,7 @@ def _parser() -> argparse.ArgumentParser:
     caustics = verbs.add_parser("caustics", help="generate the light that mirrors throw, and save the file")
     _add_caustics(caustics)
     compare = verbs.add_parser("compare", help="compare with a Cycles render of the same view")
-    add_settings(compare)
-    compare.add_argument("--samples", type=int, default=16, metavar="N", help="samples per pixel of the pictures")
-    compare.add_argument("--scene-samples", action="store_true",
-                         help="sampling, denoising and bounces of the pictures as the scene is set")
-    compare.add_argument("--output", metavar="FOLDER", help="where pictures and numbers go (else beside the file)")
-    compare.set_defaults(work=_compare)
+    add_compare(compare)
     baked = verbs.add_parser("bake", help="write a range of frames to files, and a file that plays them")
     add_settings(baked)
     add_bake(baked)
@@ -205,7 +200,7 @@ def _lit(context: bpy.types.Context, results: list, samples: int | None, kind: s
          every: bool = False) -> str:
     started = time.perf_counter()
     wanted = Wanted(context.scene, given(argparse.Namespace(), light_samples=samples, light_kind=kind))
-    lit = announced(lighting_groups(context, wanted.lights(results), every))
+    lit = announced(lighting_groups(context, wanted.lights(with_copies(context, results)), every))
     return lighting_summary(lit, time.perf_counter() - started)
 
 
@@ -232,18 +227,6 @@ def _chosen(context: bpy.types.Context, options: argparse.Namespace) -> Particip
     if both:
         raise core.ReflectionError(f"'{min(both)}' is named both as a mirror and as a diffuse object: name it once.")
     return Participants([objects[name] for name in options.mirror], [objects[name] for name in options.diffuse], [])
-
-
-def _compare(context: bpy.types.Context, options: argparse.Namespace) -> None:
-    folder = options.output or bpy.path.abspath("//reflection comparison")
-    if not (options.output or bpy.data.filepath):
-        raise core.ReflectionError("The comparison has no folder: open a .blend file or name one with --output.")
-    if options.samples < 1:
-        raise core.ReflectionError("A comparison takes at least one sample: raise --samples.")
-    folder = os.path.abspath(folder)
-    samples = 0 if options.scene_samples else options.samples
-    wanted = Wanted(context.scene, given(options))
-    print(summary(announced(comparison(context, folder, samples, wanted)), folder))
 
 
 def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:

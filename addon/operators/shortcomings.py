@@ -3,13 +3,17 @@ from __future__ import annotations
 
 import bpy
 
-from ..core import ReflectionError, ReflectionMesh
-from .writing import what_is_in_the_way
+from ...core import ReflectionError, ReflectionMesh
+from ..writing import what_is_in_the_way
 
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
 PARTLY_HIDDEN, HIDDEN = 0.01, 0.5
 MISSING = 3.0  # per cent of what the mirror shows
 MISSED = 3  # probes: fewer may lie on an outline
+DEPTH_OF_FIELD = ("Depth of field: the camera focuses on the mirror and not on what it shows; choose the placement "
+                  "Virtual for flat mirrors, or blur after the render.")
+MOTION_BLUR = ("Motion blur: the reflection is that of one moment, and is blurred as what lies on the mirror; blur it "
+               "after the render, or switch motion blur off.")
 # what is said where the result counts it
 SENTENCES = {
     "crowded":
@@ -45,6 +49,14 @@ def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
     told += [sentence.format(count=counts[what], points=len(result.positions)) for what, sentence in SENTENCES.items()
              if counts.get(what)]
     return [f"{name}: {sentence}" for sentence in told]
+
+
+def blur_shortcomings(scene: bpy.types.Scene, placements: list[str]) -> list[str]:
+    """Sentences on what a render blurs otherwise than a mirror would, of results with these placements."""
+    camera = scene.camera
+    focused = camera is not None and camera.type == "CAMERA" and camera.data.dof.use_dof
+    told = [DEPTH_OF_FIELD] if focused and any(placement != "VIRTUAL" for placement in placements) else []
+    return told + [MOTION_BLUR] * scene.render.use_motion_blur
 
 
 def window_shortcomings(context: bpy.types.Context, mirror: bpy.types.Object, result: ReflectionMesh,

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import bpy
 from bpy.app.translations import pgettext_tip
 
-from .reading import NO_CAMERA, NO_MIRROR
+from ..reading import NO_CAMERA, NO_MIRROR
 
 LOOKED_THROUGH = 500    # objects: to look for roles in more takes longer than a redraw may
 Obstacle = Callable[[bpy.types.Context], str]
@@ -42,6 +42,12 @@ def has_mirror(context: bpy.types.Context) -> str:
     if objects.selected or (active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}):
         return ""
     return "" if _any(objects, lambda obj: obj.reflection_mesh.role == "MIRROR") else NO_MIRROR
+
+
+def has_mirror_or_caustics(context: bpy.types.Context) -> str:
+    """As `has_mirror`, or the scene has the light of mirrors."""
+    return has_mirror(context) and ("" if _any(context.view_layer.objects, lambda obj: (
+        obj.reflection_mesh.role == "CAUSTICS")) else NO_MIRROR)
 
 
 def has_result(sentence: str) -> Obstacle:

@@ -7,12 +7,11 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 
-from ..core import ReflectionError, View
-from . import polls
-from .baking import KeptMap, baked, can_be_baked, kept_map, new_object_material, vectors
-from .clear import chosen_results
-from .faults import AllOrNothing, SteppedOperator, Steps, Undivided, part
-from .lighting import (
+from ...core import ReflectionError, View
+from ..baking import KeptMap, LaterMirrors, Surroundings, baked, can_be_baked, kept_map, new_object_material, vectors
+from ..faults import AllOrNothing, SteppedOperator, Steps, Undivided, part, tell
+from ..lamps import lamps_before, lamps_that_show
+from ..lighting import (
     Window,
     is_plain,
     light_scene,
@@ -27,9 +26,11 @@ from .lighting import (
     texels_of,
     white_of,
 )
-from .reading import camera_of, is_mirror, is_opaque, read_scene, read_view, seen_in
-from .settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
-from .writing import place_of
+from ..reading import camera_of, is_mirror, is_opaque, read_scene, read_view, seen_in, with_copies
+from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
+from ..writing import forget_mesh, place_of
+from . import polls
+from .clear import chosen_results
 
 NAME = "Reflection Light"
 IN_OBJECT_MODE = "Reflections are lit in Object Mode: leave the present mode first."
@@ -76,9 +77,9 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
     yield 0.0, "Reading the scene"
     view = read_view(context)
     groups = _for_the_camera(context.scene.camera, groups)
-    everything, shows = [], []
+    everything, shows, lamps = [], [], lamps_that_show(context)
     for number, (results, samples, kind) in enumerate(groups):
-        lit = [result for result in results if every or needs_light(result)]
+        lit = [result for result in results if every or needs_light(result) or lamps_before(result, lamps)]
         if not lit:
             continue
         with_objects = kind == "OBJECTS" or (kind == "AUTO" and any(map(moves, [
@@ -86,10 +87,34 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
         steps = (_on_objects if with_objects else _in_picture)(context, lit, view, samples)
         shows.append((yield from part(steps, number / len(groups), 1.0 / len(groups))))
         everything += lit
+    meshes: dict = {}
+    for result in everything:
+        meshes.setdefault(result.data, []).append(result)
     with AllOrNothing() as whole:
+        for mesh, linked in meshes.items():
+            _keep_apart(mesh, linked, whole)
         for show in shows:
             show(whole)
+        for linked in meshes.values():
+            _stay_linked(linked, whole)
     return everything
+
+
+def _keep_apart(mesh: bpy.types.Mesh, linked: list, whole: AllOrNothing) -> None:
+    """Let none of several results that have one mesh write it: each writes its own, and can go back to this."""
+    if len(linked) > 1 and mesh.library is None:
+        whole.after(forget_mesh, mesh)
+        for step in (whole.undo, whole.after):
+            step(setattr, mesh, "use_fake_user", mesh.use_fake_user)
+        mesh.use_fake_user = True
+
+
+def _stay_linked(linked: list, whole: AllOrNothing) -> None:
+    """Let results that had one mesh have one again."""
+    for result in linked[1:]:
+        whole.undo(setattr, result, "data", result.data)
+        whole.after(forget_mesh, result.data)
+        result.data = linked[0].data
 
 
 def _for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
@@ -154,7 +179,7 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int
     yield 0.95, "Writing"
     # what was hidden for a while counts as changed only now
     context.view_layer.update()
-    opaque = all(map(is_opaque, scene.materials))
+    opaque, lamps = all(map(is_opaque, scene.materials)), lamps_that_show(context)
 
     def show(whole: AllOrNothing) -> None:
         image = new_image(NAME, light.texels)
@@ -162,7 +187,9 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int
         light_map = kept_map(NAME, light.uv)
         whole.undo(bpy.data.meshes.remove, light_map)
         for result in lit:
-            material = new_object_material(NAME, image, _mirror_material(result), opaque)
+            around = Surroundings(result.reflection_mesh.mirror, lamps_before(result, lamps),
+                                  LaterMirrors.of(result, context.scene.objects))
+            material = new_object_material(NAME, image, _mirror_material(result), opaque, around)
             whole.undo(bpy.data.materials.remove, material)
             show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets), whole)
     return show
@@ -204,10 +231,10 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        results, wanted = chosen_results(context), self.wanted(context)
+        results, wanted = with_copies(context, chosen_results(context)), self.wanted(context)
         lit = yield from lighting_groups(context, wanted.lights(results), self.every)
         self.show_used(wanted, [result.reflection_mesh.mirror for result in results])
-        self.report({"INFO"}, summary(lit, time.perf_counter() - started))
+        tell(self, {"INFO"}, summary(lit, time.perf_counter() - started))
 
 
 def register() -> None:

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from .. import core
-from . import polls
-from .anamorphosis import (
+from ... import core
+from ..anamorphosis import (
     SEEN,
     UV_MAP,
     Frame,
@@ -23,9 +22,10 @@ from .anamorphosis import (
     write_copy,
     write_own_map,
 )
-from .faults import AllOrNothing, SteppedOperator, Steps, part
-from .reading import Participants, choose, read_mirror, read_scene, read_view
-from .settings import UsesSettings, Wanted, option
+from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
+from ..reading import Participants, choose, read_mirror, read_scene, read_view
+from ..settings import UsesSettings, Wanted, option
+from . import polls
 
 TARGETS = (
     ("COPY", "A Copy", "Faces are cut where the map bends, on a copy that stands in for the object, which is hidden"),
@@ -178,8 +178,8 @@ class REFLECTION_MESH_OT_mirror_uvs(UsesSettings, SteppedOperator, bpy.types.Ope
             if obj.name in context.view_layer.objects:
                 obj.select_set(True)
         for remark in outcome.remarks:
-            self.report({"WARNING"}, remark)
-        self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
+            tell(self, {"WARNING"}, remark)
+        tell(self, {"INFO"}, outcome.summary(time.perf_counter() - started))
 
 
 def register() -> None:

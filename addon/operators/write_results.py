@@ -5,20 +5,13 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..core import View
-from .faults import AllOrNothing
-from .frames import stop_playing
-from .lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
-from .reading import DiffuseScene, results_of
-from .writing import (
-    Reflection,
-    gather,
-    mesh_bytes,
-    put_back_materials,
-    show_for_camera,
-    size_text,
-    write_object,
-)
+from ...core import View
+from ..faults import AllOrNothing
+from ..frames import stop_playing
+from ..lamps import lamps_before, lamps_that_show
+from ..lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
+from ..reading import DiffuseScene, results_of
+from ..writing import Reflection, gather, mesh_bytes, put_back_materials, show_for_camera, size_text, write_object
 
 WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
 
@@ -90,6 +83,7 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
     there, remarks = set(context.scene.objects), []
     previewed = {obj for made in prepared for obj in results_of(context, made.mirror)
                  if shows_preview(obj) or (manners.preview_unlit and is_lit(obj))}
+    lamps = lamps_that_show(context)
     with AllOrNothing() as whole:
         written = [write_object(context, made, whole) for made in prepared]
         for made, group in zip(prepared, written):
@@ -99,8 +93,9 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
                 whole.after(stop_playing, entry.obj)
         results = [(group[0].obj, made.result) for group, made in zip(written, prepared)]
         entries = [entry for group in written for entry in group]
-        unlit = [entry.obj for entry in entries if not is_lit(entry.obj) and needs_light(entry.obj)]
-        show_previews([obj for obj in unlit if preview or obj in previewed], whole)
+        unlit = [entry.obj for entry in entries
+                 if not is_lit(entry.obj) and (needs_light(entry.obj) or lamps_before(entry.obj, lamps))]
+        show_previews([obj for obj in unlit if preview or obj in previewed], context.scene, view, lamps, whole)
         if manners.collect:
             gather(context, [obj for obj, _ in results if obj not in there], whole)
         whole.after(forget_previews)

@@ -1,4 +1,4 @@
-"""The operator that judges a reflection mesh against Cycles."""
+"""The operator that judges reflections and caustics against Cycles."""
 from __future__ import annotations
 
 import time
@@ -6,18 +6,21 @@ import time
 import bpy
 import numpy as np
 
-from ..core import ReflectionError, Settings, in_steps
-from . import compat, polls
+from ...core import ReflectionError, Settings, in_steps
+from .. import compat
+from ..comparison import REFLECTION_PICTURES, load_pictures, remember, render_comparison, show_picture, write_report
+from ..comparison.light_page import FILES as LIGHT_PICTURES
+from ..faults import AllOrNothing, BrowsingOperator, Steps, part, still_there, tell
+from ..files import chosen_folder, staged
+from ..judge import copied_scene
+from ..metrics import measure, picture_errors, without_packing
+from ..reading import Participants, participants, read_view, results_of
+from ..settings import SettingsOfMirrors, SettingsOptions, UsesSettings
+from ..writing import as_shown
+from . import polls
 from .clear import clear
-from .comparison import load_pictures, remember, render_comparison, show_picture, write_report
-from .faults import AllOrNothing, BrowsingOperator, Steps, part, still_there
-from .files import chosen_folder, staged
+from .compare_light import Effort, light_comparison, light_summary
 from .generate import generation
-from .judge import copied_scene
-from .metrics import measure, picture_errors, without_packing
-from .reading import Participants, participants, read_view, results_of
-from .settings import SettingsOfMirrors, SettingsOptions, UsesSettings
-from .writing import as_shown
 
 IN_OBJECT_MODE = "Reflections are compared in Object Mode: leave the present mode first."
 # shares of the work: of all of it what generating takes, where something is missing, and of the rest what follows
@@ -120,8 +123,33 @@ def _judged(context: bpy.types.Context, chosen: Participants, results: list, fol
     return report
 
 
+WHAT = (("AUTO", "By What There Is", "Caustics where these are selected, or the mirrors have no reflection but "
+         "caustics; else reflections"),
+        ("REFLECTIONS", "Reflections", "What the mirrors show to the camera"),
+        ("CAUSTICS", "Caustics", "The light of lamps that the mirrors throw"))
+REFERENCE, RAYS = 512, 400_000
+
+
+def means_caustics(context: bpy.types.Context) -> bool:
+    """Whether the selection, or what there is of the mirrors that take part, means caustics."""
+    chosen = [obj for obj in context.view_layer.objects
+              if obj.select_get() or obj == context.view_layer.objects.active]
+    roles = {obj.reflection_mesh.role for obj in chosen}
+    if roles & {"CAUSTICS", "REFLECTION"}:
+        return "REFLECTION" not in roles
+    thrown = {obj.reflection_mesh.mirror for obj in context.view_layer.objects
+              if obj.reflection_mesh.role == "CAUSTICS"}
+    if not thrown:
+        return False
+    try:
+        mirrors, _ = participants(context)
+    except ReflectionError:
+        return True
+    return not any(results_of(context, mirror) for mirror in mirrors) and not thrown.isdisjoint(mirrors)
+
+
 class REFLECTIONMESH_OT_compare(UsesSettings, BrowsingOperator, SettingsOptions, bpy.types.Operator):
-    """Compare the reflections with Cycles; leaves pictures and errors in pixels in a folder"""
+    """Compare reflections or caustics with Cycles; leaves pictures and errors in a folder"""
 
     bl_idname = "reflection_mesh.compare"
     bl_label = "Compare with Cycles"
@@ -131,20 +159,33 @@ class REFLECTIONMESH_OT_compare(UsesSettings, BrowsingOperator, SettingsOptions,
                                        default="//reflection comparison", subtype="FILE_PATH",
                                        options=compat.RELATIVE_PATH)
     samples: bpy.props.IntProperty(name="Samples", default=16, min=0, soft_max=1024,
-                                   description="Samples per pixel of the two pictures; 0: as the scene is set")
+                                   description="Samples per pixel of the pictures; 0: as the scene is set")
+    what: bpy.props.EnumProperty(name="What", items=WHAT, options=set(), description="What is compared with Cycles")
+    converged: bpy.props.IntProperty(name="Reference Samples", default=REFERENCE, min=1, soft_max=65536, options=set(),
+                                     description="Of caustics: samples per pixel of Cycles' own that all is compared "
+                                     "with")
+    rays: bpy.props.IntProperty(name="Rays", default=RAYS, min=1, soft_max=100_000_000, options=set(),
+                                description="Of caustics: rays traced one by one for each of them")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror_or_caustics,
+                            polls.has_camera)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         folder, wanted = chosen_folder(self.filepath), self.wanted(context)
-        report = yield from comparison(context, folder, self.samples, wanted)
-        self.show_used(wanted)
+        if self.what == "CAUSTICS" or (self.what == "AUTO" and means_caustics(context)):
+            effort = Effort(self.samples or context.scene.cycles.samples, self.converged, self.rays)
+            report = yield from light_comparison(context, folder, effort)
+            told, pictures = light_summary(report, folder), LIGHT_PICTURES
+        else:
+            report = yield from comparison(context, folder, self.samples, wanted)
+            self.show_used(wanted)
+            told, pictures = summary(report, folder), REFLECTION_PICTURES
         remember(context.scene, report, folder)
         if not bpy.app.background:
-            show_picture(context.window_manager, load_pictures(folder)[-1])
-        self.report({"INFO"}, summary(report, folder))
+            show_picture(context.window_manager, load_pictures(folder, pictures)[-1])
+        tell(self, {"INFO"}, told)
 
 
 def summary(report: dict, folder: str) -> str:

@@ -3,12 +3,12 @@ from __future__ import annotations
 
 import bpy
 
+from ..faults import in_one_sentence, tell
+from ..frames import stop_playing
+from ..illumination import bring_back_abandoned, forget_added_light
+from ..lighting import forget_light, forget_map, forget_previews
+from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
 from . import polls
-from .faults import in_one_sentence
-from .frames import stop_playing
-from .illumination import bring_back_abandoned, forget_added_light
-from .lighting import forget_light, forget_map, forget_previews
-from .writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
 
 IN_OBJECT_MODE = "Reflections are cleared in Object Mode: leave the present mode first."
 
@@ -62,15 +62,21 @@ def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:
 
 def clear_caustics(caustics: list) -> None:
     """Remove `caustics` with their meshes and materials, and let Cycles show its own again where none are left."""
+    remove_caustics(caustics)
+    bring_back_abandoned()
+
+
+def remove_caustics(caustics: list) -> None:
+    """Remove `caustics` with their meshes and materials."""
     meshes = {obj.data for obj in caustics if isinstance(obj.data, bpy.types.Mesh)}
     materials = {material for mesh in meshes for material in mesh.materials} - {None}
     for obj in caustics:
+        stop_playing(obj)
         bpy.data.objects.remove(obj)
     for mesh in meshes:
         if mesh.users == 0:
             bpy.data.meshes.remove(mesh)
     forget_added_light(list(materials))
-    bring_back_abandoned()
 
 
 class REFLECTION_MESH_OT_clear(bpy.types.Operator):
@@ -87,7 +93,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
     @in_one_sentence
     def execute(self, context: bpy.types.Context) -> set:
         if context.mode != "OBJECT":
-            self.report({"ERROR"}, IN_OBJECT_MODE)
+            tell(self, {"ERROR"}, IN_OBJECT_MODE)
             return {"CANCELLED"}
         results, (caustics, named) = chosen_results(context), chosen_caustics(context)
         selected = set(context.selected_objects)
@@ -95,14 +101,15 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
             results, caustics = ([], caustics) if named else (results, [])
         if not results and not caustics and not bring_back_abandoned() and not any(
                 obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
-            self.report({"WARNING"}, "The scene has no reflection to clear.")
+            tell(self, {"WARNING"}, "The scene has no reflection to clear.")
             return {"CANCELLED"}
         clear(context, results)
         clear_caustics(caustics)
-        told = f"{len(results)} reflection{'' if len(results) == 1 else 's'}"
+        told = "1 reflection" if len(results) == 1 else f"{len(results)} reflections"
         if caustics:
-            told = f"{told + ' and ' if results else ''}the light of {len(caustics)} caustics"
-        self.report({"INFO"}, f"{told} cleared.")
+            told = f"{told} and the light of {len(caustics)} caustics" if results else (
+                f"the light of {len(caustics)} caustics")
+        tell(self, {"INFO"}, f"{told} cleared.")
         return {"FINISHED"}
 
 

@@ -7,7 +7,7 @@ from contextlib import ExitStack, contextmanager
 
 import bpy
 
-from ..core import ReflectionError
+from ...core import ReflectionError
 
 
 def add_place(parser: argparse.ArgumentParser, frame: bool = True) -> None:
@@ -19,8 +19,8 @@ def add_place(parser: argparse.ArgumentParser, frame: bool = True) -> None:
         Whether the verb works on one frame, and so by one camera.
     """
     parser.add_argument("--scene", metavar="NAME", help="the scene (else the file's own)")
-    parser.add_argument("--view-layer", metavar="NAME", help="whose objects are seen (else the file's own)")
     if frame:
+        parser.add_argument("--view-layer", metavar="NAME", help="whose objects are seen (else the file's own)")
         parser.add_argument("--camera", metavar="NAME", help="the camera (else the scene's, by its markers)")
         parser.add_argument("--frame", type=int, metavar="N", help="the frame (else the file's own)")
 
@@ -35,7 +35,7 @@ def placed(context: bpy.types.Context, options: argparse.Namespace) -> Iterator[
         Where there is no such scene, view layer or camera.
     """
     scene = context.scene if options.scene is None else named(bpy.data.scenes, options.scene, "scene", "the file")
-    layer = _layer(context, scene, options.view_layer)
+    layer = _layer(context, scene, options.view_layer if isinstance(options.view_layer, str) else None)
     with ExitStack() as stack:
         if (scene, layer) != (context.scene, context.view_layer):
             stack.enter_context(context.temp_override(scene=scene, view_layer=layer))
@@ -54,6 +54,11 @@ def camera_of(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
     return found
 
 
+def layer_of(scene: bpy.types.Scene, name: str) -> bpy.types.ViewLayer:
+    """A scene's view layer by its name."""
+    return named(scene.view_layers, name, "view layer", f"the scene '{scene.name}'")
+
+
 def named(items, name: str, what: str, where: str):
     """One of Blender's items by its name."""
     if name not in items:
@@ -63,5 +68,5 @@ def named(items, name: str, what: str, where: str):
 
 def _layer(context: bpy.types.Context, scene: bpy.types.Scene, name: str | None) -> bpy.types.ViewLayer:
     if name is not None:
-        return named(scene.view_layers, name, "view layer", f"the scene '{scene.name}'")
+        return layer_of(scene, name)
     return context.view_layer if scene == context.scene else scene.view_layers[0]

@@ -1,7 +1,7 @@
 """How the command line tells how far it is: in words, or in the lines that a render farm's worker reads."""
 from __future__ import annotations
 
-from .faults import Steps, finished
+from ..faults import Steps, finished
 
 
 def announced(steps: Steps, farm: str = "") -> object:

@@ -7,16 +7,17 @@ from functools import partial
 
 import bpy
 
-from .. import core
+from ... import core
+from ..faults import SteppedOperator, Steps, part, tell
+from ..freshness import origin_of, record_of, settings_of
+from ..properties import ATTRIBUTES
+from ..reading import NothingSeen, Participants, choose, is_opaque, read_view
+from ..settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
+from ..standing import Kept
+from ..writing import Reflection, mesh_arrays, point_arrays
 from . import polls
-from .faults import SteppedOperator, Steps, part
-from .freshness import origin_of, record_of
-from .properties import ATTRIBUTES
-from .reading import NothingSeen, Participants, choose, is_opaque, read_mirror, read_scene, read_view
-from .settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
-from .shortcomings import shortcomings, window_shortcomings
+from .shortcomings import blur_shortcomings, shortcomings, window_shortcomings
 from .write_results import Manners, Outcome, write_results
-from .writing import Reflection, mesh_arrays, point_arrays
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
@@ -50,22 +51,23 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     remarks = [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
     view = view or read_view(context)
     depsgraph = context.evaluated_depsgraph_get()
-    surfaces = [read_mirror(depsgraph, mirror) for mirror in chosen.mirrors]
-    scene = read_scene(depsgraph, chosen.diffuse)
+    kept = Kept.of(depsgraph)
+    stage = kept.read(depsgraph, chosen.mirrors, chosen.diffuse)
+    scene, surfaces = stage.scene, stage.surfaces
     sources = chosen.diffuse + chosen.waiting
-    origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources)) for mirror in chosen.mirrors}
+    origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources), settings_of(context.scene, mirror))
+               for mirror in chosen.mirrors}
     if not all(map(is_opaque, scene.materials)):
         own = [replace(one, hidden_faces=True) for one in own]
-    trees, kinds = {}, [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
+    kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     for number, kind in enumerate(dict.fromkeys(kinds)):
-        start = READING * (0.5 + 0.25 * number)
-        yield start, "Building the tree"
-        trees[kind] = yield from part(core.in_steps(partial(kind.build, scene.mesh)), start, 0.25 * READING,
-                                      "Building the tree")
-    mirrors = core.TriangleMesh.joined([surface.mesh for surface in surfaces])
+        if not stage.has(kind):
+            start = READING * (0.5 + 0.25 * number)
+            yield start, "Building the tree"
+            yield from part(core.in_steps(partial(stage.built, kind)), start, 0.25 * READING, "Building the tree")
     prepared, refused, unseen, share = [], [], 0, (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
-        steps = core.reflection_steps(view, surface.mesh, trees[kinds[index]], own[index], mirrors)
+        steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index])
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
             if own[index].placement == "VIRTUAL":
@@ -84,6 +86,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
                                    own[index].placement, manners.attributes))
     if not prepared:
         raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
+    kept.within(max(one.maximum_memory for one in own))
     yield 1.0, "Writing"
     outcome = write_results(context, prepared, view, scene, preview, manners)
     for obj in [obj for obj, _ in outcome.results] + outcome.copies:
@@ -140,11 +143,12 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
             if obj.name in context.view_layer.objects:
                 obj.select_set(True)
                 context.view_layer.objects.active = obj
-        for remark in outcome.remarks:
-            self.report({"WARNING"}, remark)
+        placements = [settings.placement for settings in map(of_each(wanted), chosen.mirrors)]
+        for remark in outcome.remarks + blur_shortcomings(context.scene, placements):
+            tell(self, {"WARNING"}, remark)
         for sentence in outcome.news:
-            self.report({"INFO"}, sentence)
-        self.report({"INFO"}, outcome.summary(time.perf_counter() - started))
+            tell(self, {"INFO"}, sentence)
+        tell(self, {"INFO"}, outcome.summary(time.perf_counter() - started))
 
 
 def register() -> None:

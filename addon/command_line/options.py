@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import argparse
 
-from .settings import LIGHTS, METHODS, PLACEMENTS, SETTINGS
+from ..settings import LIGHTS, METHODS, PLACEMENTS, SETTINGS
 
 
 def number(text: str) -> float | None:

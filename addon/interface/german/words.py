@@ -1,4 +1,4 @@
-"""German. A test holds it to every word that the interface shows."""
+"""The words of buttons, panels, menus, settings and tips, and why buttons are grey."""
 
 OBJECT_MODE = ": verlasse zuerst den jetzigen Modus."
 OPERATORS = {
@@ -37,6 +37,13 @@ OPERATORS = {
     "Generate Caustics": "Kaustik erzeugen",
     "Compute the light of lamps that the mirrors throw on the diffuse objects, as meshes that add it to them":
         "Berechnet das Licht der Lampen, das die Spiegel auf die Objekte werfen, als Netze, die es ihnen hinzufügen",
+    "What": "Was",
+    "What is written of each frame": "Was von jedem Einzelbild geschrieben wird",
+    "Reflections": "Spiegelungen",
+    "What the mirrors show to the camera": "Was die Spiegel der Kamera zeigen",
+    "The light of lamps that the mirrors throw": "Das Licht von Lampen, das die Spiegel werfen",
+    "Places on each lamp that its caustics come from; 0: as many as they were generated with":
+        "Orte auf jeder Lampe, von denen ihre Kaustik kommt; 0: so viele, wie sie beim Erzeugen hatte",
     "Lamp Places": "Orte je Lampe",
     "Places on each lamp that its light comes from: one is sharp, more are as soft as the lamp is large":
         "Orte auf jeder Lampe, von denen ihr Licht kommt: einer ist scharf, mehr sind so weich, wie die Lampe groß ist",
@@ -58,11 +65,21 @@ OPERATORS = {
     "Overwrite": "Überschreiben",
     "Make again the frames that are there already": "Auch Einzelbilder, die es schon gibt, neu machen",
     "Compare with Cycles": "Mit Cycles vergleichen",
-    "Compare the reflections with Cycles; leaves pictures and errors in pixels in a folder":
-        "Vergleicht die Spiegelungen mit Cycles; Bilder und Fehler in Pixeln liegen danach in einem Ordner",
+    "Compare reflections or caustics with Cycles; leaves pictures and errors in a folder":
+        "Vergleicht Spiegelungen oder Kaustik mit Cycles; Bilder und Fehler liegen danach in einem Ordner",
     "Folder for the pictures and the report": "Ordner für die Bilder und den Bericht",
-    "Samples per pixel of the two pictures; 0: as the scene is set":
-        "Samples pro Pixel der beiden Bilder; 0: wie in der Szene eingestellt",
+    "Samples per pixel of the pictures; 0: as the scene is set":
+        "Samples pro Pixel der Bilder; 0: wie in der Szene eingestellt",
+    "What is compared with Cycles": "Was mit Cycles verglichen wird",
+    "By What There Is": "Nach dem, was da ist",
+    "Caustics where these are selected, or the mirrors have no reflection but caustics; else reflections":
+        "Kaustik, wo sie ausgewählt ist oder die Spiegel keine Spiegelung haben, aber Kaustik; sonst Spiegelungen",
+    "Reference Samples": "Samples der Referenz",
+    "Of caustics: samples per pixel of Cycles' own that all is compared with":
+        "Bei Kaustik: Samples pro Pixel der eigenen von Cycles, mit der alles verglichen wird",
+    "Rays": "Strahlen",
+    "Of caustics: rays traced one by one for each of them":
+        "Bei Kaustik: Strahlen, die für jede einzeln verfolgt werden",
     "Clear Reflections": "Spiegelungen entfernen",
     "Remove the selected reflections, or all of the scene, and restore what they changed":
         "Entfernt die ausgewählten Spiegelungen, oder alle der Szene, und stellt her, was sie verändert haben",
@@ -206,6 +223,9 @@ PANELS = {
     "Against Cycles at {width} x {height}": "Gegen Cycles bei {width} x {height}",
     "Displacement {median:.3f} px, 99 %: {most:.3f} px": "Verschoben um {median:.3f} px, 99 %: {most:.3f} px",
     "Holes, spill, wrong layer {share:.3f} %": "Löcher, Überstand, falsche Schicht {share:.3f} %",
+    "Caustics PSNR {mesh:.1f} dB; Cycles' own, {samples} samples: {own:.1f} dB":
+        "Kaustik PSNR {mesh:.1f} dB; die von Cycles, {samples} Samples: {own:.1f} dB",
+    "Flux {flux:+.3f} % from rays": "Lichtstrom {flux:+.3f} % neben Strahlen",
     "Open the Report": "Bericht öffnen",
 }
 OBSTACLES = {
@@ -257,6 +277,9 @@ LIVE = {
     "the camera or the picture's size has changed": "die Kamera oder die Bildgröße hat sich geändert",
     "the mirror has changed": "der Spiegel hat sich geändert",
     "a reflected object has changed": "ein gespiegeltes Objekt hat sich geändert",
+    "the settings have changed": "die Einstellungen haben sich geändert",
+    "materials have been exchanged": "Materialien wurden ausgetauscht",
+    "the colours of materials have changed": "die Farben von Materialien haben sich geändert",
     "Live was stopped before it was exact":
         "Live wurde beendet, bevor sie genau war",
     "Exact, {milliseconds:.0f} ms": "Genau, {milliseconds:.0f} ms",
@@ -264,4 +287,4 @@ LIVE = {
     "Live waits for Object Mode.": "Live wartet auf den Objektmodus.",
     "Generate a reflection first.": "Erzeuge zuerst eine Spiegelung.",
 }
-GERMAN = {**OPERATORS, **SETTINGS, **ROLES, **PANELS, **OBSTACLES, **LIVE}
+WORDS = {**OPERATORS, **SETTINGS, **ROLES, **PANELS, **OBSTACLES, **LIVE}

@@ -1,0 +1,93 @@
+"""The verb `bake`: on one machine, or in chunks of frames on as many as there are, in any order."""
+from __future__ import annotations
+
+import argparse
+import os
+import time
+
+import bpy
+
+from ...core import ReflectionError
+from ..files import check_place, chosen_folder, save_blend
+from ..frames import FrameRecord
+from ..illumination import meant_lamps
+from ..operators.bake import FOLDER, WHAT, baking, showing
+from ..operators.bake_plan import blur_remarks, layer_remarks, plan_of, summary
+from ..settings import Wanted
+from ..writing import show_in_layer
+from .options import given, whole_number
+from .place import camera_of, layer_of
+from .progress import announced
+
+INTERRUPTED = "Interrupted: the frames that are done stay, and the same command goes on with the others."
+
+
+def add_bake(parser: argparse.ArgumentParser) -> None:
+    """The options of the verb, but for settings and place."""
+    parser.add_argument("--frames", "--frame", default="", metavar="LIST",
+                        help="as 1-24, or 1-100:2 with a step, or 3,5-10 (else the scene's range)")
+    parser.add_argument("--camera", nargs="+", default=[], metavar="NAME",
+                        help="the cameras, each with a sequence of its own (else the scene's, by its markers)")
+    parser.add_argument("--what", choices=[item[0] for item in WHAT], default="REFLECTIONS",
+                        help="reflections, or the light of lamps that mirrors throw")
+    parser.add_argument("--eyes", type=whole_number, metavar="N",
+                        help="places on each lamp that its caustics come from (else as they were generated)")
+    parser.add_argument("--keep-own", dest="leave_out", action="store_false",
+                        help="let Cycles add caustics of its own")
+    parser.add_argument("--view-layer", nargs="+", default=[], metavar="NAME",
+                        help="the view layers, each with a sequence of its own, that the others do not show (else the "
+                        "file's own)")
+    parser.add_argument("--light", type=whole_number, metavar="N",
+                        help="samples per pixel of what needs light (else the file's); 0 for none")
+    parser.add_argument("--overwrite", action="store_true", help="make again the frames that are there already")
+    parser.add_argument("--frames-only", action="store_true", help="write no file that plays them")
+    parser.add_argument("--progress", choices=("WORDS", "OPENJD"), default="WORDS",
+                        help="how progress is told: OPENJD as workers of Open Job Description read it")
+    parser.add_argument("--output", metavar="FOLDER", help="where the frames go (else beside the file)")
+    parser.set_defaults(work=bake, interrupted=INTERRUPTED)
+
+
+def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
+    """Bake what is missing; then save a copy of the file that plays it, unless that is not wanted."""
+    started = time.perf_counter()
+    if options.light is not None and options.light < 0:
+        raise ReflectionError("Light takes no less than 0 samples: raise --light.")
+    thrown = options.what == "CAUSTICS"
+    if options.eyes is not None and options.eyes < 1:
+        raise ReflectionError("Light comes from one place of each lamp at least: raise --eyes.")
+    if thrown and len(set(options.view_layer)) > 1:
+        raise ReflectionError("Light that mirrors throw is baked for one view layer at a time: name one.")
+    folder = os.path.abspath(options.output) if options.output else chosen_folder(FOLDER)
+    scene = context.scene
+    cameras = tuple(camera_of(scene, name) for name in dict.fromkeys(options.camera))
+    layers = [layer_of(scene, name) for name in dict.fromkeys(options.view_layer)] or [context.view_layer]
+    wanted = Wanted(scene, given(options, light_samples=options.light))
+    done: list = []
+    remarks: list = []
+
+    def tell(record: FrameRecord) -> None:
+        done.append(record)
+        # as Blender tells of pictures: workers of Flamenco read it
+        print(*(f"Saved: '{os.path.join(folder, file)}'" for file in record.files), sep="\n", flush=True)
+    plans, sequences = [], []
+    for layer in layers:
+        with context.temp_override(scene=scene, view_layer=layer):
+            plan = plan_of(context, folder, options.frames, wanted, cameras=cameras, overwrite=options.overwrite,
+                           layer=layer.name if len(layers) > 1 else "", eyes=options.eyes or 0,
+                           lamps=tuple(meant_lamps(context)) if thrown else (), leave_out=options.leave_out)
+            sequences.append(announced(baking(context, plan, tell, remarks.append), options.progress))
+            plans.append(plan)
+    told = remarks + blur_remarks(scene, cameras, thrown) + layer_remarks(scene, layers)
+    if not options.frames_only:
+        for layer, plan, shown in zip(layers, plans, sequences):
+            with context.temp_override(scene=scene, view_layer=layer):
+                objects, remarks = showing(context, plan, shown)
+            told += remarks
+            if len(layers) > 1:
+                show_in_layer(scene, layer, objects)
+        stem = os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "scene"
+        path = os.path.join(folder, f"{stem} {options.what.lower()}.blend")
+        check_place(path)
+        save_blend(path)
+        told.append(f"Saved: '{path}'")
+    print(*told, summary(plans, len(done), time.perf_counter() - started), sep="\n", flush=True)

@@ -1,0 +1,51 @@
+"""Sentences in the language of Blender's interface: what operators tell, with the names and numbers that are in it.
+
+A sentence is looked up by what stands between these (`{}` in their places), so that whoever says it says it in English,
+and needs not know of any language.
+"""
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+import bpy
+from bpy.app.translations import pgettext_rpt
+
+DEEPEST = 3     # sentences inside sentences
+FIELD = re.compile(r"\{(\w*)\}")
+ANYTHING, NUMBERS = "(.*?)", r"([\d., ]+?)"
+SHORT = 16      # letters: a part of a sentence, with numbers alone in it, since names may be made of the same words
+
+_known: list[tuple[re.Pattern, str, list[str]]] = []
+
+
+def know_sentences(sentences: Iterable[str]) -> None:
+    """Look for these sentences, which translations are registered of, in what is told from now on."""
+    _known.clear()
+    # first those that say most by themselves
+    for sentence in sorted(sentences, key=lambda sentence: -len(FIELD.sub("", sentence))):
+        letters = sum(map(str.isalpha, FIELD.sub("", sentence)))
+        part = 0 < letters <= SHORT and ":" not in sentence and not sentence.endswith(".")
+        words = map(re.escape, re.split(r"\{\w*\}", sentence))
+        pattern = re.compile((NUMBERS if part else ANYTHING).join(words), re.DOTALL)
+        _known.append((pattern, sentence, FIELD.findall(sentence)))
+
+
+def tell(operator: bpy.types.Operator, kinds: set[str], sentence: str) -> None:
+    """Report a sentence in the user's language."""
+    operator.report(kinds, translated(sentence))
+
+
+def translated(sentence: str, depth: int = 0) -> str:
+    """A sentence in the language of the interface, where it is one of those that are known; sentences and parts of some
+    that stand in the places of its names are translated too."""
+    for pattern, english, names in _known if depth < DEEPEST else ():
+        found = pattern.fullmatch(sentence)
+        if found is None:
+            continue
+        translation = pgettext_rpt(english)
+        if translation == english and english != "{}: {}":
+            return sentence
+        parts = [translated(part, depth + 1) for part in found.groups()]
+        return translation.format(*parts, **{name: part for name, part in zip(names, parts) if name})
+    return sentence

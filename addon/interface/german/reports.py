@@ -1,0 +1,136 @@
+"""Sentences on what was done, and what it lacks; parts of them stand beside those that they are parts of."""
+
+DONE = {
+    "{}: {}": "{}: {}",
+    "{}: cancelled, {}.": "{}: abgebrochen, {}.",
+    "nothing has changed": "nichts hat sich geändert",
+    "the frames that are done are kept, the file has not changed":
+        "fertige Einzelbilder bleiben, die Datei ist unverändert",
+    "{}: {}, {}, error about {} px{}, {} s{}": "{}: {}, {}, Fehler etwa {} px{}, {} s{}",
+    "{} points": "{} Punkte",
+    "{} faces": "{} Flächen",
+    ", {} % filled by rays": ", {} % mit Strahlen gefüllt",
+    "; the light is still to come, by Light Reflection": "; ihr Licht fehlt noch: Spiegelung beleuchten",
+    "{}: lit in {} s": "{}: beleuchtet in {} s",
+    "Nothing to light: the reflected materials emit what they show, and the mirrors add nothing.":
+        "Nichts zu beleuchten: die gespiegelten Materialien leuchten selbst, und die Spiegel tun nichts hinzu.",
+    "{}: {} faces of light, {} s": "{}: {} Flächen aus Licht, {} s",
+    "{} of {} frame{} baked into '{}', {} s": "{0} von {1} Einzelbildern gebacken, in '{3}', {4} s",
+    "{}: UV map '{}', {} faces, those that are seen marked '{}', {} s":
+        "{}: UV-Karte '{}', {} Flächen, die zu sehenden markiert mit '{}', {} s",
+    "{}: {} cm, {} x {} pixels; print it at 100 %": "{}: {} cm, {} x {} Pixel; drucke es mit 100 %",
+    "{} cleared.": "{} entfernt.",
+    "1 reflection": "1 Spiegelung",
+    "{} reflections": "{} Spiegelungen",
+    "the light of {} caustics": "das Licht von {} Kaustiken",
+    "{} and the light of {} caustics": "{} und das Licht von {} Kaustiken",
+    "The scene has no reflection to clear.": "Die Szene hat keine Spiegelung zum Entfernen.",
+    "No reflection is stale.": "Keine Spiegelung ist veraltet.",
+    "The camera sees no mirror whose reflection could be judged; pictures in {}":
+        "Die Kamera sieht keinen Spiegel, dessen Spiegelung sich beurteilen ließe; Bilder in {}",
+    "The reflection shows nothing that could be measured; pictures in {}":
+        "Die Spiegelung zeigt nichts, das sich messen ließe; Bilder in {}",
+    "Displacement {} px (median), {} px (99 %); holes, spill and wrong layer {} % of the mirror; pictures in {}":
+        "Verschoben um {} px (Median), {} px (99 %); Löcher, Überstand und falsche Schicht {} % des Spiegels; "
+        "Bilder in {}",
+}
+KEPT = {
+    "'{}' stays moved, as you left it: clear it and generate again to have it on its mirror.":
+        "'{}' bleibt verschoben, wie du es gelassen hast: entferne und erzeuge es neu, um es auf dem Spiegel zu "
+        "haben.",
+    "Updated too, as a copy: {}.": "Auch erneuert, als Kopie: {}.",
+    "'{}' shows other faces than before, and has lost what was made for those: {}.":
+        "'{}' zeigt andere Flächen als vorher, und hat verloren, was für diese gemacht war: {}.",
+    "Left out because it is hidden: '{}'.": "Ausgelassen, weil ausgeblendet: '{}'.",
+    "Left out because the mirror does not show it: '{}'.": "Ausgelassen, weil der Spiegel es nicht zeigt: '{}'.",
+    "Kept although they were baked from another state of the scene ({}): {} in '{}'; overwrite them, or choose "
+    "another folder, to have all alike.":
+        "Behalten, obwohl die Szene beim Backen eine andere war ({}): {} in '{}'; überschreibe sie, oder wähle "
+        "einen anderen Ordner, damit alle gleich sind.",
+    "frame {}": "Einzelbild {}",
+    "frames {}": "Einzelbilder {}",
+    "frames {} and {} more": "Einzelbilder {} und {} weitere",
+    "an object was removed": "ein Objekt wurde entfernt",
+    "the camera or the picture's size has changed": "die Kamera oder die Bildgröße hat sich geändert",
+    "the mirror has changed": "der Spiegel hat sich geändert",
+    "a reflected object has changed": "ein gespiegeltes Objekt hat sich geändert",
+    "materials have been exchanged": "Materialien wurden ausgetauscht",
+    "the colours of materials have changed": "die Farben von Materialien haben sich geändert",
+    "mirrors have been shown or hidden": "Spiegel wurden ein- oder ausgeblendet",
+    "the lamps or the world have changed": "die Lampen oder die Welt haben sich geändert",
+    "The frames show what the view layer '{}' sees, and '{}' shows them too: let the command line bake several by "
+    "--view-layer, for a sequence each.":
+        "Die Einzelbilder zeigen, was die Ansichtsebene '{}' sieht, und '{}' zeigt sie auch: die Befehlszeile backt "
+        "mit --view-layer mehrere, jede für sich.",
+}
+LACKS = {
+    "Motion blur: reflections are sharp, since their faces change from frame to frame; blur them after the render, or "
+    "render in-between frames and mix them.":
+        "Bewegungsunschärfe: Spiegelungen sind scharf, weil ihre Flächen von Bild zu Bild andere sind; mache sie "
+        "nach dem Rendern unscharf, oder mische Zwischenbilder.",
+    "Motion blur: the reflection is that of one moment, and is blurred as what lies on the mirror; blur it after the "
+    "render, or switch motion blur off.":
+        "Bewegungsunschärfe: Die Spiegelung ist die eines Augenblicks und verschwimmt wie das, was auf dem Spiegel "
+        "liegt; mache sie nach dem Rendern unscharf, oder schalte Bewegungsunschärfe aus.",
+    "Depth of field: the camera focuses on the mirror and not on what it shows; choose the placement Virtual for flat "
+    "mirrors, or blur after the render.":
+        "Tiefenschärfe: die Kamera stellt auf den Spiegel scharf und nicht auf das, was er zeigt; wähle für ebene "
+        "Spiegel die Lage Virtuell, oder mache es nach dem Rendern unscharf.",
+    "Cycles adds its own caustics of '{}', whose light is linked already: take '{}' out of what it lights.":
+        "Cycles fügt eigene Kaustik von '{}' hinzu, deren Licht schon verknüpft ist: nimm '{}' von dem aus, was sie "
+        "beleuchtet.",
+    "Cycles adds its own caustics of '{}' in '{}', which is lit as well as it mirrors: switch Light Paths > Caustics > "
+    "Reflective off.":
+        "Cycles fügt eigene Kaustik von '{}' in '{}' hinzu, das auch beleuchtet ist und nicht nur spiegelt: schalte "
+        "Lichtpfade > Kaustik > Reflektierend aus.",
+    "The colour of '{}' is not known all over, where it asks for what only its own object knows or is mixed of "
+    "several shaders: its light may have another colour.":
+        "Die Farbe von '{}' ist nicht überall bekannt, wo sie nach etwas fragt, das nur das Objekt selbst weiß, oder "
+        "aus mehreren Shadern gemischt ist: sein Licht kann eine andere Farbe haben.",
+    "A mirror's colour that changes over it counts as one: plug it off to choose which.":
+        "Die Farbe eines Spiegels, die sich über ihn ändert, zählt als eine: ziehe sie ab, um zu wählen, welche.",
+    "Cycles follows {} transparent layers, and of light {} or more lie over each other, which is dark there: raise "
+    "Light Paths > Max Bounces > Transparent.":
+        "Cycles folgt durch {} durchsichtige Schichten, und vom Licht liegen {} oder mehr übereinander, was dort "
+        "dunkel ist: erhöhe Lichtpfade > Max. Reflexionen > Transparent.",
+    "Between the corners of '{}' the picture is up to {} px off: subdivide it, or choose A Copy.":
+        "Zwischen den Ecken von '{}' ist das Bild bis zu {} px daneben: unterteile es, oder wähle Eine Kopie.",
+    "About {} % of what the mirror shows is missing: give it a clean mesh, or move the camera.":
+        "Etwa {} % von dem, was der Spiegel zeigt, fehlt: gib ihm ein sauberes Netz, oder bewege die Kamera.",
+    "{}: this mirror is linked and cannot be hidden, so that it stands before the virtual image; override it, or "
+    "choose the placement Layered.":
+        "{}: dieser Spiegel ist verknüpft und lässt sich nicht ausblenden, so dass er vor dem virtuellen Bild "
+        "steht; überschreibe ihn, oder wähle die Lage Geschichtet.",
+    "{}: '{}' hides a part of the virtual image behind this mirror; the placement Layered shows all of it.":
+        "{}: '{}' verdeckt einen Teil des virtuellen Bildes hinter diesem Spiegel; die Lage Geschichtet zeigt es "
+        "ganz.",
+    "In {count} parts of the mirror more lies over one another than the picture or the memory allows to be cut "
+    "exactly, and rays show it to a pixel: simplify the meshes or raise the memory.":
+        "In {count} Teilen des Spiegels liegt mehr übereinander, als Bild oder Speicher genau zu schneiden "
+        "erlauben, und Strahlen zeigen es auf ein Pixel: vereinfache die Netze, oder erhöhe den Speicher.",
+    "In {count} parts of the mirror too much of it lies over itself to be cut exactly, and something hidden may show: "
+    "simplify the mirror.":
+        "In {count} Teilen des Spiegels liegt zu viel von ihm über sich selbst, um genau geschnitten zu werden, und "
+        "Verdecktes kann zu sehen sein: vereinfache den Spiegel.",
+    "Through {count} parts of the mirror pass more faces than can be followed, and something behind them may show: "
+    "simplify the objects that pass through the mirror.":
+        "Durch {count} Teile des Spiegels gehen mehr Flächen, als sich verfolgen lassen, und etwas dahinter kann zu "
+        "sehen sein: vereinfache die Objekte, die durch ihn gehen.",
+    "In {count} parts of the mirror more outlines of mirrors cross than can be cut along, and their edges are rough: "
+    "simplify the mirrors.":
+        "In {count} Teilen des Spiegels kreuzen sich mehr Umrisse von Spiegeln, als sich schneiden lassen, und ihre "
+        "Ränder sind rau: vereinfache die Spiegel.",
+    "{count} small parts of mirrors in mirrors are not followed further, since the picture is too small for them: "
+    "lower the depth or enlarge the picture.":
+        "{count} kleine Teile von Spiegeln in Spiegeln werden nicht weiter verfolgt, weil das Bild für sie zu klein "
+        "ist: verringere die Tiefe, oder vergrößere das Bild.",
+    "Refinement stopped at the largest number of faces, so that the error may exceed the tolerance: raise the "
+    "tolerance or the memory.":
+        "Die Verfeinerung endete bei der größten Zahl von Flächen, so dass der Fehler größer als die Toleranz sein "
+        "kann: erhöhe die Toleranz oder den Speicher.",
+    "{count} of {points} points are too far from their neighbours to be discs without gaps: subdivide the diffuse "
+    "objects, or choose the method General.":
+        "{count} von {points} Punkten sind zu weit von ihren Nachbarn für Scheiben ohne Lücken: unterteile die "
+        "Objekte, oder lasse die Spiegelung aus Flächen bestehen.",
+}
+REPORTS = {**DONE, **KEPT, **LACKS}

@@ -1,0 +1,11 @@
+"""The operators, one room each, with the work that they do in steps, when they can run, and what they tell.
+
+What reads, computes and writes stands in other packages; here it is put in order, from the scene to all
+results or none.
+"""
+from ..registration import together
+from . import bake, caustics, clear, compare, generate, light, mirror_uvs, print_sheet
+
+__all__ = ["register", "unregister"]
+
+register, unregister = together(generate, light, caustics, bake, mirror_uvs, print_sheet, compare, clear)

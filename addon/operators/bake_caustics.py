@@ -1,0 +1,129 @@
+"""Light that mirrors throw, in frames that play it without this extension."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import bpy
+
+from ... import core
+from ..faults import AllOrNothing, Steps, still_there
+from ..frames import Sequence, play_caustics, player_of
+from ..illumination import lights_renders, places_kept
+from ..reading import NothingSeen, candidates, visible
+from ..settings import of_each
+from .bake_plan import Plan
+from .caustics import Asked, NothingThrown, leave_out, name_of, throwing, too_many_layers
+from .clear import remove_caustics
+
+
+@dataclass
+class ThrownLight:
+    """The light of lamps that mirrors throw, frame by frame.
+
+    Attributes
+    ----------
+    pairs : dict of str to (bpy.types.Object, bpy.types.Object)
+        Each mirror and lamp, by what their light is called.
+    diffuse : list of bpy.types.Object
+    places : dict
+        On each lamp, by (mirror, lamp).
+    receivers : dict
+        Materials of what is lit in the open frame, by result.
+    layers : int
+        The most that lie over each other in a frame.
+    """
+
+    pairs: dict
+    diffuse: list
+    places: dict
+    receivers: dict = field(default_factory=dict)
+    layers: int = 0
+
+    role = "CAUSTICS"
+
+    @classmethod
+    def of(cls, context: bpy.types.Context, plan: Plan, mirrors: list, diffuse: list) -> ThrownLight:
+        """What a plan asks for.
+
+        Raises
+        ------
+        core.ReflectionError
+            Where it names several cameras.
+        """
+        if len(plan.cameras) > 1:
+            raise core.ReflectionError("The light that mirrors throw is the same for all cameras: name one at most.")
+        kept = {} if plan.eyes else places_kept(context, mirrors, list(plan.lamps))
+        pairs = pairs_of(mirrors, plan.lamps)
+        return cls(pairs, diffuse, {pair: kept.get(pair, max(plan.eyes, 1)) for pair in pairs.values()})
+
+    @property
+    def keys(self) -> list[str]:
+        """Of the results in the records of frames."""
+        return list(self.pairs)
+
+    def take(self, name: str) -> str:
+        """What the records of a sequence are called."""
+        return f"Caustics {name}".strip()
+
+    def file(self, key: str, take: str) -> str:
+        return f"{key} {take}".strip()
+
+    def made_with(self, context: bpy.types.Context, plan: Plan, camera: bpy.types.Object | None) -> dict:
+        return {**plan.made_with(context, camera, self._mirrors), "samples": 0,
+                "places": {key: self.places[pair] for key, pair in self.pairs.items()}}
+
+    def origin(self, context: bpy.types.Context, plan: Plan) -> dict:
+        """What the open frame is made from: nobody can tell."""
+        return {}
+
+    def frame(self, context: bpy.types.Context, plan: Plan, results: list) -> Steps[None]:
+        """Generate the light of the open frame, adding to `results`; none where nothing is lit."""
+        lamps = [lamp for lamp in plan.lamps if lights_renders(lamp)]
+        try:
+            chosen = visible(context, self._mirrors, self.diffuse)
+            if lamps:
+                asked = Asked(self.places, of_each(plan.settings), False)
+                thrown = yield from throwing(context, chosen, lamps, asked)
+                results += thrown.objects
+                self.receivers, self.layers = thrown.receivers, max(self.layers, thrown.layers)
+                context.view_layer.update()
+        except (NothingSeen, NothingThrown):
+            return
+
+    def by_key(self, results: list) -> dict:
+        of_pair = {(obj.reflection_mesh.mirror, obj.reflection_mesh.lamp): obj for obj in results}
+        return {key: of_pair[pair] for key, pair in self.pairs.items() if pair in of_pair}
+
+    def materials_of(self, result: bpy.types.Object | None) -> list | None:
+        """What the record tells of a result's materials: which ones are lit."""
+        return self.receivers.get(result)
+
+    def clear(self, context: bpy.types.Context, results: list) -> None:
+        remove_caustics(still_there(results))
+
+    @property
+    def _mirrors(self) -> list:
+        return list(dict.fromkeys(mirror for mirror, _ in self.pairs.values()))
+
+
+def pairs_of(mirrors: list, lamps: tuple) -> dict:
+    """Each mirror and lamp, by what their light is called."""
+    return {name_of(mirror, lamp, list(lamps)): (mirror, lamp) for mirror in mirrors for lamp in lamps}
+
+
+def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) -> tuple[list, list]:
+    """Let the caustics of the file play a sequence, all or none of them; the objects, and sentences on what is left
+    out."""
+    mirrors, diffuse = candidates(context)
+    pairs, scene = pairs_of(mirrors, plan.lamps), context.scene
+    lit = [obj for obj in diffuse if obj not in plan.lamps]
+    objects: list = []
+    told: list = []
+    with AllOrNothing() as whole:
+        players = {key: player_of(sequence, mirror, None, whole, key) for key, (mirror, _) in pairs.items()}
+        for key, player in players.items():
+            obj = play_caustics(context, player, key, pairs[key], lit, whole)
+            obj.reflection_mesh.eyes = sequence.records[-1].made_with["places"][key]
+            objects.append(obj)
+            told += leave_out(scene, *pairs[key], whole) if plan.leave_out else []
+    return objects, told + too_many_layers(scene, sequence.layers)

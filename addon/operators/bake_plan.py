@@ -1,0 +1,176 @@
+"""What is to be baked, which of its frames are there already, and whether these show the scene as it is."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+
+import bpy
+
+from ... import core
+from ..faults import Steps, interrupt_held
+from ..frames import frame_numbers, frame_text, is_done, read_record, record_path
+from ..freshness import frame_difference, frame_origin
+from ..reading import NothingSeen, Participants, candidates, render_size, visible
+from ..settings import SAMPLES, SettingsOfMirrors, Wanted, of_each
+from .shortcomings import DEPTH_OF_FIELD
+
+NAMED = 8   # so many frames are named one by one
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is to be baked.
+
+    Attributes
+    ----------
+    folder : str
+        Absolute path.
+    frames : list of int
+    settings : core.Settings, or a function that gives those of a mirror
+    samples : int
+        Of light per pixel; 0 for none.
+    cameras : list of bpy.types.Object
+        One sequence for each; empty: one by the scene's own camera, which its markers may change.
+    layer : str
+        What tells the sequences from those of other view layers; empty where there are none.
+    overwrite : bool
+        Make again what is there; else it is kept, where it was made with the same settings.
+    lamps : list of bpy.types.Object
+        Whose light is baked that mirrors throw, instead of reflections; empty for these.
+    eyes : int
+        Places on each lamp; 0: as many as its light was made with last.
+    leave_out : bool
+        Cycles' own caustics of these lamps.
+    """
+
+    folder: str
+    frames: list[int]
+    settings: core.Settings | SettingsOfMirrors
+    samples: int = SAMPLES
+    cameras: tuple = ()
+    layer: str = ""
+    overwrite: bool = False
+    lamps: tuple = ()
+    eyes: int = 0
+    leave_out: bool = True
+
+    @property
+    def takes(self) -> list:
+        """(name, camera or None) of each sequence."""
+        names = [camera.name if len(self.cameras) > 1 else "" for camera in self.cameras]
+        return [(f"{self.layer} {name}".strip(), camera)
+                for name, camera in zip(names or [""], self.cameras or [None], strict=True)]
+
+    def made_with(self, context: bpy.types.Context, camera: bpy.types.Object | None, mirrors: list) -> dict:
+        """What a frame depends on, besides what is in the file; by name, the settings of mirrors with their own."""
+        settings = _plain(of_each(self.settings)(None))
+        each = {mirror.name: _plain(of_each(self.settings)(mirror)) for mirror in mirrors}
+        own = {name: values for name, values in each.items() if values != settings}
+        return {**settings, **({"own": own} if own else {}), "samples": self.samples,
+                "camera": camera.name if camera else "",
+                "scene": context.scene.name, "view_layer": context.view_layer.name,
+                "resolution": "{} x {}".format(*render_size(context.scene))}
+
+
+def _plain(settings: core.Settings) -> dict:
+    return {name: value for name, value in asdict(settings).items() if isinstance(value, str | int | float)}
+
+
+def found_frames(context: bpy.types.Context, plan: Plan, take: tuple, baked) -> dict:
+    """The frames of a sequence that are there already, and None for those that are to be made; `baked` tells of what
+    kind they are."""
+    name, camera = take
+    known: dict = dict.fromkeys(plan.frames)
+    if plan.overwrite:
+        return known
+    made_with = baked.made_with(context, plan, camera)
+    for frame in plan.frames:
+        record = read_record(record_path(plan.folder, baked.take(name), frame))
+        if not is_done(plan.folder, record):
+            continue
+        if record.made_with != made_with or set(record.results) != set(baked.keys):
+            raise core.ReflectionError(f"Frame {frame} in '{plan.folder}' was baked with other settings or mirrors: "
+                                       "overwrite it, or choose another folder.")
+        known[frame] = record
+    return known
+
+
+def open_frame(context: bpy.types.Context, frame: int, camera: bpy.types.Object | None) -> None:
+    """Go to a frame, which may bring a camera of its own unless one is given."""
+    with interrupt_held():
+        context.scene.frame_set(frame)
+    if camera is not None:
+        context.scene.camera = camera
+
+
+def compared(context: bpy.types.Context, plan: Plan, camera: bpy.types.Object | None, everything: tuple,
+              known: dict, remark: Callable[[str], None]) -> Steps[None]:
+    """Look whether the frames that are there already show the scene as it is now, and say so where they do not."""
+    changed, reason = [], ""
+    for frame, record in known.items():
+        if record is not None and record.made_from:
+            yield 0.0, f"Comparing frame {frame}"
+            open_frame(context, frame, camera)
+            chosen = visible_or_none(context, *everything)
+            why = frame_difference(record.made_from, frame_origin(context, chosen, bool(plan.samples)))
+            reason = reason or why
+            changed += [frame] if why else []
+    if changed:
+        remark(f"Kept although they were baked from another state of the scene ({reason}): {listed(changed)} "
+               f"in '{plan.folder}'; overwrite them, or choose another folder, to have all alike.")
+
+
+def listed(frames: list[int]) -> str:
+    """Some frames in words, the first of them where they are many."""
+    if len(frames) == 1:
+        return f"frame {frames[0]}"
+    named = ", ".join(map(str, frames[:NAMED]))
+    return f"frames {named} and {len(frames) - NAMED} more" if len(frames) > NAMED else f"frames {named}"
+
+
+def visible_or_none(context: bpy.types.Context, mirrors: list, diffuse: list) -> Participants | None:
+    """Who takes part in the open frame; None where all mirrors or all else are hidden."""
+    try:
+        return visible(context, mirrors, diffuse)
+    except NothingSeen:
+        return None
+
+
+def plan_of(context: bpy.types.Context, folder: str, frames: str, wanted: Wanted, **more) -> Plan:
+    """A plan for the frames that a text names, or the scene's range, by the settings of the mirrors that take part."""
+    numbers = chosen_frames(context.scene, frames)
+    return Plan(folder, numbers, wanted, wanted.samples(candidates(context)[0]), **more)
+
+
+def chosen_frames(scene: bpy.types.Scene, text: str) -> list[int]:
+    """The frames that a text names, or the scene's range."""
+    return frame_numbers(text or frame_text(scene.frame_start, scene.frame_end, scene.frame_step))
+
+
+def blur_remarks(scene: bpy.types.Scene, cameras: tuple, thrown: bool = False) -> list[str]:
+    """What baked reflections, or light that mirrors have `thrown`, cannot do of what the scene asks for."""
+    told = []
+    if scene.render.use_motion_blur:
+        told.append("Motion blur: reflections are sharp, since their faces change from frame to frame; blur them after "
+                    "the render, or render in-between frames and mix them.")
+    marked = [marker.camera for marker in scene.timeline_markers if marker.camera]
+    if not thrown and any(camera and camera.type == "CAMERA" and camera.data.dof.use_dof
+                          for camera in (cameras or [scene.camera, *marked])):
+        told.append(DEPTH_OF_FIELD)
+    return told
+
+
+def layer_remarks(scene: bpy.types.Scene, layers: list) -> list[str]:
+    """What renders of the scene show besides the view layers that were baked, in a sentence."""
+    names = {layer.name for layer in layers}
+    others = [layer.name for layer in scene.view_layers if layer.use and layer.name not in names]
+    if len(names) > 1 or not others:
+        return []
+    return [f"The frames show what the view layer '{layers[0].name}' sees, and '{others[0]}' shows them too: let the "
+            "command line bake several by --view-layer, for a sequence each."]
+
+
+def summary(plans: list[Plan], made: int, seconds: float) -> str:
+    """One line on what was baked."""
+    frames = sum(len(plan.frames) * len(plan.takes) for plan in plans)
+    return f"{made} of {frames} frame{'' if frames == 1 else 's'} baked into '{plans[0].folder}', {seconds:.2f} s"

@@ -1,0 +1,284 @@
+"""The operator that generates the light which mirrors throw, as objects that add it to what it falls on."""
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import product
+
+import bpy
+
+from ... import core
+from ...core.caustics import most_layers
+from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
+from ..frames import stop_playing
+from ..illumination import (
+    Caustic,
+    NoLight,
+    caustic_arrays,
+    chosen_lamps,
+    eyes_of,
+    has_a_size,
+    leave_out_own_caustics,
+    makes_own_caustics,
+    parts_of,
+    write_caustics,
+)
+from ..reading import SURFACES, DiffuseScene, MirrorSurface, Participants, choose, is_opaque, read_mirror, read_scene
+from ..settings import SettingsOfMirrors, UsesSettings, option
+from . import polls
+
+IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
+NOTHING_LIT = "Light falls on nothing but lamps: select what it is to fall on, or give it the role Reflected."
+READING = 0.05  # share of the work
+
+
+class NothingThrown(core.ReflectionError):
+    """No mirror throws any light on the objects at the moment."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is asked for: places on each lamp, the same for all or by (mirror, lamp); the settings of each mirror;
+    whether Cycles' own caustics are left out; and whether materials that fit are kept."""
+
+    eyes: int | dict
+    settings: SettingsOfMirrors
+    leave_out: bool
+    keep_materials: bool = False
+
+    def places(self, mirror: bpy.types.Object, lamp: bpy.types.Object) -> int:
+        return self.eyes.get((mirror, lamp), 1) if isinstance(self.eyes, dict) else self.eyes
+
+
+@dataclass(frozen=True)
+class Thrown:
+    """What was made.
+
+    Attributes
+    ----------
+    objects : list of bpy.types.Object
+    receivers : dict
+        The materials of what is lit, in the order of the object's own, by object.
+    layers : int
+        How many faces of light lie over each other.
+    remarks : list of str
+        Sentences on what is left out.
+    dark : list of (bpy.types.Object, bpy.types.Object)
+        Mirrors and lamps that throw nothing at the moment.
+    """
+
+    objects: list
+    receivers: dict
+    layers: int
+    remarks: list
+    dark: list
+
+    def summary(self, seconds: float) -> str:
+        names = ", ".join(f"'{obj.name}'" for obj in self.objects)
+        return f"{names}: {sum(obj.reflection_mesh.faces for obj in self.objects)} faces of light, {seconds:.2f} s"
+
+
+def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, wanted: Asked,
+             only: set | None = None) -> Steps[Thrown]:
+    """Generate the light of `lamps` that `chosen.mirrors` throw on `chosen.diffuse`, yielding (fraction, stage); that
+    of `only` some (mirror, lamp) where these are given.
+
+    Nothing in the file changes before the last step; a generator that is closed before leaves no trace.
+
+    Raises
+    ------
+    core.ReflectionError
+        Where there is nothing to see of it, `NothingThrown` where it may be at another moment; its message is one
+        sentence for the user.
+    """
+    if context.mode != "OBJECT":
+        raise core.ReflectionError(IN_OBJECT_MODE)
+    pairs = [(mirror, lamp) for mirror in chosen.mirrors for lamp in lamps
+             if only is None or (mirror, lamp) in only]
+    if min(wanted.places(*pair) for pair in pairs) < 1:
+        raise core.ReflectionError("Light comes from one place of each lamp at least: raise the number of places.")
+    started = time.perf_counter()
+    yield 0.0, "Reading the scene"
+    depsgraph = context.evaluated_depsgraph_get()
+    # what emits lights others
+    chosen = replace(chosen, diffuse=[obj for obj in chosen.diffuse if obj not in lamps])
+    if not chosen.diffuse:
+        raise core.ReflectionError(NOTHING_LIT)
+    surfaces = {mirror: read_mirror(depsgraph, mirror) for mirror in chosen.mirrors}
+    scene = read_scene(depsgraph, chosen.diffuse)
+    standing = blocking(context, chosen)
+    blockers = {lamp: _blockers(depsgraph, [obj for obj in standing if obj != lamp]) for lamp in lamps}
+    prepared, dark, refused = [], [], [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
+    for number, (mirror, lamp) in enumerate(pairs):
+        name = name_of(mirror, lamp, lamps)
+        eyes = partial(eyes_of, depsgraph, lamp, wanted.places(mirror, lamp))
+        others = [surfaces[other].mesh for other in chosen.mirrors if other != mirror]
+        steps = _lit(eyes, surfaces[mirror], scene.mesh, (others, blockers[lamp]), wanted.settings(mirror))
+        try:
+            lit = yield from part(steps, READING + (1.0 - READING) * number / len(pairs), (1.0 - READING) / len(pairs),
+                                  name)
+        except core.ReflectionError as error:
+            refused.append(f"{name}: {error}")
+            if isinstance(error, NoLight | core.NothingInView):
+                dark.append((mirror, lamp))
+            continue
+        prepared.append(_made(context, name, (mirror, lamp), lit, scene, wanted.places(mirror, lamp)))
+    if not prepared:
+        raise (NothingThrown if len(dark) == len(pairs) else core.ReflectionError)(refused[-1])
+    yield 1.0, "Writing"
+    thrown = _written(context, prepared, wanted, (refused, dark))
+    for obj in thrown.objects:
+        obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(thrown.objects)
+    return thrown
+
+
+def name_of(mirror: bpy.types.Object, lamp: bpy.types.Object, lamps: list) -> str:
+    """What the light of a mirror and one of `lamps` is called."""
+    return f"{mirror.name} Caustics{f' {lamp.name}' if len(lamps) > 1 else ''}"
+
+
+def _lit(eyes_of_lamp: Callable, surface: MirrorSurface, receivers: core.TriangleMesh, standing: tuple,
+         settings: core.Settings) -> Steps[list]:
+    """The light (eye, tint, mesh) of each of a lamp's places that each part of a mirror throws; where none throws any,
+    the error of the last.
+
+    Parameters
+    ----------
+    standing : tuple of (list of core.TriangleMesh, core.TriangleMesh or None)
+        Other mirrors, and what else is in the way.
+    """
+    lit, told, (others, blockers) = [], None, standing
+    eyes, parts = eyes_of_lamp(surface.mesh.positions[surface.mesh.triangles].reshape(-1, 3)), parts_of(surface)
+    for number, (eye, own) in enumerate(product(eyes, parts)):
+        steps = core.caustic_steps(eye.lamp, own.mesh, receivers, settings, _joined([*others, own.rest]),
+                                   _joined([blockers, eye.body]))
+        share = 1.0 / (len(eyes) * len(parts))
+        try:
+            lit.append((eye, own.tint, (yield from part(steps, number * share, share))))
+        except core.ReflectionError as error:
+            told = error
+    if not lit:
+        raise told
+    return lit
+
+
+def _joined(meshes: list) -> core.TriangleMesh | None:
+    """Those meshes that are there as one; None where there is none."""
+    there = [mesh for mesh in meshes if mesh is not None]
+    return core.TriangleMesh.joined(there) if there else None
+
+
+def _made(context: bpy.types.Context, name: str, pair: tuple, lit: list, scene: DiffuseScene,
+          places: int) -> Caustic:
+    counts = {key: sum(mesh.counts.get(key, 0) for *_, mesh in lit) for key in lit[0][-1].counts}
+    arrays = caustic_arrays(lit, scene, context.scene.camera)
+    layers = most_layers(arrays.positions, arrays.triangles, next(
+        one.values for one in arrays.attributes if one.name == "source_face"))
+    plain = all(tint.constant for _, tint, _ in lit)
+    return Caustic(name, *pair, scene.sources, arrays, counts, layers, places, plain)
+
+
+def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tuple[list, list]) -> Thrown:
+    objects, unknown, scene, (remarks, dark) = [], [], context.scene, left
+    with AllOrNothing() as whole:
+        for made in prepared:
+            obj, strange = write_caustics(context, made, whole, wanted.keep_materials)
+            whole.after(stop_playing, obj)
+            objects.append(obj)
+            unknown += strange
+            if wanted.leave_out:
+                remarks += leave_out(scene, made.mirror, made.lamp, whole)
+    for material in dict.fromkeys(unknown):
+        remarks.append(f"The colour of '{material.name}' is not known all over, where it asks for what only its own "
+                       "object knows or is mixed of several shaders: its light may have another colour.")
+    if not all(made.plain for made in prepared):
+        remarks.append("A mirror's colour that changes over it counts as one: plug it off to choose which.")
+    layers = sum(made.layers for made in prepared)
+    receivers = {obj: made.arrays.materials for obj, made in zip(objects, prepared)}
+    return Thrown(objects, receivers, layers, remarks + too_many_layers(scene, layers), dark)
+
+
+def leave_out(scene: bpy.types.Scene, mirror: bpy.types.Object, lamp: bpy.types.Object, whole: AllOrNothing) -> list:
+    """Leave out Cycles' own caustics of a lamp and a mirror, if it makes any; a sentence where that cannot be."""
+    own, alone = makes_own_caustics(mirror)
+    if scene.render.engine != "CYCLES" or not scene.cycles.caustics_reflective or not (own and has_a_size(lamp)):
+        return []
+    if not alone:
+        return [f"Cycles adds its own caustics of '{lamp.name}' in '{mirror.name}', which is lit as well as it "
+                "mirrors: switch Light Paths > Caustics > Reflective off."]
+    if leave_out_own_caustics(lamp, mirror, whole):
+        return []
+    return [f"Cycles adds its own caustics of '{lamp.name}', whose light is linked already: take '{mirror.name}' out "
+            "of what it lights."]
+
+
+def too_many_layers(scene: bpy.types.Scene, layers: int) -> list:
+    """A sentence where Cycles does not follow as many transparent layers."""
+    bounces = scene.cycles.transparent_max_bounces
+    if scene.render.engine != "CYCLES" or layers <= bounces:
+        return []
+    return [f"Cycles follows {bounces} transparent layers, and of light {layers} or more lie over each other, which is "
+            "dark there: raise Light Paths > Max Bounces > Transparent."]
+
+
+def blocking(context: bpy.types.Context, chosen: Participants) -> list:
+    """What else stands in the light's way: all that casts shadows and that no light goes through."""
+    part_takers = {*chosen.mirrors, *chosen.diffuse}
+    return [obj for obj in context.view_layer.objects
+            if obj not in part_takers and obj.type in SURFACES and obj.visible_get() and not obj.hide_render
+            and obj.visible_shadow and obj.reflection_mesh.role not in {"REFLECTION", "CAUSTICS"}
+            and all(is_opaque(slot.material) for slot in obj.material_slots)]
+
+
+def _blockers(depsgraph: bpy.types.Depsgraph, objects: list) -> core.TriangleMesh | None:
+    """Objects as one mesh; None where none of them has faces."""
+    if not objects:
+        return None
+    try:
+        return read_scene(depsgraph, objects).mesh
+    except core.ReflectionError:
+        return None
+
+
+class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Operator):
+    """Compute the light of lamps that the mirrors throw on the diffuse objects, as meshes that add it to them"""
+
+    bl_idname = "reflection_mesh.caustics"
+    bl_label = "Generate Caustics"
+    bl_options = {"REGISTER", "UNDO"}
+
+    uses = ("tolerance", "depth", "memory")
+
+    tolerance: option("tolerance")
+    depth: option("depth")
+    memory: option("memory")
+    eyes: bpy.props.IntProperty(name="Lamp Places", default=1, min=1, soft_max=64, max=4096, options=set(),
+                                description="Places on each lamp that its light comes from: one is sharp, more are as "
+                                "soft as the lamp is large")
+    leave_out: bpy.props.BoolProperty(name="Replace Cycles' Own", default=True, options=set(),
+                                      description="The lamps do not light these mirrors any more, so that Cycles does "
+                                      "not add caustics of its own; clearing brings that back")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror)
+
+    def steps(self, context: bpy.types.Context) -> Steps[None]:
+        started = time.perf_counter()
+        chosen, wanted = choose(context), self.wanted(context)
+        thrown = yield from throwing(context, chosen, chosen_lamps(context), Asked(self.eyes, wanted, self.leave_out))
+        self.show_used(wanted, chosen.mirrors)
+        context.view_layer.update()
+        for remark in thrown.remarks:
+            tell(self, {"WARNING"}, remark)
+        tell(self, {"INFO"}, thrown.summary(time.perf_counter() - started))
+
+
+def register() -> None:
+    bpy.utils.register_class(REFLECTION_MESH_OT_caustics)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(REFLECTION_MESH_OT_caustics)
