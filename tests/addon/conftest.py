@@ -17,6 +17,7 @@ USER_FOLDER = Path(tempfile.mkdtemp(prefix="reflection_mesh_tests_"))
 # before anything imports bpy: it reads the place of its preferences once
 extension_zip.use_throw_away_preferences(USER_FOLDER)
 import bpy  # noqa: E402
+import live_scene  # noqa: E402
 import numpy as np  # noqa: E402
 import parts  # noqa: E402
 
@@ -65,6 +66,19 @@ def blank() -> bpy.types.Context:
     scene.render.resolution_x, scene.render.resolution_y = 256, 192
     bpy.ops.object.select_all(action="DESELECT")
     return bpy.context
+
+
+@pytest.fixture
+def scene(blank):
+    """A ball that reflects a leaf, and its result: what Live and staleness are tried on."""
+    return live_scene.scene_of(blank)
+
+
+@pytest.fixture
+def clock(scene, room):
+    """Live switched on in that scene, driven by a clock."""
+    with live_scene.switched_on(room) as clock:
+        yield clock
 
 
 @pytest.fixture

@@ -128,6 +128,18 @@ def scene_of(context: bpy.types.Context, source: str = "", mirror: str = "") -> 
     return wall
 
 
+def plain_scene() -> bpy.types.Object:
+    """A box that emits what it shows before a wall mirror that shows all of it: nothing that lamps change; returns the
+    mirror."""
+    box = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0))
+    box.data.materials.append(parts.material("Paint"))
+    mirror = parts.add_wall_mirror()
+    mirror.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    mirror.data.materials[0].node_tree.nodes[0].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    parts.select(box, mirror)
+    return mirror
+
+
 def picture(room, seed: int = 0) -> np.ndarray:
     """What a render of the file shows, in sRGB, (height, width, 3)."""
     rendering = room("addon.rendering")

@@ -61,6 +61,11 @@ for frame in asked["frames"]:
                 values = np.empty(width * len(entry.data), dtype={"INT": np.int32, "BOOLEAN": bool}.get(
                     entry.data_type, np.float32))
                 entry.data.foreach_get(field, values)
+                if entry.domain == "EDGE":
+                    # edges are numbered otherwise in files
+                    ends = np.empty(2 * len(mesh.edges), dtype=np.int32)
+                    mesh.edges.foreach_get("vertices", ends)
+                    values = values.reshape(-1, width)[np.lexsort(np.sort(ends.reshape(-1, 2), axis=1).T)].ravel()
                 told[f"{frame} {name} : {entry.domain} {entry.data_type} {entry.name}"] = values
 np.savez(os.path.join(asked["folder"], "told.npz"), **told)
 """
@@ -81,7 +86,7 @@ def played(file: Path, frames: list, folder: Path, names=(), picture: int = 0,
 
 
 def generated(obj) -> dict:
-    """The same of a result of the open file; marks on edges do not travel."""
+    """The same of a result of the open file."""
     mesh = obj.data
     places = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", places)
@@ -93,10 +98,14 @@ def generated(obj) -> dict:
         width, field = {"FLOAT2": (2, "vector"), "FLOAT_VECTOR": (3, "vector"), "FLOAT_COLOR": (4, "color"),
                         "BYTE_COLOR": (4, "color"), "FLOAT": (1, "value"), "INT": (1, "value"),
                         "BOOLEAN": (1, "value")}.get(entry.data_type, (0, ""))
-        own = entry.name.startswith(".") or entry.name in {"position", "material_index"} or entry.domain == "EDGE"
+        own = entry.name.startswith(".") or entry.name in {"position", "material_index"}
         if width and not own:
             values = np.empty(width * len(entry.data), dtype={"INT": np.int32, "BOOLEAN": bool}.get(
                 entry.data_type, np.float32))
             entry.data.foreach_get(field, values)
+            if entry.domain == "EDGE":
+                ends = np.empty(2 * len(mesh.edges), dtype=np.int32)
+                mesh.edges.foreach_get("vertices", ends)
+                values = values.reshape(-1, width)[np.lexsort(np.sort(ends.reshape(-1, 2), axis=1).T)].ravel()
             told[f": {entry.domain} {entry.data_type} {entry.name}"] = values
     return told

@@ -1,0 +1,393 @@
+"""Write Mirror UVs: Cycles shows in the mirror what the map says, within a pixel; the copy is the object; the print is
+the sheet; and nothing else changes."""
+from __future__ import annotations
+
+import struct
+import zlib
+from pathlib import Path
+
+import bpy
+import numpy as np
+import parts
+import pytest
+
+SAMPLE = Path(__file__).resolve().parents[3] / "sample_blends" / "anamorphosis.blend"
+SIZE = 512
+UV_MAP, SEEN = "Mirror UV", "mirror_seen"
+
+
+def write(**options) -> bpy.types.Object:
+    """Write the maps and return the last object that carries one."""
+    assert bpy.ops.reflection_mesh.mirror_uvs("EXEC_DEFAULT", **options) == {"FINISHED"}
+    return [obj for obj in bpy.context.selected_objects if obj.type == "MESH" and UV_MAP in obj.data.uv_layers][-1]
+
+
+def uv_of(obj: bpy.types.Object, name: str = UV_MAP) -> np.ndarray:
+    """(loops, 2)."""
+    values = np.empty((len(obj.data.loops), 2), dtype=np.float32)
+    obj.data.uv_layers[name].uv.foreach_get("vector", values.reshape(-1))
+    return values.astype(np.float64)
+
+
+def seen_of(obj: bpy.types.Object) -> np.ndarray:
+    values = np.empty(len(obj.data.polygons), dtype=bool)
+    obj.data.attributes[SEEN].data.foreach_get("value", values)
+    return values
+
+
+def corner_places(obj: bpy.types.Object) -> np.ndarray:
+    """World positions (loops, 3)."""
+    vertex = np.empty(len(obj.data.loops), dtype=np.int32)
+    obj.data.loops.foreach_get("vertex_index", vertex)
+    places = np.empty((len(obj.data.vertices), 3), dtype=np.float32)
+    obj.data.vertices.foreach_get("co", places.reshape(-1))
+    matrix = np.array(obj.matrix_world)
+    return places[vertex] @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def doubled(corners: np.ndarray) -> np.ndarray:
+    """Twice the areas (n,) of triangles (n, 3, 2)."""
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+
+def coded(obj: bpy.types.Object) -> None:
+    """Let an object emit its map and, in blue, 1, or 2 where it is marked as seen."""
+    material = parts.material("Code")
+    tree = material.node_tree
+    emission = next(node for node in tree.nodes if node.type == "EMISSION")
+    place, split, joined, mark, more = (tree.nodes.new(f"ShaderNode{kind}") for kind in
+                                        ("UVMap", "SeparateXYZ", "CombineXYZ", "Attribute", "Math"))
+    place.uv_map, mark.attribute_name, more.inputs[1].default_value = UV_MAP, SEEN, 1.0
+    for source, target in ((place.outputs["UV"], split.inputs[0]), (split.outputs["X"], joined.inputs["X"]),
+                           (split.outputs["Y"], joined.inputs["Y"]), (mark.outputs["Fac"], more.inputs[0]),
+                           (more.outputs[0], joined.inputs["Z"]), (joined.outputs[0], emission.inputs["Color"])):
+        tree.links.new(source, target)
+    obj.data.materials.clear()
+    obj.data.materials.append(material)
+    obj.visible_camera = False
+
+
+def rendered(tmp_path: Path) -> np.ndarray:
+    """What Cycles shows at the centre of each pixel, (SIZE, SIZE, 3) from below, after one bounce."""
+    scene = bpy.context.scene
+    scene.world = None
+    scene.view_settings.view_transform = "Raw"
+    scene.render.filepath = str(tmp_path / "code.exr")
+    scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
+    cycles = scene.cycles
+    cycles.samples, cycles.max_bounces, cycles.glossy_bounces, cycles.diffuse_bounces = 1, 1, 1, 0
+    cycles.use_denoising = cycles.use_adaptive_sampling = False
+    cycles.pixel_filter_type, cycles.filter_width = "BOX", 0.01
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(scene.render.filepath)
+    pixels = np.empty(SIZE * SIZE * 4, dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(SIZE, SIZE, 4)[..., :3].astype(np.float64)
+
+
+def test_cycles_shows_the_picture_in_the_mirror_within_a_pixel(tmp_path):
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLE))
+    scene = bpy.context.scene
+    scene.render.resolution_x = scene.render.resolution_y = SIZE
+    sheet = write()
+    assert sheet.name == "Sheet Anamorphosis"
+    for obj in list(scene.objects):
+        if obj.name in {"Table", "Sun"}:
+            bpy.data.objects.remove(obj)
+    coded(sheet)
+    shown = rendered(tmp_path)
+    of_sheet, seen = shown[..., 2] > 0.5, shown[..., 2] > 1.5
+    y, x = np.mgrid[:SIZE, :SIZE] + 0.5
+    off = np.hypot(shown[..., 0] * SIZE - x, shown[..., 1] * SIZE - y)[seen]
+    assert of_sheet.sum() > 20_000
+    assert (of_sheet & ~seen).sum() < 5e-4 * of_sheet.sum()
+    assert np.percentile(off, 99) < 0.5 and (off > 1.0).sum() < 2e-4 * len(off)
+    # nor is more marked than what is seen
+    area = 0.5 * np.abs(doubled(uv_of(sheet).reshape(-1, 3, 2)[seen_of(sheet)] * SIZE)).sum()
+    assert area == pytest.approx(of_sheet.sum(), rel=0.01)
+
+
+def test_faces_that_the_mirror_sees_edge_on_get_the_picture_where_they_are_seen(tmp_path):
+    """All but 8 pixels, along a silhouette, were right as long as any piece of an image counted that held a point."""
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLE.with_name("cylinder.blend")))
+    scene = bpy.context.scene
+    scene.render.resolution_x = scene.render.resolution_y = SIZE
+    scene.render.resolution_percentage, scene.render.engine = 100, "CYCLES"
+    write()
+    for obj in [obj for obj in scene.objects if obj.type == "LIGHT"]:
+        bpy.data.objects.remove(obj)
+    for obj in bpy.context.selected_objects:
+        if obj.type == "MESH" and UV_MAP in obj.data.uv_layers:
+            coded(obj)
+    shown = rendered(tmp_path)
+    seen = shown[..., 2] > 1.5
+    y, x = np.mgrid[:SIZE, :SIZE] + 0.5
+    off = np.hypot(shown[..., 0] * SIZE - x, shown[..., 1] * SIZE - y)[seen]
+    # Cycles rounds normals from 5.0 on
+    assert seen.sum() > 30_000 and off.max() < (1.0 if bpy.app.version < (5, 0, 0) else 2.0)
+
+
+@pytest.fixture
+def wall(blank) -> bpy.types.Object:
+    """A sheet on the ground before a flat wall mirror at y = 1; both are selected, the mirror is active."""
+    sheet = parts.add("grid", "Sheet", x_subdivisions=3, y_subdivisions=2, size=2.0, location=(0.2, -1.0, 0.1),
+                      rotation=(0.2, 0.1, 0.3))
+    mirror = parts.add_wall_mirror()
+    parts.select(sheet, mirror)
+    return sheet
+
+
+def mirrored_uv(room, places: np.ndarray) -> np.ndarray:
+    """Where the camera sees points in the wall mirror, as parts of its picture."""
+    view = room("addon.reading").read_view(bpy.context)
+    return view.pixels(places * (1.0, -1.0, 1.0) + (0.0, 2.0, 0.0)) / view.resolution
+
+
+def test_a_flat_mirror_gives_every_corner_of_the_copy_its_place_in_closed_form(wall, room):
+    copy = write(tolerance=0.25)
+    seen = np.repeat(seen_of(copy), 3)
+    places = corner_places(copy)
+    off = np.linalg.norm((uv_of(copy) - mirrored_uv(room, places))[seen] * (256, 192), axis=1)
+    assert seen.sum() > 100 and off.max() < 0.3
+    middle = places.reshape(-1, 3, 3).mean(axis=1)
+    off = (uv_of(copy).reshape(-1, 3, 2).mean(axis=1) - mirrored_uv(room, middle))[seen_of(copy)] * (256, 192)
+    assert np.linalg.norm(off, axis=1).max() < 0.5
+
+
+def test_the_copy_is_the_object_cut(wall):
+    material = parts.material("Own")
+    wall.data.materials.append(material)
+    wall.reflection_mesh.role = "DIFFUSE"
+    area = sum(face.area for face in wall.data.polygons)
+    copy = write()
+    assert sum(face.area for face in copy.data.polygons) == pytest.approx(area, rel=1e-5)
+    assert list(copy.data.materials) == [material] and copy.reflection_mesh.role == "DIFFUSE"
+    assert np.allclose(np.array(copy.matrix_world), np.array(wall.matrix_world), atol=1e-6)
+    # the source's map is linear over the sheet: (x + 1) / 2, (y + 1) / 2 in its own space
+    local = np.linalg.inv(np.array(wall.matrix_world))
+    own = corner_places(copy) @ local[:3, :3].T + local[:3, 3]
+    assert np.allclose(uv_of(copy, "UVMap"), 0.5 * own[:, :2] + 0.5, atol=1e-5)
+    assert copy.data.uv_layers.active.name == UV_MAP and copy.data.uv_layers["UVMap"].active_render
+    assert not copy.data.validate()
+    normals = np.array([corner.vector for corner in copy.data.corner_normals])
+    assert np.allclose(normals, (0.0, 0.0, 1.0), atol=1e-3)
+    assert wall.hide_render and wall.hide_get()
+
+
+def test_what_the_mirror_does_not_show_is_marked_and_lies_beside_the_picture(wall):
+    bpy.data.objects["Mirror"].scale.x = 0.25
+    bpy.context.view_layer.update()
+    area = sum(face.area for face in wall.data.polygons)
+    copy = write()
+    seen = seen_of(copy)
+    assert 0 < seen.sum() < len(seen)
+    assert sum(face.area for face in copy.data.polygons) == pytest.approx(area, rel=1e-5)
+    assert (uv_of(copy).reshape(-1, 3, 2)[~seen] == -1.0).all()
+    assert (uv_of(copy).reshape(-1, 3, 2)[seen] > -0.5).all()
+
+
+def test_of_two_images_the_larger_one_is_taken(wall, room):
+    mirror = bpy.data.objects["Mirror"]
+    wall.rotation_euler.x = 1.1     # so that the large pane sees it large
+    mesh = bpy.data.meshes.new("Two")
+    # in the wall's own plane's coordinates a large pane, and a small one beside it that is turned to the sheet
+    mesh.from_pydata([(-1.7, -2, 0), (1.7, -2, 0), (1.7, 2, 0), (-1.7, 2, 0), (1.7, -0.4, 0), (2.5, -0.4, 0.37),
+                      (2.5, 0.4, 0.52), (1.7, 0.4, 0.15)], [], [(0, 1, 2, 3), (4, 5, 6, 7)])
+    mirror.data = mesh
+    both = parts.attribute(parts.generate(), "mirror_face")
+    assert (both < 2).any() and (both >= 2).any()
+    bpy.ops.reflection_mesh.clear()
+    parts.select(wall, mirror)
+    area = sum(face.area for face in wall.data.polygons)
+    copy = write(tolerance=0.25)
+    assert sum(face.area for face in copy.data.polygons) == pytest.approx(area, rel=1e-5)
+    seen = np.repeat(seen_of(copy), 3)
+    off = (uv_of(copy) - mirrored_uv(room, corner_places(copy)))[seen] * (256, 192)
+    assert seen.all() and np.linalg.norm(off, axis=1).max() < 0.6
+
+
+def test_again_updates_the_copy_in_place(wall, room):
+    first = write()
+    name, before = first.name, uv_of(first)
+    bpy.context.scene.camera.location.x += 0.7
+    parts.select(first, bpy.data.objects["Mirror"])
+    again = write()
+    assert again == first and again.name == name and len(bpy.data.objects) == 4
+    assert wall.hide_render and wall.hide_get()
+    assert len(again.data.polygons) < 2 * len(before)
+    seen = np.repeat(seen_of(again), 3)
+    off = (uv_of(again) - mirrored_uv(room, corner_places(again)))[seen] * (256, 192)
+    assert np.linalg.norm(off, axis=1).max() < 0.6
+
+
+def test_on_the_object_itself_corners_are_exact_and_no_face_is_cut(wall, room):
+    faces, objects = len(wall.data.polygons), len(bpy.data.objects)
+    assert write(target="ORIGINAL", tolerance=0.1) == wall
+    assert len(wall.data.polygons) == faces and len(bpy.data.objects) == objects and not wall.hide_render
+    off = np.linalg.norm((uv_of(wall) - mirrored_uv(room, corner_places(wall))) * (256, 192), axis=1)
+    assert seen_of(wall).all() and off.max() < 0.2
+
+
+@pytest.mark.parametrize(("kind", "low", "high"), [("MIRROR", 0.0, 1.0), ("WHOLE", None, None)])
+def test_what_a_picture_fills(wall, kind, low, high):
+    wall.rotation_euler.x = 0.9
+    copy = write(frame=kind)
+    uv = uv_of(copy)[np.repeat(seen_of(copy), 3)]
+    if kind == "MIRROR":
+        assert uv.min(axis=0) == pytest.approx(low, abs=1e-5) and uv.max(axis=0) == pytest.approx(high, abs=1e-5)
+        return
+    # the whole unit square is shown, but for a part of a pixel at its rim
+    triangles = uv_of(copy).reshape(-1, 3, 2)[seen_of(copy)]
+    points = np.random.default_rng(2).uniform(0.03, 0.97, (300, 2))
+    u, v, w = (triangles[:, k] - triangles[:, 0] for k in (1, 2, 0))
+    to = points[:, None] - triangles[None, :, 0]
+    area = doubled(triangles)
+    second = (to[..., 0] * v[:, 1] - to[..., 1] * v[:, 0]) / area
+    third = (u[:, 0] * to[..., 1] - u[:, 1] * to[..., 0]) / area
+    held = ((second >= -1e-6) & (third >= -1e-6) & (second + third <= 1 + 1e-6)).any(axis=1)
+    assert held.all(), points[~held]
+
+
+@pytest.mark.parametrize("proportion", [0.6, 1.0, 2.3])
+def test_the_largest_frame_is_found_as_by_trying_all(room, proportion):
+    largest = room("addon.anamorphosis.frame")._largest_frame
+    y, x = np.mgrid[:34, :41]
+    shown = (np.hypot(x - 22, 1.3 * (y - 17)) < 15) & (x + y > 25)
+    (column, row), (width, height) = (pair.astype(int) for pair in largest(shown, proportion))
+    assert shown[row:row + height, column:column + width].all() and width == round(height * proportion)
+    high, across = height + 1, round((height + 1) * proportion)
+    assert not any(shown[r:r + high, c:c + across].all() for r in range(34 - high + 1) for c in range(41 - across + 1))
+
+
+def ramp(tmp_path: Path) -> str:
+    """A file with a picture whose red rises to the right and whose green rises upwards."""
+    image = bpy.data.images.new("Ramp", 64, 64)
+    pixels = np.ones((64, 64, 4), dtype=np.float32)
+    pixels[..., 0], pixels[..., 1] = (np.arange(64) + 0.5) / 64, ((np.arange(64) + 0.5) / 64)[:, None]
+    image.pixels.foreach_set(pixels.ravel())
+    image.filepath_raw, image.file_format = str(tmp_path / "ramp.png"), "PNG"
+    image.save()
+    bpy.data.images.remove(image)
+    return str(tmp_path / "ramp.png")
+
+
+def decoded(data: bytes) -> tuple[np.ndarray, tuple]:
+    """Pixels (h, w, 3) and pHYs of a PNG of 8-bit colour without filters."""
+    chunks, at = {}, 8
+    while at < len(data):
+        size, = struct.unpack(">I", data[at:at + 4])
+        chunks[data[at + 4:at + 8]] = data[at + 8:at + 8 + size]
+        at += 12 + size
+    width, height = struct.unpack(">II", chunks[b"IHDR"][:8])
+    rows = np.frombuffer(zlib.decompress(chunks[b"IDAT"]), np.uint8).reshape(height, -1)
+    return rows[:, 1:].reshape(height, width, 3), struct.unpack(">IIB", chunks[b"pHYs"])
+
+
+def test_the_print_is_the_sheet_in_its_size(wall, room, tmp_path):
+    copy = write(picture=ramp(tmp_path))
+    bpy.context.view_layer.objects.active = copy
+    bpy.context.scene.unit_settings.scale_length = 0.1    # 2 units are 20 cm
+    path = tmp_path / "sheet.png"
+    assert bpy.ops.reflection_mesh.print_sheet(filepath=str(path), dpi=25.4) == {"FINISHED"}
+    pixels, dots = decoded(path.read_bytes())
+    assert pixels.shape == (200, 200, 3) and dots == (1000, 1000, 1)
+    # a pixel lies on the sheet where its place in the file says, and shows what the mirror shows there
+    y, x = (np.mgrid[:200, :200][:, ::-1] + 0.5) / 100 - 1.0
+    local = np.stack((x, y, 0.0 * x), axis=2).reshape(-1, 3)
+    matrix = np.array(copy.matrix_world)
+    wanted = mirrored_uv(room, local @ matrix[:3, :3].T + matrix[:3, 3]).reshape(200, 200, 2)
+    within = ((wanted > 0.02) & (wanted < 0.98)).all(axis=2)
+    assert within.sum() > 10_000
+    assert np.abs(pixels[..., :2] / 255.0 - wanted)[within].max() < 0.015
+    beside = ((wanted < -0.02) | (wanted > 1.02)).any(axis=2)
+    assert (pixels[beside] == 255).all()
+
+
+def test_an_svg_has_the_sheets_size(wall, tmp_path):
+    bpy.context.view_layer.objects.active = write(picture=ramp(tmp_path))
+    path = tmp_path / "sheet.svg"
+    assert bpy.ops.reflection_mesh.print_sheet(filepath=str(path), dpi=10.0) == {"FINISHED"}
+    text = path.read_text()
+    assert 'width="2000.000mm" height="2000.000mm"' in text and "data:image/png;base64," in text
+
+
+def test_esc_leaves_no_trace(wall, room, tmp_path):
+    picture, before = ramp(tmp_path), parts.state()
+    module, settings = room("addon.operators.mirror_uvs"), room("core").Settings(placement="SURFACE")
+    stages = []
+    for stop in range(1, 200):
+        chosen = room("addon.reading").choose(bpy.context)
+        steps = module.mapping(bpy.context, chosen, settings, module.Choices(picture=picture))
+        told = []
+        # how many steps there are goes by the clock, and after the last one nothing is left to be taken back
+        while len(told) < stop and told[-1:] != ["Writing"]:
+            told.append(next(steps)[1])
+        steps.close()
+        assert parts.state() == before
+        stages = told
+        if told[-1] == "Writing":
+            break
+    assert stages[-1] == "Writing" and "Cutting faces" in stages
+
+
+def test_an_error_while_writing_leaves_no_trace(wall, room, tmp_path, monkeypatch):
+    picture, before = ramp(tmp_path), parts.state()
+
+    def fails(*_):
+        raise ValueError("no")
+    monkeypatch.setattr(room("addon.anamorphosis.copies"), "_hide", fails)
+    with pytest.raises(RuntimeError, match="not foreseen"):
+        bpy.ops.reflection_mesh.mirror_uvs(picture=picture)
+    assert parts.state() == before
+
+
+def test_refusals(wall, tmp_path):
+    refused = bpy.ops.reflection_mesh.mirror_uvs
+    assert "no picture 'nothing.png'" in parts.refusal(refused, picture="nothing.png")
+    assert "copies alone" in parts.refusal(refused, picture="x", target="ORIGINAL")
+    (tmp_path / "text.png").write_text("no picture")
+    assert "no picture that Blender can read" in parts.refusal(refused, picture=str(tmp_path / "text.png"))
+    bend = wall.modifiers.new("Bend", "SUBSURF")
+    assert "modifiers" in parts.refusal(refused, target="ORIGINAL")
+    wall.modifiers.remove(bend)
+    printing = bpy.ops.reflection_mesh.print_sheet
+    bpy.context.view_layer.objects.active = wall
+    assert "press Write Mirror UVs" in parts.refusal(printing, filepath=str(tmp_path / "sheet.png"))
+    assert "neither a .png nor a .svg" in parts.refusal(printing, filepath=str(tmp_path / "sheet.jpg"))
+    other = parts.add_wall_mirror("Other")
+    wall.reflection_mesh.role = "DIFFUSE"
+    for obj in (other, bpy.data.objects["Mirror"]):
+        obj.reflection_mesh.role = "MIRROR"
+    parts.select(wall, other, bpy.data.objects["Mirror"])
+    assert "those of one mirror" in parts.refusal(refused)
+
+
+def test_a_bent_sheet_is_not_printed(wall, tmp_path):
+    ball = parts.add("uv_sphere", "Ball", radius=0.5, location=(0.0, -1.0, 1.0))
+    parts.select(ball, bpy.data.objects["Mirror"])
+    bpy.context.view_layer.objects.active = write(picture=ramp(tmp_path))
+    assert "not flat" in parts.refusal(bpy.ops.reflection_mesh.print_sheet, filepath=str(tmp_path / "ball.png"))
+
+
+def test_an_object_that_is_not_shown_is_left_out(wall):
+    behind = parts.add("cube", "Behind", location=(0.0, 6.0, 0.0))
+    parts.select(wall, behind, bpy.data.objects["Mirror"])
+    write()
+    assert bpy.data.objects.get("Behind Anamorphosis") is None and not behind.hide_render
+
+
+def test_the_verb_writes_maps_and_prints(wall, room, tmp_path, capsys):
+    picture, path = ramp(tmp_path), tmp_path / "scene.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    output, sheet = tmp_path / "mapped.blend", tmp_path / "sheet.svg"
+    assert room("addon.command_line").run(
+        ["mirror-uvs", "--mirror", "Mirror", "--diffuse", "Sheet", "--picture", picture, "--fills", "WHOLE", "--print",
+         str(sheet), "--dpi", "20", "--output", str(output)]) == 0
+    assert "'Sheet Anamorphosis'" in capsys.readouterr().out and sheet.stat().st_size > 1000
+    bpy.ops.wm.open_mainfile(filepath=str(output))
+    assert UV_MAP in bpy.data.objects["Sheet Anamorphosis"].data.uv_layers
+    assert room("addon.command_line").run(["mirror-uvs", "--print", "sheet.jpg", "--output", str(output)]) == 1
+    capsys.readouterr()
+    assert room("addon.command_line").run(["mirror-uvs", "--tolerance", "-1", "--output", str(output)]) == 1
+    assert "not foreseen" not in capsys.readouterr().err

@@ -1,0 +1,145 @@
+"""The verbs of the command line: exit status 0 only on success, the opened file as it was unless it is to be saved."""
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import bpy
+import parts
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@pytest.fixture
+def saved(blank, tmp_path) -> Path:
+    """A saved file: a cube before a wall mirror, roles set, nothing selected; it is open."""
+    cube = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0))
+    mirror = parts.add_wall_mirror()
+    cube.reflection_mesh.role, mirror.reflection_mesh.role = "DIFFUSE", "MIRROR"
+    bpy.context.preferences.filepaths.save_version = 0
+    path = tmp_path / "scene.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def faces_in(path: Path, name: str = "Mirror Reflection") -> int:
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    obj = bpy.data.objects.get(name)
+    return len(obj.data.polygons) if obj else 0
+
+
+def with_bpy(*arguments: str) -> subprocess.CompletedProcess:
+    return subprocess.run([sys.executable, str(ROOT / "addon" / "run_with_bpy.py"), *map(str, arguments)],
+                          capture_output=True, text=True, check=False, cwd=ROOT.parent,
+                          env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+
+
+def test_generate_saves_the_file(saved, room, capsys):
+    assert room("addon.command_line").run(["generate", "--tolerance", "2"]) == 0
+    assert "'Mirror Reflection'" in capsys.readouterr().out
+    assert faces_in(saved) > 0
+
+
+def test_generate_to_another_file(saved, room, tmp_path):
+    before = saved.read_bytes()
+    output = tmp_path / "other.blend"
+    assert room("addon.command_line").run(["generate", "--output", str(output), "--placement", "VIRTUAL"]) == 0
+    assert saved.read_bytes() == before
+    assert faces_in(output) > 0 and faces_in(saved) == 0
+
+
+def test_generate_points(saved, room, tmp_path, capsys):
+    output = tmp_path / "points.blend"
+    assert room("addon.command_line").run(["generate", "--output", str(output), "--method", "POINTS"]) == 0
+    printed = capsys.readouterr().out
+    assert "8 points" in printed and "subdivide the diffuse objects" in printed
+    assert faces_in(output) == 0 and len(bpy.data.objects["Mirror Reflection"].data.vertices) == 8
+
+
+def test_objects_by_name(saved, room, tmp_path):
+    for name in ("Box", "Mirror"):
+        bpy.data.objects[name].reflection_mesh.role = "AUTO"
+    output = tmp_path / "named.blend"
+    assert room("addon.command_line").run(
+        ["generate", "--mirror", "Mirror", "--diffuse", "Box", "--output", str(output)]) == 0
+    assert faces_in(output) > 0
+
+
+@pytest.mark.parametrize(("arguments", "status", "words"), [
+    (["generate", "--mirror", "Mirror", "--diffuse", "Nothing"], 1, "no object 'Nothing'"),
+    (["generate", "--mirror", "Mirror"], 1, "Name both"),
+    (["generate", "--mirror", "Mirror", "--diffuse", "Mirror"], 1, "named both"),
+    (["generate", "--tolerance", "0"], 1, "tolerance"),
+    (["generate", "--tolerance", "nan"], 1, "tolerance"),
+    (["generate", "--memory", "0"], 1, "memory"),
+    (["generate", "--memory", "nan"], 1, "memory"),
+    (["generate", "--placement", "NOWHERE"], 2, "NOWHERE"),
+    (["generate", "--output", "{folder}/none/x.blend"], 1, "Error: '{folder}/none/x.blend' cannot be saved"),
+    (["compare", "--samples", "0"], 1, "sample"),
+    (["polish"], 2, "polish"),
+    ([], 2, "verb"),
+])
+def test_failures(saved, room, capfd, tmp_path, arguments, status, words):
+    before = saved.read_bytes()
+    assert room("addon.command_line").run([argument.format(folder=tmp_path) for argument in arguments]) == status
+    error = capfd.readouterr().err
+    assert words.format(folder=tmp_path) in error and "Traceback" not in error
+    assert saved.read_bytes() == before
+
+
+@pytest.mark.parametrize("verb", ["generate", "compare"])
+def test_all_settings_reach_the_core(saved, room, tmp_path, capsys, monkeypatch, verb):
+    def told(context, participants, settings, *_, **__):
+        raise room("core").ReflectionError(f"{settings(participants.mirrors[0])}.")
+    monkeypatch.setattr(room(f"addon.operators.{verb}"), "generation", told)
+    monkeypatch.setattr(room("addon.command_line.verbs"), "generation", told)
+    assert room("addon.command_line").run([verb, "--tolerance", "2", "--placement", "VIRTUAL", "--method", "PARALLEL",
+                                           "--depth", "3", "--memory", "0.5", "--hidden-faces", "--output",
+                                           str(tmp_path / "x")]) == 1
+    expected = room("core").Settings(2.0, "VIRTUAL", "PARALLEL", 3, maximum_memory=0.5, hidden_faces=True)
+    assert capsys.readouterr().err == f"Error: {expected}.\n"
+
+
+def test_nothing_to_save_to(blank, room, capsys):
+    assert room("addon.command_line").run(["generate"]) == 1
+    assert "no file to save to" in capsys.readouterr().err
+
+
+def test_bad_input_is_one_line(saved, room, capsys):
+    bpy.context.scene.camera = None
+    assert room("addon.command_line").run(["generate"]) == 1
+    error = capsys.readouterr().err
+    assert error.startswith("Error: The scene has no camera") and error.count("\n") == 1
+
+
+def test_help_succeeds(room, capsys):
+    assert room("addon.command_line").run(["--help"]) == 0
+    out = capsys.readouterr().out
+    assert "generate" in out and "compare" in out
+
+
+def test_through_pypis_bpy(saved, tmp_path):
+    """From a checkout, in a fresh process."""
+    done = with_bpy(saved, "generate", "--output", tmp_path / "result.blend")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "Traceback" not in done.stdout + done.stderr and "100 %" in done.stdout
+    assert faces_in(tmp_path / "result.blend") > 0
+
+
+def test_pypis_bpy_without_a_file(tmp_path):
+    done = with_bpy(tmp_path / "none.blend", "generate")
+    assert done.returncode == 1 and "Traceback" not in done.stderr and done.stderr.count("\n") == 1
+    assert done.stderr.startswith(f"Error: '{tmp_path / 'none.blend'}' cannot be opened")
+
+
+def test_pypis_bpy_without_a_verb():
+    done = with_bpy()
+    assert done.returncode == 2 and done.stderr.startswith("Usage:")
+
+
+def test_pypis_bpy_takes_several_files_for_a_benchmark_alone(tmp_path):
+    done = with_bpy(tmp_path / "one.blend", tmp_path / "two.blend", "generate")
+    assert done.returncode == 2 and done.stderr.startswith("Usage:")
+    done = with_bpy(tmp_path / "one.blend", tmp_path / "two.blend", "benchmark", "--output", tmp_path)
+    assert done.returncode == 1 and "one.blend" in done.stderr and "Traceback" not in done.stderr

@@ -1,0 +1,138 @@
+"""What mirrors of all colours make of light, and what colour it has where it falls."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from caustic_scene import AIM, TINT, aim, inner, paint, rendered, scene_of
+
+
+def coated(colour=(1.0, 0.5, 0.2), ior: float = 1.33, over: bool = True) -> bpy.types.Material:
+    """A mirror that is mixed by Fresnel with black, as water over a dark ground."""
+    made = paint("Coat", "GLOSSY", colour)
+    tree = made.node_tree
+    share, both, ground = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("Fresnel", "MixShader", "BsdfDiffuse"))
+    share.inputs["IOR"].default_value, ground.inputs["Color"].default_value = ior, (0.0, 0.0, 0.0, 1.0)
+    tree.links.new(share.outputs[0], both.inputs[0])
+    tree.links.new(tree.nodes[0].outputs[0], both.inputs[2 if over else 1])
+    tree.links.new(ground.outputs[0], both.inputs[1 if over else 2])
+    tree.links.new(both.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    return made
+
+
+@pytest.mark.parametrize("over", [True, False])
+@pytest.mark.parametrize("angle", [0.0, 0.9, 1.35])
+def test_water_sends_back_what_cycles_says(blank, room, tmp_path, over, angle):
+    """Its picture of a white world, seen at an angle."""
+    scene = blank.scene
+    scene.render.engine, scene.view_settings.view_transform = "CYCLES", "Raw"
+    scene.render.resolution_x = scene.render.resolution_y = 64
+    scene.cycles.use_denoising, scene.cycles.blur_glossy = False, 0.0
+    scene.world = bpy.data.worlds.new("White")
+    if bpy.app.version < (5, 0, 0):
+        scene.world.use_nodes = True
+    background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    mirror = parts.add("plane", "Mirror", size=100.0)
+    mirror.data.materials.append(coated(over=over))
+    camera = scene.camera
+    camera.data.type, camera.data.ortho_scale = "ORTHO", 1.0
+    camera.location = (0.0, -3.0 * np.sin(angle), 3.0 * np.cos(angle))
+    camera.rotation_euler = (angle, 0.0, 0.0)
+    seen = rendered(tmp_path, 64).mean(axis=(0, 1))
+    tint = room("addon.illumination").Tint.of(mirror)
+    found = tint.at(np.full((1, 3), np.cos(angle)), np.array([1]))[0, 0]
+    assert tint.constant and np.allclose(found, seen, rtol=0.05 if over else 0.01, atol=0.002)
+
+
+def textured(floor: bpy.types.Object, kind: str, coordinates: str, grouped: bool) -> None:
+    """The floor's colour by a procedural texture, laid out by its own box or by what it takes without being told."""
+    tree = floor.active_material.node_tree
+    colour = tree.nodes[0].inputs["Color"]
+    if grouped:
+        group = bpy.data.node_groups.new("Pattern", "ShaderNodeTree")
+        group.interface.new_socket("Color", in_out="OUTPUT", socket_type="NodeSocketColor")
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = group
+        tree.links.new(node.outputs[0], colour)
+        tree, colour = group, group.nodes.new("NodeGroupOutput").inputs[0]
+    texture = tree.nodes.new(f"ShaderNodeTex{kind}")
+    texture.inputs["Scale"].default_value = 9.0 if coordinates != "Object" else 1.5
+    if coordinates:
+        place = tree.nodes.new("ShaderNodeTexCoord")
+        tree.links.new(place.outputs[coordinates], texture.inputs["Vector"])
+    tree.links.new(texture.outputs["Color"], colour)
+
+
+@pytest.mark.parametrize(("kind", "coordinates", "grouped"), [
+    ("Noise", "Generated", False), ("Noise", "Object", False), ("Voronoi", "", False), ("Noise", "Object", True)])
+def test_textures_lie_where_the_receiver_has_them(blank, tmp_path, capfd, kind, coordinates, grouped):
+    """As those of the floor in the light of the lamp behind the mirror."""
+    floor, mirror, lamp = scene_of()
+    # no plane of 20 units whose corners are its box's
+    floor.location, floor.rotation_euler, floor.scale = (0.7, -0.4, 0.0), (0.0, 0.0, 0.5), (0.3, 0.2, 1.0)
+    textured(floor, kind, coordinates, grouped)
+    blank.view_layer.update()
+    blank.scene.cycles.max_bounces = 0
+    data = parts.state()["data"]
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert "not known" not in capfd.readouterr().out
+    result = bpy.data.objects["Mirror Caustics"]
+    with_light = rendered(tmp_path)
+    result.hide_render = True
+    light = with_light - rendered(tmp_path)
+    mirror.hide_render = True
+    aim(lamp, (2.0 * AIM.x + 0.9, 0.1, 1.8))
+    expected = rendered(tmp_path, 64) * TINT
+    patch = inner(light)
+    ratio = (light / np.maximum(expected, 1e-12))[patch]
+    assert patch.sum() > 500 and np.ptp(np.log(expected[patch])) > 0.5
+    assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 5e-3
+    assert np.percentile(np.abs(ratio - 1.0), 90) < 0.05
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert parts.state()["data"] == data
+
+
+def test_what_only_the_object_knows_is_told(blank, capfd):
+    floor, mirror, lamp = scene_of()
+    tree = floor.active_material.node_tree
+    tree.links.new(tree.nodes.new("ShaderNodeObjectInfo").outputs["Color"], tree.nodes[0].inputs["Color"])
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert "The colour of 'Paint' is not known all over" in capfd.readouterr().out
+
+
+def test_a_mirror_of_several_colours(blank, tmp_path, capfd):
+    """Each of its materials throws its own: as the two halves of the mirror alone, seam included."""
+    floor, mirror, lamp = scene_of()
+    mesh = mirror.data
+    mesh.clear_geometry()
+    mesh.from_pydata([(x, y, 0.0) for y in (-0.6, 0.1, 0.6) for x in (-0.6, 0.6)], [], [(0, 1, 3, 2), (2, 3, 5, 4)])
+    mesh.materials.append(paint("Blue Metal", "PRINCIPLED", (0.1, 0.3, 0.9), "Base Color"))
+    mesh.polygons[1].material_index = 1
+    blank.scene.cycles.max_bounces = 0
+
+    def light() -> np.ndarray:
+        parts.select(floor, lamp, mirror)
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+        assert "counts as one" not in capfd.readouterr().out
+        lamp.hide_render = True
+        # the borders of the halves are in the middle of pixels
+        seen = rendered(tmp_path, 256)
+        lamp.hide_render = False
+        bpy.ops.reflection_mesh.clear()
+        return seen
+    both, halves = light(), []
+    keep = mesh.copy()
+    for own in (0, 1):
+        mirror.data = keep.copy()
+        corners = [tuple(face.vertices) for face in keep.polygons]
+        places = [tuple(vertex.co) for vertex in keep.vertices]
+        mirror.data.clear_geometry()
+        mirror.data.from_pydata(places, [], [corners[own]])
+        mirror.data.polygons[0].material_index = own
+        halves.append(light())
+    lit = both.sum(axis=2) > 0.2 * both.sum(axis=2).max()
+    assert lit.sum() > 500 and (halves[0][lit].sum(axis=1) > 0.0).any() and (halves[1][lit].sum(axis=1) > 0.0).any()
+    assert np.abs(both - sum(halves))[lit].max() < 0.02 * both.max()
+    assert np.percentile(np.abs(both - sum(halves))[lit], 95) < 1e-3 * both.max()

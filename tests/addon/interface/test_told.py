@@ -1,0 +1,122 @@
+"""Sentences in other languages: none lacks its German, and what is told in a window is told in it."""
+from __future__ import annotations
+
+import re
+import string
+
+import bpy
+import parts
+import pytest
+import told_sentences
+
+
+@pytest.fixture
+def german(room, monkeypatch):
+    """Blender speaks German; as a module it knows no languages."""
+    sentences, words = room("addon.interface.german").SENTENCES, room("addon.interface.german").GERMAN
+    monkeypatch.setattr(room("addon.faults.told"), "pgettext_rpt", lambda text: sentences.get(text, text))
+    for module in ("addon.faults.stepped_operator", "addon.faults.unforeseen"):
+        monkeypatch.setattr(room(module), "pgettext_iface", lambda text: words.get(text, text))
+    return sentences
+
+
+def fields(text: str) -> list[str]:
+    return [entry[1] for entry in string.Formatter().parse(text) if entry[1] is not None]
+
+
+def test_no_sentence_lacks_its_german(room):
+    german = room("addon.interface.german").SENTENCES
+    told = told_sentences.told()
+    assert len(told) > 120
+    known_words = set(room("addon.interface.german").GERMAN)
+    assert sorted(told - set(german) - known_words) == []
+    # and none is translated that nobody says
+    assert sorted(set(german) - told_sentences.written()) == []
+
+
+def test_what_is_put_in_is_in_the_german_too(room):
+    for english, german in room("addon.interface.german").SENTENCES.items():
+        known, used = fields(english), fields(german)
+        if all(name.isdigit() for name in used) and used:
+            assert set(map(int, used)) <= set(range(len(known))), english
+        else:
+            assert sorted(known) == sorted(used), english
+
+
+def test_every_sentence_is_recognized_whatever_is_in_it(room, german):
+    """Not as another one, and with names and numbers in their places."""
+    translated = room("addon.faults").translated
+    for english, wanted in german.items():
+        names = fields(english)
+        for values in ([f"{number + 1}" for number in range(len(names))], [f"Ding {number}" for number in range(9)]):
+            put = {name: value for name, value in zip(names, values) if name}
+            # parts of sentences hold numbers alone: names may be made of the same words
+            whole = english.endswith(".") or ":" in english or sum(map(str.isalpha, english)) > 20
+            if whole or not names or values[0] == "1":
+                assert translated(english.format(*values, **put)) == wanted.format(*values, **put), english
+    for name in ("Frame 3", "Two faces", "My reflections", "frames of mine"):
+        assert translated(f"The mirror '{name}' is hidden: show it in the viewport and in renders.") == (
+            f"Der Spiegel '{name}' ist ausgeblendet: zeige ihn in der Ansicht und im Render.")
+
+
+def test_nothing_is_reported_past_the_languages():
+    assert told_sentences.reports() == []
+
+
+def test_errors_and_refusals_are_told_in_german(blank, room, german):
+    cube, mirror = parts.add("cube", "Box", location=(0.0, -1.5, 1.0)), parts.add_wall_mirror()
+    cube.hide_render = True
+    parts.select(cube, mirror)
+    assert parts.refusal() == (
+        "Das Objekt 'Box' ist ausgeblendet: zeige es in der Ansicht, im Render und für Glanzstrahlen.")
+    cube.hide_render = False
+    blank.scene.camera.location = (0.0, 6.0, 1.0)
+    blank.scene.camera.rotation_euler = (1.45, 0.0, 0.0)
+    blank.view_layer.update()
+    assert parts.refusal() == (
+        "Mirror: Die Kamera sieht den Spiegel nicht; drehe sie zum Spiegel oder rücke ihn ins Bild.")
+
+
+def test_an_error_that_nobody_foresaw_is_told_in_german(blank, room, german, monkeypatch):
+    cube, mirror = parts.add("cube", "Box", location=(0.0, -1.5, 1.0)), parts.add_wall_mirror()
+    parts.select(cube, mirror)
+
+    def fails(*_):
+        raise ZeroDivisionError("Kamera weg")
+    monkeypatch.setattr(room("addon.operators.generate"), "read_view", fails)
+    assert parts.refusal() == ("Spiegelung erzeugen misslang aus einem unvorhergesehenen Grund (ZeroDivisionError: "
+                               "Kamera weg): nichts hat sich geändert; die Konsole sagt mehr.")
+
+
+def test_what_was_done_is_told_in_german(blank, room, german, monkeypatch):
+    cube, mirror = parts.add("cube", "Box", location=(0.0, -1.5, 1.0)), parts.add_wall_mirror()
+    cube.data.materials.append(parts.material("Grey", "DIFFUSE"))
+    parts.select(cube, mirror)
+    said = []
+    faults = room("addon.faults.told")
+    translated = faults.translated
+
+    def heard(sentence: str, depth: int = 0) -> str:
+        found = translated(sentence, depth)
+        if not depth:
+            said.append(found)
+        return found
+    monkeypatch.setattr(faults, "translated", heard)
+    parts.generate()
+    assert re.fullmatch(r"'Mirror Reflection': \d+ Flächen, [\d.]+ KB, Fehler etwa [\d.]+ px, [\d.]+ s; ihr Licht "
+                        "fehlt noch: Spiegelung beleuchten", said[-1])
+    parts.select()
+    bpy.ops.reflection_mesh.clear()
+    assert said[-1] == "1 Spiegelung entfernt."
+    frames = room("addon.operators.bake_plan").listed([2, 3])
+    assert translated(f"Kept although they were baked from another state of the scene (the mirror has changed): "
+                      f"{frames} in '/tmp'; overwrite them, or choose another folder, to have all alike.") == (
+        "Behalten, obwohl die Szene beim Backen eine andere war (der Spiegel hat sich geändert): Einzelbilder 2, 3 in "
+        "'/tmp'; überschreibe sie, oder wähle einen anderen Ordner, damit alle gleich sind.")
+
+
+def test_in_english_and_of_strange_names_nothing_is_changed(room):
+    translated = room("addon.faults").translated
+    for sentence in ("The mirror 'Mirror' is hidden: show it in the viewport and in renders.", "", "a: b: c",
+                     "x {} {y}", "'{}' is a folder: name a file in it.", "The mirror '{0}' is hidden: {oh}", "a\nb: c"):
+        assert translated(sentence) == sentence

@@ -1,0 +1,331 @@
+"""Light: a render of the file with its lit reflection equals one without, whatever the scene has; and nothing else has
+changed."""
+from __future__ import annotations
+
+import itertools
+import json
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from lamp_scenes import (
+    SIZE,
+    leaves_no_trace,
+    link,
+    lit_state,
+    picture,
+    plain_scene,
+    principled,
+    psnr,
+    scene_of,
+    shader_of,
+)
+
+SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Glass", "Alpha",
+           "Backfacing")
+MIRRORS = ("Tint", "Textured tint", "Rough", "Fresnel", "Layer weight")
+
+
+@pytest.mark.parametrize(("source", "mirror"), [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)])
+def test_a_lit_reflection_is_what_the_mirror_shows(blank, room, source, mirror):
+    scene_of(blank, source, mirror)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    before = psnr(picture(room), reference)
+    assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
+    lit, noise = psnr(picture(room), reference), psnr(other, reference)
+    assert lit > min(38.0, noise - 1.5)
+    # without its light it is another picture
+    assert lit > before + 6.0
+
+
+def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
+    """A small lamp far brighter than white, before what is reflected: no ring around it, no halo."""
+    scene_of(blank)
+    lamp = next(obj for obj in blank.scene.objects if obj.type == "LIGHT")
+    lamp.location, lamp.rotation_euler = (-1.3, -1.5, 1.4), (np.pi / 2, 0.0, 0.0)
+    lamp.data.size, lamp.data.energy = 0.2, 60.0
+    back = parts.add("plane", "Back", size=16.0, location=(0.0, -7.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
+    back.data.materials.append(principled("Paint", (0.2, 0.3, 0.2)))
+    parts.select(back, *(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    reference = picture(room)
+    parts.generate()
+    bpy.ops.reflection_mesh.light()
+    lit, white = picture(room), reference.min(axis=2) > 0.99
+    assert white.sum() > 10
+    # four hundred times brighter than white, its border is a step that texels cannot show without being negative
+    assert psnr(lit, reference) > 31.0 and (lit.min(axis=2) > 0.99).sum() <= white.sum()
+    rows, columns = np.nonzero(white)
+    around = slice(rows.min() - 8, rows.max() + 9), slice(columns.min() - 8, columns.max() + 9)
+    assert np.median((reference - lit)[around][~white[around]]) < 0.02
+    assert (np.abs(lit - reference)[around].max(axis=2) > 0.08).sum() < 2 * white.sum()
+
+
+@pytest.mark.parametrize("kind", ["Alpha", "Tint"])
+def test_what_is_transparent_before_the_mirror_is_seen_once(blank, room, kind):
+    """A pane between the eye and one half of the mirror, which the mirror shows as well."""
+    scene_of(blank)
+    pane = parts.add("plane", "Pane", size=3.0, location=(-1.2, -2.5, 1.0), rotation=(np.pi / 2, 0.0, 0.0))
+    made = principled("Film", (0.2, 0.7, 0.3), Alpha=0.4)
+    if kind == "Tint":
+        tree = made.node_tree
+        tint = tree.nodes.new("ShaderNodeBsdfTransparent")
+        tint.inputs["Color"].default_value = (0.3, 0.6, 0.5, 1.0)
+        link(tree, tint.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
+    pane.data.materials.append(made)
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    blank.view_layer.update()
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert pane.visible_camera
+
+
+def test_what_stands_behind_a_mirror_that_is_half_open_is_seen_through_it(blank, room):
+    scene_of(blank, "UV", "Half open")
+    behind = parts.add("cube", "Behind", size=1.2, location=(-0.6, 2.0, 1.0))
+    behind.data.materials.append(principled("Red", (0.9, 0.1, 0.05), **{
+        "Emission Color": (1.0, 0.2, 0.1, 1.0), "Emission Strength": 2.0}))
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    reference, other = picture(room), picture(room, seed=7)
+    behind.hide_render = True
+    assert psnr(picture(room), reference) < 30.0
+    behind.hide_render = False
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
+@pytest.mark.parametrize("kind", ["", "Tint"])
+def test_light_lies_behind_what_stands_before_the_mirror_too(blank, room, kind):
+    """A post before the mirror is taken away after lighting: what it hid is lit as all else."""
+    scene_of(blank, "UV", kind)
+    post = parts.add("cube", "Post", size=1.0, location=(0.8, -0.5, 1.0))
+    post.scale = (0.3, 0.02, 3.0)
+    post.visible_glossy = post.visible_diffuse = post.visible_shadow = False
+    post.data.materials.append(principled("Red", (0.9, 0.1, 0.05)))
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert post.visible_camera
+    post.hide_render = True
+    lit = picture(room)
+    bpy.data.objects["Mirror Reflection"].hide_render = True
+    reference, other = picture(room), picture(room, seed=7)
+    assert psnr(lit, reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
+def test_compare_tells_how_lit_pictures_differ(blank, tmp_path):
+    """Against the mirror as it is, tint and all, beside what Cycles differs from itself by."""
+    scene_of(blank, "UV", "Fresnel")
+    parts.generate()
+    bpy.ops.reflection_mesh.light()
+    assert bpy.ops.reflection_mesh.compare(filepath=str(tmp_path), samples=32) == {"FINISHED"}
+    report = json.loads((tmp_path / "report.json").read_text())
+    lit, noise = report["picture"]["mirror"], report["picture"]["noise"]["mirror"]
+    assert lit["psnr_displayed"] > min(38.0, noise["psnr_displayed"] - 1.5)
+    assert "where Cycles equals itself to" in (tmp_path / "report.html").read_text()
+
+
+@pytest.mark.parametrize(("placement", "opaque"), [("LAYERED", True), ("VIRTUAL", True), ("LAYERED", False)])
+def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaque):
+    scene_of(blank, "UV", "" if opaque else "Half open")
+    result = parts.generate(placement=placement)
+    before, lighting = lit_state(), room("addon.operators.light").lighting
+    for stop in itertools.count(1):
+        steps = lighting(blank, [result], 1)
+        ended = not all(next(steps, None) for _ in range(stop))
+        steps.close()
+        if ended:
+            break
+        assert lit_state() == before
+    assert stop == (4 if opaque else 5) and lit_state() != before
+
+
+@pytest.mark.parametrize(("mirror", "renders"), [("Tint", 1), ("Half open", 2)])
+def test_light_is_one_render_of_the_mirrors_window(blank, room, monkeypatch, mirror, renders):
+    """Cycles renders the mirror's pixels once, with the samples asked for; what a mirror that is open covers is asked
+    apart, without light."""
+    scene_of(blank, "UV", mirror)
+    result = parts.generate()
+    place, asked = room("addon.lighting.light_scene"), []
+    work = place.rendered
+
+    def counted(scene):
+        picture = work(scene)
+        asked.append((picture.shape[:2], scene.cycles.samples, scene.cycles.max_bounces))
+        return picture
+    monkeypatch.setattr(place, "rendered", counted)
+    bpy.ops.reflection_mesh.light(samples=7)
+    view = room("addon.reading").read_view(blank)
+    seen = view.pixels(np.array([result.reflection_mesh.mirror.matrix_world @ vertex.co
+                                 for vertex in result.reflection_mesh.mirror.data.vertices]))
+    width, height = np.ceil(np.clip(seen, 0, SIZE).max(axis=0)) - np.floor(np.clip(seen, 0, SIZE).min(axis=0))
+    assert len(asked) == renders and asked[0][1:] == (7, blank.scene.cycles.max_bounces)
+    assert asked[0][0][0] * asked[0][0][1] <= (width + 6) * (height + 6)
+    assert all(bounces == 0 for *_, bounces in asked[1:])
+
+
+def test_a_blender_without_the_denoiser_renders_with_noise(room):
+    class Cycles:
+        use_denoising = True
+
+        def __setattr__(self, name, value):
+            # as Blender says it
+            if value == "OPENIMAGEDENOISE":
+                raise TypeError('bpy_struct: item.attr = val: enum "OPENIMAGEDENOISE" not found in ()')
+            super().__setattr__(name, value)
+    cycles = Cycles()
+    room("addon.rendering").denoise(cycles)
+    assert cycles.use_denoising is False
+
+
+@pytest.mark.parametrize("failing", ["rendered", "new_material", "show_light"])
+def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
+    where = "addon.lighting.light_scene" if failing == "rendered" else "addon.operators.light"
+    leaves_no_trace(blank, room, monkeypatch, (where, failing), "PICTURE")
+
+
+def test_what_is_lit_is_the_result_alone(blank):
+    scene_of(blank)
+    result = parts.generate()
+    before, materials = parts.state(), [material.name for material in result.data.materials]
+    bpy.ops.reflection_mesh.light(samples=1)
+    after = parts.state()
+    # the mesh keeps the materials of its sources under their names; the object shows the light
+    assert [material.name for material in result.data.materials] == materials
+    assert {(slot.link, slot.material) for slot in result.material_slots} == {
+        ("OBJECT", result.reflection_mesh.light_material)}
+    new = {kind: set(names) - set(before["data"][kind]) for kind, names in after["data"].items()}
+    assert {kind: names for kind, names in new.items() if names} == {
+        "materials": {"Reflection Light"}, "images": {"Reflection Light", "Reflection Light Export"}}
+    assert {**after, "data": 0} == {**before, "data": 0}
+    image = bpy.data.images["Reflection Light"]
+    assert image.packed_file is not None and image.size[0] <= SIZE
+
+
+def test_what_emits_in_a_plain_mirror_needs_no_light(blank):
+    mirror = plain_scene()
+    result = parts.generate()
+    before = lit_state()
+    assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
+    assert lit_state() == before and result.reflection_mesh.light_material is None
+    mirror.data.materials[0].node_tree.nodes[0].inputs["Color"].default_value = (0.8, 0.9, 1.0, 1.0)
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert result.reflection_mesh.light_material is not None
+
+
+@pytest.mark.parametrize(("change", "stale"), [
+    (lambda scene: setattr(bpy.data.objects["Box"].location, "x", 0.5), True),
+    (lambda scene: setattr(scene.camera.location, "x", 0.5), True),
+    (lambda scene: setattr(scene.camera.data, "lens", 45.0), True),
+    (lambda scene: setattr(next(iter(bpy.data.lights)), "energy", 10.0), True),
+    (lambda scene: setattr(shader_of(bpy.data.materials["Source"]).inputs["Roughness"], "default_value", 0.2), True),
+    (lambda scene: scene.frame_set(scene.frame_current + 1), False),
+    (lambda scene: bpy.data.objects["Box"].select_set(False), False),
+])
+def test_light_is_stale_when_the_scene_has_changed(blank, change, stale):
+    scene_of(blank)
+    result = parts.generate(tolerance=4.0)
+    bpy.ops.reflection_mesh.light(samples=1)
+    light = result.reflection_mesh.light_material
+    change(blank.scene)
+    blank.view_layer.update()
+    assert result.reflection_mesh.light_stale == stale
+    parts.select(result)
+    parts.generate(tolerance=2.0)
+    # light that fits stays; other light is not shown
+    assert {slot.material == light for slot in result.material_slots} == {not stale}
+    assert result.reflection_mesh.light_stale == stale
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert not result.reflection_mesh.light_stale and len(bpy.data.materials) == 4
+
+
+def test_light_that_was_kept_shows_the_same(blank, room):
+    scene_of(blank, "UV", "Tint")
+    result = parts.generate(tolerance=2.0)
+    bpy.ops.reflection_mesh.light()
+    first = picture(room)
+    parts.select(result)
+    parts.generate(tolerance=0.5)
+    assert psnr(picture(room), first) > 45.0
+
+
+def test_the_panel_tells_what_there_is_to_do(blank, room):
+    scene_of(blank)
+    lines = room("addon.lighting").light_lines
+    result = parts.generate()
+    assert lines(result) == ["Its light is still to come:", "press Light Reflection."]
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert lines(result) == ["Lit."]
+    bpy.data.objects["Box"].location.x += 0.1
+    blank.view_layer.update()
+    assert lines(result) == ["The scene has changed since it was lit:", "press Light Reflection again."]
+
+
+def test_clear_takes_the_light_away(blank):
+    scene_of(blank)
+    before = parts.state()
+    for lit in (True, False):
+        parts.generate()
+        if lit:
+            bpy.ops.reflection_mesh.light(samples=1)
+            parts.generate()
+        bpy.ops.reflection_mesh.clear()
+        after = parts.state()
+        assert after["data"] == before["data"] and after["render"] == before["render"]
+        parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+
+
+def test_points_are_lit_too(blank, room):
+    scene_of(blank)
+    box = bpy.data.objects["Box"]
+    box.modifiers.new("Finer", "SUBSURF").levels = 5
+    box.modifiers[0].subdivision_type = "SIMPLE"
+    bpy.data.objects["Floor"].select_set(False)
+    reference = picture(room)
+    parts.generate(method="POINTS")
+    before = psnr(picture(room), reference)
+    bpy.ops.reflection_mesh.light()
+    assert psnr(picture(room), reference) > before + 6.0
+
+
+def test_the_verb_light(saved_scene, room, tmp_path, capsys):
+    run = room("addon.command_line.verbs").run
+    output = tmp_path / "lit.blend"
+    assert run(["light", "--samples", "1"]) == 1
+    assert "no reflection to light" in capsys.readouterr().err
+    assert run(["generate", "--light", "2", "--output", str(output)]) == 0
+    assert "lit in" in capsys.readouterr().out
+    bpy.ops.wm.open_mainfile(filepath=str(output))
+    result = bpy.data.objects["Mirror Reflection"]
+    assert result.reflection_mesh.light_material is not None and not result.reflection_mesh.light_stale
+    assert result.material_slots[0].material == result.reflection_mesh.light_material
+    assert run(["light", "--samples", "0"]) == 1
+    assert run(["light", "--samples", "1"]) == 0
+
+
+def test_texels_show_the_picture_that_they_are_made_of(room):
+    """In closed form: a pixel is the integral of linearly interpolated texels times Cycles' filter."""
+    texels = room("addon.lighting.texels")
+    rng = np.random.default_rng(1)
+    for kind, width in (("BLACKMAN_HARRIS", 1.5), ("BOX", 1.0), ("GAUSSIAN", 1.5)):
+        kernel = texels.pixel_kernel(kind, width)
+        assert abs(kernel.sum() - 1.0) < 1e-12 and np.allclose(kernel, kernel[::-1])
+        smooth = 0.3 + 0.2 * rng.random((20, 30, 3))
+        shown = smooth
+        for axis in (0, 1):
+            shown = sum(weight * np.roll(shown, step - len(kernel) // 2, axis) for step, weight in enumerate(kernel))
+        found = texels.texels_of(shown.astype(np.float32), np.ones((20, 30), np.float32), kernel)
+        assert np.abs(found - smooth)[6:-6, 6:-6].max() < 0.02
+
+
+def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):
+    texels = room("addon.lighting.texels")
+    coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
+    own, beside = np.array((0.8, 0.5, 0.1)), np.array((0.1, 0.4, 0.9))
+    light = coverage[..., None] * own + (1.0 - coverage[..., None]) * beside
+    found = texels.texels_of(light.astype(np.float32), coverage.astype(np.float32), texels.pixel_kernel("BOX", 1.0))
+    assert np.abs(found[:, 8:] - own).max() < 0.02 and (found[:, :5] == 0.0).all()

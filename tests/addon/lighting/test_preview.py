@@ -1,0 +1,236 @@
+"""Results that are not lit yet: the colours of what they show, in the mirror's tint, whatever lamps there are."""
+import bpy
+import numpy as np
+import parts
+import pytest
+from lamp_scenes import lit_state, picture, plain_scene, principled, scene_of, shader_of
+
+MARK = "reflection_mesh_preview"
+TINT = (0.95, 0.7, 0.35)
+
+
+def previews() -> list:
+    return [material for material in bpy.data.materials if MARK in material]
+
+
+def facing_card(blank, colour=(0.2, 0.5, 0.8), **inputs) -> bpy.types.Object:
+    """A card before a tinted mirror that the camera faces, which the mirror shows in its middle."""
+    wall = scene_of(blank, "", "Tint")
+    card = parts.add("plane", "Card", size=3.0, location=(0.0, -8.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
+    card.data.materials.append(principled("Card", colour, **inputs))
+    parts.select(card, wall)
+    return wall
+
+
+@pytest.mark.parametrize("energy", [0.0, 250.0])
+def test_it_shows_colours_in_the_mirrors_tint_whatever_lamps_there_are(blank, room, energy):
+    facing_card(blank)
+    next(obj for obj in blank.scene.objects if obj.type == "LIGHT").data.energy = energy
+    parts.generate(preview=True)
+    shown = picture(room)[60:68, 44:52].mean(axis=(0, 1))
+    linear = np.array((0.2, 0.5, 0.8)) * TINT
+    expected = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    assert np.abs(shown - expected).max() < 0.01
+
+
+@pytest.mark.parametrize("kind", ["Fresnel", "Layer weight", "Water"])
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_mirror_shows_as_much_of_what_shines_as_it_reflects(blank, room, kind, turned):
+    """By the true angle, also where the backs of what is reflected are seen."""
+    wall, black = scene_of(blank, "", "" if kind == "Water" else kind), (0.0, 0.0, 0.0, 1.0)
+    if kind == "Water":
+        silver = shader_of(wall.data.materials[0])
+        silver.inputs["Metallic"].default_value, silver.inputs["Base Color"].default_value = 0.0, black
+    for node in wall.data.materials[0].node_tree.nodes:
+        if node.type == "BSDF_DIFFUSE":
+            node.inputs["Color"].default_value = black
+    # at a slant, so that much is reflected
+    blank.scene.camera.location, blank.scene.camera.rotation_euler = (-5.0, -1.2, 1.0), (np.pi / 2, 0.0, -1.2)
+    card = parts.add("plane", "Card", size=20.0, location=(6.0, -3.0, 1.0), rotation=(0.0, np.pi / 2, 0.0))
+    if turned:
+        card.rotation_euler.y = -np.pi / 2
+    card.data.materials.append(parts.material("Card"))
+    bpy.data.objects["Box"].hide_render = bpy.data.objects["Floor"].hide_render = True
+    wall.scale.x = 2.0
+    wall.reflection_mesh.role = "MIRROR"
+    parts.select(card, wall)
+    blank.view_layer.update()
+    reference = picture(room)
+    parts.generate(preview=True)
+    result = bpy.data.objects["Mirror Reflection"]
+    result.hide_render = True
+    assert np.array_equal(picture(room), reference)
+    result.hide_render = False
+    inside = np.abs(picture(room) - reference)[30:-30, 30:-30]
+    assert np.quantile(inside, 0.9) < 0.03
+
+
+@pytest.mark.parametrize("lit", [False, True])
+def test_mirrors_in_mirrors_take_their_share(blank, room, lit):
+    """A gold and a blue mirror that meet in a corner, by two mirrors: as Cycles shows them."""
+    walls = []
+    for name, colour, place, turn in (("Gold", (0.9, 0.6, 0.2), (0.0, 2.0, 1.2), (np.pi / 2, 0.0, 0.0)),
+                                      ("Blue", (0.3, 0.5, 0.9), (2.0, 0.0, 1.2), (0.0, -np.pi / 2, 0.0))):
+        walls.append(parts.add("plane", name, size=4.0, location=place, rotation=turn))
+        gloss = parts.material(f"{name} gloss", "GLOSSY")
+        gloss.node_tree.nodes[0].inputs["Color"].default_value = (*colour, 1.0)
+        walls[-1].data.materials.append(gloss)
+    ball = parts.add("uv_sphere", "Ball", radius=0.5, location=(0.4, -0.2, 1.0))
+    ball.data.materials.append(parts.material("Shine"))
+    blank.scene.camera.location, blank.scene.camera.rotation_euler = (-1.8, -5.0, 2.2), (1.35, 0.0, -0.38)
+    blank.scene.render.engine, blank.scene.cycles.samples = "CYCLES", 32
+    blank.scene.cycles.use_denoising = blank.scene.cycles.use_adaptive_sampling = False
+    blank.scene.render.resolution_x = blank.scene.render.resolution_y = 96
+    parts.select(ball, *walls)
+    blank.view_layer.update()
+    reference = picture(room)
+    parts.generate(depth=2, preview=True)
+    if lit:
+        parts.select(*(obj for obj in blank.scene.objects if obj.reflection_mesh.role == "REFLECTION"))
+        bpy.ops.reflection_mesh.light(samples=1, kind="OBJECTS")
+    wrong = np.abs(picture(room) - reference).max(axis=2)
+    assert (wrong > 0.05).mean() < 0.01
+
+
+def test_what_is_open_leaves_the_mirror_s_ground_to_what_lies_behind(blank, room):
+    """Half a card before another: as a picture of the two in a mirror that reflects half."""
+    wall = scene_of(blank, "", "Fresnel")
+    tree = wall.data.materials[0].node_tree
+    both = next(node for node in tree.nodes if node.type == "MIX_SHADER")
+    tree.links.remove(both.inputs[0].links[0])
+    both.inputs[0].default_value = 0.5
+    next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE").inputs["Color"].default_value = (0.4, 0.2, 0.1, 1)
+    cards = []
+    for name, place, alpha in (("Front", -7.0, 0.5), ("Behind", -9.0, 1.0)):
+        card = parts.add("plane", name, size=9.0, location=(0.0, place, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
+        paint = principled(name, (0.0, 0.0, 0.0), Alpha=alpha, **{"Emission Strength": 1.0})
+        colour = (0.2, 0.4, 0.6, 1.0) if alpha < 1.0 else (0.8, 0.4, 0.2, 1.0)
+        shader_of(paint).inputs["Emission Color"].default_value = colour
+        card.data.materials.append(paint)
+        cards.append(card)
+    wall.reflection_mesh.role, wall.visible_camera = "MIRROR", False
+    parts.select(*cards, wall)
+    parts.generate(preview=True)
+    shown = picture(room)[60:68, 44:52].mean(axis=(0, 1))
+    linear = 0.5 * np.array((0.5, 0.4, 0.4)) + 0.5 * np.array((0.4, 0.2, 0.1))
+    assert np.abs(shown - (1.055 * linear ** (1 / 2.4) - 0.055)).max() < 0.01
+
+
+def test_what_emits_shines_in_it_and_what_is_open_is_open(blank, room):
+    facing_card(blank, (0.0, 0.0, 0.0), Alpha=0.5, **{"Emission Color": (1.0, 0.5, 0.25, 1.0),
+                                                      "Emission Strength": 0.5})
+    bpy.data.objects["Mirror"].visible_camera = False
+    blank.scene.world = None
+    parts.generate(preview=True)
+    shown = picture(room)[60:68, 44:52].mean(axis=(0, 1))
+    linear = 0.25 * np.array((1.0, 0.5, 0.25)) * TINT
+    assert np.abs(shown - (1.055 * linear ** (1 / 2.4) - 0.055)).max() < 0.01
+
+
+def test_scripts_get_it_only_where_they_ask(blank):
+    scene_of(blank)
+    parts.generate()
+    assert not previews()
+    parts.generate(preview=True)
+    assert len(previews()) == 2
+
+
+def test_light_takes_its_place_and_clear_takes_it_away(blank):
+    scene_of(blank)
+    before = set(bpy.data.materials)
+    result = parts.generate(preview=True)
+    assert {slot.material for slot in result.material_slots} == set(previews())
+    assert set(result.data.materials) <= before
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert not previews() and {slot.material for slot in result.material_slots} == {
+        result.reflection_mesh.light_material}
+    parts.generate(preview=True)
+    # its light still fits
+    assert not previews()
+    bpy.ops.reflection_mesh.clear()
+    parts.generate(preview=True)
+    bpy.ops.reflection_mesh.clear()
+    assert set(bpy.data.materials) == before
+
+
+def test_it_stays_and_follows_the_tint_when_generated_again(blank):
+    wall = scene_of(blank)
+    result = parts.generate(preview=True)
+    shader_of(wall.data.materials[0]).inputs["Base Color"].default_value = (0.3, 0.6, 0.9, 1.0)
+    result = parts.generate()
+    assert len(previews()) == 2 and all(slot.link == "OBJECT" for slot in result.material_slots)
+    tints = [tuple(np.round(node.inputs[7].default_value[:3], 3)) for material in previews()
+             for node in material.node_tree.nodes if node.type == "MIX"]
+    assert set(tints) == {(0.3, 0.6, 0.9)}
+
+
+def test_what_it_adds_leaves_the_light_of_others_as_it_is(blank):
+    wall = scene_of(blank)
+    box = bpy.data.objects["Box"]
+    result = parts.generate()
+    bpy.ops.reflection_mesh.light(samples=1)
+    small = wall.copy()
+    blank.scene.collection.objects.link(small)
+    small.scale = (0.4, 0.4, 0.4)
+    small.location.y -= 0.2
+    blank.view_layer.update()
+    result.reflection_mesh.light_stale = False
+    parts.select(box, small)
+    for make in (lambda: parts.generate(preview=True), lambda: bpy.ops.reflection_mesh.caustics(leave_out=False)):
+        make()
+        blank.view_layer.update()
+        assert not result.reflection_mesh.light_stale
+    assert previews() and "CAUSTICS" in {obj.reflection_mesh.role for obj in blank.scene.objects}
+
+
+@pytest.mark.parametrize("link", ["DATA", "OBJECT"])
+def test_what_the_user_put_in_its_place_stays_and_outlasts_light(blank, link):
+    scene_of(blank)
+    result = parts.generate(preview=link == "OBJECT")
+    mine = parts.material("Mine")
+    assert result.material_slots[0].link == link
+    result.material_slots[0].material = mine
+    result = parts.generate(preview=True)
+    assert result.material_slots[0].material == mine and len(previews()) == 1
+    bpy.ops.reflection_mesh.light(samples=1)
+    blank.scene.camera.location.x += 0.1
+    for preview in (False, True):
+        result = parts.generate(preview=preview)
+        assert result.material_slots[0].material == mine
+    assert len(previews()) == 1
+
+
+def test_what_looks_right_as_it_is_needs_none(blank):
+    plain_scene()
+    parts.generate(preview=True)
+    assert not previews()
+
+
+def test_an_error_while_writing_leaves_none(blank, room, monkeypatch):
+    scene_of(blank)
+    before = lit_state()
+
+    def fail(*_):
+        raise ZeroDivisionError("a number is zero")
+    preview = room("addon.lighting.preview")
+    made, work = [], preview._preview
+
+    def second_fails(*arguments):
+        if made:
+            fail()
+        made.append(work(*arguments))
+        return made[0]
+    monkeypatch.setattr(preview, "_preview", second_fails)
+    with pytest.raises(RuntimeError):
+        parts.generate(preview=True)
+    assert made and lit_state() == before
+
+
+def test_a_source_without_material_is_grey(blank, room):
+    facing_card(blank)
+    bpy.data.objects["Card"].data.materials.clear()
+    parts.generate(preview=True)
+    shown = picture(room)[60:68, 44:52].mean(axis=(0, 1))
+    linear = 0.8 * np.array(TINT)
+    assert np.abs(shown - (1.055 * linear ** (1 / 2.4) - 0.055)).max() < 0.01
+

@@ -1,0 +1,64 @@
+"""Objects linked from another file take part, as sources and as mirrors, and are not changed."""
+import bpy
+import numpy as np
+import parts
+import pytest
+
+
+@pytest.fixture
+def library(blank, tmp_path):
+    """A file with a wall mirror and a triangle, and a fresh file into which both are linked."""
+    parts.add_wall_mirror()
+    parts.add_triangle("Leaf", [(-0.5, -1.0, 0.6), (0.7, -1.5, 0.8), (0.1, -0.5, 1.7)])
+    path = str(tmp_path / "library.blend")
+    bpy.data.libraries.write(path, {bpy.data.objects["Mirror"], bpy.data.objects["Leaf"]})
+    for name in ("Mirror", "Leaf"):
+        bpy.data.objects.remove(bpy.data.objects[name])
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = ["Mirror", "Leaf"]
+    for obj in wanted.objects:
+        bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.update()
+    return wanted.objects
+
+
+def test_linked_mirror_and_source(library):
+    mirror, leaf = library
+    assert mirror.library and leaf.library
+    parts.select(leaf, mirror)
+    result = parts.generate()
+    assert result.library is None and result.reflection_mesh.mirror == mirror
+    assert result.reflection_mesh.sources[0].object == leaf
+    assert np.allclose(parts.attribute(result, "reflected_position")[:, 2].max(), 1.7, atol=1e-6)
+
+
+def test_virtual_leaves_a_linked_mirror_alone(library, room):
+    mirror, leaf = library
+    parts.select(leaf, mirror)
+    parts.generate(placement="VIRTUAL")
+    assert mirror.visible_camera
+    told, = room("addon.operators.shortcomings").window_shortcomings(bpy.context, mirror, None, [mirror])
+    assert "linked and cannot be hidden" in told
+
+
+def test_linked_collection_instance(blank, tmp_path):
+    """An instance of a linked collection as the source; the mirror lies in a collection of this file."""
+    kit = bpy.data.collections.new("Kit")
+    leaf = parts.add_triangle("Leaf", [(-0.5, -1.0, 0.6), (0.7, -1.5, 0.8), (0.1, -0.5, 1.7)])
+    kit.objects.link(leaf)
+    path = str(tmp_path / "kit.blend")
+    bpy.data.libraries.write(path, {kit})
+    bpy.data.objects.remove(leaf)
+    bpy.data.collections.remove(kit)
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.collections = ["Kit"]
+    empty = bpy.data.objects.new("Instance", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", wanted.collections[0]
+    empty.location.x = 0.25
+    bpy.context.scene.collection.objects.link(empty)
+    mirror = parts.add_wall_mirror()
+    bpy.context.view_layer.update()
+    parts.select(empty, mirror)
+    result = parts.generate()
+    reflected = parts.attribute(result, "reflected_position")
+    assert np.isclose(reflected[:, 0].max(), 0.95, atol=1e-6) and np.isclose(reflected[:, 0].min(), -0.25, atol=1e-6)

@@ -1,0 +1,114 @@
+"""One generator: its progress, stopping it at every step, and one step of undo."""
+import bpy
+import parts
+import pytest
+
+
+@pytest.fixture
+def scene(blank):
+    cube = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0))
+    mirror = parts.add_wall_mirror()
+    parts.select(cube, mirror)
+    return mirror, cube
+
+
+def started(room):
+    generation = room("addon.operators.generate").generation
+    return generation(bpy.context, room("addon.reading.roles").choose(bpy.context), room("core").Settings())
+
+
+def test_progress_grows_to_one(scene, room):
+    told = list(started(room))
+    fractions = [fraction for fraction, _ in told]
+    assert fractions == sorted(fractions) and fractions[0] == 0.0 and fractions[-1] == 1.0
+    assert len(told) >= 5 and all(stage for _, stage in told)
+
+
+def test_stopping_leaves_no_trace_at_any_step(scene, room):
+    before = parts.state()
+    told = list(started(room))
+    bpy.ops.reflection_mesh.clear()
+    parts.select(scene[1], scene[0])
+    assert parts.state() == before
+    # a slow machine may tell a stage twice: each stage once is enough
+    for stage in dict.fromkeys(told):
+        running = started(room)
+        while next(running) != stage:
+            pass
+        running.close()
+        assert parts.state() == before
+
+
+def test_stopping_an_update_keeps_the_result(scene, room):
+    result = parts.generate()
+    faces = len(result.data.polygons)
+    parts.select(result)
+    scene[1].location.x = 0.4
+    bpy.context.view_layer.update()
+    before = parts.state()
+    for stop in (1, 3, 5):
+        running = started(room)
+        for _ in range(stop):
+            next(running)
+        running.close()
+    assert parts.state() == before and len(result.data.polygons) == faces
+
+
+def test_one_undo_step(scene):
+    bpy.ops.ed.undo_push(message="Scene")
+    before = parts.state()
+    assert bpy.ops.reflection_mesh.generate("EXEC_DEFAULT", True) == {"FINISHED"}
+    after = parts.state()
+    assert "Mirror Reflection" in after["objects"]
+    bpy.ops.ed.undo()
+    assert parts.state() == before
+    bpy.ops.ed.redo()
+    assert parts.state() == after
+    result = bpy.data.objects["Mirror Reflection"]
+    assert result.reflection_mesh.mirror == bpy.data.objects["Mirror"]
+    assert len(parts.attribute(result, "path_length"))
+
+
+def test_invoked_in_the_background_it_runs_to_its_end(scene):
+    assert bpy.ops.reflection_mesh.generate("INVOKE_DEFAULT") == {"FINISHED"}
+    assert bpy.context.view_layer.objects.active.name == "Mirror Reflection"
+
+
+def test_a_saved_file_keeps_the_result(scene, tmp_path):
+    result = parts.generate()
+    expected = {name: parts.attribute(result, name).tolist() for name in ("position", "reflected_position",
+                                                                        "source_face", "image_parity")}
+    path = str(tmp_path / "saved.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    loaded = bpy.data.objects["Mirror Reflection"]
+    assert {name: parts.attribute(loaded, name).tolist() for name in expected} == expected
+    record = loaded.reflection_mesh
+    assert record.role == "REFLECTION" and record.mirror == bpy.data.objects["Mirror"]
+    assert [source.object.name for source in record.sources] == ["Box"]
+    parts.select(loaded)
+    again = parts.generate()
+    assert again == loaded and parts.attribute(again, "position").tolist() == expected["position"]
+
+
+def test_clear_restores_everything(scene):
+    before = parts.state()
+    parts.generate(placement="VIRTUAL")
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert parts.state() == before
+
+
+def test_clear_removes_what_is_selected(scene):
+    mirror, cube = scene
+    other = parts.add("plane", "Low", size=8.0)
+    parts.select(cube, other)
+    second = parts.generate()
+    parts.select(cube, mirror)
+    first = parts.generate()
+    parts.select(second)
+    bpy.ops.reflection_mesh.clear()
+    assert first.name == "Mirror Reflection" and "Low Reflection" not in bpy.data.objects
+    parts.select()
+    bpy.ops.reflection_mesh.clear()
+    assert not [obj for obj in bpy.data.objects if obj.reflection_mesh.role == "REFLECTION"]
