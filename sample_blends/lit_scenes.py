@@ -105,25 +105,6 @@ def pond() -> tuple:
     return mirror, ()
 
 
-def ring() -> tuple:
-    """A gold ring on a table, by one lamp: *Generate Caustics* throws the curve of light inside of it."""
-    def tube(points: np.ndarray) -> np.ndarray:
-        angle = pi * points[:, 0]
-        return np.column_stack([np.cos(angle), np.sin(angle), 0.001 + 0.25 * (points[:, 1] + 1.0)])
-
-    mirror = moulded("Ring", 192, 2, tube, surface("Gold", (0.95, 0.74, 0.38), Metallic=1.0, Roughness=0.0))
-    add("plane", "Table", (0, 0, 0), surface("Walnut", (0.62, 0.48, 0.36), "Wave", "UV", 3.0, Roughness=1.0,
-                                             Specular_IOR_Level=0.0), size=8)
-    add("cube", "Dice", (-1.45, -0.75, 0.16), surface("Dice", RED, Roughness=0.6), size=0.32, rotation=(0, 0, 0.5))
-    data = bpy.data.lights.new("Lamp", "POINT")
-    data.energy, data.shadow_soft_size, data.color = 260.0, 0.02, (1.0, 0.86, 0.68)
-    made = bpy.data.objects.new("Lamp", data)
-    made.location = (3.0, 0.5, 1.7)
-    bpy.context.scene.collection.objects.link(made)
-    eye((0.5, -3.3, 2.6), (-0.1, 0.0, 0.1), 45)
-    return mirror, ()
-
-
 def anamorphosis() -> tuple:
     """A tube of 7 cm on a sheet of A3: *Write Mirror UVs* puts the picture `Compass` of this file on it."""
     def tube(points: np.ndarray) -> np.ndarray:
