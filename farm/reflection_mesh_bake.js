@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A job type of Flamenco 3: bakes the reflections of an animation in chunks of frames, and then writes the file that
-// plays them. It goes into the folder "scripts" beside Flamenco Manager; the workers' Blender has the extension.
+// A job type of Flamenco 3: bakes the reflections of an animation, or the light that its mirrors throw, in chunks of
+// frames, and then writes the file that plays them. It goes into the folder "scripts" beside Flamenco Manager; the
+// workers' Blender has the extension.
 //
 // The worker reads which files are done from lines as "Saved: '...'".
 
@@ -15,6 +16,10 @@ const JOB_TYPE = {
           description: "Frames to bake. Examples: '47', '1-30', '3, 5-10, 47-327'" },
         { key: "chunk_size", type: "int32", default: 10, propargs: { min: 1 }, visible: "submission",
           description: "Number of frames that one task bakes" },
+        { key: "what", type: "string", default: "REFLECTIONS", choices: ["REFLECTIONS", "CAUSTICS"],
+          description: "Reflections, or the light of lamps that mirrors throw" },
+        { key: "eyes", type: "string", default: "",
+          description: "Places on each lamp that its caustics come from; as they were generated where empty" },
         { key: "samples", type: "string", default: "",
           description: "Samples per pixel of the light, 0 for none; those of the file where empty" },
         { key: "tolerance", type: "string", default: "",
@@ -51,6 +56,8 @@ function bakeTask(name, settings, frames, options) {
         // Blender hands all that follows "--command" to the extension
         args: ["--command", "reflection_mesh", "bake",
                "--scene", settings.scene,
+               "--what", settings.what,
+               "--eyes", `${settings.eyes}`,
                "--frames", frames,
                "--light", `${settings.samples}`,
                "--tolerance", `${settings.tolerance}`,

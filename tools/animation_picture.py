@@ -15,10 +15,10 @@ import extension_zip
 from PIL import Image
 
 SAMPLE = extension_zip.ROOT / "sample_blends" / "room.blend"
-WIDTH, HEIGHT, RATE = 288, 180, 6
+WIDTH, HEIGHT, RATE = 216, 136, 5
 SAMPLES = 12
 SWING, RISE = 0.5, 0.35  # of the camera round the ball: radians, and of its height
-COLOURS = 128
+COLOURS = 48
 
 
 def main(folder: Path, seconds: float) -> None:

@@ -1,4 +1,5 @@
-"""The main job from end to end: build the zip, install it, reflect a sample, compare with Cycles.
+"""The main job from end to end: build the zip, install it, reflect a sample, compare with Cycles; and throw the light
+of those samples whose mirrors do.
 
     python tools/demo.py [--sample sphere] [--folder demo] [--verbose]
 """
@@ -17,6 +18,7 @@ import extension_zip
 from quietly import quietly
 
 SAMPLES = extension_zip.ROOT / "sample_blends"
+THROWING = ("ring", "pool", "sunlight", "dish")
 
 
 def main(arguments: list[str]) -> int:
@@ -74,8 +76,24 @@ def demonstrate(options: argparse.Namespace, folder: Path, stage: Stages) -> tup
           lambda: bpy.ops.wm.save_as_mainfile(filepath=str(folder / sample), copy=True))
     stage("Comparing with Cycles", lambda: bpy.ops.reflection_mesh.compare(filepath=str(folder),
                                                                            samples=options.samples_per_pixel))
+    if options.sample in THROWING:
+        throw_light(options, folder, stage)
     stage("Switching the extension off", extension_zip.switch_off)
     return json.loads((folder / "report.json").read_text(encoding="utf-8")), seconds
+
+
+def throw_light(options: argparse.Namespace, folder: Path, stage: Stages) -> None:
+    """Generate the light that the sample's mirror throws; leave a file with it, and its picture."""
+    import bpy
+    stage(f"Opening {options.sample}.blend again",
+          lambda: bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{options.sample}.blend")))
+    stage("Generating the light that its mirror throws", bpy.ops.reflection_mesh.caustics)
+    stage(f"Saving {options.sample} caustics.blend", lambda: bpy.ops.wm.save_as_mainfile(
+        filepath=str(folder / f"{options.sample} caustics.blend"), copy=True))
+    scene = bpy.context.scene
+    scene.render.filepath, scene.render.resolution_percentage = str(folder / "caustics.png"), 50
+    scene.cycles.samples = options.samples_per_pixel
+    stage("Rendering it with Cycles", lambda: bpy.ops.render.render(write_still=True))
 
 
 if __name__ == "__main__":

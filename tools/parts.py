@@ -62,7 +62,8 @@ def _generated(sample: str, memory: float) -> tuple:
             # what is reflected is the viewport's mesh: a render shows no finer one
             modifier.render_levels = modifier.levels
     chosen = _room("addon.reading.roles").choose(bpy.context)
-    steps = _room("addon.generate").generation(bpy.context, chosen, _room("core").Settings(maximum_memory=memory))
+    settings = _room("core").Settings(maximum_memory=memory)
+    steps = _room("addon.operators.generate").generation(bpy.context, chosen, settings)
     while True:
         try:
             next(steps)

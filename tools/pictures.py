@@ -20,7 +20,7 @@ from PIL import Image
 SAMPLES = extension_zip.ROOT / "sample_blends"
 PANEL, GAP = 480, 6
 LIT = ("room", "bathroom", "pond")
-OWN_PICTURES = (*LIT, "anamorphosis")
+OWN_PICTURES = (*LIT, "anamorphosis", "pool", "sunlight", "dish")
 
 
 def main(folder: Path) -> None:
