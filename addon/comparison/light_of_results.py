@@ -95,7 +95,7 @@ class Surroundings:
         surfaces, tints, tint_of = [read_mirror(depsgraph, mirror) for mirror in mirrors], [], []
         for surface in surfaces:
             tint_of.append(len(tints) + surface.material)
-            tints += [Tint.of(material) for material in surface.materials]
+            tints += [Tint.of_material(material) for material in surface.materials]
         return cls([surface.mesh for surface in surfaces], tints, np.concatenate(tint_of),
                    read_scene(depsgraph, sources), blockers)
 

@@ -6,6 +6,7 @@ import numpy as np
 from ...core.support import breathe
 
 BINS = 128  # squares along the longest side of the box round what is lit
+BESIDE = 8  # squares round that box
 FINE = 32.0  # places strewn over a face along a square's side
 MOST_PLACES = 4096  # on one face
 PLACES_AT_ONCE = 1 << 21
@@ -23,6 +24,7 @@ class Squares:
 
     def __init__(self, low: np.ndarray, high: np.ndarray, bins: int = BINS) -> None:
         self.low, self.step = low, max(float((high - low).max()) / bins, 1e-300)
+        self.side = bins + 2 * BESIDE + 1
 
     def names(self, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
         """One number (n,) for the square that each of the points (n, 3) lies in, on surfaces with normals (n, 3)."""
@@ -30,8 +32,8 @@ class Squares:
         cell = np.floor((points - self.low) / self.step).astype(np.int64)
         cell[np.arange(len(axis)), axis] = 0
         # a lifted place may lie a little beside the box
-        cell = np.clip(cell + 8, 0, 4095)
-        return ((axis * 4096 + cell[:, 0]) * 4096 + cell[:, 1]) * 4096 + cell[:, 2]
+        cell = np.clip(cell + BESIDE, 0, self.side - 1)
+        return ((axis * self.side + cell[:, 0]) * self.side + cell[:, 1]) * self.side + cell[:, 2]
 
 
 def light_in_squares(corners: np.ndarray, irradiance: np.ndarray, normals: np.ndarray,
@@ -52,7 +54,7 @@ def light_in_squares(corners: np.ndarray, irradiance: np.ndarray, normals: np.nd
     # as many as the longest side asks for: slivers are long
     count = np.ceil(FINE**2 * np.maximum(area, 0.05 * longest**2) / squares.step**2).astype(np.int64)
     count = np.clip(count, 8, MOST_PLACES) * (area > 0.0)
-    names, flux = [], []
+    found = []
     for part in _runs(count):
         breathe()
         face = np.repeat(np.arange(part.start, part.stop), count[part])
@@ -68,15 +70,15 @@ def light_in_squares(corners: np.ndarray, irradiance: np.ndarray, normals: np.nd
         total = np.bincount(face - part.start, light, minlength=part.stop - part.start)
         mean = (area * irradiance.mean(axis=1))[part]
         scale = mean / np.where(total > 0.0, total, 1.0)
-        names.append(squares.names(np.einsum("nk,nkc->nc", weights, corners[face]), normals[face]))
-        flux.append(light * scale[face - part.start])
-    return added(np.concatenate(names), np.concatenate(flux))
+        names = squares.names(np.einsum("nk,nkc->nc", weights, corners[face]), normals[face])
+        found.append(added(names, light * scale[face - part.start]))
+    return added(*(np.concatenate(one) for one in zip(*found)))
 
 
 def added(names: np.ndarray, flux: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Each square once, with all its flux."""
-    found, place = np.unique(names, return_inverse=True)
-    return found, np.bincount(place.reshape(-1), flux, minlength=len(found))
+    found = np.flatnonzero(np.bincount(names))
+    return found, np.bincount(names, flux)[found]
 
 
 def light_errors(light: tuple[np.ndarray, np.ndarray], thrown: list) -> dict:

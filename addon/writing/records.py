@@ -54,12 +54,7 @@ def light_text(report: dict) -> str:
 
 def light_comparison(text: str) -> LightComparison | None:
     """What `light_text` wrote; None where the text is anything else."""
-    known = _entries(text) if len(text) <= LONGEST else NOTHING
-    size, samples = known.get("resolution"), known.get("light_samples")
-    numbers = [known.get(name) for name in ("light_psnr", "own_psnr", "flux")]
-    if not (_is_size(size) and _is_count(samples) and all(value is None or _is_number(value) for value in numbers)):
-        return None
-    return LightComparison(tuple(size), samples, *numbers)
+    return _light_comparison(text) if len(text) <= LONGEST else None
 
 
 def comparison_text(report: dict) -> str:
@@ -96,6 +91,16 @@ def _comparison(text: str) -> Comparison | None:
         if (numbers[one] is None) != (numbers[other] is None):
             return None
     return Comparison(tuple(size), **numbers)
+
+
+@lru_cache(maxsize=64)
+def _light_comparison(text: str) -> LightComparison | None:
+    known = _entries(text)
+    size, samples = known.get("resolution"), known.get("light_samples")
+    numbers = [known.get(name) for name in ("light_psnr", "own_psnr", "flux")]
+    if not (_is_size(size) and _is_count(samples) and all(value is None or _is_number(value) for value in numbers)):
+        return None
+    return LightComparison(tuple(size), samples, *numbers)
 
 
 @lru_cache(maxsize=256)
