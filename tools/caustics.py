@@ -1,11 +1,12 @@
 """How near caustics are to rays and to Cycles, and how long they take: the table of docs/caustics.md.
 
-    python -m tools.caustics [ring waves bowl cylinder bathroom suzanne] [--rays 20000000] [--size 96]
-                             [--reference 2048] [--runs 3] [--no-pictures]
+    python -m tools.caustics [ring waves bowl cylinder bathroom suzanne dish sunlight pool or path.blend ...]
+                             [--rays 20000000] [--size 96] [--reference 2048] [--runs 3] [--no-pictures]
 
 Rays are traced one by one from all over the mirror, by Embree, in float64 on the triangles that it names. Times are
 medians of RUNS, in one process: the operator `caustics`, and four Cycles samples at 1024 x 1024. Pictures are
-compared at SIZE x SIZE, over the pixels that may be lit.
+compared at SIZE x SIZE, over the pixels that may be lit. The sample `ring` is lit by a sun once more, to see where the
+cusp of its curve lies.
 """
 from __future__ import annotations
 
@@ -26,13 +27,13 @@ from measure import print_table
 from quietly import quietly
 
 ROOT = extension_zip.ROOT
-ROWS = ("scene", "faces", "flux %", "rays' noise", "irradiance %", "rays' noise", "generate s", "4 samples s",
-        "PSNR mesh", "PSNR Cycles", "at samples", "reference's own", "curve px")
+ROWS = ("scene", "faces", "flux %", "rays' noise", "irradiance %", "rays' noise", "without it", "generate s",
+        "4 samples s", "PSNR mesh", "PSNR Cycles", "at samples", "reference's own", "curve px")
 
 
 def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("scenes", nargs="*", default=[], metavar="SCENE", help=", ".join(SCENES))
+    parser.add_argument("scenes", nargs="*", default=[], metavar="SCENE", help=", ".join((*SCENES, *SAMPLES)))
     parser.add_argument("--rays", type=int, default=20_000_000)
     parser.add_argument("--size", type=int, default=96)
     parser.add_argument("--samples", type=int, default=16, help="of the first picture of each kind")
@@ -43,18 +44,24 @@ def main(arguments: list[str]) -> int:
     options = parser.parse_args(arguments)
     rows = []
     with extension_zip.installed() as scratch:
-        for name in options.scenes or SCENES:
+        for name in options.scenes or (*SAMPLES, *SCENES):
             rows.append(quietly(lambda name=name: _measured(name, options, options.folder or scratch)))
             print(f"{name}: {rows[-1]}", file=sys.stderr, flush=True)
+        cusp = quietly(_cusp)
     print_table([ROWS, *rows])
+    print(f"\nThe cusp of the ring in parallel light lies at {cusp:.5f} of its radius.")
     return 0
 
 
 def _measured(name: str, options: argparse.Namespace, folder: Path) -> list:
     """One row of the table."""
     import bpy
-    SCENES[name]()
-    scene = bpy.context.scene
+    if name in SCENES:
+        SCENES[name]()
+    else:
+        path = ROOT / "sample_blends" / f"{name}.blend" if name in SAMPLES else Path(name).resolve()
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+    scene, name = bpy.context.scene, Path(name).stem
     scene.render.engine, scene.cycles.transparent_max_bounces = "CYCLES", 256
     scene.render.resolution_x = scene.render.resolution_y = 1024
     scene.render.resolution_percentage = 100
@@ -68,9 +75,9 @@ def _measured(name: str, options: argparse.Namespace, folder: Path) -> list:
     bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT")
     results = [obj for obj in scene.objects if obj.reflection_mesh.role == "CAUSTICS"]
     light = _against_rays(results, options.rays)
+    off, noise = light["irradiance_percent"], light["irradiance_noise_percent"]
     row = [name, sum(len(obj.data.polygons) for obj in results), light["flux_percent"], light["flux_noise_percent"],
-           light["irradiance_percent"], light["irradiance_noise_percent"], statistics.median(generate),
-           statistics.median(cycles)]
+           off, noise, max(off**2 - noise**2, 0.0)**0.5, statistics.median(generate), statistics.median(cycles)]
     if options.no_pictures:
         return row + [None] * (len(ROWS) - len(row))
     scene.render.resolution_x = scene.render.resolution_y = options.size
@@ -124,9 +131,24 @@ def by_embree(mesh) -> Callable:
     return trace
 
 
-def _ring() -> None:
+def _cusp() -> float:
+    """How far from its middle, in radii, the fold of the sample `ring` comes in the plane of a sun's light."""
     import bpy
     bpy.ops.wm.open_mainfile(filepath=str(ROOT / "sample_blends" / "ring.blend"))
+    scene, ring = bpy.context.scene, bpy.data.objects["Ring"]
+    for obj in [obj for obj in scene.objects if obj.type == "LIGHT" or obj.name == "Dice"]:
+        bpy.data.objects.remove(obj)
+    sun = _lamp("SUN", (0.0, 0.0, 5.0), (1.0, 0.0, 0.4), energy=3.0, angle=0.0)
+    _take_part(ring, [bpy.data.objects["Table"]], sun)
+    bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT")
+    mesh = next(obj for obj in scene.objects if obj.reflection_mesh.role == "CAUSTICS").data
+    places, parity = np.empty(3 * len(mesh.vertices), np.float32), np.empty(len(mesh.vertices), np.int32)
+    mesh.vertices.foreach_get("co", places)
+    mesh.attributes["image_parity"].data.foreach_get("value", parity)
+    fold = places.reshape(-1, 3)[parity == 0]
+    radius = 0.5 * max(ring.dimensions[:2])
+    # the light comes along the x axis
+    return float(-fold[np.abs(fold[:, 1]) < 1e-3 * radius, 0].max() / radius)
 
 
 def _waves() -> None:
@@ -197,8 +219,8 @@ def _suzanne() -> None:
                _lamp("POINT", (1.6, -2.4, 2.2), (0.0, 0.0, 0.8), energy=200.0, shadow_soft_size=0.05))
 
 
-SCENES = {"ring": _ring, "waves": _waves, "bowl": _bowl, "cylinder": _cylinder, "bathroom": _bathroom,
-          "suzanne": _suzanne}
+SAMPLES = ("ring", "dish", "sunlight", "pool")
+SCENES = {"waves": _waves, "bowl": _bowl, "cylinder": _cylinder, "bathroom": _bathroom, "suzanne": _suzanne}
 
 
 def _empty(eye: tuple, target: tuple) -> None:

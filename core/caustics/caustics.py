@@ -14,7 +14,7 @@ from ..result import ReflectionMesh
 from ..support import NothingInView, ReflectionError, Settings, in_steps, tell
 from .caustic_mesh import CausticMesh
 from .corners import light_at
-from .energy import balanced, flux_of, shown_area
+from .energy import balanced, flux_of, on_faces, shown_area
 from .hiding import screens_of, shades_of
 from .lamps import Lamp
 from .refinement import LitFaces, refined
@@ -140,7 +140,8 @@ def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, rec
     points = seen.reflected_position.T
     uv = ray_map.coordinates(owner, seen.mirror_position[corner].T)
     light = light_at(ray_map, owner, uv, points[:, corner], np.tile(normal, 3))
-    return LitFaces(triangles, points, face, normal, source, chosen, seen.source_sides[chosen] >= 0, light)
+    return LitFaces(triangles, points, face, normal, source, chosen, seen.source_sides[chosen] >= 0,
+                    np.full(len(chosen), np.nan), light)
 
 
 def _joined(parts: list) -> CausticMesh:
@@ -167,8 +168,8 @@ def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int
     kept = np.flatnonzero((area > NO_AREA * size**2) & (flux > 0.0) & arrived)
     irradiance, cosine, side = (value.reshape(3, -1).T[kept] for value in (
         light.irradiance, light.cosine, light.side))
-    irradiance = balanced(irradiance, flux[kept], area[kept], faces.triangles[kept],
-                          shown_area(corners[kept], area[kept]))
+    irradiance = balanced(irradiance, on_faces(flux[kept], area[kept], faces.bulge[kept]), area[kept],
+                          faces.triangles[kept], shown_area(corners[kept], area[kept]))
     # turned to the side that is lit
     over = (side.sum(axis=1) < 0.0) != ((normal[kept] * faces.normal[:, kept].T).sum(axis=1) < 0.0)
     order = np.where(over[:, None], (0, 2, 1), (0, 1, 2))

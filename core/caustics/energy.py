@@ -5,7 +5,8 @@ import numpy as np
 
 from ..geometry import View
 
-MOST = 2.0  # of the mean round a vertex: how much more a corner may have, near a caustic, where the map tells infinity
+MOST = 2.0  # of a face's mean: how much more a corner may have, near a caustic, where the map tells infinity
+BELIEVED = 0.5  # of the larger of a face's area and that of what its light falls on: the smaller
 
 SINGLE = 2.0**-23  # of what is lit: by how much single precision may move its corners
 
@@ -34,12 +35,21 @@ def shown_area(corners: np.ndarray, area: np.ndarray) -> np.ndarray:
     return area + SINGLE * np.ptp(corners.reshape(-1, 3), axis=0).max() * longest if len(area) else area
 
 
+def on_faces(flux: np.ndarray, area: np.ndarray, bulge: np.ndarray) -> np.ndarray:
+    """The part of the `flux` (m,) that falls on the `area` (m,) of faces alone, without what bulges out of their sides
+    and with what is dented: all of it where so much bulges that a parabola does not tell how much it is."""
+    whole = area + bulge
+    share = flux * np.where((whole > BELIEVED * area) & (BELIEVED * whole < area), area / np.where(
+        whole > 0.0, whole, 1.0), 1.0)
+    return share * (flux.sum() / max(share.sum(), 1e-300))
+
+
 def balanced(irradiance: np.ndarray, flux: np.ndarray, area: np.ndarray, triangles: np.ndarray,
              shown: np.ndarray) -> np.ndarray:
     """Irradiance (m, 3) at the corners of faces, infinite on caustics, as finite values that amount to the `flux` (m,)
     over the `area` (m,).
 
-    What the values of a face lack of its flux over the area that is `shown` (m,), or have too much, is shared out
+    What the values of a face still lack of its flux over the area that is `shown` (m,), or have too much, is shared out
     between the faces round its corners: slivers, whose area is rounding, do not keep it to themselves.
     """
     corner = triangles.ravel()
@@ -48,9 +58,11 @@ def balanced(irradiance: np.ndarray, flux: np.ndarray, area: np.ndarray, triangl
     def round_vertices(values: np.ndarray) -> np.ndarray:
         return np.bincount(corner, np.repeat(values, 3), minlength=count)
 
+    covered = np.where(shown > 0.0, shown, 1.0)
+    bounded = np.minimum(irradiance, (MOST * flux / covered)[:, None])
+    scale = np.clip(flux / np.maximum(shown * bounded.mean(axis=1), 1e-300), 1.0 / MOST, MOST)
+    bounded *= scale[:, None]
     round_area = round_vertices(shown)
-    mean = round_vertices(flux) / np.where(round_area > 0.0, round_area, 1.0)
-    bounded = np.minimum(irradiance, MOST * mean[triangles])
     missing = round_vertices(flux - shown * bounded.mean(axis=1)) / np.where(round_area > 0.0, round_area, 1.0)
     found = np.maximum(bounded + missing[triangles], 0.0)
     return found * (flux.sum() / max((area * found.mean(axis=1)).sum(), 1e-300))

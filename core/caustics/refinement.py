@@ -42,6 +42,9 @@ class LitFaces:
         The face of the reflection that each is a part of.
     on_side : (m, 3) bool
         Which of the sides 01, 12, 20 lie on a side of their receiver's triangle.
+    bulge : (m,) float64
+        The area that their light falls on beyond that of the face, for sides that are straight in the lamp's picture
+        are curves on the receiver. Not a number until it has been asked for.
     light : Corners
         Of the corners, (3, m) as (3 m,): corner k of face i is the entry k m + i.
     """
@@ -53,6 +56,7 @@ class LitFaces:
     source: np.ndarray
     origin: np.ndarray
     on_side: np.ndarray
+    bulge: np.ndarray
     light: Corners
 
     def __len__(self) -> int:
@@ -75,6 +79,7 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, le
         _, _, edge = shared_edges(faces.triangles)
         asked = np.flatnonzero(new)
         middles, points, found = _middles(ray_map, faces, asked, within)
+        faces.bulge[asked] = _bulge(faces, asked, points, found)
         chosen = np.zeros(int(edge.max(initial=-1)) + 1, dtype=bool)
         chosen[edge[asked][_astray(faces, asked, middles, least) & found]] = True
         chosen[edge[asked][~found]] = False
@@ -90,6 +95,8 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, le
         place[asked] = np.arange(len(asked))
         faces, parent = _split(faces, edge, chosen, (place, middles, np.concatenate((points, more_points), axis=2)))
         new = marked.any(axis=1)[parent]
+    asked = np.flatnonzero(np.isnan(faces.bulge))
+    faces.bulge[asked] = _bulge(faces, asked, *_middles(ray_map, faces, asked, within)[1:])
     return faces
 
 
@@ -104,6 +111,17 @@ def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[f
     area = 0.5 * norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
     mean = np.where(np.isfinite(lit), lit, 0.0).mean(axis=1)
     return astray & (area * mean > least[0])[:, None]
+
+
+def _bulge(faces: LitFaces, asked: np.ndarray, points: np.ndarray, found: np.ndarray) -> np.ndarray:
+    """The area (k,) between the sides of the faces asked and parabolas through their `points` (3, 3, k) as [component,
+    side, face]; none where not all of these were `found` (k, 3)."""
+    corners = faces.corners[:, :, asked]
+    after = np.roll(corners, -1, axis=1)
+    normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    beyond = cross(points - 0.5 * (corners + after), after - corners).sum(axis=1)
+    area = 2.0 / 3.0 * dot(beyond, normal) / np.maximum(norm(normal), 1e-300)
+    return np.where(found.all(axis=1), area, 0.0)
 
 
 class _Within:
@@ -180,4 +198,5 @@ def _split(faces: LitFaces, edge: np.ndarray, chosen: np.ndarray,
         on_side |= lies[local] & lies[after] & faces.on_side[parent, number][:, None]
     lit = faces.light.of_parts(light, parent, local, place)
     return LitFaces(triangles, np.concatenate((faces.points, new), axis=1), faces.face[parent], faces.normal[:, parent],
-                    faces.source[parent], faces.origin[parent], on_side, lit), parent
+                    faces.source[parent], faces.origin[parent], on_side,
+                    np.where(chosen[edge].any(axis=1), np.nan, faces.bulge)[parent], lit), parent

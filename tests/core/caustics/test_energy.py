@@ -1,0 +1,70 @@
+"""The light that falls on each face, against the irradiance at many places on it."""
+from __future__ import annotations
+
+import importlib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core import Lamp, Settings, TriangleMesh, reflect
+from core.caustics.corners import light_at
+from core.caustics.energy import balanced, flux_of, on_faces, shown_area
+from core.caustics.refinement import refined
+from core.geometry import cross, dot, norm
+from tests.core.caustics.test_caustics import level, ring
+
+room = importlib.import_module("core.caustics.caustics")  # the function has the room's name
+SETTINGS = replace(Settings(), hidden_faces=True, method="GENERAL", placement="SURFACE")
+LAMPS = (Lamp((3.0, 0.5, 1.7)), Lamp.shining((-1.0, 0.1, -0.5)))
+
+
+def faces_of(lamp: Lamp, mirror: TriangleMesh, receiver: TriangleMesh):
+    """The faces of the light that a mirror throws, their flux and their map."""
+    view, = lamp.views(mirror, None, None, room.DETAIL)
+    seen = reflect(view, mirror, receiver, SETTINGS, mirror)
+    ray_map, = seen.maps
+    faces = room._faces(ray_map, seen, np.arange(len(seen.triangles)), receiver)
+    whole = flux_of(view, seen.mirror_position[seen.triangles]).sum()
+    reach = np.ptp(seen.reflected_position, axis=0).max()
+    faces = refined(ray_map, faces, receiver, (room.LEAST * whole, room.FINEST * reach), 10**6)
+    return faces, flux_of(view, np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2)), ray_map
+
+
+def asked_all_over(faces, ray_map, inner: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The irradiance (k, m) at places with barycentric coordinates `inner` (k, 3) in faces, and whether light comes
+    there."""
+    uv, light = faces.light.uv.reshape(2, 3, -1), []
+    for weights in inner:
+        start, point = np.einsum("k,ckm->cm", weights, uv), np.einsum("k,ckm->cm", weights, faces.corners)
+        origin, ray = ray_map.leave(faces.face, start)
+        s = dot(point - origin, ray) / dot(ray, ray)
+        place, _ = ray_map.locate(faces.face, start, s, point, 30)
+        light.append(light_at(ray_map, faces.face, place, point, faces.normal))
+    return np.array([one.irradiance for one in light]), np.array([one.arrived for one in light])
+
+
+@pytest.mark.parametrize("lamp", LAMPS, ids=("point", "sun"))
+def test_a_face_has_the_light_that_falls_on_it_within_its_straight_sides(lamp):
+    faces, flux, ray_map = faces_of(lamp, ring(96), level(0.0, 0.0, 0.0, 4.0))
+    corners = faces.corners
+    area = 0.5 * norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    # in the middles of equal parts
+    steps = 6
+    i, j = (one.ravel() for one in np.meshgrid(np.arange(steps), np.arange(steps)))
+    up, down = i + j < steps, i + j < steps - 1
+    inner = np.concatenate((np.stack((i, j), 1)[up] + 1 / 3, np.stack((i, j), 1)[down] + 2 / 3)) / steps
+    found, arrived = asked_all_over(faces, ray_map, np.column_stack((1.0 - inner.sum(axis=1), inner)))
+    known = arrived.all(axis=0) & np.isfinite(found).all(axis=0) & (found.max(axis=0) < 2.0 * found.min(axis=0))
+    expected = (area * found.mean(axis=0))[known]
+    assert expected.sum() > 0.9 * flux.sum()  # the rest lies at folds
+
+    def off(light: np.ndarray) -> float:
+        return np.abs(light[known] - expected).sum() / expected.sum()
+    told = on_faces(flux, area, faces.bulge)
+    assert off(told) < 0.008 and off(flux) > 0.03
+    # and so have the values at its corners
+    values = faces.light.irradiance.reshape(3, -1).T
+    shown = shown_area(np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2), area)
+    shared = balanced(values, told, area, faces.triangles, shown)
+    assert off(area * shared.mean(axis=1)) < 0.008
