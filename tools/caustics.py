@@ -105,8 +105,7 @@ def _four_samples() -> float:
 def _against_rays(results: list, count: int) -> dict:
     """The errors of the result that brings most light, by Embree's rays."""
     import bpy
-    light, comparing = (importlib.import_module(f"{extension_zip.PACKAGE}.addon.{room}") for room in (
-        "comparison.light_of_results", "operators.compare_light"))
+    light, comparing = _room("comparison.light_of_results"), _room("operators.compare_light")
     depsgraph, found = bpy.context.evaluated_depsgraph_get(), []
     for result in results:
         around = comparing._surroundings(bpy.context, depsgraph, result, results)
@@ -118,6 +117,11 @@ def _against_rays(results: list, count: int) -> dict:
                 found.append(stop.value)
                 break
     return max(found, key=lambda one: one["flux"])
+
+
+def _room(name: str):
+    """A room of the extension that is installed."""
+    return importlib.import_module(f"{extension_zip.PACKAGE}.addon.{name}")
 
 
 def by_embree(mesh) -> Callable:
@@ -141,11 +145,9 @@ def _cusp() -> float:
     sun = _lamp("SUN", (0.0, 0.0, 5.0), (1.0, 0.0, 0.4), energy=3.0, angle=0.0)
     _take_part(ring, [bpy.data.objects["Table"]], sun)
     bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT")
-    mesh = next(obj for obj in scene.objects if obj.reflection_mesh.role == "CAUSTICS").data
-    places, parity = np.empty(3 * len(mesh.vertices), np.float32), np.empty(len(mesh.vertices), np.int32)
-    mesh.vertices.foreach_get("co", places)
-    mesh.attributes["image_parity"].data.foreach_get("value", parity)
-    fold = places.reshape(-1, 3)[parity == 0]
+    result = next(obj for obj in scene.objects if obj.reflection_mesh.role == "CAUSTICS")
+    lit = _room("comparison.light_of_results").Lit.of(result)
+    fold = lit.positions[lit.parity == 0]
     radius = 0.5 * max(ring.dimensions[:2])
     # the light comes along the x axis
     return float(-fold[np.abs(fold[:, 1]) < 1e-3 * radius, 0].max() / radius)

@@ -198,7 +198,17 @@ def _weights(receivers: TriangleMesh, source: np.ndarray, corners: np.ndarray) -
     second = (np.cross(corners - a, c - a) * normal).sum(axis=2) / squared
     third = (np.cross(b - a, corners - a) * normal).sum(axis=2) / squared
     weights = np.maximum(np.stack((1.0 - second - third, second, third), axis=2), 0.0)
-    return weights / weights.sum(axis=2, keepdims=True)
+    weights /= weights.sum(axis=2, keepdims=True)
+    # beside a sliver that tells little of where along it a corner lies
+    places = receivers.positions[receivers.triangles[source]]
+    for first, second in ((0, 1), (1, 2), (2, 0)):
+        along = (places[:, second] - places[:, first])[:, None]
+        astray = ((corners - np.matmul(weights, places)) * along).sum(axis=2)
+        moved = astray / np.maximum((along**2).sum(axis=2), 1e-300)
+        moved = np.clip(moved, -weights[:, :, second], weights[:, :, first])
+        weights[:, :, first] -= moved
+        weights[:, :, second] += moved
+    return weights
 
 
 def _check(lamp: Lamp, receivers: TriangleMesh, blockers: TriangleMesh | None) -> None:
