@@ -9,6 +9,7 @@ BINS = 128  # squares along the longest side of the box round what is lit
 BESIDE = 8  # squares round that box
 FINE = 32.0  # places strewn over a face along a square's side
 MOST_PLACES = 4096  # on one face
+MOST_SQUARES = 4.0  # as large as that many faces may be, for these places to be enough; larger ones are quartered
 PLACES_AT_ONCE = 1 << 21
 GOLDEN = 0.6180339887498949
 
@@ -48,8 +49,8 @@ def light_in_squares(corners: np.ndarray, irradiance: np.ndarray, normals: np.nd
     normals : (m, 3) float64
         Of the surface that each face lies on.
     """
-    a, b, c = np.moveaxis(corners, 1, 0)
-    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    corners, irradiance, normals = _quartered(corners, irradiance, normals, MOST_SQUARES * squares.step**2)
+    area = _areas(corners)
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1, initial=0.0)
     # as many as the longest side asks for: slivers are long
     count = np.ceil(FINE**2 * np.maximum(area, 0.05 * longest**2) / squares.step**2).astype(np.int64)
@@ -108,6 +109,31 @@ def light_errors(light: tuple[np.ndarray, np.ndarray], thrown: list) -> dict:
     whole = rays.sum(axis=1).std(ddof=1) / np.sqrt(len(rays))
     values = (ours.sum() - total, whole, np.abs(ours - mean).sum(), noise.sum())
     return known | {name: float(100.0 * value / total) for name, value in zip(names, values)}
+
+
+def _quartered(corners: np.ndarray, irradiance: np.ndarray, normals: np.ndarray,
+               most: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Faces (m) in parts that are not larger than `most`, each with the irradiance at its corners and its normal."""
+    done = []
+    while len(corners):
+        breathe()
+        large = _areas(corners) > most
+        done.append((corners[~large], irradiance[~large], normals[~large]))
+        corners, irradiance = _quarters(corners[large]), _quarters(irradiance[large])
+        normals = np.tile(normals[large], (4, 1))
+    return tuple(np.concatenate(one) for one in zip(*done)) if done else (corners, irradiance, normals)
+
+
+def _quarters(values: np.ndarray) -> np.ndarray:
+    """Values (m, 3, ...) at the corners of faces, at those of their four parts (4 m, 3, ...)."""
+    middle = 0.5 * (values + np.roll(values, -1, axis=1))
+    (a, b, c), (ab, bc, ca) = np.moveaxis(values, 1, 0), np.moveaxis(middle, 1, 0)
+    return np.concatenate([np.stack(one, axis=1) for one in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+
+
+def _areas(corners: np.ndarray) -> np.ndarray:
+    a, b, c = np.moveaxis(corners, 1, 0)
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
 
 
 def _runs(count: np.ndarray) -> list[slice]:

@@ -176,3 +176,20 @@ def test_a_bright_line_is_found_beside_its_curve(room):
     assert np.abs(found["one"] - 2.3).max() < 0.05 and np.abs(found["other"] - 1.0).max() < 0.05
     assert len(found["one"]) > 5
     assert not len(offsets({"flat": np.ones((80, 100))}, middle, inward, length)["flat"])
+
+
+def test_the_light_of_faces_is_laid_on_squares_however_large_they_are(room):
+    metrics = room("addon.metrics")
+    low, high = np.zeros(3), np.array((1.0, 1.0, 0.0))
+    squares = metrics.Squares(low, high)
+    corners = np.array([[(0, 0, 0), (1, 0, 0), (1, 1, 0)], [(0, 0, 0), (1, 1, 0), (0, 1, 0)]], dtype=float)
+    upwards = np.tile((0.0, 0.0, 1.0), (2, 1))
+    # rises along x
+    irradiance = 1.0 + corners[:, :, 0]
+    names, flux = metrics.light_in_squares(corners, irradiance, upwards, squares)
+    middle = (np.arange(128) + 0.5) / 128.0
+    x, y = (one.ravel() for one in np.meshgrid(middle, middle))
+    asked = squares.names(np.column_stack((x, y, 0.0 * x)), np.tile(upwards[0], (len(x), 1)))
+    found = flux[np.searchsorted(names, asked)]
+    assert np.array_equal(names, np.sort(asked)) and abs(flux.sum() - 1.5) < 1e-12
+    assert np.abs(found * 128.0**2 / (1.0 + x) - 1.0).max() < 0.02
