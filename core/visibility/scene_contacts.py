@@ -14,13 +14,12 @@ import numpy as np
 from ..cameras import Cameras, picture_areas, with_pieces
 from ..culling import Candidates
 from ..geometry import SceneFrames, cross, dot, in_order, largest, ranges, rows, smallest
-from ..polygons import ConvexPolygons, Line
+from ..polygons import LEAST_LEFT, ConvexPolygons, Line
 from ..support import breathe, crowded
 
 PASSES = 64  # triangles that cut one camera
 AGAIN = 4  # pairs that are looked at again after cutting, to one that may be left
 SHORTEST_CONTACT = 1e-6  # of the line across the camera
-SMALLEST = 1e-12  # of a camera: smaller pieces are nothing
 
 
 def drop_behind_contacts(candidates: Candidates, maximum: int,
@@ -145,7 +144,7 @@ def _pieces(sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     (3, 3, n), entry [i, k]: weight i of corner k."""
     rest, beside = ConvexPolygons.whole(sides.shape[2]), []
     for values in sides:
-        beside.append(rest.cut(-values, Line.HIDDEN).triangles(SMALLEST))
+        beside.append(rest.cut(-values, Line.HIDDEN).triangles(LEAST_LEFT))
         rest = rest.cut(values, Line.HIDDEN)
     parents, triangles = zip(*beside)
     return np.concatenate(parents), np.concatenate(triangles, axis=2)

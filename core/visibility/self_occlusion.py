@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import Cameras, picture_areas, with_pieces
-from ..geometry import SceneFrames, TriangleMesh, cross, dot, groups, in_order, norm, ranges, rows, shares
+from ..geometry import SceneFrames, TriangleMesh, cross, dot, groups, in_order, norm, others, ranges, rows, shares
 from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
 from ..support import breathe, crowded
 from .eye_plane import triangles_before_eye
@@ -46,7 +46,7 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
         count += np.bincount(part[2], minlength=len(cameras))
     uncut = crowded(np.where(shown, count, 0), worth, MOST_HIDING)
     hidden, sides, camera, column = _joined(parts, shown & ~uncut)
-    lines = _outlines(view, frames, hidden, sides, camera, column)
+    lines = _outlines(view, (frames, mirror.place_of), hidden, sides, camera, column)
     # each piece that the lines leave is asked of each triangle that hides a part of its camera
     load = np.bincount(lines.camera, minlength=len(cameras)) * count
     uncut |= crowded(load, worth, MOST_WORK)
@@ -101,14 +101,14 @@ def _hidden_parts(sides, camera, column, shown):
     return hidden.select(real), sides[:, :, real], camera[real], column[real]
 
 
-def _outlines(view, frames, hidden: ConvexPolygons, sides, camera, column) -> Lines:
-    """The borders of the hidden parts that no two triangles side by side share."""
+def _outlines(view, placed, hidden: ConvexPolygons, sides, camera, column) -> Lines:
+    """The borders of the hidden parts that no two triangles side by side share; `placed` are the
+    triangles' frames, and the number of each vertex's place."""
     corner = np.flatnonzero(hidden.after >= Line.SCENE_EDGE)
     pair, label = hidden.polygon[corner], hidden.after[corner].astype(np.int64) - Line.SCENE_EDGE
-    on_side = label < 3
-    _, vertex = np.unique(frames.positions, axis=0, return_inverse=True)
+    on_side, (frames, vertex) = label < 3, placed
     vertices, own = frames.vertices[:, column[pair]], np.arange(len(pair))
-    a, b, third = (vertices[(label + step) % 3, own] for step in (1, 2, 0))
+    a, b, third = (vertices[corner % 3, own] for corner in (*others(label), label))
     turned = vertex[a] > vertex[b]
     a, b = np.where(turned, b, a), np.where(turned, a, b)
     pa, pb, pc = (rows(frames.positions[v]) for v in (a, b, third))
