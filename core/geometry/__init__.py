@@ -5,6 +5,7 @@ their places decide, and which triangles lie beyond each other's sides.
 """
 from .adjacency import connected, corners_beyond
 from .canonical_order import TURNS, Order, ordered
+from .column_arrays import ColumnArrays
 from .distinct import distinct, first_of, in_order
 from .lamp_view import LampView
 from .scene_frames import SceneFrames, falling
@@ -23,8 +24,8 @@ from .vectors import columns, cross, dot, groups, largest, norm, ranges, rows, s
 from .view import View
 from .z_buffer import Drawn, draw
 
-__all__ = ["Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns",
-           "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas", "draw", "edge_lengths",
-           "edge_numbers", "falling", "first_of", "following", "groups", "has_area", "in_order", "largest", "norm",
-           "ordered", "others", "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest", "solve",
+__all__ = ["ColumnArrays", "Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals",
+           "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas", "draw",
+           "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area", "in_order", "largest",
+           "norm", "ordered", "others", "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest", "solve",
            "split", "unit"]

@@ -84,7 +84,7 @@ class Division:
                 break
             new = np.full(len(keys), -1)
             new[marked] = count + np.arange(len(middles))
-            images = images.joined(middles)
+            images = Images.joined((images, middles))
             middle = np.full(pieces.nodes.shape, -1)
             middle[side, face] = new[edge]
             pieces.lost[side, face] |= lost[edge]

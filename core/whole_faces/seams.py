@@ -148,7 +148,7 @@ def _with_nodes(whole: WholeFaces, images: Images, nodes: np.ndarray, own: np.nd
     after = np.append(ring[1:], ring[:1])
     first = np.append(0, np.flatnonzero(np.diff(fan)) + 1)
     after[np.append(first[1:], len(fan)) - 1] = ring[first]
-    return images.joined(middles), np.concatenate((
+    return Images.joined((images, middles)), np.concatenate((
         nodes[rest], np.stack((ring, after, count + fan), axis=1))), np.concatenate((rest, chosen[fan]))
 
 
