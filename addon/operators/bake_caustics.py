@@ -12,8 +12,9 @@ from ..illumination import lights_renders, places_kept
 from ..reading import NothingSeen, candidates, visible
 from ..settings import of_each
 from .bake_plan import Plan
-from .caustics import Asked, NothingThrown, leave_out, name_of, throwing, too_many_layers
+from .caustics import Asked, NothingThrown, name_of, throwing
 from .clear import remove_caustics
+from .cycles_caustics import leave_out, too_many_layers
 
 
 @dataclass

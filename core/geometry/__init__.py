@@ -24,8 +24,8 @@ from .vectors import columns, cross, dot, groups, largest, norm, ranges, rows, s
 from .view import View
 from .z_buffer import Drawn, draw
 
-__all__ = ["ColumnArrays", "Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals",
-           "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas", "draw",
-           "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area", "in_order", "largest",
-           "norm", "ordered", "others", "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest", "solve",
-           "split", "unit"]
+__all__ = ["ColumnArrays", "Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View",
+           "area_normals", "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas",
+           "draw", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area",
+           "in_order", "largest", "norm", "ordered", "others", "parent_side", "ranges", "rows", "shared_edges",
+           "shares", "smallest", "solve", "split", "unit"]

@@ -127,10 +127,11 @@ def test_an_error_leaves_no_trace(moving, room, tmp_path, monkeypatch, failing):
 
     def fails(*arguments, **options):
         raise RuntimeError("on purpose")
-    monkeypatch.setattr(bake_module, failing, fails)
+    playing = room("addon.operators.bake_playing")
+    monkeypatch.setattr(playing if hasattr(playing, failing) else bake_module, failing, fails)
     plan = bake_module.Plan(str(tmp_path / "out"), [1], room("core").Settings(), 1, cameras)
     with pytest.raises(RuntimeError, match="on purpose"):
-        bake_module.playing(bpy.context, room("addon.faults").finished(bake_module.baking(bpy.context, plan)))
+        playing.playing(bpy.context, room("addon.faults").finished(bake_module.baking(bpy.context, plan)))
     assert parts.state() == before and set(bpy.data.cache_files) == known
 
 
