@@ -8,6 +8,7 @@ from .canonical_order import TURNS, Order, ordered
 from .column_arrays import ColumnArrays
 from .distinct import distinct, first_of, in_order
 from .lamp_view import LampView
+from .near_triangles import meeting
 from .scene_frames import SceneFrames, falling
 from .subdivision import (
     doubled_areas,
@@ -27,5 +28,5 @@ from .z_buffer import Drawn, draw
 __all__ = ["ColumnArrays", "Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View",
            "area_normals", "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas",
            "draw", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area",
-           "in_order", "largest", "norm", "ordered", "others", "parent_side", "ranges", "rows", "shared_edges",
-           "shares", "smallest", "solve", "split", "unit"]
+           "in_order", "largest", "meeting", "norm", "ordered", "others", "parent_side", "ranges", "rows",
+           "shared_edges", "shares", "smallest", "solve", "split", "unit"]

@@ -5,7 +5,7 @@ tolerance. I. E. Sutherland, G. W. Hodgman, CACM 1974; kinds of corners: S. Vall
 """
 from .caustics import split_at_caustics
 from .clipping import Polygons, clip, whole_triangles
-from .convex_polygons import LEAST_LEFT, SMALLEST, ConvexPolygons, Line, scene_edges
+from .convex_polygons import SMALLEST, ConvexPolygons, Line, scene_edges
 from .covering import Overlaps
 from .division import Lines, divide
 from .face_refinement import FaceRefinement
@@ -14,6 +14,6 @@ from .polygon_corners import Nodes, polygon_nodes
 from .triangulation import Faces, connect
 from .vertex_images import VertexImages, images_of_pairs, repeated, vertex_images
 
-__all__ = ["ConvexPolygons", "FaceRefinement", "Faces", "LEAST_LEFT", "Line", "Lines", "Nodes", "Overlaps", "Polygons",
+__all__ = ["ConvexPolygons", "FaceRefinement", "Faces", "Line", "Lines", "Nodes", "Overlaps", "Polygons",
            "SMALLEST", "VertexImages", "clip", "connect", "divide", "images_of_pairs", "polygon_nodes",
            "refine_for_outlines", "repeated", "scene_edges", "split_at_caustics", "vertex_images", "whole_triangles"]

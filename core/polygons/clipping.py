@@ -13,9 +13,10 @@ import numpy as np
 
 from ..culling import Candidates
 from ..support import breathe
-from .convex_polygons import LEAST_LEFT, ConvexPolygons, Line, cut, scene_edges
+from .convex_polygons import ConvexPolygons, Line, cut, scene_edges
 
 PAIRS_AT_ONCE = 32768
+SMALLEST = 1e-12  # of a camera: a smaller piece that cutting leaves is nothing
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ class Polygons(ConvexPolygons):
     @property
     def real(self) -> np.ndarray:
         """Which polygons (n,) are more than nothing, as cutting may leave some."""
-        return np.flatnonzero((self.size >= 3) & (self.areas > LEAST_LEFT))
+        return np.flatnonzero((self.size >= 3) & (self.areas > SMALLEST))
 
 
 def clip(candidates: Candidates) -> Polygons:

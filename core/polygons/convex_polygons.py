@@ -15,7 +15,6 @@ from ..geometry import columns, cross, dot, ranges
 
 Kind = TypeVar("Kind", bound="ConvexPolygons")
 SMALLEST = 1e-9  # of a camera: smaller parts are nothing
-LEAST_LEFT = 1e-12  # of a camera: smaller pieces that cutting leaves are nothing
 
 
 class Line(IntEnum):
