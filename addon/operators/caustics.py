@@ -16,17 +16,19 @@ from ..frames import stop_playing
 from ..illumination import (
     Caustic,
     NoLight,
+    blockers_of,
+    blocking,
     caustic_arrays,
     chosen_lamps,
     eyes_of,
+    leave_out,
     parts_of,
+    too_many_layers,
     write_caustics,
 )
 from ..reading import DiffuseScene, MirrorSurface, Participants, choose, read_mirror, read_scene
 from ..settings import SettingsOfMirrors, UsesSettings, option
 from . import polls
-from .cycles_caustics import leave_out, too_many_layers
-from .in_the_way import blockers_of, blocking
 
 IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
 NOTHING_LIT = "Light falls on nothing but lamps: select what it is to fall on, or give it the role Reflected."
