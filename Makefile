@@ -34,7 +34,7 @@ help:
 	@echo "make rate     pairs a second: the solver beside the plain closed form, in one run"
 	@echo "make work     what each method counts on the setting of the talk's cost model"
 	@echo "make zip      the extension as a zip in dist/, to install in Blender"
-	@echo "make pictures the pictures of the documents, in docs/"
+	@echo "make pictures the pictures of the documents, in docs/pictures/"
 	@echo "make samples  write sample_blends/*.blend anew"
 	@echo "PYTHON=... chooses the Python, 3.11 or 3.13 (now: $(PYTHON))"
 

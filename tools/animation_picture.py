@@ -1,5 +1,5 @@
-"""Makes docs/animation.gif: twenty seconds of a room, its golden ball a reflection mesh that is made anew and lit in
-every frame.
+"""Makes docs/pictures/animation.gif: twenty seconds of a room, its golden ball a reflection mesh that is made anew and
+lit in every frame.
 
     python tools/animation_picture.py [folder] [seconds]
 
@@ -78,5 +78,5 @@ def _palette(pictures: list) -> Image.Image:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs",
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs" / "pictures",
          float(sys.argv[2]) if len(sys.argv) > 2 else 20.0)

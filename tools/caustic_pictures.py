@@ -2,9 +2,9 @@
 
     python tools/caustic_pictures.py [folder]
 
-Leaves `caustics.jpg` in the folder, docs/ by default: above the sample `pool`, left by Cycles' own caustics, right by
-meshes of light; below by meshes the samples `ring`, `sunlight` and `dish`. All have as many samples per pixel, and are
-denoised.
+Leaves `caustics.jpg` in the folder, docs/pictures/ by default: above the sample `pool`, left by Cycles' own caustics,
+right by meshes of light; below by meshes the samples `ring`, `sunlight` and `dish`. All have as many samples per
+pixel, and are denoised.
 """
 from __future__ import annotations
 
@@ -58,4 +58,4 @@ def _stacked(rows: list[np.ndarray]) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if sys.argv[1:] else ROOT / "docs")
+    main(Path(sys.argv[1]) if sys.argv[1:] else ROOT / "docs" / "pictures")

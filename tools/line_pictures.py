@@ -3,7 +3,7 @@
     python tools/line_pictures.py [folder]
 
 Leaves `line_art.jpg` (a still life round a silver ball as Line Art draws it, without the reflection and with it) and
-`freestyle.jpg` (the same by Cycles with Freestyle's lines, before and after) in the folder, docs/ by default.
+`freestyle.jpg` (the same by Cycles with Freestyle's lines, before and after) in the folder, docs/pictures/ by default.
 """
 from __future__ import annotations
 
@@ -155,4 +155,4 @@ def _beside(path: Path, pictures: list) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs")
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs" / "pictures")

@@ -4,7 +4,7 @@
 
 Leaves `tolerance.jpg` (0.5, 4 and 16 pixels, with the edges of the mesh), `placement.jpg` (layered, on the surface and
 virtual, from beside the camera) and `made_of.jpg` (faces, and points with discs, of a coarse and a dense mesh) in the
-folder, docs/ by default.
+folder, docs/pictures/ by default.
 """
 from __future__ import annotations
 
@@ -71,4 +71,4 @@ def _tile(path: Path, edges: bool = False, beside: bool = False, dense: bool = F
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs")
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs" / "pictures")

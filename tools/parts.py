@@ -3,7 +3,7 @@
     python tools/parts.py [folder]
 
 Leaves `parts_bowl.jpg`, `parts_water.jpg`, `parts_suzanne.jpg` and, of a sample with hardly any memory,
-`parts_filling.jpg` in the folder, docs/ by default: the whole picture above, parts of it enlarged below.
+`parts_filling.jpg` in the folder, docs/pictures/ by default: the whole picture above, parts of it enlarged below.
 """
 from __future__ import annotations
 
@@ -166,4 +166,4 @@ def _filled_box(before: Image.Image, after: Image.Image, truth: Image.Image) -> 
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs")
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs" / "pictures")

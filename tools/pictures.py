@@ -6,7 +6,7 @@ Leaves `sphere.jpg` (Cycles, the reflection mesh before a mirror that reflects t
 `samples.jpg` (the reflection mesh in each sample that emits what it shows), `mirrors.jpg` (mirrors in mirrors, by
 Cycles and to a depth of 1, 2 and 3), `lit.jpg` (each lit sample by Cycles, as generated, and lit) and `eevee.jpg`
 (the room by Cycles, by EEVEE's own ray tracing, and by EEVEE with the lit reflection) and `anamorphosis.jpg` (the
-sheet that is printed, and the mirror on it by Cycles) in the folder, docs/ by default.
+sheet that is printed, and the mirror on it by Cycles) in the folder, docs/pictures/ by default.
 """
 from __future__ import annotations
 
@@ -166,4 +166,4 @@ def save(path: Path, pictures: list[Path], columns: int, crop: tuple | None = No
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs")
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs" / "pictures")

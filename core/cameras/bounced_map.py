@@ -12,8 +12,6 @@ from ..geometry import dot, norm
 from .mirror_surface import MirrorSurface, Way, drawn_in
 from .reflection_map import ReflectionMap
 
-DIFFERENCE = 1e-5  # of a triangle's side: step of the difference quotients for bent rays
-
 
 class BouncedMap(ReflectionMap):
     """Rays that bounce once more.
@@ -116,14 +114,7 @@ class BouncedMap(ReflectionMap):
                             change if self.orthographic else farther * ray + (1.0 + s) * change))
         on = self.surface.coordinates(triangle, place)
         leaving, turned = self.surface.derivatives(triangle, on, direction, changes)
-        part = np.flatnonzero(self.surface.enters(triangle, leaving, direction))
-        if len(part):
-            near = face[part], uv[:, part]
-            leaving[:, part] = self.rays(*near)
-            for way, change in zip(ways, turned):
-                step = DIFFERENCE * np.broadcast_to(way, uv.shape)[:, part]
-                after, before = (self.rays(near[0], near[1] + sign * step) for sign in (1.0, -1.0))
-                change[:, part] = (after - before) / (2.0 * DIFFERENCE)
+        self._bend(np.flatnonzero(self.surface.enters(triangle, leaving, direction)), (face, uv), ways, leaving, turned)
         return place, leaving, list(zip(places, turned))
 
 

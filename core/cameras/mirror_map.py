@@ -11,7 +11,6 @@ from .mirror_surface import MirrorSurface, Way, along
 from .reflection_map import ReflectionMap
 
 NEARLY_GRAZING = 0.03  # sine at a face's corners or middle below which some ray of the face may need to be bent
-DIFFERENCE = 1e-5  # of a triangle's side: step of the difference quotients for bent rays
 
 
 class MirrorMap(ReflectionMap):
@@ -115,12 +114,5 @@ class MirrorMap(ReflectionMap):
             return place, self.constant[:, face], [(move, np.zeros_like(move)) for move in moves]
         seen = [np.zeros_like(move) if self.orthographic else move for move in moves]
         ray, changes = own.derivatives(every, uv, self.arriving(place), list(zip(ways, seen)))
-        part = np.flatnonzero(self.lifted(face, uv))
-        if len(part):
-            near = face[part], uv[:, part]
-            ray[:, part] = self.rays(*near)
-            for way, change in zip(ways, changes):
-                step = DIFFERENCE * np.broadcast_to(way, uv.shape)[:, part]
-                after, before = (self.rays(near[0], near[1] + sign * step) for sign in (1.0, -1.0))
-                change[:, part] = (after - before) / (2.0 * DIFFERENCE)
+        self._bend(np.flatnonzero(self.lifted(face, uv)), (face, uv), ways, ray, changes)
         return place, ray, list(zip(moves, changes))

@@ -14,6 +14,7 @@ from ..geometry import View, cross, dot, norm, solve
 from .mirror_surface import ALONG_UV, MirrorSurface, Way
 
 SETTLED = 1e-9  # of a triangle's side, or of s: after a shorter step of Newton's method the next is rounding alone
+DIFFERENCE = 1e-5  # of a triangle's side: step of the difference quotients for bent rays
 ARRIVED = 1e-10  # of the path and the viewing distance: by how much a ray that Newton's method found may miss
 
 
@@ -93,6 +94,19 @@ class ReflectionMap(ABC):
     @abstractmethod
     def turned_before(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray | float:
         """`turned` of the mirrors before the last one, at the last one; 1 where there are none."""
+
+    def _bend(self, part: np.ndarray, places: tuple[np.ndarray, np.ndarray], ways: tuple[Way, ...], rays: np.ndarray,
+              changes: list[np.ndarray]) -> None:
+        """Put bent rays, and by difference quotients what they change by along the `ways`, in place of unbent ones: of
+        the `part` (m,) of all `places`, their faces (n,) and (u, v)."""
+        if not len(part):
+            return
+        face, uv = places[0][part], places[1][:, part]
+        rays[:, part] = self.rays(face, uv)
+        for way, change in zip(ways, changes):
+            step = DIFFERENCE * np.broadcast_to(way, places[1].shape)[:, part]
+            after, before = (self.rays(face, uv + sign * step) for sign in (1.0, -1.0))
+            change[:, part] = (after - before) / (2.0 * DIFFERENCE)
 
     def locate(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray,
                steps: int = 4) -> tuple[np.ndarray, np.ndarray]:

@@ -121,16 +121,17 @@ def _compared(view: View, truth: Truth, shows: np.ndarray, source: np.ndarray, p
     kind[sees & ~shows] = HOLE
     kind[shows & ~sees] = SPILL
     kind[left_out] = LEFT_OUT
-    numbers = _numbers(view, truth, drawn, kind, displacement, mirror_seen, left_out)
+    numbers = _numbers(view, truth, drawn, kind, displacement)
     return Judgement(kind, displacement, shown, position, int(counted.sum()), numbers)
 
 
-def _numbers(view: View, truth: Truth, drawn: np.ndarray, kind, displacement, mirror_seen, left_out) -> dict:
+def _numbers(view: View, truth: Truth, drawn: np.ndarray, kind: np.ndarray, displacement: np.ndarray) -> dict:
+    mirror_seen = truth.mirror_triangle >= 0
     same = np.flatnonzero(kind == SAME)
     pixels = displacement[same]
     median, p95, p99, maximum = np.percentile(pixels, (50, 95, 99, 100)) if len(pixels) else (np.nan,) * 4
     worst = same[np.argmax(pixels)] if len(pixels) else -1
-    counted = int((mirror_seen & ~left_out).sum())
+    counted = int((mirror_seen & (kind != LEFT_OUT)).sum())
     share = 100.0 / max(counted, 1)
     hole, spill, wrong = (share * float((kind == k).sum()) for k in (HOLE, SPILL, WRONG_LAYER))
     return {

@@ -118,12 +118,13 @@ def trace(view: View, mirror: TriangleMesh, scene: TriangleMesh, *, embree: bool
 
 
 def _jacobian(view, mirror, scene, pixels, triangle, source):
-    columns = [_motion(view, mirror, scene, pixels, triangle, source, np.array(step)) for step in ((1, 0), (0, 1))]
+    columns = [_motion(view, (mirror, triangle), (scene, source), pixels, np.array(step)) for step in ((1, 0), (0, 1))]
     return np.stack(columns, axis=2)
 
 
-def _motion(view, mirror, scene, pixels, triangle, source, step):
+def _motion(view, mirror_seen, scene_seen, pixels, step):
     """Motion of P from half a pixel before to half a pixel behind, or the derivative where that passes a horizon."""
+    (mirror, triangle), (scene, source) = mirror_seen, scene_seen
     motion = np.zeros((len(pixels), 3))
     left = np.arange(len(pixels))
     for half in (0.5, 0.5e-3):

@@ -1,6 +1,6 @@
 """The table and the plot of docs/numerics.md: this solver, textbook Cardano and numpy.roots against exact arithmetic.
 
-    python -m tools.solver.numerics [--pairs 10000] [--page docs/numerics.md] [--plot docs/numerics.png]
+    python -m tools.solver.numerics [--pairs 10000] [--page docs/numerics.md] [--plot docs/pictures/numerics.png]
 """
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--pairs", type=int, default=10000)
     parser.add_argument("--page", type=Path, default=Path("docs/numerics.md"))
-    parser.add_argument("--plot", type=Path, default=Path("docs/numerics.png"))
+    parser.add_argument("--plot", type=Path, default=Path("docs/pictures/numerics.png"))
     options = parser.parse_args(arguments)
     scores = {}
     for name in FAMILIES:
