@@ -14,7 +14,7 @@ from .. import compat
 from ..faults import interrupt_held, still_there
 from ..rendering import copied_scene, denoise, look_through
 from ..writing import UV_MAP
-from .opacity import show_opacity, turn_over, without_openings
+from .opacity import as_mirrors_see, show_opacity, turn_over, without_openings
 from .stand_ins import StandIn, new_mesh, new_object, swap_names
 
 UNTOUCHED = -1.0  # of a texel that nothing was baked into; light is never below zero
@@ -105,6 +105,8 @@ def _prepare(scene: bpy.types.Scene) -> None:
         setattr(bake, name, True)
     bake.view_from = "ACTIVE_CAMERA"
     scene.cycles.use_adaptive_sampling = False
+    # the picture that shows the light is exposed
+    scene.cycles.film_exposure = 1.0
 
 
 def _target(material: bpy.types.Material | None, opacity: bool, backs: bool) -> bpy.types.Material:
@@ -115,6 +117,7 @@ def _target(material: bpy.types.Material | None, opacity: bool, backs: bool) -> 
     tree = made.node_tree
     if backs:
         turn_over(tree)
+    as_mirrors_see(tree)
     (show_opacity if opacity else without_openings)(tree)
     node = tree.nodes.new("ShaderNodeTexImage")
     for other in tree.nodes:

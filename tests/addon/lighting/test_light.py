@@ -23,7 +23,7 @@ from lamp_scenes import (
 )
 
 SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Glass", "Alpha",
-           "Backfacing")
+           "Backfacing", "Light path")
 MIRRORS = ("Tint", "Textured tint", "Rough", "Fresnel", "Layer weight")
 
 

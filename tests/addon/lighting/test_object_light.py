@@ -9,7 +9,8 @@ import pytest
 from lamp_scenes import leaves_no_trace, link, lit_state, picture, psnr, scene_of
 
 # gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
-SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Alpha", "Backfacing")
+SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Alpha", "Backfacing",
+           "Light path")
 MIRRORS = ("Tint", "Textured tint", "Fresnel", "Layer weight")
 
 
@@ -27,6 +28,15 @@ def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
     lit, noise = psnr(picture(room), reference), psnr(other, reference)
     assert lit > min(38.0, noise - 1.5)
     assert lit > before + 6.0
+
+
+def test_it_is_exposed_once(blank, room):
+    scene_of(blank)
+    blank.scene.cycles.film_exposure = 0.4
+    reference = picture(room)
+    parts.generate()
+    light(64)
+    assert psnr(picture(room), reference) > 38.0
 
 
 @pytest.mark.parametrize("output", ["UV", "Object", "UV map"])
