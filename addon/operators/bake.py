@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import combinations
 
 import bpy
 
@@ -23,6 +24,7 @@ from ..frames import (
     record_path,
     set_aside,
     show_by_camera,
+    told_apart,
     write_image,
     write_record,
     write_result,
@@ -80,7 +82,7 @@ class Reflections:
         return name
 
     def file(self, key: str, take: str) -> str:
-        return f"{key} Reflection {take}".strip()
+        return f"{told_apart(self.keys)[key]} Reflection {take}".strip()
 
     def made_with(self, context: bpy.types.Context, plan: Plan, camera: bpy.types.Object | None) -> dict:
         return plan.made_with(context, camera, self.mirrors)
@@ -133,6 +135,10 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
     mirrors, diffuse = candidates(context)
     if not (mirrors and diffuse):
         choose(context)     # which says what is missing
+    for one, other in combinations(mirrors, 2):
+        if one.name == other.name:
+            # one of them is linked; frames know mirrors by their names
+            raise core.ReflectionError(f"Two mirrors are called '{one.name}': rename one of them.")
     baked = ThrownLight.of(context, plan, mirrors, diffuse) if plan.lamps else Reflections(mirrors, diffuse)
     if not (plan.cameras or plan.lamps):
         read_view(context)
