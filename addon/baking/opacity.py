@@ -7,8 +7,8 @@ from ..reading.mirror_materials import surface_shader
 from .mirror_part import given, node_behind
 
 OPEN = {"BSDF_TRANSPARENT", "HOLDOUT"}
-# what is asked of a ray that a mirror has sent, from what is asked of one of the camera's: by which operation with which
-# number, None for whether it is the camera's; that itself first, so that none of those is taken for the material's own
+# what is asked of a ray that a mirror has sent, from what is asked of one of the camera's: by which operation with
+# which number, None for whether it is the camera's; that first, so that none of those is taken for the material's own
 SENT_BY_A_MIRROR = {"Is Camera Ray": ("MULTIPLY", 0.0), "Is Glossy Ray": ("MAXIMUM", None),
                     "Is Singular Ray": ("MAXIMUM", None), "Is Reflection Ray": ("MAXIMUM", None),
                     "Ray Depth": ("ADD", 1.0), "Glossy Depth": ("ADD", 1.0)}

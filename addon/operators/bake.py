@@ -50,6 +50,7 @@ from .bake_plan import (
 from .clear import clear
 from .generate import generation
 from .light import lighting
+from .shortcomings import render_shortcomings
 
 FOLDER = "//reflection frames"
 IN_OBJECT_MODE = "Reflections are baked in Object Mode: leave the present mode first."
@@ -271,6 +272,7 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
                                       lambda sentence: tell(self, {"WARNING"}, sentence))
         _, remarks = showing(context, plan, sequences)
         self.show_used(wanted, candidates(context)[0])
+        remarks += render_shortcomings(context.scene, sum(candidates(context), []))
         remarks += blur_remarks(context.scene, plan.cameras, bool(lamps))
         for remark in remarks + layer_remarks(context.scene, [context.view_layer]):
             tell(self, {"WARNING"}, remark)

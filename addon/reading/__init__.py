@@ -6,6 +6,7 @@ from .mirror_materials import is_mirror
 from .opaque_materials import is_opaque
 from .read_meshes import SURFACES, LocalMesh, Placed, read_meshes
 from .read_view import NO_CAMERA, read_view, render_size
+from .rendered_otherwise import rendered_otherwise
 from .results import camera_of, every_result_of, results_of, with_copies
 from .roles import (
     NO_MIRROR,
@@ -24,4 +25,4 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "Placed", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose", "every_result_of",
            "forget_known", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results", "participants",
            "read_meshes", "read_mirror", "read_scene", "read_view", "register", "render_size", "rendered_collections",
-           "results_of", "seen_in", "unregister", "visible", "with_copies"]
+           "rendered_otherwise", "results_of", "seen_in", "unregister", "visible", "with_copies"]

@@ -316,7 +316,8 @@ def test_names_that_would_be_one_in_files_are_told_apart(moving, room, tmp_path)
         other.name, other.location = name, (number - 0.5, 1.2 + 0.3 * number, 1.0)
         bpy.context.scene.collection.objects.link(other)
     mirror.name = "Mirror A"
-    cameras = [add_camera(name, (x, -6.0, 1.0), (1.45, 0.0, 0.0)) for name, x in (("Left eye", -1.0), ("left_eye", 1.0))]
+    cameras = [add_camera(name, (x, -6.0, 1.0), (1.45, 0.0, 0.0))
+               for name, x in (("Left eye", -1.0), ("left_eye", 1.0))]
     bpy.ops.wm.save_mainfile()
     out = tmp_path / "out"
     assert bake(room, "--output", out, "--light", "0", "--frames", "1", "--camera",
