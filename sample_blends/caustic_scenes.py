@@ -116,6 +116,12 @@ def sunlight() -> tuple:
     wall = add("plane", "Mirror Wall", (0, 1.5, 1.4), paint, size=1, scale=(4, 2.8, 1), rotation=(pi / 2, 0, 0))
     add("plane", "Left Wall", (-2.0, -0.5, 1.4), paint, size=1, scale=(2.8, 4, 1), rotation=(0, pi / 2, 0))
     add("plane", "Right Wall", (2.0, -0.5, 1.4), paint, size=1, scale=(2.8, 4, 1), rotation=(0, -pi / 2, 0))
+    # behind the camera: what the mirror shows
+    add("plane", "Back Wall", (0, -2.5, 1.4), paint, size=1, scale=(4, 2.8, 1), rotation=(-pi / 2, 0, 0))
+    add("cube", "Door", (0.72, -2.48, 1.02), surface("Door", (0.42, 0.27, 0.15), "Wave", "UV", 3.0, Roughness=0.8),
+        size=1, scale=(0.85, 0.05, 2.04))
+    add("cube", "Towel", (1.55, -2.47, 1.35), surface("Towel", (0.75, 0.30, 0.22), Roughness=1.0), size=1,
+        scale=(0.45, 0.04, 0.8))
     add("cube", "Shelf", (0.15, 1.36, 0.72), surface("Shelf", (0.50, 0.36, 0.22), "Noise", "UV", 8.0, Roughness=0.7),
         size=1, scale=(1.5, 0.26, 0.05))
     add("cylinder", "Bottle", (0.52, 1.33, 0.93), surface("Bottle", (0.06, 0.30, 0.34), Roughness=0.3), radius=0.055,

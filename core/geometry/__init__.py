@@ -7,6 +7,7 @@ from .adjacency import connected, corners_beyond, neighbours, opposite_corners
 from .canonical_order import TURNS, Order, ordered
 from .distinct import distinct, first_of, in_order
 from .lamp_view import LampView
+from .near_triangles import meeting
 from .scene_frames import SceneFrames, falling
 from .subdivision import doubled_areas, edge_lengths, parent_side, shared_edges, split
 from .triangle_mesh import TriangleMesh, area_normals, has_area
@@ -16,6 +17,6 @@ from .z_buffer import Drawn, draw
 
 __all__ = ["Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns",
            "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas", "draw", "edge_lengths",
-           "falling", "first_of", "groups", "has_area", "in_order", "largest", "neighbours", "norm",
+           "falling", "first_of", "groups", "has_area", "in_order", "largest", "meeting", "neighbours", "norm",
            "opposite_corners", "ordered", "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest",
            "solve", "split", "unit"]

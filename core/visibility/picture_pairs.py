@@ -1,4 +1,4 @@
-"""Pairs of cameras and triangles of the mirror that may lie over one another in the picture, by boxes on a grid."""
+"""Pairs of cameras and triangles that may lie over one another in the picture, by boxes on a grid."""
 from __future__ import annotations
 
 from collections.abc import Generator, Iterable
@@ -8,30 +8,29 @@ import numpy as np
 from ..cameras import Cameras
 from ..geometry import TriangleMesh, View, in_order, ranges, rows, shares
 from ..support import breathe
-from .mirror_visibility import DepthGrid
 
 COARSER = 9  # times that the cells may be doubled
 MOST_PAIRS = 1 << 26
 
 
-def pairs_in_picture(cameras: Cameras, mirror: TriangleMesh, owner: np.ndarray, grid: DepthGrid,
+def pairs_in_picture(cameras: Cameras, mesh: TriangleMesh, owner: np.ndarray, taken: np.ndarray, scale: float,
                      at_once: int) -> Iterable[tuple[np.ndarray, np.ndarray]] | None:
-    """Pairs of cameras and triangles of the mirror, parts of those that `owner` (m,) names and no camera's own, whose
-    boxes in the picture overlap where the mirror lies several times over, by the cells of the grid; each once, in
-    shares of about `at_once`.
+    """Pairs of cameras and triangles of a mesh, parts of the mirror's triangles that `owner` (m,) names, -1 for none,
+    and no camera's own, whose boxes in the picture overlap in some of the cells `taken` (height, width), `scale` of
+    them a pixel, or beside one; each once, in shares of about `at_once`. What is not before the eye has no box.
 
     Cells are made as coarse as gives the least work: large triangles share many small cells. None where
     there would be more than `MOST_PAIRS`.
     """
     view = cameras.view
-    several = np.pad(grid.layers > 1, 1)
-    height, width = grid.layers.shape
-    several = np.logical_or.reduce([several[y:y + height, x:x + width] for y in range(3) for x in range(3)])
-    if not several.any():
+    height, width = taken.shape
+    around = np.pad(taken, 1)
+    around = np.logical_or.reduce([around[y:y + height, x:x + width] for y in range(3) for x in range(3)])
+    if not around.any():
         return ()
-    boxes, others = (_boxes(view, corners, grid.scale) for corners in
-                     (cameras.places[:, cameras.corners], rows(mirror.positions[mirror.triangles])))
-    levels = [several]
+    boxes, others = (_boxes(view, corners, scale) for corners in
+                     (cameras.places[:, cameras.corners], rows(mesh.positions[mesh.triangles])))
+    levels = [around]
     for _ in range(COARSER):
         levels.append(_halved(levels[-1]))
     work = []

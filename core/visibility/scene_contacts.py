@@ -1,32 +1,31 @@
-"""Contacts: where the scene cuts through the mirror, the part of a camera right behind the cutting triangle is dropped.
+"""Contacts: where the scene stands on the mirror or cuts through it, what it hides from quite near is cut off.
 
-Such a part is hidden from the eye by that very triangle, at a distance that goes to zero along the line of contact;
-what it reflects would come out through the triangle once it slides towards the eye. As seen from the eye the hidden
-part is convex: inside the triangle's three sides, each a plane through the eye, and behind its plane. All four are
-linear in the camera's weights, so the camera without it falls into convex pieces.
+Such a part of a camera is hidden from the eye at a distance that goes to zero along the line of contact; what it
+reflects would come out before what hides it once it slides towards the eye.
 """
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 
 import numpy as np
 
-from ..cameras import Cameras, picture_areas, with_pieces
+from ..cameras import Cameras, picture_areas
 from ..culling import Candidates
-from ..geometry import SceneFrames, cross, dot, in_order, largest, ranges, rows, smallest
-from ..polygons import ConvexPolygons, Line
+from ..geometry import TriangleMesh, distinct, in_order, largest, meeting, norm, ranges, rows, shares, smallest
+from ..result import DEPTH, GAP
 from ..support import breathe, crowded
+from .hidden_parts import DEEPER, PAIRS_AT_ONCE, HiddenParts
+from .picture_pairs import pairs_in_picture
 
-PASSES = 64  # triangles that cut one camera
 AGAIN = 4  # pairs that are looked at again after cutting, to one that may be left
-SHORTEST_CONTACT = 1e-6  # of the line across the camera
-SMALLEST = 1e-12  # of a camera: smaller pieces are nothing
+CELLS = 256.0  # across the wider side of the picture, for what lies over what
+MOST_HIDING = 1 << 18  # pairs of a camera and a triangle that hides a part of it; cameras with the most stay whole
 
 
 def drop_behind_contacts(candidates: Candidates, maximum: int,
                          again: Callable[[Cameras, tuple[np.ndarray, np.ndarray]], Candidates]
                          ) -> tuple[Candidates, np.ndarray, int, int]:
-    """Candidates of cameras without the parts right behind triangles that cut through them, or at least those that
+    """Candidates of cameras without the parts that triangles hide from as near as layers slide, or at least those that
     `maximum` cameras allow.
 
     Parameters
@@ -40,112 +39,91 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
     crowd : (n,) bool
         Cameras too crowded to be looked at again.
     count, left : int
-        How many were cut, and how many were not cut by all that cut through them.
+        How many were cut, and how many were not, or not along all outlines.
     """
     cameras, frames = candidates.cameras, candidates.frames
-    across = (smallest(candidates.ahead) < 0.0) & (largest(candidates.ahead) > 0.0)
-    pairs = np.unique(candidates.camera[across] * len(frames.triangle) + candidates.column[across])
-    camera, column = pairs // len(frames.triangle), pairs % len(frames.triangle)
-    origin, cut, count = np.arange(len(cameras)), np.zeros(len(cameras), dtype=bool), 0
-    for number in range(PASSES + 1):
-        breathe()
-        meeting = np.flatnonzero(_meets(cameras, frames, camera, column))
-        camera, column = camera[meeting], column[meeting]
-        sides, solid = hidden_sides(cameras, frames, camera, column)
-        camera, column, sides = camera[solid], column[solid], sides[:, :, solid]
-        if not len(camera) or len(cameras) > maximum or number == PASSES:
-            break
-        chosen, first = np.unique(camera, return_index=True)
-        parent, weights = _pieces(sides[:, :, first])
-        count += len(chosen)
-        cut[origin[chosen]] = True
-        whole = np.ones(len(cameras), dtype=bool)
-        whole[chosen] = False
-        # what else cuts a camera is asked of its pieces
-        rest = np.ones(len(camera), dtype=bool)
-        rest[first] = False
-        before = whole.sum()
-        cameras, origin_of_piece = with_pieces(cameras, whole, chosen[parent], weights)
-        origin = np.concatenate((origin[whole], origin[origin_of_piece]))
-        start = np.searchsorted(camera[rest], chosen[parent])
-        stop = np.searchsorted(camera[rest], chosen[parent], side="right")
-        entry, piece = ranges(start, stop - start)
-        camera, column = before + piece, column[rest][entry]
-    left = len(np.unique(camera))
-    if not count:
-        return candidates, np.zeros(len(cameras), dtype=bool), 0, left
-    piece = np.flatnonzero(cut[origin])
-    now = np.full(len(cut), -1)
-    now[np.delete(origin, piece)] = np.delete(np.arange(len(cameras)), piece)
-    asked = np.flatnonzero(cut[candidates.camera])
+    found = _hidden_closely(candidates)
+    if found is None:
+        return candidates, np.zeros(len(cameras), dtype=bool), 0, 0
+    hidden, shown = found
+    count = np.bincount(hidden.camera, minlength=len(cameras))
+    uncut = crowded(count, picture_areas(cameras), MOST_HIDING)
+    hidden = hidden.select(~uncut[hidden.camera])
+    given, (cameras, cut, parent, left) = len(cameras), hidden.cut_off(cameras, shown, hidden.outlines(
+        cameras.view, frames), maximum)
+    left += int(uncut.sum())
+    if shown.all() and not len(cut):
+        return candidates, np.zeros(given, dtype=bool), 0, left
+    whole = shown.copy()
+    whole[cut] = False
+    now, before = np.full(given, -1), int(whole.sum())
+    now[whole] = np.arange(before)
+    is_cut = np.zeros(given, dtype=bool)
+    is_cut[cut] = True
+    # what else may be seen in a camera is asked of its pieces
+    asked = np.flatnonzero(is_cut[candidates.camera])
     asked = asked[in_order(candidates.camera[asked])]
-    start, stop = (np.searchsorted(candidates.camera[asked], origin[piece], side=side) for side in ("left", "right"))
-    crowd = np.zeros(len(cameras), dtype=bool)
+    start, stop = (np.searchsorted(candidates.camera[asked], parent, side=side) for side in ("left", "right"))
+    crowd, piece = np.zeros(len(cameras), dtype=bool), before + np.arange(len(parent))
     crowd[piece] = crowded(stop - start, picture_areas(cameras.select(piece)), AGAIN * maximum)
     entry, run = ranges(start, np.where(crowd[piece], 0, stop - start))
     pairs = np.unique(piece[run] * len(frames.triangle) + candidates.column[asked[entry]])
     of_pieces = again(cameras, (pairs // len(frames.triangle), pairs % len(frames.triangle)))
-    return Candidates.joined((candidates.on(cameras, now), of_pieces)), crowd, count, left
+    return (Candidates.joined((candidates.on(cameras, now), of_pieces)), crowd,
+            len(cut) + int((~shown).sum()), left)
 
 
-def hidden_sides(cameras: Cameras, frames: SceneFrames, camera: np.ndarray,
-                 column: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(4, 3, p): four functions at the cameras' corners that are positive together on the hidden part; and which
-    triangles are not seen edge on, when they hide nothing."""
-    view = cameras.view
-    places = np.take(cameras.places, cameras.corners[camera].T, axis=1)
-    vertices = rows(frames.positions[frames.vertices[:, column]])
-    if view.orthographic:
-        ahead = np.broadcast_to(view.forward[:, None], vertices[:, 0].shape)
-        _, _, eye_side = frames.directions(column, -ahead)
-    else:
-        eye = view.eye[:, None]
-        _, _, eye_side = frames.coordinates(column, np.broadcast_to(eye, vertices[:, 0].shape))
-    functions, solid = [], np.ones(len(camera), dtype=bool)
-    for j in range(3):
-        third, p, q = (vertices[:, (j + k) % 3] for k in range(3))
-        base = p if view.orthographic else np.broadcast_to(eye, p.shape)
-        normal = cross(q - p, ahead) if view.orthographic else cross(p - base, q - base)
-        inward = dot(normal, third - base)
-        size = np.sqrt(dot(normal, normal) * dot(third - base, third - base))
-        solid &= np.abs(inward) > 1e-9 * size
-        functions.append(np.sign(inward) * dot(normal[:, None], places - base[:, None]))
-    _, _, height = frames.coordinates(column, places)
-    functions.append(-np.sign(eye_side) * height)
-    return np.stack(functions), solid & (eye_side != 0.0)
+def _hidden_closely(candidates: Candidates) -> tuple[HiddenParts, np.ndarray] | None:
+    """What triangles hide from so near that layers would slide through them, and which cameras (n,) one of them does
+    not hide altogether; None where none comes as near."""
+    cameras, frames, view = candidates.cameras, candidates.frames, candidates.cameras.view
+    size = float(np.ptp(cameras.places, axis=1).max(initial=0.0))
+    slid = GAP + DEPTH
+    room = slid * (np.full(len(cameras), size) if view.orthographic else
+                   norm(cameras.places - view.eye[:, None])[cameras.corners].max(axis=1))
+    near = _near(candidates, room)
+    column, row_of = distinct(near.column)
+    if not len(column):
+        return None
+    shown, found = np.ones(len(cameras), dtype=bool), []
+    for camera, row in _lying_over(near, column, row_of):
+        breathe()
+        hidden = HiddenParts.of(cameras, frames, camera, column[row], DEEPER * size)
+        hidden = hidden.select(hidden.nearest(view.orthographic) < slid * (size if view.orthographic else 1.0))
+        shown[hidden.camera[hidden.entire]] = False
+        found.append(hidden)
+    if not found:
+        return None
+    hidden = HiddenParts.joined(found)
+    return hidden.select(shown[hidden.camera]), shown
 
 
-def _meets(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Whether the triangles really cut through the cameras' triangles."""
-    corners = np.take(cameras.places, cameras.corners[camera].T, axis=1)
-    _, _, height = frames.coordinates(column, corners)
-    size = np.abs(height).max(axis=0)
-    above = height > 1e-9 * size
-    below = height < -1e-9 * size
-    crossing = above.any(axis=0) & below.any(axis=0)
-    # the corner that is alone on its side of the plane; the line runs through the two edges from there
-    alone = np.where(above.sum(axis=0) == 1, np.argmax(above, axis=0), np.argmax(below, axis=0))
-    row, ends = np.arange(len(camera)), []
-    for step in (1, 2):
-        other = (alone + step) % 3
-        gap = height[alone, row] - height[other, row]
-        share = height[alone, row] / np.where(gap != 0.0, gap, 1.0)
-        ends.append(corners[:, alone, row] + share * (corners[:, other, row] - corners[:, alone, row]))
-    start, stop = (frames.weights(column, end) for end in ends)
-    slope = stop - start
-    with np.errstate(divide="ignore", invalid="ignore"):
-        at = -start / slope
-    low = np.where(slope > 0.0, at, np.where((slope == 0.0) & (start < 0.0), np.inf, -np.inf)).max(axis=0)
-    high = np.where(slope < 0.0, at, np.inf).min(axis=0)
-    return crossing & (np.minimum(high, 1.0) - np.maximum(low, 0.0) > SHORTEST_CONTACT)
+def _lying_over(near: Candidates, column: np.ndarray,
+                row_of: np.ndarray) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
+    """Pairs of a camera and one of the triangles `column` (k,) that may lie over it in the picture, whether it is seen
+    in the camera or not; those that reach behind the eye where they are `near`, in the `row_of` (p,) these."""
+    cameras, frames, view = near.cameras, near.frames, near.cameras.view
+    mesh = TriangleMesh(frames.positions[frames.vertices[:, column]].reshape(-1, 3),
+                        np.arange(3 * len(column)).reshape(3, -1).T)
+    scale = CELLS / max(view.resolution)
+    everywhere = np.ones(tuple(int(side) for side in np.ceil(np.array(view.resolution[::-1]) * scale)), dtype=bool)
+    yield from pairs_in_picture(cameras, mesh, np.full(len(column), -1), everywhere, scale, PAIRS_AT_ONCE) or ()
+    behind, others = ((view.depths(places.T) <= 0.0)[corners].any(axis=1) for places, corners in (
+        (cameras.places, cameras.corners), (mesh.positions.T, mesh.triangles)))
+    pairs = np.unique((near.camera * len(column) + row_of)[behind[near.camera] | others[row_of]])
+    if len(pairs):
+        yield pairs // len(column), pairs % len(column)
 
 
-def _pieces(sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Cameras without their hidden parts, as triangles: which of the m cameras each lies in, and its corners' weights
-    (3, 3, n), entry [i, k]: weight i of corner k."""
-    rest, beside = ConvexPolygons.whole(sides.shape[2]), []
-    for values in sides:
-        beside.append(rest.cut(-values, Line.HIDDEN).triangles(SMALLEST))
-        rest = rest.cut(values, Line.HIDDEN)
-    parents, triangles = zip(*beside)
-    return np.concatenate(parents), np.concatenate(triangles, axis=2)
+def _near(candidates: Candidates, room: np.ndarray) -> Candidates:
+    """Those of triangles that come as near as `room` (n,) to the camera that they are seen in."""
+    cameras, frames = candidates.cameras, candidates.frames
+    some = room[candidates.camera] * norm(frames.normal)[candidates.column]
+    near = np.flatnonzero((smallest(candidates.ahead) < some) & (largest(candidates.ahead) > -some))
+    found = [near[:0]]
+    for part in shares(np.ones(len(near), dtype=np.int64), PAIRS_AT_ONCE):
+        breathe()
+        camera, column = candidates.camera[near[part]], candidates.column[near[part]]
+        corners = np.take(cameras.places, cameras.corners[camera].T, axis=1)
+        found.append(near[part][meeting(corners, rows(frames.positions[frames.vertices[:, column]]), room[camera])])
+    return candidates.select(np.concatenate(found))

@@ -19,7 +19,7 @@ CASES = {
     "lines across a camera": (BALLS, ROOM, {}, (division, "PASSES", 0), "overlaid"),
     "pieces of cameras": (BALLS, ROOM, {}, (self_occlusion, "MOST_PIECES", 0), "overlaid"),
     "triangles over a camera": (BALLS, ROOM, {}, (self_occlusion, "MOST_HIDING", 1), "overlaid"),
-    "what cuts through a camera": (FLOOR, POLES, {}, (scene_contacts, "PASSES", 1), "pierced"),
+    "what cuts through a camera": (FLOOR, POLES, {}, (scene_contacts, "MOST_HIDING", 1), "pierced"),
     "outlines in a camera": (FLOOR, ROOM, {"mirrors": BALLS}, (division, "PASSES", 0), "many_outlines"),
 }
 

@@ -98,6 +98,36 @@ def test_nothing_comes_out_through_what_cuts_the_mirror(name):
     assert numbers["uncovered"] < 0.1
 
 
+def ring(radius: float, tube: float, around: int, across: int) -> TriangleMesh:
+    """A ring round the z axis, half of it above the plane z = 0, which it meets along edges of its own."""
+    u, v = np.meshgrid(2.0 * np.pi * np.arange(around) / around, 2.0 * np.pi * np.arange(across) / across,
+                       indexing="ij")
+    out = radius + tube * np.cos(v)
+    points = np.stack((out * np.cos(u), out * np.sin(u), np.round(tube * np.sin(v), 12)), axis=-1).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
+    a, b, c, d = ((i + m) % around * across + (j + n) % across for m, n in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    return TriangleMesh(points, np.concatenate([np.stack(side, axis=-1).reshape(-1, 3) for side in
+                                                ((a, b, c), (a, c, d))]))
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+def test_a_frame_that_ends_in_the_mirror_is_not_covered(orthographic):
+    """Faces behind the frame, where it is as near before the mirror as they slide, would come out before it. Those
+    beyond the middle are hidden by parts of the frame that no ray from there meets."""
+    angle = 2.0 * np.pi * np.arange(48) / 48.0
+    disc = np.vstack((np.stack((0.72 * np.cos(angle), 0.72 * np.sin(angle), np.zeros(48)), axis=1), np.zeros(3)))
+    mirror = TriangleMesh(disc, np.stack((np.arange(48), (np.arange(48) + 1) % 48, np.full(48, 48)), axis=1))
+    frame, wall = ring(0.745, 0.03, 48, 12), shapes.combine(shapes.box((0.0, 2.5, 1.5), (6.0, 0.1, 3.0)))
+    scene = TriangleMesh(np.concatenate((frame.positions, wall.positions)),
+                         np.concatenate((frame.triangles, wall.triangles + len(frame.positions))))
+    options = {"orthographic_scale": 2.0} if orthographic else {"field_of_view": 0.5}
+    view = View.looking_at((-1.2, -1.6, 2.6), (0.0, 0.0, 0.0), (384, 384), **options)
+    numbers = judge(view, mirror, scene, reflect(view, mirror, scene, Settings()), single_precision=True)
+    assert numbers["mirror_pixels"] > 20_000
+    assert numbers["spill"] == 0.0
+    assert numbers["uncovered"] < 0.02
+
+
 def test_a_scene_that_only_stands_before_the_mirror_cuts_nothing():
     view, mirror, _ = CASES["boxes standing on a mirror"]
     scene = shapes.combine(shapes.box((0, 1, 1.5), (1, 1, 1)))

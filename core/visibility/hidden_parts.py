@@ -1,0 +1,175 @@
+"""What triangles hide of cameras, and the cameras without it.
+
+As seen from the eye the part that a triangle hides is convex: inside the triangle's three sides, each a plane through
+the eye, and behind its plane. All four are linear in the camera's weights. The borders of such parts that no two
+triangles side by side share are outlines of what hides, or lines in which it meets the mirror; along these a camera is
+cut, and of the pieces those are kept whose middle the eye sees.
+"""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..cameras import Cameras, with_pieces
+from ..geometry import SceneFrames, cross, distinct, dot, groups, in_order, norm, ranges, rows, shares
+from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
+from ..support import breathe
+
+PAIRS_AT_ONCE = 1 << 17
+DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden places lie; doubled faces hide nothing
+
+
+@dataclass(frozen=True)
+class HiddenParts:
+    """Parts (q) of cameras that triangles hide.
+
+    Attributes
+    ----------
+    parts : ConvexPolygons
+    sides : (4, 3, q) float64
+        Functions at the cameras' corners that are positive together on the part: of the triangle's sides, and of its
+        plane.
+    eye : (q,) float64
+        How far the eye is from the plane, in the units of the last function; in orthographic views, how fast one
+        comes nearer to the plane on the way to the eye.
+    camera, column : (q,) int64
+        The triangle's column in the frames.
+    """
+
+    parts: ConvexPolygons
+    sides: np.ndarray
+    eye: np.ndarray
+    camera: np.ndarray
+    column: np.ndarray
+
+    @classmethod
+    def of(cls, cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray,
+           deeper: float = 0.0) -> HiddenParts:
+        """What the triangles of pairs of a camera and a column hide, `deeper` behind their planes than so many scene
+        units, without the pairs in which that is nothing."""
+        sides, eye, solid = _sides(cameras, frames, camera, column)
+        sides[3] -= deeper * norm(frames.normal)[column]
+        chosen = np.flatnonzero(solid & (sides.max(axis=1) > 0.0).all(axis=0))
+        sides, parts = sides[:, :, chosen], ConvexPolygons.whole(len(chosen))
+        for label, values in zip(range(Line.SCENE_EDGE, Line.CONTACT + 1), sides):
+            parts = parts.cut(values, label)
+        return cls(parts, sides, eye[chosen], camera[chosen], column[chosen])._select(parts.areas > SMALLEST)
+
+    def _select(self, chosen: np.ndarray) -> HiddenParts:
+        return HiddenParts(self.parts.select(chosen), self.sides[:, :, chosen], self.eye[chosen], self.camera[chosen],
+                           self.column[chosen])
+
+    def select(self, chosen: np.ndarray) -> HiddenParts:
+        """The parts `chosen` (q,), as a mask."""
+        return self if chosen.all() else self._select(chosen)
+
+    @staticmethod
+    def joined(several: Sequence[HiddenParts]) -> HiddenParts:
+        """All of them, one behind another."""
+        arrays = (np.concatenate([getattr(one, name) for one in several], axis=-1)
+                  for name in ("sides", "eye", "camera", "column"))
+        return HiddenParts(ConvexPolygons.joined([one.parts for one in several]), *arrays)
+
+    @property
+    def entire(self) -> np.ndarray:
+        """(q,): whether the part is all of its camera."""
+        return self.parts.areas > 1.0 - SMALLEST
+
+    def nearest(self, orthographic: bool) -> np.ndarray:
+        """(q,): how close behind its plane each part begins, as a share of the way to the eye; in orthographic views in
+        scene units."""
+        depth = (self.parts.weights * self.sides[3][:, self.parts.polygon]).sum(axis=0)
+        least = np.maximum(np.minimum.reduceat(depth, self.parts.start[:-1]), 0.0) if len(depth) else depth
+        return least / (self.eye if orthographic else least + self.eye)
+
+    def outlines(self, view, frames: SceneFrames) -> Lines:
+        """The borders of the parts that no two triangles side by side share, in each camera."""
+        corner = np.flatnonzero(self.parts.after >= Line.SCENE_EDGE)
+        pair, label = self.parts.polygon[corner], self.parts.after[corner].astype(np.int64) - Line.SCENE_EDGE
+        on_side, own = label < 3, np.arange(len(pair))
+        place, point = _places(frames, self.column[pair])
+        a, b, third = (place[(label + step) % 3, own] for step in (1, 2, 0))
+        turned = a > b
+        a, b = np.where(turned, b, a), np.where(turned, a, b)
+        pa, pb, pc = (point[:, some] for some in (a, b, third))
+        if view.orthographic:
+            across = dot(cross(pb - pa, view.forward[:, None]), pc - pa) > 0.0
+        else:
+            eye = view.eye[:, None]
+            across = dot(cross(pa - eye, pb - eye), pc - eye) > 0.0
+        first, edge = groups(self.camera[pair], a, b)
+        both = np.ones(len(first), dtype=bool)
+        for side in (across, ~across):
+            both &= np.bincount(edge[on_side & side], minlength=len(first)) > 0
+        outline = ~(on_side & both[edge])
+        corner, pair, label = corner[outline], pair[outline], label[outline]
+        return Lines(self.camera[pair], self.sides[label, :, pair].T, self.parts.weights[:, corner],
+                     self.parts.weights[:, self.parts.following[corner]])
+
+    def cut_off(self, cameras: Cameras, shown: np.ndarray, lines: Lines,
+                most: int) -> tuple[Cameras, np.ndarray, np.ndarray, int]:
+        """The cameras that are `shown` (n,) without these parts, cut along `lines` into not many more than `most`
+        pieces; which of them were cut; what each piece behind the others is a piece of; and how many are not cut along
+        all lines."""
+        cut, pieces_of = np.unique(self.camera), np.zeros(0, dtype=np.int64)
+        if not len(cut):
+            return cameras.select(shown), cut, pieces_of, 0
+        pieces, left = divide(ConvexPolygons.whole(len(cut)), lines, np.arange(len(lines.camera)),
+                              np.searchsorted(cut, lines.camera), most)
+        parent, triangles = self._seen(cut, pieces)
+        whole = shown.copy()
+        whole[cut] = False
+        return (*with_pieces(cameras, whole, parent, triangles)[:1], cut, parent, len(left))
+
+    def _seen(self, cut: np.ndarray, pieces: ConvexPolygons) -> tuple[np.ndarray, np.ndarray]:
+        """The pieces of the cameras `cut` that no triangle hides, as triangles: the camera each lies in and its
+        corners' weights (3, 3, n)."""
+        middle, order = pieces.middles, in_order(self.camera)
+        start, stop = (np.searchsorted(self.camera[order], cut[pieces.owner], side=side) for side in ("left", "right"))
+        seen = np.ones(len(pieces), dtype=bool)
+        for part in shares(stop - start, PAIRS_AT_ONCE):
+            breathe()
+            entry, piece = ranges(start[part], (stop - start)[part])
+            piece += part.start
+            behind = ((self.sides[:, :, order[entry]] * middle[:, piece]).sum(axis=1) > 0.0).all(axis=0)
+            seen[piece[behind]] = False
+        seen &= pieces.areas > SMALLEST
+        parent, weights = pieces.select(seen).triangles()
+        return cut[parent], weights
+
+
+def _places(frames: SceneFrames, column: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers (3, n) for the corners of the triangles `column` (n,), the same for all that lie in one place; and the
+    places (3, k) of these."""
+    vertex, number = distinct(frames.vertices[:, column].ravel())
+    place, same = np.unique(frames.positions[vertex], axis=0, return_inverse=True)
+    return same.reshape(-1)[number].reshape(3, -1), rows(place)
+
+
+def _sides(cameras: Cameras, frames: SceneFrames, camera: np.ndarray,
+           column: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The functions and the eye's distance as `HiddenParts` has them, (4, 3, p) and (p,); and which triangles are not
+    seen edge on, when they hide nothing."""
+    view = cameras.view
+    places = np.take(cameras.places, cameras.corners[camera].T, axis=1)
+    vertices = rows(frames.positions[frames.vertices[:, column]])
+    if view.orthographic:
+        ahead = np.broadcast_to(view.forward[:, None], vertices[:, 0].shape)
+        _, _, eye_side = frames.directions(column, -ahead)
+    else:
+        eye = view.eye[:, None]
+        _, _, eye_side = frames.coordinates(column, np.broadcast_to(eye, vertices[:, 0].shape))
+    functions, solid = [], np.ones(len(camera), dtype=bool)
+    for j in range(3):
+        third, p, q = (vertices[:, (j + k) % 3] for k in range(3))
+        base = p if view.orthographic else np.broadcast_to(eye, p.shape)
+        normal = cross(q - p, ahead) if view.orthographic else cross(p - base, q - base)
+        inward = dot(normal, third - base)
+        size = np.sqrt(dot(normal, normal) * dot(third - base, third - base))
+        solid &= np.abs(inward) > 1e-9 * size
+        functions.append(np.sign(inward) * dot(normal[:, None], places - base[:, None]))
+    _, _, height = frames.coordinates(column, places)
+    functions.append(-np.sign(eye_side) * height)
+    return np.stack(functions), np.abs(eye_side), solid & (eye_side != 0.0)
