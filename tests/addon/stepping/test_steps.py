@@ -32,6 +32,9 @@ def test_stopping_leaves_no_trace_at_any_step(scene, room):
     assert parts.state() == before
     # a slow machine may tell a stage twice: each stage once is enough
     for stage in dict.fromkeys(told):
+        # what stands still is kept: what has changed is read again
+        scene[1].data.update()
+        bpy.context.view_layer.update()
         running = started(room)
         while next(running) != stage:
             pass
