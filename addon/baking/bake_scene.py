@@ -16,6 +16,7 @@ from ..rendering import copied_scene, denoise, look_through
 from ..writing import UV_MAP
 from .opacity import as_mirrors_see, show_opacity, turn_over, without_openings
 from .stand_ins import StandIn, new_mesh, new_object, swap_names
+from .swift_world import swiftly_sampled
 
 UNTOUCHED = -1.0  # of a texel that nothing was baked into; light is never below zero
 
@@ -75,6 +76,13 @@ def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn],
     are, and with `backs` what is baked is turned over."""
     with copied_scene(context, UV_MAP) as (scene, back):
         _prepare(scene)
+        if opacity:
+            # they glow by themselves
+            scene.world = None
+        elif scene.world is not None:
+            scene.world = swiftly_sampled(scene.world)
+            if scene.world is not context.scene.world:
+                back.callback(bpy.data.worlds.remove, scene.world)
         look_through(scene, bpy.data.objects.new(UV_MAP, bpy.data.cameras.new(UV_MAP)), back)
         for source in sources:
             back.callback(setattr, source, "hide_render", source.hide_render)
