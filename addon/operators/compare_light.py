@@ -116,13 +116,14 @@ def light_summary(report: dict, folder: str) -> str:
     """The report in one sentence."""
     last = {run["method"]: run for run in report["runs"]}
     mesh, own = (last[method]["picture"]["receivers"]["psnr"] for method in (MESH, OWN))
-    told = "" if mesh is None or own is None else (
-        f"{mesh:.1f} dB from Cycles' own converged caustics, where its own at {last[OWN]['samples']} samples are "
-        f"{own:.1f} dB; ")
     flux = [one["flux_percent"] for one in report["light"].values() if one["flux_percent"] is not None]
-    if flux:
-        told += f"flux {max(flux, key=abs):+.3f} % from rays; "
-    return f"{told}pictures in {folder}"
+    if mesh is None or own is None:
+        return f"The camera sees nothing on which light falls; pictures in {folder}"
+    if not flux:
+        return (f"{mesh:.1f} dB from Cycles' own converged caustics, where its own at {last[OWN]['samples']} samples "
+                f"are {own:.1f} dB; pictures in {folder}")
+    return (f"{mesh:.1f} dB from Cycles' own converged caustics, where its own at {last[OWN]['samples']} samples are "
+            f"{own:.1f} dB; flux {max(flux, key=abs):+.3f} % from rays; pictures in {folder}")
 
 
 def _named(steps, stage: str) -> Steps[dict]:

@@ -8,8 +8,9 @@ from interface_words import ROOT
 
 # told in a terminal or on pages, drawn as words, or for whoever calls `core` with arrays
 ELSEWHERE = ("addon/command_line", "addon/benchmark", "addon/report", "addon/comparison/compare_im",
-             "addon/comparison/compare_page", "addon/interface", "addon/run_with_bpy", "core/rivals", "core/solver")
-WHOLE = {"summary", "listed"}   # functions that put a sentence together: each of their parts counts
+             "addon/comparison/compare_page", "addon/comparison/light_page", "addon/interface",
+             "addon/run_with_bpy", "core/rivals", "core/solver")
+WHOLE = {"summary", "light_summary", "listed"}   # functions that put a sentence together: each of their parts counts
 SHORTEST = 12
 
 

@@ -31,6 +31,14 @@ OBJECTS = {
         "Der Spiegel hat keine Flächen; gib ihm welche oder wähle einen anderen.",
     "The mirrors have no faces; give all mirrors, this one among them, or leave them out.":
         "Die Spiegel haben keine Flächen; nenne alle Spiegel, diesen mit, oder lasse sie weg.",
+    "There is no light of mirrors to compare: generate caustics first.":
+        "Es gibt kein Licht von Spiegeln zu vergleichen: erzeuge zuerst Kaustik.",
+    "The light '{}' is hidden: show it in the viewport and in renders.":
+        "Das Licht '{}' ist ausgeblendet: zeige es in der Ansicht und im Render.",
+    "The mirror or the lamp of '{}' has gone: clear it.":
+        "Der Spiegel oder die Lampe von '{}' ist nicht mehr da: entferne es.",
+    "The faces of '{}' do not know their light: generate it again.":
+        "Die Flächen von '{}' kennen ihr Licht nicht: erzeuge es neu.",
     "The mirror has no face with an area; give it faces or choose another mirror.":
         "Der Spiegel hat keine Fläche mit einem Inhalt; gib ihm welche oder wähle einen anderen.",
 }

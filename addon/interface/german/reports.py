@@ -33,6 +33,14 @@ DONE = {
     "Displacement {} px (median), {} px (99 %); holes, spill and wrong layer {} % of the mirror; pictures in {}":
         "Verschoben um {} px (Median), {} px (99 %); Löcher, Überstand und falsche Schicht {} % des Spiegels; "
         "Bilder in {}",
+    "The camera sees nothing on which light falls; pictures in {}":
+        "Die Kamera sieht nichts, auf das Licht fällt; Bilder in {}",
+    "{} dB from Cycles' own converged caustics, where its own at {} samples are {} dB; pictures in {}":
+        "{} dB von Cycles' eigener Kaustik entfernt, wo diese selbst mit {} Abtastungen {} dB hat; Bilder in {}",
+    "{} dB from Cycles' own converged caustics, where its own at {} samples are {} dB; flux {} % from rays; pictures "
+    "in {}":
+        "{} dB von Cycles' eigener Kaustik entfernt, wo diese selbst mit {} Abtastungen {} dB hat; Lichtstrom {} % "
+        "neben dem von Strahlen; Bilder in {}",
 }
 KEPT = {
     "'{}' stays moved, as you left it: clear it and generate again to have it on its mirror.":
