@@ -2,6 +2,7 @@
 from .join_meshes import DiffuseScene, MirrorSurface, join_mirror, join_scene, read_mirror, read_scene
 from .known_results import forget_known, known_results, register, unregister
 from .material_nodes import all_nodes
+from .materials_of import materials_of
 from .mirror_materials import is_mirror
 from .opaque_materials import is_opaque
 from .read_meshes import SURFACES, LocalMesh, Placed, read_meshes
@@ -23,6 +24,7 @@ from .roles import (
 
 __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
            "Placed", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose", "every_result_of",
-           "forget_known", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results", "participants",
-           "read_meshes", "read_mirror", "read_scene", "read_view", "register", "render_size", "rendered_collections",
-           "rendered_otherwise", "results_of", "seen_in", "unregister", "visible", "with_copies"]
+           "forget_known", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results", "materials_of",
+           "participants", "read_meshes", "read_mirror", "read_scene", "read_view", "register", "render_size",
+           "rendered_collections", "rendered_otherwise", "results_of", "seen_in", "unregister", "visible",
+           "with_copies"]
