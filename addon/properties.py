@@ -104,8 +104,6 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
                                        type=bpy.types.Material)
     camera_hidden: BoolProperty(name="Hidden from the Camera",
                                 description="This mirror is a window to its virtual image, until that is cleared")
-    lines_hidden: BoolProperty(name="Hidden from Line Art",
-                               description="Line Art leaves this mirror out as long as it is a window")
 
 
 class ReflectionScene(SettingsOfScene, bpy.types.PropertyGroup):

@@ -6,8 +6,7 @@ from .steps import Steps, Undivided, finished, part
 from .take_back import keep_data, keep_mirror, keep_object, still_there
 from .told import know_sentences, tell, translated
 from .unforeseen import in_one_sentence, sentence
-from .window_state import bring_back_window, window_state
 
-__all__ = ["AllOrNothing", "BrowsingOperator", "STATUS", "SteppedOperator", "Steps", "Undivided", "bring_back_window",
-           "finished", "in_one_sentence", "interrupt_held", "keep_data", "keep_mirror", "keep_object", "know_sentences",
-           "part", "sentence", "still_there", "tell", "translated", "window_state"]
+__all__ = ["AllOrNothing", "BrowsingOperator", "STATUS", "SteppedOperator", "Steps", "Undivided", "finished",
+           "in_one_sentence", "interrupt_held", "keep_data", "keep_mirror", "keep_object", "know_sentences", "part",
+           "sentence", "still_there", "tell", "translated"]

@@ -4,7 +4,6 @@ from __future__ import annotations
 import bpy
 
 from .all_or_nothing import AllOrNothing
-from .window_state import bring_back_window, window_state
 
 PLACE = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
 RECORD = ("role", "mirror", "lamp", "eyes", "camera", "window", "attributes", "estimated_error", "seconds", "counts",
@@ -90,5 +89,7 @@ def _keep_others_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
 
 def keep_mirror(mirror: bpy.types.Object, whole: AllOrNothing) -> None:
     """Let `whole` bring back whether the camera sees a mirror."""
+    def back(visible: bool, hidden: bool) -> None:
+        mirror.visible_camera, mirror.reflection_mesh.camera_hidden = visible, hidden
     if mirror.library is None:
-        whole.undo(bring_back_window, mirror, window_state(mirror))
+        whole.undo(back, mirror.visible_camera, mirror.reflection_mesh.camera_hidden)

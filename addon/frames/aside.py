@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import bpy
 
-from ..faults import bring_back_window, still_there, window_state
+from ..faults import still_there
 from ..writing import as_shown
 
 RECORD = ("mirror", "light_stale", "camera", "window")
@@ -22,7 +22,7 @@ def set_aside(context: bpy.types.Context, mirrors: list, role: str = "REFLECTION
     shown = as_shown(scene)
     hidden = [(obj, obj.hide_render) for obj in results]
     known = [(obj, {name: getattr(obj.reflection_mesh, name) for name in RECORD}) for obj in results]
-    windows = [(obj, window_state(obj)) for obj in mirrors if obj.library is None]
+    windows = [(obj, obj.visible_camera, obj.reflection_mesh.camera_hidden) for obj in mirrors if obj.library is None]
     for obj in results:
         # first hidden: nothing without a mirror is to be rendered
         obj.hide_render = True
@@ -42,6 +42,6 @@ def set_aside(context: bpy.types.Context, mirrors: list, role: str = "REFLECTION
             if still_there([obj]):
                 for name, value in record.items():
                     setattr(obj.reflection_mesh, name, value)
-        for obj, state in windows:
+        for obj, visible, hidden in windows:
             if still_there([obj]):
-                bring_back_window(obj, state)
+                obj.visible_camera, obj.reflection_mesh.camera_hidden = visible, hidden

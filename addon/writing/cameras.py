@@ -10,7 +10,7 @@ from collections.abc import Callable
 import bpy
 from bpy.app.handlers import persistent
 
-from ..faults import bring_back_window, still_there, window_state
+from ..faults import still_there
 from ..reading.results import camera_of
 from ..registration import Handlers
 from .windows import close_window, open_window
@@ -62,7 +62,7 @@ def as_shown(scene: bpy.types.Scene) -> Callable[[], None]:
     mirrors = {obj.reflection_mesh.mirror for obj in results} - {None}
     shown = [(obj, tuple(getattr(obj, switch) for switch in SWITCHES), tuple(obj.reflection_mesh.aside))
              for obj in results]
-    windows = [(obj, window_state(obj)) for obj in mirrors if obj.library is None]
+    windows = [(obj, obj.visible_camera, obj.reflection_mesh.camera_hidden) for obj in mirrors if obj.library is None]
     seen_by = scene.reflection_mesh.seen_by
 
     def back() -> None:
@@ -70,9 +70,9 @@ def as_shown(scene: bpy.types.Scene) -> Callable[[], None]:
             if still_there([obj]):
                 obj.hide_render, obj.hide_viewport = hidden
                 obj.reflection_mesh.aside = aside
-        for obj, state in windows:
+        for obj, visible, hidden in windows:
             if still_there([obj]):
-                bring_back_window(obj, state)
+                obj.visible_camera, obj.reflection_mesh.camera_hidden = visible, hidden
         if still_there([scene]):
             scene.reflection_mesh.seen_by = next(iter(still_there([] if seen_by is None else [seen_by])), None)
     return back

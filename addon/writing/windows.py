@@ -1,4 +1,4 @@
-"""Mirrors that are windows to the virtual image behind them: hidden from the camera and Line Art while there is one.
+"""Mirrors that are windows to the virtual image behind them: hidden from the camera while there is one to be seen.
 
 Blender has no way to hide an object as long as another exists: handlers look after whatever may have deleted a result.
 """
@@ -24,9 +24,6 @@ def open_window(mirror: bpy.types.Object) -> None:
     if mirror.visible_camera and mirror.library is None:
         mirror.visible_camera = False
         mirror.reflection_mesh.camera_hidden = True
-        if mirror.lineart.usage == "INHERIT":
-            # Line Art asks no camera what it sees, and would hide the image's lines behind the mirror
-            mirror.lineart.usage, mirror.reflection_mesh.lines_hidden = "EXCLUDE", True
 
 
 def close_window(mirror: bpy.types.Object) -> None:
@@ -34,9 +31,6 @@ def close_window(mirror: bpy.types.Object) -> None:
     if mirror.reflection_mesh.camera_hidden and mirror.library is None:
         mirror.visible_camera = True
         mirror.reflection_mesh.camera_hidden = False
-        if mirror.reflection_mesh.lines_hidden and mirror.lineart.usage == "EXCLUDE":
-            mirror.lineart.usage = "INHERIT"
-        mirror.reflection_mesh.lines_hidden = False
 
 
 def set_window(result: bpy.types.Object, placement: str) -> None:

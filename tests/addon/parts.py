@@ -104,7 +104,7 @@ def state() -> dict:
     kinds = ("objects", "meshes", "materials", "collections", "images", "scenes", "cameras", "node_groups", "worlds")
     objects = {
         obj.name: (obj.select_get(), obj.hide_get(), obj.hide_viewport, obj.hide_render, obj.visible_camera,
-                   obj.visible_glossy, obj.visible_shadow, obj.lineart.usage, obj.mode, obj.reflection_mesh.role,
+                   obj.visible_glossy, obj.visible_shadow, obj.mode, obj.reflection_mesh.role,
                    obj.data.name if obj.data else None, _finite_text(obj.matrix_world),
                    len(obj.data.vertices) if obj.type == "MESH" else 0)
         for obj in layer.objects}

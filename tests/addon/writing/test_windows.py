@@ -151,23 +151,6 @@ def test_a_window_stays_one_while_a_result_is_left(scene):
     assert mirror.visible_camera
 
 
-def test_line_art_leaves_a_window_out_until_it_is_none(scene):
-    mirror, _ = scene
-    for chosen in ("INHERIT", "INCLUDE"):
-        mirror.lineart.usage = chosen
-        parts.generate(placement="VIRTUAL")
-        assert mirror.lineart.usage == ("EXCLUDE" if chosen == "INHERIT" else chosen)
-        parts.generate(placement="LAYERED")
-        assert mirror.lineart.usage == chosen
-    # what the user chooses meanwhile stays
-    mirror.lineart.usage = "INHERIT"
-    result = parts.generate(placement="VIRTUAL")
-    mirror.lineart.usage = "OCCLUSION_ONLY"
-    delete_by_x(result)
-    bpy.context.view_layer.update()
-    assert mirror.visible_camera and mirror.lineart.usage == "OCCLUSION_ONLY"
-
-
 def test_a_copy_of_a_window_is_a_mirror(scene):
     mirror, _ = scene
     parts.generate(placement="VIRTUAL")
