@@ -70,10 +70,10 @@ report-plots: environment
 	$(RUN) tools/read_report.py $(REPORT)
 
 numerics: environment
-	$(RUN) -m tools.numerics
+	$(RUN) -m tools.solver.numerics
 
 rate: environment
-	$(RUN) -m tools.solver_rate
+	$(RUN) -m tools.solver.solver_rate
 
 work: environment
 	$(RUN) -m tools.work

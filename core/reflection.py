@@ -20,13 +20,14 @@ from .cameras import (
 )
 from .culling import PointTree, SceneAndMirrors, SceneTree
 from .filling import Limits, missed_probes
-from .geometry import LampView, Order, TriangleMesh, View, area_normals, cross, dot, norm, ordered, rows
+from .geometry import LampView, Order, TriangleMesh, View, ordered
+from .given import check_given
 from .patches import Patch, speck
 from .points import reflected_points
 from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
 from .standing import Standing
-from .support import LARGEST, NothingInView, Progress, ReflectionError, Settings, in_steps
+from .support import NothingInView, Progress, ReflectionError, Settings, in_steps
 from .visibility import cut_at_borders, cut_before_eye, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces
 
@@ -102,7 +103,7 @@ def _reflected(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree
     progress = Progress()
     tree = scene.tree if isinstance(scene, Standing) else scene
     mirrors = scene.mirrors if isinstance(scene, Standing) and mirrors is None else mirrors
-    _check(view, mirror, tree, settings, mirrors)
+    check_given(view, mirror, tree, settings, mirrors)
     corner = far_corner(mirror)
     if corner is None:
         return _near_origin(view, mirror, scene, settings, mirrors, progress)
@@ -125,20 +126,8 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     mirror, given, met = _with_mirrors(view, tree, mirror, mirrors, known)
     progress.done("tree")
 
-    progress.next(0.1, "cameras")
-    body, faces = with_shades(view, mirror, visible_triangles(view, mirror))
-    mirror_map = MirrorMap(view, body, settings.method == "PARALLEL", met.surface if body is met.mirrors else None)
-    cameras = three_ray_cameras(mirror_map, body, faces)
-    uncut = cameras.places.shape[1]
-    cameras = _seen(cameras.select(in_picture(cameras)))
-    cameras = cut_at_borders(cut_before_eye(cameras))
-    cameras, grid = without_hidden(cameras)
-    cameras, occluded, overlaid = without_occluded(body, cameras, grid)
-    cameras = cut_at_horizon(_seen(cameras.select(cameras.face < len(mirror.triangles))))
-    progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
-                  overlaid=overlaid)
-
-    limits = Limits.of(settings, grid.mirror_pixels, len(met.triangles))
+    cameras, uncut, (pixels, overlaid) = _seen_cameras(view, mirror, met, settings, progress)
+    limits = Limits.of(settings, pixels, len(met.triangles))
     if isinstance(tree, PointTree):
         patch = None
         if not (overlaid or speck(view, tree.spheres[0][:, 0])):
@@ -158,6 +147,8 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
         bounces[0] = replace(bounces[0], nodes=nodes)
         # whole faces were told apart by where they would lie if this were the longest path
         reach, error = task.reach(cameras), INSIDE_WHOLE * _over_length(*whole.straying)
+    mirror_map = cameras.mirror_map
+    assert isinstance(mirror_map, MirrorMap)  # of the first bounce
     del whole  # what is assembled needs the room
 
     progress.start, progress.share = 0.0, 1.0
@@ -170,6 +161,25 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     left = np.concatenate([bounce.left for bounce in bounces], axis=1)
     return replace(mesh, counts=progress.counts, seconds=progress.seconds,
                    estimated_error=max(_estimate(*left), error))
+
+
+def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings,
+                  progress: Progress) -> tuple[Cameras, int, tuple[int, int]]:
+    """Cameras on what the view sees of the mirror; how many corners there were before any was cut; about how many
+    pixels see the mirror, and of how many cameras it is not told all that lies over them."""
+    progress.next(0.1, "cameras")
+    body, faces = with_shades(view, mirror, visible_triangles(view, mirror))
+    mirror_map = MirrorMap(view, body, settings.method == "PARALLEL", met.surface if body is met.mirrors else None)
+    cameras = three_ray_cameras(mirror_map, body, faces)
+    uncut = cameras.places.shape[1]
+    cameras = _seen(cameras.select(in_picture(cameras)))
+    cameras = cut_at_borders(cut_before_eye(cameras))
+    cameras, grid = without_hidden(cameras)
+    cameras, occluded, overlaid = without_occluded(body, cameras, grid)
+    cameras = cut_at_horizon(_seen(cameras.select(cameras.face < len(mirror.triangles))))
+    progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
+                  overlaid=overlaid)
+    return cameras, uncut, (grid.mirror_pixels, overlaid)
 
 
 def _seen(cameras: Cameras) -> Cameras:
@@ -255,43 +265,3 @@ def _over_length(straying: np.ndarray, length: np.ndarray) -> float:
     order = np.argsort(straying)
     below = np.cumsum(length[order])
     return straying[order[min(np.searchsorted(below, 0.99 * below[-1]), len(order) - 1)]] if len(order) else 0.0
-
-
-def _check(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
-           mirrors: TriangleMesh | None) -> None:
-    for given, kinds, wrong in (
-            (view, View, "The view must be a View; make one of a camera's matrices or with looking_at."),
-            (mirror, TriangleMesh, "The mirror must be a TriangleMesh; make one of its positions and triangles."),
-            (scene, (TriangleMesh, SceneTree, PointTree), "The scene must be a TriangleMesh, a SceneTree or a "
-             "PointTree; make one of its positions and triangles."),
-            (settings, Settings, "The settings must be Settings; leave them out for the defaults."),
-            (mirrors, (TriangleMesh, type(None)), "The mirrors must be one TriangleMesh; join them or leave "
-             "them out.")):
-        if not isinstance(given, kinds):
-            raise ReflectionError(wrong)
-    if not len(mirror.triangles):
-        raise ReflectionError("The mirror has no faces; give it faces or choose another mirror.")
-    if mirrors is not None and not len(mirrors.triangles):
-        raise ReflectionError("The mirrors have no faces; give all mirrors, this one among them, or leave them out.")
-    if isinstance(scene, TriangleMesh) and not len(scene.triangles) and settings.method != "POINTS":
-        raise ReflectionError("The diffuse objects have no faces; select objects with faces to reflect.")
-    if np.abs(view.eye).max() > LARGEST:
-        raise ReflectionError("The view's eye is further than 1e40 from the origin; move it nearer or make the scene "
-                              "smaller.")
-    corners = rows(mirror.positions[mirror.triangles].swapaxes(0, 1))
-    normals = area_normals(corners)
-    length = norm(normals)
-    if not (length > 0.0).any():
-        raise ReflectionError("The mirror has no face with an area; give it faces or choose another mirror.")
-    if not view.orthographic and _touched(view.eye, corners, normals, length):
-        raise ReflectionError("The eye lies on the mirror; move the camera away from the mirror's surface.")
-
-
-def _touched(eye: np.ndarray, corners: np.ndarray, normals: np.ndarray, length: np.ndarray) -> bool:
-    """Whether a place lies on one of the triangles, of which their corners (3, 3, m) and normals (3, m) are given."""
-    offset = eye[:, None, None] - corners
-    height = np.abs(dot(normals[:, None], offset)).min(axis=0) / np.where(length > 0.0, length, np.inf)
-    near = np.flatnonzero((length > 0.0) & (height < 1e-6 * np.sqrt(length)))
-    a, b, c = offset[:, :, near].swapaxes(0, 1)
-    inside = [dot(cross(p, q), normals[:, near]) >= 0.0 for p, q in ((a, b), (b, c), (c, a))]
-    return bool(np.all(inside, axis=0).any())

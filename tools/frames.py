@@ -13,14 +13,12 @@ import importlib
 import os
 import statistics
 import sys
-import tempfile
 import time
-from pathlib import Path
 
 import extension_zip
 import sizes
+from installed import measured_installed
 from measure import print_table
-from quietly import quietly
 
 STEP = 0.02  # scene units that the eye moves from frame to frame
 
@@ -32,13 +30,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--mirror", type=int, default=32, help="rings and segments of the ball (32)")
     parser.add_argument("--method", default="GENERAL", help="the operator's (GENERAL)")
     options = parser.parse_args(arguments)
-    rows = []
-    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as scratch:
-        extension_zip.use_throw_away_preferences(Path(scratch) / "preferences")
-        quietly(lambda: extension_zip.install(extension_zip.build(Path(scratch))))
-        for count in options.vertices:
-            rows.append(quietly(lambda count=count: _measured(count, options)))
-        quietly(extension_zip.switch_off)
+    rows = measured_installed(options.vertices, lambda count: _measured(count, options))
     import bpy
     print(f"Blender {bpy.app.version_string}, {os.cpu_count()} threads, medians of {options.runs} frames; ratios of "
           "the medians, and the smallest and largest of single frames\n")

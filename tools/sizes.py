@@ -14,15 +14,13 @@ import importlib
 import os
 import statistics
 import sys
-import tempfile
 import time
 from collections.abc import Callable
-from pathlib import Path
 
 import extension_zip
 import numpy as np
+from installed import measured_installed
 from measure import print_table
-from quietly import quietly
 
 EYE, TARGET, LENS, SIZE = (0.2, -5.4, 2.6), (0.08, 0.0, 1.2), 58.0, 1024
 # middle, turns and size of the knots
@@ -36,14 +34,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--mirror", type=int, default=32, help="rings and segments of the ball (32)")
     parser.add_argument("--everything", action="store_true", help="time the operator without whole faces too")
     options = parser.parse_args(arguments)
-    rows = []
-    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as scratch:
-        extension_zip.use_throw_away_preferences(Path(scratch) / "preferences")
-        quietly(lambda: extension_zip.install(extension_zip.build(Path(scratch))))
-        for count in options.vertices:
-            rows.append(quietly(lambda count=count: _measured(count, options)))
-            print(f"{count} vertices: done", file=sys.stderr, flush=True)
-        quietly(extension_zip.switch_off)
+    rows = measured_installed(options.vertices, lambda count: _measured(count, options))
     import bpy
     print(f"Blender {bpy.app.version_string}, {os.cpu_count()} threads, medians of {options.runs} runs; ratios of the "
           "medians, and the smallest and largest of single runs\n")

@@ -14,8 +14,8 @@ import sys
 from functools import partial
 
 from core.rivals import METHODS, primary_hits
-from core.rivals.made_scenes import talk_setting
 from core.rivals.morphing import morphed
+from core.rivals.scenes import talk_setting
 from tests.oracles.judge import compare_picture
 from tests.oracles.truth import trace
 

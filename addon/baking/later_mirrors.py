@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..writing.shader_builder import ShaderBuilder
+from ..writing.nodes.shader_builder import ShaderBuilder
 from .mirror_share import WHITE, Share
 
 FLAT = 1e-4  # of a mirror's size: what strays less from a plane cannot see itself

@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..writing.shader_builder import ShaderBuilder
+from ..writing.nodes.shader_builder import ShaderBuilder
 
 NEARLY = 1e-4  # of a picture: what a map may stray from a linear one by
 BY_UV = {"TEX_IMAGE"}

@@ -7,9 +7,9 @@ import bpy
 
 from .. import compat
 from ..lamps import ShownLamp, lamp_light
-from ..reading.mirror_materials import surface_shader
+from ..reading.materials import surface_shader
 from ..writing import UV_MAP
-from ..writing.shader_builder import ShaderBuilder, cut, given, node_behind
+from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
 from .mirror_coordinates import MirrorCoordinates
 from .mirror_share import GLOSSY, NORMAL

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import bpy
 
 from .. import compat
-from ..reading import materials_of
-from ..reading.mirror_materials import is_mirror, surface_shader
-from ..writing.shader_builder import ShaderBuilder, node_behind
+from ..reading.materials import is_mirror, materials_of, surface_shader
+from ..writing.nodes.shader_builder import ShaderBuilder, node_behind
 
 NORMAL = "mirror_normal"
 """The attribute with the unit normal of the mirror at each point."""

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..reading.mirror_materials import surface_shader
+from ..reading.materials import surface_shader
 from .mirror_part import given, node_behind
 
 OPEN = {"BSDF_TRANSPARENT", "HOLDOUT"}

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from ...core import ReflectionError
 from ...core.rivals import METHODS, primary_hits
-from ...core.rivals.made_scenes import MadeScene, with_mirror_triangles, with_vertices
+from ...core.rivals.scenes import MadeScene, with_mirror_triangles, with_vertices
 from ..report import Growth
 from .rival_bvhtree import RIVAL as BVHTREE
 

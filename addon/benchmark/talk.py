@@ -4,8 +4,8 @@ from __future__ import annotations
 from functools import partial
 
 from ...core.rivals import METHODS, primary_hits
-from ...core.rivals.made_scenes import talk_setting
 from ...core.rivals.morphing import morphed
+from ...core.rivals.scenes import talk_setting
 from ..report import Cost
 
 KINDS = {"intersections": "Ti", "traversals": "Tt", "projections": "Tp"}

@@ -11,8 +11,9 @@ from ...core import ReflectionError
 from ..files import check_place, chosen_folder, save_blend
 from ..frames import FrameRecord
 from ..illumination import meant_lamps
-from ..operators.bake import FOLDER, WHAT, baking, showing
+from ..operators.bake import FOLDER, WHAT, baking
 from ..operators.bake_plan import blur_remarks, layer_remarks, plan_of, summary
+from ..operators.bake_playing import showing
 from ..operators.shortcomings import render_shortcomings
 from ..reading import candidates
 from ..settings import Wanted

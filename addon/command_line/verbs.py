@@ -5,15 +5,13 @@ import argparse
 import os
 import sys
 import time
-from collections.abc import Iterator
 from contextlib import nullcontext
 
 import bpy
 
 from ... import core
-from .. import benchmark
 from ..faults import STATUS, sentence
-from ..files import check_place, save_blend, staged
+from ..files import check_place, save_blend
 from ..illumination import chosen_lamps
 from ..operators.caustics import Asked, throwing
 from ..operators.clear import chosen_results
@@ -25,7 +23,9 @@ from ..operators.print_sheet import DPI, check_print, printing
 from ..reading import Participants, choose, with_copies
 from ..settings import Wanted
 from .bake_verb import add_bake
+from .benchmark_verb import add_benchmark
 from .compare_verb import add_compare
+from .opening import open_file
 from .options import add_light, add_settings, given
 from .place import add_place, placed
 from .progress import announced
@@ -44,7 +44,7 @@ def run(arguments: list[str], scene: str | None = None) -> int:
         return int(stop.code or 0)
     try:
         if scene is not None:
-            _open(scene)
+            open_file(scene)
         with placed(bpy.context, options) if options.verb != "benchmark" else nullcontext():
             options.work(bpy.context, options)
     except KeyboardInterrupt:
@@ -86,7 +86,7 @@ def _parser() -> argparse.ArgumentParser:
     for verb in (generate, light, caustics, compare, maps):
         add_place(verb)
     add_place(baked, frame=False)
-    _add_benchmark(verbs.add_parser("benchmark", help="every method's error and seconds, judged by Cycles"))
+    add_benchmark(verbs.add_parser("benchmark", help="every method's error and seconds, judged by Cycles"))
     return parser
 
 
@@ -120,22 +120,6 @@ def _add_participants(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--mirror", nargs="+", default=[], metavar="NAME",
                       help="mirror objects (else by selection and role, as in the window)")
     verb.add_argument("--diffuse", nargs="+", default=[], metavar="NAME", help="diffuse objects")
-
-
-def _add_benchmark(verb: argparse.ArgumentParser) -> None:
-    verb.add_argument("--output", metavar="FOLDER", help="where the report goes (else beside the file)")
-    verb.add_argument("--methods", nargs="+", default=[], metavar="METHOD", help="all where none is named")
-    verb.add_argument("--budget", type=float, default=10.0, metavar="SECONDS",
-                      help="for each value of a method's knob: what is expected to take longer is left out (10)")
-    verb.add_argument("--resolution", type=int, metavar="PIXELS", help="of the longer side (else the render's)")
-    verb.add_argument("--samples", type=int, default=4, metavar="N", help="samples per pixel of the two pictures (4)")
-    verb.add_argument("--growth", type=float, default=0.0, metavar="SECONDS",
-                      help="measure growth too: each method as long as a point takes no more than this")
-    verb.add_argument("--no-work", action="store_true", help="leave out the counts on the talk's setting")
-    verb.add_argument("--scenes", nargs="+", default=[], metavar="FILE",
-                      help="one report of these files, opened one after another, instead of the open one")
-    add_place(verb)
-    verb.set_defaults(work=_benchmark)
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
@@ -227,47 +211,6 @@ def _chosen(context: bpy.types.Context, options: argparse.Namespace) -> Particip
     if both:
         raise core.ReflectionError(f"'{min(both)}' is named both as a mirror and as a diffuse object: name it once.")
     return Participants([objects[name] for name in options.mirror], [objects[name] for name in options.diffuse], [])
-
-
-def _benchmark(context: bpy.types.Context, options: argparse.Namespace) -> None:
-    started = time.perf_counter(), time.process_time()
-    if not (options.output or bpy.data.filepath):
-        raise core.ReflectionError("The benchmark has no folder: open a .blend file or name one with --output.")
-    folder = os.path.abspath(options.output or bpy.path.abspath("//reflection benchmark"))
-    chosen = benchmark.Options(tuple(options.methods), options.budget, options.resolution, options.samples,
-                               growth=options.growth, work=not options.no_work, tell=_tell)
-    with staged(folder) as scratch:
-        scenes = []
-        for name, inner in _opened(options.scenes):
-            with placed(bpy.context, options):
-                scenes.append(benchmark.scene_report(bpy.context, name, os.path.join(scratch, inner), chosen))
-        benchmark.write_benchmark(scratch, scenes, chosen, started)
-    for scene in scenes:
-        print(f"{scene.name}: {scene.summary[0]}")
-    print(os.path.join(folder, "report.html"))
-
-
-def _opened(files: list[str]) -> Iterator[tuple[str, str]]:
-    """Open one file after another: each one's name, and the folder of its pictures; the open file alone where none."""
-    if not files:
-        yield os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "scene", ""
-    for path in files:
-        _open(path)
-        name = os.path.splitext(os.path.basename(path))[0]
-        yield name, name
-
-
-def _open(path: str) -> None:
-    """Open a file, whose scripts stay off."""
-    try:
-        bpy.ops.wm.open_mainfile(filepath=os.path.abspath(path), use_scripts=False)
-    except RuntimeError as error:
-        reason = " ".join(str(error).removeprefix("Error: ").split()).rstrip(".")
-        raise core.ReflectionError(f"'{path}' cannot be opened ({reason}): name a .blend file.") from error
-
-
-def _tell(line: str) -> None:
-    print(line, flush=True)
 
 
 def register() -> None:

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ...core import TriangleMesh
-from ...core.rivals.light_rays import Landed, LightRays, by_boxes
+from ...core.rivals.tracing import Landed, LightRays, by_boxes
 from ..illumination import Eye, Tint, eyes_of
 from ..metrics import Squares, added, light_errors, light_in_squares
 from ..reading import DiffuseScene, read_mirror, read_scene

@@ -7,7 +7,7 @@ import bpy
 
 from .. import compat
 from ..faults import AllOrNothing
-from ..reading.mirror_materials import surface_shader
+from ..reading.materials import surface_shader
 from .receiver_places import MARK, asks_for_more, forget_groups, show_by_places
 
 LIGHT = "caustic_light"

@@ -10,7 +10,7 @@ import numpy as np
 from ...core import Lamp, TriangleMesh
 from .. import compat
 from ..reading import is_mirror, read_scene
-from ..reading.mirror_materials import surface_shader
+from ..reading.materials import surface_shader
 from .eye import Eye, across
 
 EMISSION = {"EMISSION": ("Color", "Strength"), "BSDF_PRINCIPLED": ("Emission Color", "Emission Strength")}

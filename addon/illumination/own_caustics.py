@@ -12,8 +12,7 @@ import bpy
 from .. import compat
 from ..faults import AllOrNothing
 from ..reading import is_mirror
-from ..reading.material_nodes import all_nodes
-from ..reading.mirror_materials import MIRRORS, is_sharp
+from ..reading.materials import MIRRORS, all_nodes, is_sharp
 
 
 def makes_own_caustics(mirror: bpy.types.Object) -> tuple[bool, bool]:

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from .. import compat
-from ..reading.mirror_materials import MIRRORS, is_mirror, is_sharp, surface_shader
+from ..reading.materials import MIRRORS, is_mirror, is_sharp, surface_shader
 
 F82 = 1.0 / 7.0  # cosine of the angle at which the edge tint is given
 

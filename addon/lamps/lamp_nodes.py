@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..writing.shader_builder import ShaderBuilder
+from ..writing.nodes.shader_builder import ShaderBuilder
 from .shown_lamps import ShownLamp
 
 HALF = 0.5

@@ -5,8 +5,7 @@ import bpy
 import numpy as np
 
 from .. import compat
-from ..reading import materials_of
-from ..reading.mirror_materials import emits, is_mirror, surface_shader
+from ..reading.materials import emits, is_mirror, materials_of, surface_shader
 
 WHITE = 0.999
 TINTS = {"BSDF_GLOSSY": ("Color",), "BSDF_PRINCIPLED": ("Base Color", "Specular Tint")}

@@ -10,9 +10,9 @@ from .. import compat
 from ..baking import WHITE, LaterMirrors, Share, opacity_of, write_mirror_normals
 from ..faults import AllOrNothing
 from ..lamps import ShownLamp, lamp_light, lamps_before
-from ..reading.mirror_materials import surface_shader
+from ..reading.materials import surface_shader
 from ..writing.kept_changes import PREVIEW as MARK
-from ..writing.shader_builder import ShaderBuilder, given, node_behind
+from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
 
 GREY = (0.8, 0.8, 0.8, 1.0)  # of what has no material
 AS_THEY_ARE = {"BSDF_TRANSPARENT", "HOLDOUT"}

@@ -12,8 +12,8 @@ from ...core import ReflectionError, Settings
 from ..faults import Steps, sentence
 from ..frames import plays
 from ..freshness import digest_of
-from ..illumination import Tint, lights_renders, places_kept, radiance_of, results_with
-from ..operators.caustics import Asked, NothingThrown, blocking, throwing
+from ..illumination import Tint, blocking, lights_renders, places_kept, radiance_of, results_with
+from ..operators.caustics import Asked, NothingThrown, throwing
 from ..reading import NothingSeen, Participants, visible
 from ..settings import Wanted
 from .pace import Pace

@@ -18,12 +18,8 @@ from ..frames import (
     FrameRecord,
     Sequence,
     file_name,
-    light_of,
-    play,
-    player_of,
     record_path,
     set_aside,
-    show_by_camera,
     told_apart,
     write_image,
     write_record,
@@ -35,7 +31,7 @@ from ..illumination import meant_lamps
 from ..reading import NothingSeen, candidates, choose, read_view
 from ..settings import SETTINGS, SettingsOptions, UsesSettings, of_each, option
 from . import polls
-from .bake_caustics import ThrownLight, playing_light
+from .bake_caustics import ThrownLight
 from .bake_plan import (
     Plan,
     blur_remarks,
@@ -47,6 +43,7 @@ from .bake_plan import (
     summary,
     visible_or_none,
 )
+from .bake_playing import showing
 from .clear import clear
 from .generate import generation
 from .light import lighting
@@ -122,7 +119,7 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
     Returns
     -------
     sequences : list of Sequence
-        What `playing` lets the file play.
+        What `bake_playing.playing` lets the file play.
 
     Raises
     ------
@@ -212,23 +209,6 @@ def _results(context: bpy.types.Context, plan: Plan, chosen, results: list) -> S
     context.view_layer.update()
     if plan.samples:
         yield from part(lighting(context, results, plan.samples, "PICTURE"), 0.5, 0.5)
-
-
-def playing(context: bpy.types.Context, sequences: list[Sequence]) -> list:
-    """Let the results of the file play sequences: all or none of them; returns the objects."""
-    mirrors, diffuse = candidates(context)
-    with AllOrNothing() as whole:
-        players = [player_of(sequence, mirror, light, whole)
-                   for sequence in sequences for light in [light_of(sequence, whole)] for mirror in mirrors]
-        shown = [(play(context, player, diffuse, whole), player.sequence.camera) for player in players]
-        if len(sequences) > 1:
-            show_by_camera(context.scene, shown)
-    return [obj for obj, _ in shown]
-
-
-def showing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -> tuple[list, list]:
-    """Let the file play what was baked by a plan: the objects, and sentences on what is left out."""
-    return playing_light(context, plan, sequences[0]) if plan.lamps else (playing(context, sequences), [])
 
 
 class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, bpy.types.Operator):

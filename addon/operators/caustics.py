@@ -16,16 +16,17 @@ from ..frames import stop_playing
 from ..illumination import (
     Caustic,
     NoLight,
+    blockers_of,
+    blocking,
     caustic_arrays,
     chosen_lamps,
     eyes_of,
-    has_a_size,
-    leave_out_own_caustics,
-    makes_own_caustics,
+    leave_out,
     parts_of,
+    too_many_layers,
     write_caustics,
 )
-from ..reading import SURFACES, DiffuseScene, MirrorSurface, Participants, choose, is_opaque, read_mirror, read_scene
+from ..reading import DiffuseScene, MirrorSurface, Participants, choose, read_mirror, read_scene
 from ..settings import SettingsOfMirrors, UsesSettings, option
 from . import polls
 
@@ -109,7 +110,7 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     surfaces = {mirror: read_mirror(depsgraph, mirror) for mirror in chosen.mirrors}
     scene = read_scene(depsgraph, chosen.diffuse)
     standing = blocking(context, chosen)
-    blockers = {lamp: _blockers(depsgraph, [obj for obj in standing if obj != lamp]) for lamp in lamps}
+    blockers = {lamp: blockers_of(depsgraph, [obj for obj in standing if obj != lamp]) for lamp in lamps}
     prepared, dark, refused = [], [], [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
     for number, (mirror, lamp) in enumerate(pairs):
         name = name_of(mirror, lamp, lamps)
@@ -198,48 +199,6 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
     layers = sum(made.layers for made in prepared)
     receivers = {obj: made.arrays.materials for obj, made in zip(objects, prepared)}
     return Thrown(objects, receivers, layers, remarks + too_many_layers(scene, layers), dark)
-
-
-def leave_out(scene: bpy.types.Scene, mirror: bpy.types.Object, lamp: bpy.types.Object, whole: AllOrNothing) -> list:
-    """Leave out Cycles' own caustics of a lamp and a mirror, if it makes any; a sentence where that cannot be."""
-    own, alone = makes_own_caustics(mirror)
-    if scene.render.engine != "CYCLES" or not scene.cycles.caustics_reflective or not (own and has_a_size(lamp)):
-        return []
-    if not alone:
-        return [f"Cycles adds its own caustics of '{lamp.name}' in '{mirror.name}', which is lit as well as it "
-                "mirrors: switch Light Paths > Caustics > Reflective off."]
-    if leave_out_own_caustics(lamp, mirror, whole):
-        return []
-    return [f"Cycles adds its own caustics of '{lamp.name}', whose light is linked already: take '{mirror.name}' out "
-            "of what it lights."]
-
-
-def too_many_layers(scene: bpy.types.Scene, layers: int) -> list:
-    """A sentence where Cycles does not follow as many transparent layers."""
-    bounces = scene.cycles.transparent_max_bounces
-    if scene.render.engine != "CYCLES" or layers <= bounces:
-        return []
-    return [f"Cycles follows {bounces} transparent layers, and of light {layers} or more lie over each other, which is "
-            "dark there: raise Light Paths > Max Bounces > Transparent."]
-
-
-def blocking(context: bpy.types.Context, chosen: Participants) -> list:
-    """What else stands in the light's way: all that casts shadows and that no light goes through."""
-    part_takers = {*chosen.mirrors, *chosen.diffuse}
-    return [obj for obj in context.view_layer.objects
-            if obj not in part_takers and obj.type in SURFACES and obj.visible_get() and not obj.hide_render
-            and obj.visible_shadow and obj.reflection_mesh.role not in {"REFLECTION", "CAUSTICS"}
-            and all(is_opaque(slot.material) for slot in obj.material_slots)]
-
-
-def _blockers(depsgraph: bpy.types.Depsgraph, objects: list) -> core.TriangleMesh | None:
-    """Objects as one mesh; None where none of them has faces."""
-    if not objects:
-        return None
-    try:
-        return read_scene(depsgraph, objects).mesh
-    except core.ReflectionError:
-        return None
 
 
 class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Operator):

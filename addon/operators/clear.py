@@ -27,19 +27,13 @@ def clear(context: bpy.types.Context, results: list) -> None:
     layer = context.view_layer
     active = layer.objects.active
     mirror = active.reflection_mesh.mirror if active in results else None
-    meshes = {obj.data for obj in results if isinstance(obj.data, bpy.types.Mesh)}
     nodes = {disc_nodes(obj) for obj in results}
     lights = {obj.reflection_mesh.light_material for obj in results} - {None}
     maps = {obj.reflection_mesh.light_map for obj in results} - {None}
     # from here on nothing can fail, so that results go all or none
     if mirror is not None and mirror.name in layer.objects:
         layer.objects.active = mirror
-    for obj in results:
-        stop_playing(obj)
-        bpy.data.objects.remove(obj)
-    for mesh in meshes:
-        if mesh.users == 0:
-            bpy.data.meshes.remove(mesh)
+    _remove(results)
     for group in nodes:
         forget_nodes(group)
     for material in lights:
@@ -70,13 +64,19 @@ def remove_caustics(caustics: list) -> None:
     """Remove `caustics` with their meshes and materials."""
     meshes = {obj.data for obj in caustics if isinstance(obj.data, bpy.types.Mesh)}
     materials = {material for mesh in meshes for material in mesh.materials} - {None}
-    for obj in caustics:
+    _remove(caustics)
+    forget_added_light(list(materials))
+
+
+def _remove(objects: list) -> None:
+    """Remove objects, and their meshes where nothing else uses those."""
+    meshes = {obj.data for obj in objects if isinstance(obj.data, bpy.types.Mesh)}
+    for obj in objects:
         stop_playing(obj)
         bpy.data.objects.remove(obj)
     for mesh in meshes:
         if mesh.users == 0:
             bpy.data.meshes.remove(mesh)
-    forget_added_light(list(materials))
 
 
 class REFLECTION_MESH_OT_clear(bpy.types.Operator):

@@ -13,10 +13,10 @@ from ..comparison.light_page import MESH, OWN, runs_of, write_light_report
 from ..comparison.light_pictures import LightPictures, Shot, render_light
 from ..faults import Steps, part
 from ..files import staged
+from ..illumination import blockers_of, blocking
 from ..judge import copied_scene
 from ..metrics import line_offsets, picture_errors
 from ..reading import Participants, read_view
-from .caustics import _blockers, blocking
 
 READING, RENDERING, TRACING, JUDGING = 0.02, 0.8, 0.1, 0.04  # shares of the work
 STEPS_UP = 4  # times as many samples in the second picture of each kind
@@ -145,7 +145,7 @@ def _surroundings(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, re
     mirrors = [record.mirror, *dict.fromkeys(other.reflection_mesh.mirror for other in results
                                              if other.reflection_mesh.mirror not in (record.mirror, *sources))]
     standing = [obj for obj in blocking(context, Participants(mirrors, sources, [])) if obj != record.lamp]
-    blockers = _blockers(depsgraph, standing)
+    blockers = blockers_of(depsgraph, standing)
     return Surroundings.of(depsgraph, mirrors, sources, blockers)
 
 

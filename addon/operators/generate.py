@@ -13,7 +13,7 @@ from ..freshness import origin_of, record_of, settings_of
 from ..properties import ATTRIBUTES
 from ..reading import NothingSeen, Participants, choose, is_opaque, read_view
 from ..settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
-from ..standing import Kept
+from ..standing import Kept, Stage
 from ..writing import Reflection, mesh_arrays, point_arrays
 from . import polls
 from .shortcomings import blur_shortcomings, render_shortcomings, shortcomings, window_shortcomings
@@ -60,11 +60,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     if not all(map(is_opaque, scene.materials)):
         own = [replace(one, hidden_faces=True) for one in own]
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
-    for number, kind in enumerate(dict.fromkeys(kinds)):
-        if not stage.has(kind):
-            start = READING * (0.5 + 0.25 * number)
-            yield start, "Building the tree"
-            yield from part(core.in_steps(partial(stage.built, kind)), start, 0.25 * READING, "Building the tree")
+    yield from _trees(stage, kinds)
     prepared, refused, unseen, share = [], [], 0, (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
         steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index])
@@ -95,6 +91,15 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(outcome.results)
     return replace(outcome, remarks=remarks + outcome.remarks + refused,
                    read=(view, dict(zip(chosen.mirrors, surfaces)), scene))
+
+
+def _trees(stage: Stage, kinds: list) -> Steps[None]:
+    """Build the trees of those `kinds` that are not kept."""
+    for number, kind in enumerate(dict.fromkeys(kinds)):
+        if not stage.has(kind):
+            start = READING * (0.5 + 0.25 * number)
+            yield start, "Building the tree"
+            yield from part(core.in_steps(partial(stage.built, kind)), start, 0.25 * READING, "Building the tree")
 
 
 class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions, bpy.types.Operator):

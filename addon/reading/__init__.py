@@ -1,10 +1,7 @@
 """Blender's data as arrays: who takes part, meshes with their layers, materials, the view."""
 from .join_meshes import DiffuseScene, MirrorSurface, join_mirror, join_scene, read_mirror, read_scene
 from .known_results import forget_known, known_results, register, unregister
-from .material_nodes import all_nodes
-from .materials_of import materials_of
-from .mirror_materials import is_mirror
-from .opaque_materials import is_opaque
+from .materials import all_nodes, is_mirror, is_opaque, materials_of
 from .read_meshes import SURFACES, LocalMesh, Placed, read_meshes
 from .read_view import NO_CAMERA, read_view, render_size
 from .rendered_otherwise import rendered_otherwise

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core import ReflectionError, TriangleMesh
 from .join_layers import join_layers
-from .mirror_materials import is_mirror
+from .materials import is_mirror
 from .placed_values import PlacedValues, generated_places, lines_of, normals_of, own_places
 from .read_meshes import Placed, read_meshes
 

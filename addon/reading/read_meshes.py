@@ -11,7 +11,7 @@ import numpy as np
 from ...core import ReflectionError
 from .. import compat
 from .creases import Creases
-from .material_nodes import asked_attributes
+from .materials import asked_attributes
 from .read_layers import NO_LAYERS, read_layers
 from .source_lines import SourceLines
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 
 from ...core import ReflectionError
-from .mirror_materials import is_mirror
+from .materials import is_mirror
 from .results import RESULTS, meant, of_results
 
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "

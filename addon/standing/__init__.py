@@ -2,7 +2,7 @@
 
 The depsgraph tells what no longer stands; where that is in doubt all is read again.
 """
-from .kept import Kept
+from .kept import Kept, Stage
 from .told import register, unregister
 
-__all__ = ["Kept", "register", "unregister"]
+__all__ = ["Kept", "Stage", "register", "unregister"]

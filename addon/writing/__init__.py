@@ -1,10 +1,9 @@
 """Arrays as Blender's data: meshes, points, the objects that carry them, windows, and records of the making."""
 from .cameras import as_shown, show_for_camera
-from .disc_nodes import disc_nodes, forget_nodes, hide_discs
 from .kept_changes import place_of, put_back_materials
 from .light_layer import UV_MAP, light_layer
 from .mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, mesh_arrays, shown_layers, vertices_written
-from .node_builder import Builder
+from .nodes import Builder, disc_nodes, forget_nodes, hide_discs
 from .point_arrays import point_arrays
 from .records import LONGEST as LONGEST_RECORD
 from .result_collection import forget_collection, gather, show_in_layer

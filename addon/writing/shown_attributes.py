@@ -6,8 +6,7 @@ from collections.abc import Iterator
 import bpy
 
 from .. import compat
-from ..reading.material_nodes import all_nodes, asked_attributes
-from ..reading.mirror_materials import emits
+from ..reading.materials import all_nodes, asked_attributes, emits
 
 # what results know of how they came about, and nothing that is seen asks for
 OF_METHOD = frozenset({"reflected_position", "mirror_position", "path_length", "image_parity", "source_object",

@@ -13,11 +13,11 @@ from .picture_areas import covered_pixels, picture_areas, pixels_around, pixels_
 from .picture_cells import PictureCells
 from .reflection_map import ReflectionMap, grown
 from .shading_horizon import beyond_horizon, cut_at_horizon
-from .three_ray_cameras import Cameras, three_ray_cameras, visible_triangles
+from .three_ray_cameras import Cameras, not_edge_on, three_ray_cameras, visible_triangles
 from .triangle_walk import INSIDE, brought_back, distance_from, settle
 
 __all__ = ["ALONG_UV", "BouncedMap", "Cameras", "INSIDE", "MirrorMap", "MirrorSurface", "PictureCells",
            "ReflectionMap", "beyond_horizon", "brought_back", "covered_pixels", "cut_at_horizon", "distance_from",
-           "drawn_in", "grown", "in_picture", "least_weight", "may_fold", "picture_areas", "pixels_around",
-           "pixels_of", "refine_mirror", "settle", "split_cameras", "three_ray_cameras", "visible_triangles",
-           "with_pieces"]
+           "drawn_in", "grown", "in_picture", "least_weight", "may_fold", "not_edge_on", "picture_areas",
+           "pixels_around", "pixels_of", "refine_mirror", "settle", "split_cameras", "three_ray_cameras",
+           "visible_triangles", "with_pieces"]

@@ -13,11 +13,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from functools import cached_property
 
 import numpy as np
 
-from ..geometry import TriangleMesh, columns, cross, dot, neighbours, norm, rows, unit
+from ..geometry import TriangleMesh, columns, cross, dot, norm, rows, unit
 
 ALONG_UV = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])  # ways in (u, v)
 LEAST_RISE = 0.01  # sine of the angle at which Cycles lets a bent ray leave
@@ -40,10 +39,10 @@ class MirrorSurface:
         self._set(np.concatenate((normal, normal_b - normal, normal_c - normal, a, u, v, flat, dot(flat, flat)[None])))
         self.face_normal, self._mirror = unit(flat), mirror
 
-    @cached_property
+    @property
     def across(self) -> np.ndarray:
         """Triangle (m, 3) across the side opposite to each corner; -1 where there is none, or more than one."""
-        return neighbours(self._mirror)
+        return self._mirror.neighbours
 
     def _set(self, parts: np.ndarray) -> None:
         self._parts = parts

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import edge_lengths, split
+from ..geometry import edge_lengths, following, split
 from ..support import breathe
 from .camera_splitting import split_cameras
 from .three_ray_cameras import Cameras
@@ -63,7 +63,7 @@ def _cut(cameras: Cameras) -> Cameras:
     corner_places = cameras.places[:, cameras.corners[near]].reshape(3, -1)
     face = np.repeat(cameras.face[near], 3)
     beyond = mirror_map.lifted(face, mirror_map.coordinates(face, corner_places)).reshape(-1, 3)
-    crossed = beyond != np.roll(beyond, -1, axis=1)
+    crossed = beyond != following(beyond)
     row, side = np.nonzero(crossed)
     if not len(row):
         return cameras

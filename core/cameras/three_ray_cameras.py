@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View, has_area
+from ..geometry import TriangleMesh, View, following
 from .mirror_map import MirrorMap
 from .reflection_map import ReflectionMap
 
@@ -68,13 +68,10 @@ def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
     on the side that hides the others. Open mirrors show both their sides, as in Cycles, and so do closed ones that the
     plane of an orthographic eye cuts: some of its rays begin inside."""
     corners = mirror.positions[mirror.triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    size = np.abs(corners - corners[:, :1]).max(axis=(1, 2))
-    areal = has_area(np.linalg.norm(normals, axis=1), size)
-    towards = -np.einsum("ij,ij->i", view.directions(corners[:, 0]), normals)
-    visible = areal & (towards != 0.0)
+    towards, areal = _towards(view, corners), mirror.areal
+    visible = not_edge_on(view, mirror)
     if _closed(mirror.triangles[areal]):
-        volume = np.einsum("ij,ij->", corners[:, 0] - corners.mean(axis=(0, 1)), normals)
+        volume = np.einsum("ij,ij->", corners[:, 0] - corners.mean(axis=(0, 1)), _normals(corners))
         if not view.orthographic:
             outside = abs(_winding_number(view.eye, corners[areal])) < 0.5
             visible &= towards * volume > 0.0 if outside else towards * volume < 0.0
@@ -83,11 +80,25 @@ def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
     return np.flatnonzero(visible)
 
 
+def not_edge_on(view: View, mesh: TriangleMesh) -> np.ndarray:
+    """Which triangles (m,) have an area, and one that the view sees."""
+    return mesh.areal & (_towards(view, mesh.positions[mesh.triangles]) != 0.0)
+
+
+def _towards(view: View, corners: np.ndarray) -> np.ndarray:
+    """How much of the normals of triangles (m, 3, 3) the view sees, from behind less than nothing."""
+    return -np.einsum("ij,ij->i", view.directions(corners[:, 0]), _normals(corners))
+
+
+def _normals(corners: np.ndarray) -> np.ndarray:
+    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+
 def _closed(triangles: np.ndarray) -> bool:
     """Whether each directed edge meets its opposite exactly once."""
     if not len(triangles):
         return False
-    a, b = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    a, b = triangles.ravel(), following(triangles).ravel()
     count = int(triangles.max()) + 1
     forth, back = np.sort(a * count + b), np.sort(b * count + a)
     return bool((forth == back).all() and (forth[1:] != forth[:-1]).all())

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh
+from ..geometry import TriangleMesh, has_area
 from ..recentring import far_corner, moved_surface
 from ..reflection import reflect
 from ..result import ReflectionMesh
@@ -22,7 +22,6 @@ from .refinement import LitFaces, refined
 DETAIL = 1024
 """Pixels across the mirror in the lamp's picture, in which the settings' tolerance is counted."""
 ON_CAUSTIC = 1e-5  # growth of a bundle below which bisection has put a vertex on the caustic
-NO_AREA = 1e-14  # of the square of its size: what a face is larger than
 LEAST = 1.5e-5  # of the flux: what carries less is not split
 STRAY = 1e-6  # of the flux: with less, faces with a corner to which no light comes are rounding
 FINEST = 2e-3  # of the size of what is lit: shorter sides are not split
@@ -164,7 +163,7 @@ def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area, size = 0.5 * np.linalg.norm(normal, axis=1), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
     arrived = light.arrived.reshape(3, -1).all(axis=0) | (flux > STRAY * flux.sum())
-    kept = np.flatnonzero((area > NO_AREA * size**2) & (flux > 0.0) & arrived)
+    kept = np.flatnonzero(has_area(area, size) & (flux > 0.0) & arrived)
     irradiance, cosine, side = (value.reshape(3, -1).T[kept] for value in (
         light.irradiance, light.cosine, light.side))
     irradiance = balanced(irradiance, flux[kept], area[kept], faces.triangles[kept],

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh, cross, dot, norm, rows, shared_edges, split
+from ..geometry import TriangleMesh, cross, dot, following, norm, parent_side, rows, shared_edges, split
 from ..support import breathe
 from .corners import Corners, light_at
 
@@ -99,8 +99,8 @@ def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[f
     lit = middles.irradiance.reshape(3, -1).T
     corners = faces.corners[:, :, asked]
     with np.errstate(invalid="ignore"):
-        astray = ~(np.abs(0.5 * (ends + np.roll(ends, -1, axis=1)) - lit) <= STRAYING * lit)
-    astray &= norm(corners - np.roll(corners, -1, axis=1)).T > least[1]
+        astray = ~(np.abs(0.5 * (ends + following(ends)) - lit) <= STRAYING * lit)
+    astray &= norm(corners - following(corners)).T > least[1]
     area = 0.5 * norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
     mean = np.where(np.isfinite(lit), lit, 0.0).mean(axis=1)
     return astray & (area * mean > least[0])[:, None]
@@ -132,9 +132,9 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray,
         part = asked[begin:begin + AT_ONCE]
         own, face = np.tile(part, 3), np.tile(faces.face[part], 3)
         uv = faces.light.uv.reshape(2, 3, -1)[:, :, part]
-        start = 0.5 * (uv + np.roll(uv, -1, axis=1)).reshape(2, -1)
+        start = 0.5 * (uv + following(uv)).reshape(2, -1)
         corners = faces.corners[:, :, part]
-        chord = 0.5 * (corners + np.roll(corners, -1, axis=1)).reshape(3, -1)
+        chord = 0.5 * (corners + following(corners)).reshape(3, -1)
         normal, straight = faces.normal[:, own], faces.on_side[part].T.ravel()
         origin, ray = ray_map.leave(face, start)
         falling = dot(ray, normal)
@@ -172,12 +172,8 @@ def _split(faces: LitFaces, edge: np.ndarray, chosen: np.ndarray,
     new = points[:, side[first], place[row[first]]]
     six = np.concatenate((faces.triangles, vertex[edge]), axis=1)[parent]
     triangles = np.take_along_axis(six, local, axis=1)
-    # of a child's side, the ends tell whether it is on a side of its parent
-    after, on_side = np.roll(local, -1, axis=1), np.zeros(local.shape, dtype=bool)
-    for number, line in enumerate(((0, 3, 1), (1, 4, 2), (2, 5, 0))):
-        lies = np.zeros(6, dtype=bool)
-        lies[list(line)] = True
-        on_side |= lies[local] & lies[after] & faces.on_side[parent, number][:, None]
+    side = parent_side(local)
+    on_side = (side < 3) & faces.on_side[parent[:, None], np.minimum(side, 2)]
     lit = faces.light.of_parts(light, parent, local, place)
     return LitFaces(triangles, np.concatenate((faces.points, new), axis=1), faces.face[parent], faces.normal[:, parent],
                     faces.source[parent], faces.origin[parent], on_side, lit), parent

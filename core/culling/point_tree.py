@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, columns, has_area, norm, ordered, ranges, rows, unit
+from ..geometry import TriangleMesh, columns, cross, norm, ordered, ranges, rows, unit
 from ..support import breathe
 from .cones import Cones
 from .magnification import Magnification
@@ -153,9 +153,8 @@ def _surface(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         return np.flatnonzero(np.isfinite(mesh.positions).all(axis=1)), normal, reach
     corners = rows(mesh.positions[mesh.triangles])
     side = np.sqrt(((corners - np.roll(corners, -1, axis=2)) ** 2).sum(axis=0)).max(axis=1)
-    a, b = corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]
-    area = np.stack((a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]))
-    areal = np.flatnonzero(has_area(norm(area), side))
+    area = cross(corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0])
+    areal = np.flatnonzero(mesh.areal)
     vertex = mesh.triangles[areal]
     for row, part in zip(normal, area[:, areal]):
         row += np.bincount(vertex.ravel(), weights=np.repeat(part, 3), minlength=count)

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
-from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, in_order, opposite_corners, rows, unit
+from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, in_order, others, rows, unit
 from .bounded_trace import bounded_trace
 from .candidates import Candidates
 from .cones import Cones
@@ -60,7 +60,7 @@ class SceneAndMirrors:
         self._corners = [rows(mirrors.positions[corner]) for corner in mirrors.triangles.T]
         self.size = float(np.ptp(mirrors.positions[mirrors.triangles.ravel()], axis=0).max())
         self.surface = MirrorSurface(mirrors)
-        self._beyond = rows(opposite_corners(mirrors))
+        self._beyond = rows(mirrors.opposite_corners)
         self._number(None)
 
     def _number(self, pieces: ScenePieces | None) -> None:
@@ -237,7 +237,7 @@ class SceneAndMirrors:
         own = [columns(corners, triangle) for corners in self._corners]
         for side in range(3):
             beyond = columns(self._beyond[:, :, side], triangle)
-            start, end = own[(side + 1) % 3], own[(side + 2) % 3]
+            start, end = (own[corner] for corner in others(side))
             # a corner's place beside the plane through the side and a ray's origin is linear in the origin: three
             # corners of a camera speak for all of it
             planes = [cross(end - start, start - origin) for origin in origins]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Order, TriangleMesh, columns, cross, dot, has_area, in_order, norm, ordered, ranges, rows, shares
+from ..geometry import Order, TriangleMesh, columns, dot, in_order, ordered, ranges, rows, shares
 from .cones import Balls, Cones
 from .node_tree import NODES_AT_ONCE, NodeTree, curve_leaves, depth_for, node_spheres
 
@@ -59,8 +59,7 @@ class SceneTree(NodeTree):
         centre = 0.5 * (low + high)
         radius = np.sqrt(np.maximum(np.maximum(*(dot(away, away) for away in (a - centre, b - centre))),
                                     dot(c - centre, c - centre)))
-        area = norm(cross(b - a, c - a))
-        areal = np.flatnonzero(has_area(area, radius))
+        areal = np.flatnonzero(mesh.areal)
         some = np.zeros(len(mesh.positions), dtype=bool)
         some[mesh.triangles[areal].ravel()] = True
         used = np.flatnonzero(some)

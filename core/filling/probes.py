@@ -9,7 +9,7 @@ import numpy as np
 
 from ..cameras import MirrorMap
 from ..culling import SceneAndMirrors, SceneTree, first_crossed
-from ..geometry import TriangleMesh, View, dot, ranges, shares, unit
+from ..geometry import TriangleMesh, View, dot, following, ranges, shares, unit
 from ..support import breathe
 
 ACROSS = 16  # probes along each side of the box round the mirror in the picture
@@ -74,9 +74,9 @@ def _covered(corners: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarr
         x, run = ranges(first[some[row], 0], count[some[row], 0])
         some, y = some[row[run]], y[run]
         offset = corners[some] - (low + step * (np.stack((x, y), axis=1) + 0.5))[:, None]
-        following = np.roll(offset, -1, axis=1)
-        across = offset[..., 0] * following[..., 1] - offset[..., 1] * following[..., 0]
-        away = across / np.maximum(np.linalg.norm(following - offset, axis=2), 1e-300)
+        after = following(offset)
+        across = offset[..., 0] * after[..., 1] - offset[..., 1] * after[..., 0]
+        away = across / np.maximum(np.linalg.norm(after - offset, axis=2), 1e-300)
         away *= np.sign(across.sum(axis=1))[:, None]
         covered[(y * ACROSS + x)[away.min(axis=1) >= -MARGIN]] = True
         if covered.all():

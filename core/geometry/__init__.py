@@ -3,20 +3,30 @@
 In come a camera's matrices and meshes as they were given; out come pixels, directions, meshes in an order that only
 their places decide, and which triangles lie beyond each other's sides.
 """
-from .adjacency import connected, corners_beyond, neighbours, opposite_corners
+from .adjacency import connected, corners_beyond
 from .canonical_order import TURNS, Order, ordered
+from .column_arrays import ColumnArrays
 from .distinct import distinct, first_of, in_order
 from .lamp_view import LampView
 from .near_triangles import meeting
 from .scene_frames import SceneFrames, falling
-from .subdivision import doubled_areas, edge_lengths, parent_side, shared_edges, split
+from .subdivision import (
+    doubled_areas,
+    edge_lengths,
+    edge_numbers,
+    following,
+    others,
+    parent_side,
+    shared_edges,
+    split,
+)
 from .triangle_mesh import TriangleMesh, area_normals, has_area
 from .vectors import columns, cross, dot, groups, largest, norm, ranges, rows, shares, smallest, solve, unit
 from .view import View
 from .z_buffer import Drawn, draw
 
-__all__ = ["Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View", "area_normals", "columns",
-           "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas", "draw", "edge_lengths",
-           "falling", "first_of", "groups", "has_area", "in_order", "largest", "meeting", "neighbours", "norm",
-           "opposite_corners", "ordered", "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest",
-           "solve", "split", "unit"]
+__all__ = ["ColumnArrays", "Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View",
+           "area_normals", "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas",
+           "draw", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area",
+           "in_order", "largest", "meeting", "norm", "ordered", "others", "parent_side", "ranges", "rows",
+           "shared_edges", "shares", "smallest", "solve", "split", "unit"]

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .subdivision import following
 from .triangle_mesh import TriangleMesh
 
 TURNS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
@@ -65,7 +66,7 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
 
     corner = rank[mesh.triangles]
     # of two corners in one place, that which the other follows
-    first = np.argmin(corner * count + np.roll(corner, -1, axis=1), axis=1)
+    first = np.argmin(corner * count + following(corner), axis=1)
     corner = np.take_along_axis(corner, TURNS[first], axis=1)
     if count < _ONE_KEY:
         keys = [(corner[:, 0] * count + corner[:, 1]) * count + corner[:, 2]]

@@ -1,9 +1,13 @@
 """Splitting triangles at the middles of marked edges, the same way on both sides of an edge."""
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 
 from .distinct import first_of
+
+Corner = TypeVar("Corner", int, np.ndarray)
 
 # Corners 0 1 2 and the middles 3 4 5 of edges 01, 12, 20: the children for each set of marked edges (bit k: edge k).
 _TEMPLATES = {
@@ -15,6 +19,22 @@ _TEMPLATES = {
     0b101: [(0, 3, 5), (3, 1, 2), (3, 2, 5)],
     0b111: [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)],
 }
+
+
+def following(values: np.ndarray) -> np.ndarray:
+    """Of each corner of triangles (n, 3, ...) what the next corner has."""
+    return np.roll(values, -1, axis=1)
+
+
+def others(corner: Corner) -> tuple[Corner, Corner]:
+    """The other two corners of triangles, in turn: the ends of the side opposite to a `corner`, 0 to 2."""
+    return (corner + 1) % 3, (corner + 2) % 3
+
+
+def edge_numbers(one: np.ndarray, other: np.ndarray, count: int) -> np.ndarray:
+    """A number for each edge between two of `count` vertices, the same from both sides: its lower end times `count`,
+    and its higher."""
+    return np.minimum(one, other) * count + np.maximum(one, other)
 
 
 def split(marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -53,12 +73,12 @@ for _edge, _line in enumerate(((0, 3, 1), (1, 4, 2), (2, 5, 0))):
 
 def parent_side(local: np.ndarray) -> np.ndarray:
     """(m, 3): the parent's edge that each of the edges 01, 12, 20 of the children lies on, 3 where it is inside."""
-    return _SIDES[local, np.roll(local, -1, axis=1)]
+    return _SIDES[local, following(local)]
 
 
 def edge_lengths(corners: np.ndarray) -> np.ndarray:
     """Lengths (n, 3) of the edges 01, 12 and 20 of triangles with `corners` (n, 3, d)."""
-    return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+    return np.linalg.norm(corners - following(corners), axis=2)
 
 
 def doubled_areas(corners: np.ndarray) -> np.ndarray:
@@ -76,8 +96,6 @@ def shared_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndar
     first : (e,) int64, an entry of the flattened (n, 3) edges 01, 12, 20 where the edge occurs
     edge : (n, 3) int64, index into `ends` of each triangle's edges
     """
-    a, b = triangles, np.roll(triangles, -1, axis=1)
-    low, high = np.minimum(a, b).ravel(), np.maximum(a, b).ravel()
-    count = int(high.max()) + 1 if len(high) else 1
-    keys, first, edge = first_of(low * count + high)
+    count = int(triangles.max(initial=0)) + 1
+    keys, first, edge = first_of(edge_numbers(triangles, following(triangles), count).ravel())
     return np.stack((keys // count, keys % count), axis=1), first, edge.reshape(-1, 3)

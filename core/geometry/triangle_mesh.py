@@ -3,11 +3,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..support import LARGEST, numbers, whole_numbers
-from .vectors import cross, norm, rows
+from .adjacency import corners_beyond
+from .vectors import cross, largest, norm, rows
 
 _UNIT_LENGTH = 2.0 ** -50
 """A vector that was divided by its length is as long as 1 to within 6 roundings: dividing once more would only move it,
@@ -15,7 +17,7 @@ and a mesh made of another one's normals would not be the same."""
 _CHUNK = 8192
 """Triangles whose normals are worked out at once: their arrays stay in the caches."""
 _NO_AREA = 1e-14
-"""Of the square of its size: what a triangle's area normal must be longer than."""
+"""Of the square of its size: what the area of a triangle must be more than."""
 _STRANGE = 1e100
 """Normals longer than this, or shorter than its inverse, have squares that are no numbers or have lost digits."""
 
@@ -51,7 +53,6 @@ class TriangleMesh:
 
     positions: np.ndarray
     triangles: np.ndarray
-    corner_normals: np.ndarray
 
     def __init__(self, positions: np.ndarray, triangles: np.ndarray, corner_normals: np.ndarray | None = None) -> None:
         positions = np.ascontiguousarray(numbers(
@@ -66,13 +67,10 @@ class TriangleMesh:
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "triangles", triangles)
         if corner_normals is None:
-            # a view: of millions of triangles in the scene nobody reads them
-            normals = np.broadcast_to(self.face_normals()[:, None, :], (len(triangles), 3, 3))
-        else:
-            normals = numbers(corner_normals, (len(triangles), 3, 3), "The corner_normals must be an (m, 3, 3) "
-                              "array of numbers; give three normals for each triangle, or none at all.")
-            normals = _unit_normals(normals, positions, triangles)
-        object.__setattr__(self, "corner_normals", normals)
+            return  # flat, and worked out when they are asked for
+        normals = numbers(corner_normals, (len(triangles), 3, 3), "The corner_normals must be an (m, 3, 3) "
+                          "array of numbers; give three normals for each triangle, or none at all.")
+        object.__setattr__(self, "corner_normals", _unit_normals(normals, positions, triangles))
 
     @staticmethod
     def joined(meshes: Iterable[TriangleMesh]) -> TriangleMesh:
@@ -103,7 +101,53 @@ class TriangleMesh:
         To the last bit they do not depend on the corner that a triangle begins with, and turning it round turns their
         sign alone.
         """
+        return self._face_normals
+
+    @cached_property
+    def _face_normals(self) -> np.ndarray:
         return _flat_normals(self.positions, self.triangles)
+
+    @cached_property
+    def corner_normals(self) -> np.ndarray:
+        """(m, 3, 3) float64, those of the flat triangles where none are given."""
+        return np.broadcast_to(self.face_normals()[:, None, :], (len(self.triangles), 3, 3))
+
+    @cached_property
+    def areal(self) -> np.ndarray:
+        """Which triangles (m,) have an area that is more than rounding."""
+        found = np.empty(len(self.triangles), dtype=bool)
+        for start in range(0, len(found), _CHUNK):
+            part = slice(start, start + _CHUNK)
+            found[part] = has_area(*_areas(rows(self.positions.take(self.triangles[part].T, axis=0, mode="clip"))))
+        return found
+
+    @cached_property
+    def place_of(self) -> np.ndarray:
+        """The number (n,) of each vertex's place: flat faces may have vertices of their own in one place."""
+        return np.unique(self.positions, axis=0, return_inverse=True)[1].reshape(-1)
+
+    @cached_property
+    def beyond(self) -> np.ndarray:
+        """(m, 3): for each corner the one beyond the opposite side, told by place, an entry of the flattened triangles;
+        -1 where there is none, or more than one."""
+        return corners_beyond(self.place_of[self.triangles])
+
+    @property
+    def neighbours(self) -> np.ndarray:
+        """Triangle (m, 3) across the side opposite to each corner; -1 where there is none, or more than one."""
+        return self.beyond // 3
+
+    @property
+    def opposite_corners(self) -> np.ndarray:
+        """(m, 3, 3): the vertex beyond the side opposite to each corner; not a number where there is no triangle, or
+        more than one."""
+        return np.where(self.beyond[:, :, None] >= 0, self.positions[self.triangles.ravel()[self.beyond]], np.nan)
+
+
+def _areas(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Twice the areas (m,) of triangles with corners (3, 3, m), component and corner first, and their sizes."""
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return norm(cross(u, v)), largest(np.maximum(np.abs(u), np.abs(v)))
 
 
 def area_normals(corners: np.ndarray) -> np.ndarray:
@@ -122,9 +166,9 @@ def area_normals(corners: np.ndarray) -> np.ndarray:
     return cross(before, after)
 
 
-def has_area(normal_length: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Which triangles have an area that is more than rounding, by the lengths of their area normals and their sizes."""
-    return normal_length > _NO_AREA * size**2
+def has_area(area: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """Which triangles have an area that is more than rounding, by their areas and their sizes."""
+    return area > _NO_AREA * size**2
 
 
 def _flat_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -7,21 +7,12 @@ from functools import cached_property
 
 import numpy as np
 
-from ..support import LARGEST, number, numbers, whole_number
+from ..support import LARGEST, number, numbers
 from .vectors import dot
+from .view_checks import LOOSE, check_placement, check_projection, picture_size
 
-SIZE_LIMIT = 65536
-"""Pixels along a side of the picture: Blender's own limit."""
-_LOOSE = 1e-3
-"""What the axes' lengths may be off: matrices come in single precision, or from many turns multiplied."""
-_EXACT = 1e-6
-"""Off by less than this is rounding of single precision; axes that leave no more room between them lie in a plane."""
-_NOTHING = 1e-12
-"""Of the projection's scale: what is left of a zero by arithmetic."""
 _NARROWEST = 1e-12
 """The least field of view, in radians."""
-_STRETCH = {True: 1e50, False: 1e20}
-"""The largest scale of an orthographic and of a perspective projection, and the inverse of the smallest."""
 
 
 @dataclass(frozen=True)
@@ -66,9 +57,9 @@ class View:
             if not np.isfinite(matrix).all():
                 raise ValueError(wrong)
             object.__setattr__(self, name, matrix)
-        _check_placement(self.camera_to_world)
-        _check_projection(self.projection)
-        object.__setattr__(self, "resolution", _picture_size(self.resolution))
+        check_placement(self.camera_to_world)
+        check_projection(self.projection)
+        object.__setattr__(self, "resolution", picture_size(self.resolution))
 
     @classmethod
     def looking_at(cls, eye, target, resolution, *, field_of_view: float = 0.7, orthographic_scale: float = 0.0,
@@ -97,7 +88,7 @@ class View:
         eye, target, up = _place(eye, "eye"), _place(target, "target"), _place(up, "up direction")
         if (eye == target).all():
             raise ValueError("The eye is where it looks; move the eye or the target.")
-        resolution = _picture_size(resolution)
+        resolution = picture_size(resolution)
         size = np.array(resolution, dtype=np.float64)
         back = _unit(eye - target)
         right = np.cross(_of_ordinary_length(up), back)
@@ -139,7 +130,7 @@ class View:
         """Distances of `points` (n, 3) from the eye's plane, positive in front of it, in scene units, along the eye's
         own axis."""
         axes = self.camera_to_world[:3, :3]
-        sheared = np.abs(axes.T @ axes - np.eye(3)).max() > 4.0 * _LOOSE
+        sheared = np.abs(axes.T @ axes - np.eye(3)).max() > 4.0 * LOOSE
         return dot(-self._inverse[2] if sheared else self.forward, (points - self.eye).T)
 
     def clip(self, points: np.ndarray) -> np.ndarray:
@@ -203,43 +194,6 @@ class View:
         directions = local @ rotation.T
         directions /= np.linalg.norm(directions, axis=1, keepdims=True)
         return np.broadcast_to(self.eye, directions.shape).copy(), directions
-
-
-def _check_placement(matrix: np.ndarray) -> None:
-    axes = matrix[:3, :3]
-    length = np.sqrt((np.clip(axes, -2.0, 2.0)**2).sum(axis=0))  # what is longer is too long, and must not overflow
-    if (np.abs(length - 1.0) > _LOOSE).any() or np.abs(matrix[3] - (0.0, 0.0, 0.0, 1.0)).max() > _LOOSE:
-        raise ValueError("View.camera_to_world must be a rigid placement with axes of unit length and a last row of "
-                         "0 0 0 1; take the scale out of it.")
-    if abs(np.linalg.det(axes)) < _EXACT:
-        raise ValueError("View.camera_to_world must be a rigid placement with axes that do not lie in a plane; make "
-                         "them stand at right angles.")
-
-
-def _check_projection(matrix: np.ndarray) -> None:
-    orthographic = matrix[3, 2] == 0.0
-    last = (0.0, 0.0, 0.0, 1.0) if orthographic else (0.0, 0.0, -1.0, 0.0)
-    scale = np.abs(np.diag(matrix)[:2])
-    # beside the scale there is but the shift, in the column that the last row tells
-    rest = np.abs(np.stack((matrix[[0, 1], [1, 0]], matrix[:2, 2 if orthographic else 3])))
-    if np.abs(matrix[3] - last).max() > _EXACT or (rest > _NOTHING * scale).any():
-        raise ValueError("View.projection must be the matrix of a perspective or of an orthographic camera, with a "
-                         "last row of 0 0 -1 0 or of 0 0 0 1.")
-    most = _STRETCH[orthographic]
-    if (scale > most).any() or (scale < 1.0 / most).any() or np.abs(matrix[:3]).max() > most:
-        raise ValueError("View.projection must be the matrix of a camera that shows something; its scale is as good as "
-                         "zero or infinite.")
-
-
-def _picture_size(resolution) -> tuple[int, int]:
-    wrong = f"View.resolution must be a width and a height in whole pixels, each from 1 to {SIZE_LIMIT}."
-    try:
-        width, height = (whole_number(side) for side in resolution)
-    except (TypeError, ValueError) as error:  # no sequence, or one of another length
-        raise ValueError(wrong) from error
-    if width is None or height is None or not (1 <= width <= SIZE_LIMIT and 1 <= height <= SIZE_LIMIT):
-        raise ValueError(wrong)
-    return width, height
 
 
 def _place(given, name: str) -> np.ndarray:

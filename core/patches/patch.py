@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, MirrorMap, PictureCells, may_fold, picture_areas
-from ..geometry import View, corners_beyond, dot, norm, rows
+from ..geometry import View, connected, corners_beyond, dot, norm, others, rows
 
 MARGIN = 8.0  # pixels: by how much the picture's grid is larger than the patch
 SPECK = 1e-6  # of the distance from the eye
@@ -53,7 +53,7 @@ class Patch:
         if not len(cameras):
             return None
         cameras = cameras.select(np.argsort(cameras.face, kind="stable"))
-        label = _connected(corners_beyond(cameras.corners) // 3)
+        label = _parts(corners_beyond(cameras.corners) // 3)
         size = np.bincount(label, picture_areas(cameras))
         cameras = cameras.select(label == np.argmax(size))
         surface, face = mirror_map.surface, cameras.face
@@ -133,7 +133,7 @@ def _border(view: View, places: np.ndarray, corners: np.ndarray, across: np.ndar
     if not np.isfinite(low + high).all():
         return None
     row, side = np.nonzero(across < 0)
-    start, end = (spots[:, corners[row, (side + step) % 3]] for step in (1, 2))
+    start, end = (spots[:, corners[row, corner]] for corner in others(side))
     return PictureCells.empty(low - MARGIN, high + MARGIN).with_lines(start, end)
 
 
@@ -145,15 +145,7 @@ def _smooth(mirror_map: MirrorMap, face: np.ndarray) -> np.ndarray:
     return (dot(a, b) > SMOOTH) & (dot(b, c) > SMOOTH) & (dot(c, a) > SMOOTH) & ~mirror_map.grazing[face]
 
 
-def _connected(across: np.ndarray) -> np.ndarray:
-    """(k,): the lowest triangle that each is connected with."""
-    own = np.arange(len(across))
-    label, beyond = own.copy(), np.where(across >= 0, across, own[:, None])
-    while True:
-        lower = np.minimum(label, label[beyond].min(axis=1))
-        # what a triangle's label has learnt, the triangle learns
-        np.minimum.at(lower, label, lower)
-        lower = lower[lower]
-        if (lower == label).all():
-            return label
-        label = lower
+def _parts(across: np.ndarray) -> np.ndarray:
+    """(k,): triangles that hang together by their sides have the same number."""
+    own = np.arange(len(across))[:, None]
+    return connected(np.concatenate((own, np.where(across >= 0, across, own)), axis=1))

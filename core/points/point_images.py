@@ -1,17 +1,17 @@
 """Images of vertices as points: where on the mirror each is truly seen, each once."""
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..cameras import MirrorMap
+from ..geometry import ColumnArrays
 from ..polygons import repeated
 
 
 @dataclass(frozen=True)
-class PointImages:
+class PointImages(ColumnArrays):
     """Images (n) of vertices on the true map.
 
     Attributes
@@ -30,21 +30,10 @@ class PointImages:
     distance: np.ndarray
     stood: np.ndarray
 
-    def __len__(self) -> int:
-        return len(self.vertex)
-
-    def select(self, chosen: np.ndarray | slice) -> PointImages:
-        return PointImages(*(getattr(self, field.name)[..., chosen] for field in fields(PointImages)))
-
     @classmethod
     def none(cls) -> PointImages:
         whole, places = np.zeros(0, dtype=np.int64), np.zeros((2, 0))
         return cls(whole, whole, places, places[0], places[0])
-
-    @staticmethod
-    def joined(parts: Sequence[PointImages]) -> PointImages:
-        return PointImages(*(np.concatenate([getattr(part, field.name) for part in parts], axis=-1)
-                             for field in fields(PointImages)))
 
     def once(self, mirror_map: MirrorMap) -> PointImages:
         """The images by their vertices; of several that are one, that which stands for most."""

@@ -14,6 +14,6 @@ from .polygon_corners import Nodes, polygon_nodes
 from .triangulation import Faces, connect
 from .vertex_images import VertexImages, images_of_pairs, repeated, vertex_images
 
-__all__ = ["ConvexPolygons", "FaceRefinement", "Faces", "Line", "Lines", "Nodes", "Overlaps", "Polygons", "SMALLEST",
-           "VertexImages", "clip", "connect", "divide", "images_of_pairs", "polygon_nodes", "refine_for_outlines",
-           "repeated", "scene_edges", "split_at_caustics", "vertex_images", "whole_triangles"]
+__all__ = ["ConvexPolygons", "FaceRefinement", "Faces", "Line", "Lines", "Nodes", "Overlaps", "Polygons",
+           "SMALLEST", "VertexImages", "clip", "connect", "divide", "images_of_pairs", "polygon_nodes",
+           "refine_for_outlines", "repeated", "scene_edges", "split_at_caustics", "vertex_images", "whole_triangles"]

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import Cameras, may_fold
-from ..geometry import SceneFrames, shared_edges
+from ..geometry import SceneFrames, following, shared_edges
 from ..support import breathe
 from .polygon_corners import Nodes
 from .triangulation import Faces
@@ -30,10 +30,10 @@ def split_at_caustics(cameras: Cameras, frames: SceneFrames, nodes: Nodes,
     mirror_map = cameras.mirror_map
     folding = np.flatnonzero(may_fold(cameras)[faces.camera])
     chosen = faces.select(folding)
-    start, following = chosen.nodes.ravel(), np.roll(chosen.nodes, -1, axis=1).ravel()
+    start, end = chosen.nodes.ravel(), following(chosen.nodes).ravel()
     face, column = np.repeat(cameras.face[chosen.camera], 3), np.repeat(chosen.column, 3)
     turned = _magnification(mirror_map, frames, face, column, nodes.place[:, start])
-    mixed = turned * np.roll(turned.reshape(-1, 3), -1, axis=1).ravel() < 0.0
+    mixed = turned * following(turned.reshape(-1, 3)).ravel() < 0.0
     if not mixed.any():
         return nodes, faces, 0
     ends, _, edge = shared_edges(chosen.nodes)
@@ -42,7 +42,7 @@ def split_at_caustics(cameras: Cameras, frames: SceneFrames, nodes: Nodes,
     cut = owner >= 0
     owner = owner[cut]
     at = _zero(mirror_map, frames, face[owner], column[owner], nodes.place[:, start[owner]],
-               nodes.place[:, following[owner]])
+               nodes.place[:, end[owner]])
     new = np.full(len(ends), -1)
     new[cut] = np.arange(cut.sum()) + len(nodes.distance)
     children, _ = chosen.split(new[edge])

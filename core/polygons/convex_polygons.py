@@ -124,12 +124,19 @@ class ConvexPolygons:
         all_values[:, chosen] = values
         return self.joined((self.cut(all_values, Line.HIDDEN), self.select(chosen).cut(-values, Line.HIDDEN)))
 
+    def fans(self, apex: np.ndarray | int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Fans (t) over the polygons from the corners `apex` (q,) of each: the polygon of each triangle, its corners
+        (3, t), and which of its polygon's it is, from 1 on."""
+        step, fan = ranges(np.ones(len(self), dtype=np.int64), np.maximum(self.size - 2, 0))
+        base, length = self.start[:-1][fan], self.size[fan]
+        first = np.broadcast_to(apex, len(self))[fan]
+        return fan, np.stack([base + (first + k) % length for k in (np.zeros_like(step), step, step + 1)]), step
+
     def triangles(self, smallest: float = SMALLEST) -> tuple[np.ndarray, np.ndarray]:
         """Fans over the polygons: the owner of each triangle, and the weights (3, 3, n) of its corners, entry [i, k]:
         weight i of corner k. Triangles up to the `smallest` part of a camera are left out."""
-        step, fan = ranges(np.ones(len(self), dtype=np.int64), np.maximum(self.size - 2, 0))
-        first = self.start[:-1][fan]
-        weights = self.weights[:, np.stack((first, first + step, first + step + 1))]
+        fan, corner, _ = self.fans(0)
+        weights = self.weights[:, corner]
         areal = np.abs(dot(weights[:, 0], cross(weights[:, 1], weights[:, 2]))) > smallest
         return self.owner[fan[areal]], weights[:, :, areal]
 

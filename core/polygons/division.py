@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import dot, first_of, in_order, ranges
+from ..geometry import ColumnArrays, dot, first_of, in_order, ranges
 from ..support import breathe
 from .convex_polygons import ConvexPolygons, Kind
 
@@ -14,7 +14,7 @@ SHORTEST = 1e-6  # of a line: what must lie in a part to cut it
 
 
 @dataclass(frozen=True)
-class Lines:
+class Lines(ColumnArrays):
     """Straight lines (l) across cameras: where a function, linear in the weights, is zero.
 
     Attributes
@@ -28,9 +28,6 @@ class Lines:
     values: np.ndarray
     start: np.ndarray
     stop: np.ndarray
-
-    def select(self, chosen: np.ndarray) -> Lines:
-        return Lines(self.camera[chosen], self.values[:, chosen], self.start[:, chosen], self.stop[:, chosen])
 
 
 def divide(pieces: Kind, lines: Lines, line: np.ndarray, piece: np.ndarray, most: int) -> tuple[Kind, np.ndarray]:

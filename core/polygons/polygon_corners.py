@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, ReflectionMap
-from ..geometry import SceneFrames, columns, dot, groups
+from ..geometry import SceneFrames, columns, dot, groups, others
 from ..support import breathe
 from .clipping import Polygons
 from .convex_polygons import Line
@@ -78,12 +78,12 @@ class _Corners:
     def mirror_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
         """(n, 2) sorted camera corners of the mirror edge `label`."""
         first = 3 * self.camera[chosen]
-        return _rising(*(columns(self.cameras.corners.ravel(), first + (label + step) % 3) for step in (1, 2)))
+        return _rising(*(columns(self.cameras.corners.ravel(), first + corner) for corner in others(label)))
 
     def scene_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
         """(n, 2) sorted scene vertices of the triangle's edge `label`."""
         vertices, side, column = self.frames.vertices, label - Line.SCENE_EDGE, self.column[chosen]
-        return _rising(*(columns(vertices.ravel(), (side + step) % 3 * vertices.shape[1] + column) for step in (1, 2)))
+        return _rising(*(columns(vertices.ravel(), corner * vertices.shape[1] + column) for corner in others(side)))
 
 
 def _rising(one: np.ndarray, other: np.ndarray) -> np.ndarray:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import parent_side, ranges, split
+from ..geometry import following, parent_side, split
 from .clipping import Polygons
 from .convex_polygons import scene_edges
 
@@ -47,7 +47,7 @@ class Faces:
         side = parent_side(local)
         row = np.arange(len(parent))[:, None]
         on_edge = np.where(side < 3, self.on_scene_edge[parent][row, np.minimum(side, 2)], False)
-        whole = (local < 3) & (np.roll(local, -1, axis=1) < 3) & (side < 3)
+        whole = (local < 3) & (following(local) < 3) & (side < 3)
         nodes = np.take_along_axis(six, local, axis=1)
         return Faces(nodes, self.camera[parent], self.column[parent], on_edge), whole
 
@@ -83,13 +83,11 @@ def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Face
     least = np.flatnonzero(spread <= bound)
     apex = local[least[np.flatnonzero(np.diff(polygon[least], prepend=-1))]]
 
-    step, fan = ranges(np.ones(len(size), dtype=np.int64), size - 2)
-    base, length = polygons.start[:-1][fan], size[fan]
-    corner = [base + (apex[fan] + k) % length for k in (np.zeros_like(step), step, step + 1)]
+    fan, corner, step = polygons.fans(apex)
     scene = scene_edges(polygons.after)
-    first, last = step == 1, step + 2 == length
+    first, last = step == 1, step + 2 == size[fan]
     edges = np.stack((scene[corner[0]] & first, scene[corner[1]], scene[corner[2]] & last), axis=1)
-    nodes = np.stack([node_of[c] for c in corner], axis=1)
+    nodes = node_of[corner].T
     faces = Faces(nodes, polygons.camera[fan], polygons.column[fan], edges)
     a, b, c = faces.nodes.T
     return faces.select((a != b) & (b != c) & (c != a))

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View, connected, doubled_areas, ranges, split
+from ..geometry import View, connected, doubled_areas, following, ranges, split
 from .reflection_mesh import ReflectionMesh
 
 STRAYING = 0.1
@@ -157,14 +157,14 @@ def _pixels(clip: np.ndarray, view: View) -> np.ndarray:
 def _straying(clip: np.ndarray, view: View) -> np.ndarray:
     """Pixels (k, 3) between the middles of the edges 01, 12, 20 as they are seen and those of their pictures."""
     pixels, depth = _pixels(clip, view), clip[..., 3]
-    length = np.linalg.norm(np.roll(pixels, -1, axis=1) - pixels, axis=2)
-    other = np.roll(depth, -1, axis=1)
+    length = np.linalg.norm(following(pixels) - pixels, axis=2)
+    other = following(depth)
     return 0.5 * np.abs(other - depth) / (other + depth) * length
 
 
 def _children(corners: np.ndarray, parent: np.ndarray, local: np.ndarray) -> np.ndarray:
     """What the corners of the parts of triangles have, from what (k, 3, c) those of the triangles have."""
-    middles = 0.5 * (corners + np.roll(corners, -1, axis=1))
+    middles = 0.5 * (corners + following(corners))
     return np.take_along_axis(np.concatenate((corners, middles), axis=1)[parent], local[:, :, None], axis=1)
 
 

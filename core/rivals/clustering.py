@@ -11,11 +11,9 @@ import numpy as np
 
 from ..culling import SceneTree
 from ..geometry import TriangleMesh, View, groups, ranges
-from .box_tree import BoxTree
-from .cluster_cones import cones_around
 from .primary_hits import TOUCHING, PrimaryHits
 from .rival_picture import ITSELF, RivalPicture, Work
-from .tree_rays import meet
+from .tracing import BoxTree, cones_around, meet
 
 PAIRS_AT_ONCE = 500_000
 

@@ -10,7 +10,7 @@ from ..support import Settings
 from .drawn_mesh import DrawnMesh
 from .primary_hits import PrimaryHits
 from .rival_picture import RivalPicture, Work
-from .tessellation import quartered, tessellated
+from .scenes import quartered, tessellated
 
 UNREFINED = 1e9  # pixels: no displacement is larger, and nothing is split
 DEFAULT = 0.5  # pixels

@@ -11,8 +11,8 @@ import numpy as np
 from ..geometry import TriangleMesh, View, dot, norm, shared_edges, solve, split
 from .drawn_mesh import DrawnMesh
 from .primary_hits import PrimaryHits
-from .ray_pyramid import RayPyramid
 from .rival_picture import RivalPicture, Work
+from .tracing import RayPyramid
 
 ROUNDS = 12
 LONGEST = 2.0  # steps of the grid of rays: longer edges of virtual triangles are split in the middle

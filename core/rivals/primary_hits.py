@@ -9,8 +9,8 @@ from ..cameras import MirrorMap
 from ..culling import SceneTree
 from ..geometry import TriangleMesh, View, dot, draw, unit
 from ..reflection import ReflectionError
-from .cluster_cones import cones_around
 from .rival_picture import Work
+from .tracing import cones_around
 
 ABOVE = 1e-9  # of the mirror's size: what rises less above a plane touches it by rounding
 TOUCHING = 1e-7  # of a mesh's size: a hit nearer than this is the surface that the ray starts on

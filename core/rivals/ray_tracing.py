@@ -4,11 +4,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry import TriangleMesh, View
-from .box_tree import BoxTree
 from .pixel_blocks import cast_by_blocks
 from .primary_hits import TOUCHING, PrimaryHits
 from .rival_picture import ITSELF, RivalPicture, Work
-from .tree_rays import first_hits
+from .tracing import BoxTree, first_hits
 
 
 def traced(view: View, mirror: TriangleMesh, scene: TriangleMesh, block: int, hits: PrimaryHits) -> RivalPicture:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, with_pieces
-from ..geometry import SceneFrames, cross, distinct, dot, groups, in_order, norm, ranges, rows, shares
+from ..geometry import SceneFrames, cross, distinct, dot, groups, in_order, norm, others, ranges, rows, shares
 from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
 from ..support import breathe
 
@@ -90,7 +90,7 @@ class HiddenParts:
         pair, label = self.parts.polygon[corner], self.parts.after[corner].astype(np.int64) - Line.SCENE_EDGE
         on_side, own = label < 3, np.arange(len(pair))
         place, point = _places(frames, self.column[pair])
-        a, b, third = (place[(label + step) % 3, own] for step in (1, 2, 0))
+        a, b, third = (place[corner % 3, own] for corner in (*others(label), label))
         turned = a > b
         a, b = np.where(turned, b, a), np.where(turned, a, b)
         pa, pb, pc = (point[:, some] for some in (a, b, third))

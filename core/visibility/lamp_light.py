@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras import Cameras, with_pieces
-from ..geometry import LampView, TriangleMesh, View, has_area
+from ..cameras import Cameras, not_edge_on, with_pieces
+from ..geometry import LampView, TriangleMesh, View
 from ..polygons import ConvexPolygons, Line
 
 
@@ -14,11 +14,7 @@ def with_shades(view: View, mirror: TriangleMesh, faces: np.ndarray) -> tuple[Tr
     if not isinstance(view, LampView) or view.shades is None or not len(view.shades.triangles):
         return mirror, faces
     shades = view.shades
-    corners = shades.positions[shades.triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    size = np.abs(corners - corners[:, :1]).max(axis=(1, 2))
-    across = np.einsum("ij,ij->i", view.directions(corners[:, 0]), normals) != 0.0
-    chosen = np.flatnonzero(has_area(np.linalg.norm(normals, axis=1), size) & across)
+    chosen = np.flatnonzero(not_edge_on(view, shades))
     return TriangleMesh.joined((mirror, shades)), np.concatenate((faces, len(mirror.triangles) + chosen))
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import columns, dot, groups, in_order, largest, ranges, shares, smallest
+from ..geometry import columns, dot, groups, in_order, largest, others, ranges, shares, smallest
 from ..polygons import Line, Lines, Polygons, clip, divide, scene_edges
 from ..support import breathe
 
@@ -64,7 +64,7 @@ def _outlines(met: SceneAndMirrors, seen: Candidates) -> Lines:
     outer = ~met.inner_sides(seen)[side, pair]
     corner, side, pair = corner[outer], side[outer], pair[outer]
     vertices, row = seen.frames.vertices[:, seen.column[pair]], np.arange(len(pair))
-    ends = np.sort(np.stack((vertices[(side + 1) % 3, row], vertices[(side + 2) % 3, row])), axis=0)
+    ends = np.sort(np.stack([vertices[corner, row] for corner in others(side)]), axis=0)
     once, _ = groups(seen.camera[pair], *ends)
     corner, side, pair = corner[once], side[once], pair[once]
     return Lines(seen.camera[pair], seen.sides[side, :, pair].T, polygons.weights[:, corner],

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import distinct, doubled_areas
+from ..geometry import distinct, doubled_areas, edge_numbers
 from ..patches import Patch
 from ..support import breathe
 from .images import Images
@@ -70,7 +70,7 @@ class Division:
             side, face = np.nonzero(asked)
             one, other = pieces.nodes[side, face], pieces.nodes[(side + 1) % 3, face]
             count = len(images)
-            keys, edge = distinct(np.minimum(one, other) * count + np.maximum(one, other))
+            keys, edge = distinct(edge_numbers(one, other, count))
             over = np.zeros(len(keys), dtype=bool)
             over[edge[~whole(self.patch, images, pieces)[face]]] = True
             outline = _outlines(images, pieces, face, edge, len(keys))
@@ -84,7 +84,7 @@ class Division:
                 break
             new = np.full(len(keys), -1)
             new[marked] = count + np.arange(len(middles))
-            images = images.joined(middles)
+            images = Images.joined((images, middles))
             middle = np.full(pieces.nodes.shape, -1)
             middle[side, face] = new[edge]
             pieces.lost[side, face] |= lost[edge]

@@ -1,15 +1,16 @@
 """Nodes of the whole faces: points of the scene with their images on the patch."""
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry import ColumnArrays
 from ..patches import Patch, Starts, find, jacobians
 
 
 @dataclass(frozen=True)
-class Images:
+class Images(ColumnArrays):
     """Points (n) and their images, one each at the most.
 
     Attributes
@@ -46,16 +47,6 @@ class Images:
         pixel = patch.pixels(place)
         found &= np.isfinite(pixel).all(axis=0)
         return cls(points, member, uv, s, found, place, pixel, np.full((2, 3, len(s)), np.nan))
-
-    def __len__(self) -> int:
-        return len(self.member)
-
-    def select(self, chosen: np.ndarray) -> Images:
-        return Images(*(getattr(self, field.name)[..., chosen] for field in fields(Images)))
-
-    def joined(self, other: Images) -> Images:
-        return Images(*(np.concatenate((getattr(self, field.name), getattr(other, field.name)), axis=-1)
-                        for field in fields(Images)))
 
     def several(self, nodes: np.ndarray) -> np.ndarray:
         """Which faces (3, f) lie over several triangles of the mirror."""

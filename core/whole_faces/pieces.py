@@ -4,11 +4,11 @@ A triangle with three images that lies on the patch away from its border is a wh
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import doubled_areas, parent_side, rows, split
+from ..geometry import ColumnArrays, doubled_areas, parent_side, rows, split
 from ..patches import Patch
 from .coverage import box
 from .images import Images
@@ -17,7 +17,7 @@ NEAR = 0.5  # pixels from the box of a face: where its bent edges may lie
 
 
 @dataclass(frozen=True)
-class Pieces:
+class Pieces(ColumnArrays):
     """Pieces (f) of scene triangles.
 
     Attributes
@@ -38,17 +38,6 @@ class Pieces:
         """The triangles (f, 3), whole."""
         nodes = rows(triangles)
         return cls(nodes, source, np.zeros(nodes.shape, dtype=bool), np.zeros(nodes.shape, dtype=bool))
-
-    def __len__(self) -> int:
-        return len(self.source)
-
-    def select(self, chosen: np.ndarray) -> Pieces:
-        return Pieces(*(getattr(self, field.name)[..., chosen] for field in fields(Pieces)))
-
-    @staticmethod
-    def joined(parts: list[Pieces]) -> Pieces:
-        return Pieces(*(np.concatenate([getattr(part, field.name) for part in parts], axis=-1)
-                        for field in fields(Pieces)))
 
     def split(self, middle: np.ndarray) -> Pieces:
         """Pieces split at the nodes `middle` (3, f) of their edges, -1 for none."""

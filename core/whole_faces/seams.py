@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import SceneFrames, ranges
+from ..geometry import SceneFrames, edge_numbers, following, others, ranges
 from ..polygons import Faces, Nodes
 from .images import Images
 from .whole import WholeFaces
@@ -95,8 +95,7 @@ def seamed(whole: WholeFaces, cut: CutFaces, on_patch: np.ndarray) -> tuple[Seam
 
 def _edges(nodes: np.ndarray, count: int) -> np.ndarray:
     """Numbers (f, 3) of the edges 01, 12, 20 of faces (f, 3), the same from both sides."""
-    following = np.roll(nodes, -1, axis=1)
-    return np.minimum(nodes, following) * count + np.maximum(nodes, following)
+    return edge_numbers(nodes, following(nodes), count)
 
 
 def _on_edges(cut: CutFaces, on_patch: np.ndarray, seam: np.ndarray,
@@ -111,12 +110,13 @@ def _on_edges(cut: CutFaces, on_patch: np.ndarray, seam: np.ndarray,
     off = np.maximum(*np.abs(weights))
     third = off.argmin(axis=0)
     vertices = frames.vertices[:, column]
-    one, other = vertices[(third + 1) % 3, row], vertices[(third + 2) % 3, row]
-    low, high = np.minimum(one, other), np.maximum(one, other)
-    key = np.where((high < count) & (off[third, row] < ON_EDGE), low * count + high, -1)
+    first, second = others(third)
+    one, other = vertices[first, row], vertices[second, row]
+    whole_edge = (np.maximum(one, other) < count) & (off[third, row] < ON_EDGE)
+    key = np.where(whole_edge, edge_numbers(one, other, count), -1)
     at = np.minimum(np.searchsorted(seam, key), max(len(seam) - 1, 0))
     kept = np.flatnonzero(seam[at] == key) if len(seam) else np.zeros(0, dtype=np.int64)
-    toward = np.where(one > other, (third + 1) % 3, (third + 2) % 3)
+    toward = np.where(one > other, first, second)
     found = [(key[kept], end[kept], weight[toward[kept], kept]) for end, weight in zip(ends, weights)]
     key, node, share = (np.concatenate(part) for part in zip(*found))
     order = np.lexsort((node, key))
@@ -140,16 +140,16 @@ def _with_nodes(whole: WholeFaces, images: Images, nodes: np.ndarray, own: np.nd
     middles = _middles(whole, images, nodes[chosen])
     # the corners of each ring: along each edge its first end, and the nodes on it
     start, more, corners = start[chosen].ravel(), more[chosen].ravel(), nodes[chosen]
-    back = (corners > np.roll(corners, -1, axis=1)).ravel()
+    back = (corners > following(corners)).ravel()
     step, edge = ranges(np.zeros(len(more), dtype=np.int64), more + 1)
     at = np.where(back[edge], start[edge] + more[edge] - step, start[edge] + step - 1)
     ring = np.where(step == 0, corners.ravel()[edge], count + len(middles) + node[np.minimum(at, len(node) - 1)])
     fan = edge // 3
-    following = np.append(ring[1:], ring[:1])
+    after = np.append(ring[1:], ring[:1])
     first = np.append(0, np.flatnonzero(np.diff(fan)) + 1)
-    following[np.append(first[1:], len(fan)) - 1] = ring[first]
-    return images.joined(middles), np.concatenate((
-        nodes[rest], np.stack((ring, following, count + fan), axis=1))), np.concatenate((rest, chosen[fan]))
+    after[np.append(first[1:], len(fan)) - 1] = ring[first]
+    return Images.joined((images, middles)), np.concatenate((
+        nodes[rest], np.stack((ring, after, count + fan), axis=1))), np.concatenate((rest, chosen[fan]))
 
 
 def _middles(whole: WholeFaces, images: Images, nodes: np.ndarray) -> Images:

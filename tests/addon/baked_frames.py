@@ -1,6 +1,7 @@
 """A scene that moves, baked frame by frame, and what must come of it."""
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import bpy
@@ -63,3 +64,17 @@ def add_camera(name: str, place: tuple, turn: tuple) -> bpy.types.Object:
     camera.location, camera.rotation_euler = place, turn
     bpy.context.scene.collection.objects.link(camera)
     return camera
+
+
+def stopped_at_each_stage(steps: Callable[[str], Iterator], check: Callable[[str], None]) -> list[str]:
+    """Run `steps`, of a folder's name, to their end, then anew up to each stage that they tell, where they are closed;
+    `check` is asked each time. Returns the stages."""
+    told = list(dict.fromkeys(stage for _, stage in steps("all")))
+    check("all")
+    for index, stage in enumerate(told):
+        running = steps(f"out{index}")
+        while next(running)[1] != stage:
+            pass
+        running.close()
+        check(stage)
+    return told

@@ -66,6 +66,18 @@ def rendered(tmp_path, samples: int = 16) -> np.ndarray:
     return pixels.reshape(SIZE, SIZE, 4)[..., :3].astype(np.float64)
 
 
+def light_and_lamp_behind(mirror: bpy.types.Object, lamp: bpy.types.Object, tmp_path) -> tuple[np.ndarray, np.ndarray]:
+    """Generate the mirror's light: its picture, and that of the lamp mirrored behind the mirror, which is gone then."""
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    result = bpy.data.objects["Mirror Caustics"]
+    with_light = rendered(tmp_path)
+    result.hide_render = True
+    light = with_light - rendered(tmp_path)
+    mirror.hide_render = True
+    aim(lamp, (2.0 * AIM.x + 0.9, 0.1, 1.8))
+    return light, rendered(tmp_path, 64) * TINT
+
+
 def inner(light: np.ndarray) -> np.ndarray:
     """The pixels of a patch that are not at its border."""
     lit = light[..., 0] > 0.1 * np.percentile(light[..., 0], 99)

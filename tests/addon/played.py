@@ -1,6 +1,7 @@
 """What a file shows at some frames in a fresh Blender without the extension, and pictures that Cycles makes of it."""
 from __future__ import annotations
 
+import inspect
 import json
 import os
 import subprocess
@@ -9,10 +10,29 @@ from pathlib import Path
 
 import numpy as np
 
-SCRIPT = r"""
-import json, os, sys
-import bpy
-import numpy as np
+
+def attributes_of(mesh) -> dict:
+    """The values of a mesh's attributes by "DOMAIN TYPE NAME"."""
+    found = {}
+    for entry in mesh.attributes:
+        width, field = {"FLOAT2": (2, "vector"), "FLOAT_VECTOR": (3, "vector"), "FLOAT_COLOR": (4, "color"),
+                        "BYTE_COLOR": (4, "color"), "FLOAT": (1, "value"), "INT": (1, "value"),
+                        "BOOLEAN": (1, "value")}.get(entry.data_type, (0, ""))
+        if not width or entry.name.startswith("."):
+            continue
+        values = np.empty(width * len(entry.data), dtype={"INT": np.int32, "BOOLEAN": bool}.get(
+            entry.data_type, np.float32))
+        entry.data.foreach_get(field, values)
+        if entry.domain == "EDGE":
+            # edges are numbered otherwise in files
+            ends = np.empty(2 * len(mesh.edges), dtype=np.int32)
+            mesh.edges.foreach_get("vertices", ends)
+            values = values.reshape(-1, width)[np.lexsort(np.sort(ends.reshape(-1, 2), axis=1).T)].ravel()
+        found[f"{entry.domain} {entry.data_type} {entry.name}"] = values
+    return found
+
+
+SCRIPT = "import json, os, sys\nimport bpy\nimport numpy as np\n\n" + inspect.getsource(attributes_of) + r"""
 
 asked = json.loads(sys.argv[-1])
 bpy.ops.wm.open_mainfile(filepath=asked["file"])
@@ -53,20 +73,8 @@ for frame in asked["frames"]:
         told[f"{frame} {name} corners"] = corners
         told[f"{frame} {name} materials"] = np.array(
             [shown.material_slots[face.material_index].material.name for face in mesh.polygons], dtype=str)
-        for entry in mesh.attributes:
-            width, field = {"FLOAT2": (2, "vector"), "FLOAT_VECTOR": (3, "vector"), "FLOAT_COLOR": (4, "color"),
-                            "BYTE_COLOR": (4, "color"), "FLOAT": (1, "value"), "INT": (1, "value"),
-                            "BOOLEAN": (1, "value")}.get(entry.data_type, (0, ""))
-            if width and not entry.name.startswith("."):
-                values = np.empty(width * len(entry.data), dtype={"INT": np.int32, "BOOLEAN": bool}.get(
-                    entry.data_type, np.float32))
-                entry.data.foreach_get(field, values)
-                if entry.domain == "EDGE":
-                    # edges are numbered otherwise in files
-                    ends = np.empty(2 * len(mesh.edges), dtype=np.int32)
-                    mesh.edges.foreach_get("vertices", ends)
-                    values = values.reshape(-1, width)[np.lexsort(np.sort(ends.reshape(-1, 2), axis=1).T)].ravel()
-                told[f"{frame} {name} : {entry.domain} {entry.data_type} {entry.name}"] = values
+        for what, values in attributes_of(mesh).items():
+            told[f"{frame} {name} : {what}"] = values
 np.savez(os.path.join(asked["folder"], "told.npz"), **told)
 """
 
@@ -94,18 +102,6 @@ def generated(obj) -> dict:
     mesh.loops.foreach_get("vertex_index", corners)
     told = {"places": places.reshape(-1, 3), "origin": np.array(obj.matrix_world.translation), "corners": corners,
             "materials": np.array([mesh.materials[face.material_index].name for face in mesh.polygons], dtype=str)}
-    for entry in mesh.attributes:
-        width, field = {"FLOAT2": (2, "vector"), "FLOAT_VECTOR": (3, "vector"), "FLOAT_COLOR": (4, "color"),
-                        "BYTE_COLOR": (4, "color"), "FLOAT": (1, "value"), "INT": (1, "value"),
-                        "BOOLEAN": (1, "value")}.get(entry.data_type, (0, ""))
-        own = entry.name.startswith(".") or entry.name in {"position", "material_index"}
-        if width and not own:
-            values = np.empty(width * len(entry.data), dtype={"INT": np.int32, "BOOLEAN": bool}.get(
-                entry.data_type, np.float32))
-            entry.data.foreach_get(field, values)
-            if entry.domain == "EDGE":
-                ends = np.empty(2 * len(mesh.edges), dtype=np.int32)
-                mesh.edges.foreach_get("vertices", ends)
-                values = values.reshape(-1, width)[np.lexsort(np.sort(ends.reshape(-1, 2), axis=1).T)].ravel()
-            told[f": {entry.domain} {entry.data_type} {entry.name}"] = values
-    return told
+    own = ("position", "material_index")
+    return told | {f": {what}": values for what, values in attributes_of(mesh).items()
+                   if what.split(" ", 2)[2] not in own}

@@ -4,8 +4,8 @@ from __future__ import annotations
 import numpy as np
 
 from core import Settings, TriangleMesh, View
-from tests.fuzz.configurations import Configuration
-from tests.fuzz.mirrors import vertex_normals
+from tests.fuzz.drawing.configurations import Configuration
+from tests.fuzz.drawing.mirrors import vertex_normals
 from tests.inputs import shapes
 
 

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from core import CausticMesh, ReflectionError, caustics
-from core.rivals.light_rays import LightRays
-from tests.fuzz.lights import LightConfiguration, drawn_light
+from core.rivals.tracing import LightRays
+from tests.fuzz.drawing.lights import LightConfiguration, drawn_light
 from tests.fuzz.limits import TooLong, at_most
 from tests.fuzz.reflecting import SENTENCE
 

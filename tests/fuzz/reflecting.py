@@ -8,7 +8,7 @@ import warnings
 from dataclasses import dataclass, field
 
 from core import ReflectionError, ReflectionMesh, reflection_steps
-from tests.fuzz.configurations import Configuration
+from tests.fuzz.drawing.configurations import Configuration
 from tests.fuzz.limits import TooLong, at_most, peak_gigabytes
 
 SECONDS = 10.0  # of processor time, for one reflection of a few hundred triangles

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from core import Settings, TriangleMesh, View
-from tests.fuzz import picture_checks, twins
-from tests.fuzz.configurations import Configuration
+from tests.fuzz.checks import picture_checks, twins
+from tests.fuzz.drawing.configurations import Configuration
 from tests.fuzz.reflecting import Reflected, reflected
 from tests.fuzz.trying import checked, twin_problems
 from tests.inputs import shapes

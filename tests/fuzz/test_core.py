@@ -1,13 +1,13 @@
 """`core.reflect` on what failed once, and on small configurations drawn at random, each with twins of it."""
 import pytest
 
-from tests.fuzz.configurations import drawn
+from tests.fuzz.checks.picture_checks import regions
+from tests.fuzz.checks.twins import TWINS
+from tests.fuzz.drawing.configurations import drawn
 from tests.fuzz.kept import kept_seeds
 from tests.fuzz.kept_examples import EXAMPLES
-from tests.fuzz.picture_checks import regions
 from tests.fuzz.reflecting import reflected
 from tests.fuzz.trying import problems_of
-from tests.fuzz.twins import TWINS
 
 pytestmark = pytest.mark.slow
 

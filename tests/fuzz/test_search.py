@@ -8,7 +8,7 @@ import pytest
 from core import ReflectionError
 from tests.fuzz import limits, reflecting
 from tests.fuzz.asking import Asked
-from tests.fuzz.configurations import drawn
+from tests.fuzz.drawing.configurations import drawn
 from tests.fuzz.kept import OF_A_KIND, keep, kept_seeds
 from tests.fuzz.limits import at_most
 from tests.fuzz.reflecting import reflected

@@ -4,10 +4,10 @@ from __future__ import annotations
 import numpy as np
 
 from core import ReflectionMesh
-from tests.fuzz import mesh_checks, picture_checks, place_checks
-from tests.fuzz.configurations import Configuration
+from tests.fuzz.checks import mesh_checks, picture_checks, place_checks
+from tests.fuzz.checks.twins import TWINS, nearly_the_same, same_to_the_bit
+from tests.fuzz.drawing.configurations import Configuration
 from tests.fuzz.reflecting import Reflected, reflected
-from tests.fuzz.twins import TWINS, nearly_the_same, same_to_the_bit
 
 CHECKS = mesh_checks.THEN + place_checks.CHECKS + picture_checks.CHECKS
 PATIENCE = 1.0  # seconds: what takes longer is not done again for its twins

@@ -39,7 +39,7 @@ def main(kind: str) -> None:
 
 @contextmanager
 def _core() -> Iterator[Callable[[int], dict]]:
-    from tests.fuzz.configurations import drawn
+    from tests.fuzz.drawing.configurations import drawn
     from tests.fuzz.trying import problems_of
 
     def tried(seed: int) -> dict:
@@ -57,14 +57,14 @@ def _light() -> Iterator[Callable[[int], dict]]:
 @contextmanager
 def _scenes() -> Iterator[Callable[[int], dict]]:
     with _extension():
-        from tests.fuzz.scene_trial import tried_scene
+        from tests.fuzz.blender.scene_trial import tried_scene
         yield tried_scene
 
 
 @contextmanager
 def _lamps() -> Iterator[Callable[[int], dict]]:
     with _extension():
-        from tests.fuzz.scene_light_trial import tried_lamps
+        from tests.fuzz.blender.scene_light_trial import tried_lamps
         yield tried_lamps
 
 

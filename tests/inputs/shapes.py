@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.rivals.shapes import combine, icosphere, sheet, torus
+from core.rivals.scenes import combine, icosphere, sheet, torus
 
 __all__ = ["bowl", "box", "combine", "cylinder", "icosphere", "quad", "saddle", "sheet", "torus", "uv_sphere", "water"]
 

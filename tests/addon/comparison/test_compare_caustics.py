@@ -9,7 +9,7 @@ import parts
 import pytest
 from caustic_scene import add_lamp, scene_of
 
-from tests.fuzz.scene_state import state
+from tests.fuzz.blender.scene_state import state
 
 FILES = {"reference.png", "result.png", "cycles.png", "difference.png", "difference_cycles.png", "report.json",
          "report.csv", "report.html"}

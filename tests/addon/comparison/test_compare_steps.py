@@ -9,7 +9,7 @@ import faults
 import parts
 import pytest
 
-from tests.fuzz import scene_state
+from tests.fuzz.blender import scene_state
 
 RENDERS = 9 if bpy.app.version >= (5, 0, 0) else 7
 

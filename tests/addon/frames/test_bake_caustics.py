@@ -8,7 +8,7 @@ import faults
 import numpy as np
 import parts
 import pytest
-from baked_frames import assert_same, bake, names
+from baked_frames import assert_same, bake, names, stopped_at_each_stage
 from caustic_scene import add_lamp, scene_of
 from played import generated, played
 
@@ -153,14 +153,11 @@ def test_stopped_at_any_step_the_file_is_as_it_was(thrown, room, tmp_path):
     def steps(folder: str):
         wanted = room("addon.settings").Wanted(bpy.context.scene)
         return place.baking(bpy.context, place.plan_of(bpy.context, str(tmp_path / folder), "1-2", wanted, lamps=lamps))
-    told = list(dict.fromkeys(stage for _, stage in steps("all")))
-    assert parts.state() == before and len(told) > 3
-    for index, stage in enumerate(told):
-        running = steps(f"out{index}")
-        while next(running)[1] != stage:
-            pass
-        running.close()
+
+    def check(stage: str) -> None:
         assert parts.state() == before, stage
+
+    assert len(stopped_at_each_stage(steps, check)) > 3
     assert lamps[0].light_linking.receiver_collection == linked and list(linked.objects) == [bpy.data.objects["Mirror"]]
 
 

@@ -7,7 +7,7 @@ import bpy
 import faults
 import parts
 import pytest
-from baked_frames import FRAMES, add_camera, bake, lit_scene, names
+from baked_frames import FRAMES, add_camera, bake, lit_scene, names, stopped_at_each_stage
 
 
 def test_what_is_there_is_kept_or_made_again(moving, room, tmp_path, capsys):
@@ -107,15 +107,12 @@ def test_stopped_at_any_step_the_file_is_as_it_was(moving, room, tmp_path, place
 
     def steps(folder):
         return bake_module.baking(bpy.context, bake_module.Plan(str(tmp_path / folder), [2, 3], settings, 1))
-    told = list(dict.fromkeys(stage for _, stage in steps("all")))
-    assert parts.state() == before
-    for index, stage in enumerate(told):
-        running = steps(f"out{index}")
-        while next(running)[1] != stage:
-            pass
-        running.close()
+
+    def check(stage: str) -> None:
         assert parts.state() == before, stage
         assert bpy.data.objects["Mirror Reflection"].reflection_mesh.light_stale == stale
+
+    stopped_at_each_stage(steps, check)
 
 
 @pytest.mark.parametrize("failing", ["player_of", "play", "show_by_camera", "write_result", "lighting", "generation"])
@@ -130,10 +127,11 @@ def test_an_error_leaves_no_trace(moving, room, tmp_path, monkeypatch, failing):
 
     def fails(*arguments, **options):
         raise RuntimeError("on purpose")
-    monkeypatch.setattr(bake_module, failing, fails)
+    playing = room("addon.operators.bake_playing")
+    monkeypatch.setattr(playing if hasattr(playing, failing) else bake_module, failing, fails)
     plan = bake_module.Plan(str(tmp_path / "out"), [1], room("core").Settings(), 1, cameras)
     with pytest.raises(RuntimeError, match="on purpose"):
-        bake_module.playing(bpy.context, room("addon.faults").finished(bake_module.baking(bpy.context, plan)))
+        playing.playing(bpy.context, room("addon.faults").finished(bake_module.baking(bpy.context, plan)))
     assert parts.state() == before and set(bpy.data.cache_files) == known
 
 

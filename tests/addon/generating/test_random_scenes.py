@@ -4,11 +4,11 @@ import numpy as np
 import parts
 import pytest
 
-from tests.fuzz import scene_trial
+from tests.fuzz.blender import scene_trial
+from tests.fuzz.blender.scene_checks import result_problems
+from tests.fuzz.blender.scene_state import differences, state
+from tests.fuzz.blender.scene_trial import tried_scene
 from tests.fuzz.kept import kept_seeds
-from tests.fuzz.scene_checks import result_problems
-from tests.fuzz.scene_state import differences, state
-from tests.fuzz.scene_trial import tried_scene
 
 SEEDS = range(60)  # `make fuzz` tries others
 

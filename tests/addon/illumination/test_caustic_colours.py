@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from caustic_scene import AIM, TINT, aim, inner, paint, rendered, scene_of
+from caustic_scene import inner, light_and_lamp_behind, paint, rendered, scene_of
 
 
 def coated(colour=(1.0, 0.5, 0.2), ior: float = 1.33, over: bool = True) -> bpy.types.Material:
@@ -76,15 +76,8 @@ def test_textures_lie_where_the_receiver_has_them(blank, tmp_path, capfd, kind, 
     blank.view_layer.update()
     blank.scene.cycles.max_bounces = 0
     data = parts.state()["data"]
-    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
     assert "not known" not in capfd.readouterr().out
-    result = bpy.data.objects["Mirror Caustics"]
-    with_light = rendered(tmp_path)
-    result.hide_render = True
-    light = with_light - rendered(tmp_path)
-    mirror.hide_render = True
-    aim(lamp, (2.0 * AIM.x + 0.9, 0.1, 1.8))
-    expected = rendered(tmp_path, 64) * TINT
     patch = inner(light)
     ratio = (light / np.maximum(expected, 1e-12))[patch]
     assert patch.sum() > 500 and np.ptp(np.log(expected[patch])) > 0.5

@@ -5,21 +5,26 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from caustic_scene import AIM, ALBEDO, LAMPS, SIZE, TINT, add_lamp, aim, inner, paint, rendered, scene_of
+from caustic_scene import (
+    AIM,
+    ALBEDO,
+    LAMPS,
+    SIZE,
+    TINT,
+    add_lamp,
+    inner,
+    light_and_lamp_behind,
+    paint,
+    rendered,
+    scene_of,
+)
 
 
 @pytest.mark.parametrize("kind", LAMPS)
 def test_it_is_as_bright_as_the_lamp_behind_a_flat_mirror(blank, tmp_path, kind):
     floor, mirror, lamp = scene_of(kind)
     blank.scene.cycles.max_bounces = 0  # light from floor to mirror to floor is noise here
-    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
-    result = bpy.data.objects["Mirror Caustics"]
-    with_light = rendered(tmp_path)
-    result.hide_render = True
-    light = with_light - rendered(tmp_path)
-    mirror.hide_render = True
-    aim(lamp, (2.0 * AIM.x + 0.9, 0.1, 1.8))
-    expected = rendered(tmp_path, 64) * TINT
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
     ratio = (light / np.maximum(expected, 1e-12))[inner(light)]
     assert len(ratio) > 500
     assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 2e-3

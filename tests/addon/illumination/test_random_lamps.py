@@ -2,9 +2,9 @@
 import bpy
 import pytest
 
-from tests.fuzz import scene_light_trial, scene_trial
+from tests.fuzz.blender import scene_light_trial, scene_trial
+from tests.fuzz.blender.scene_light_trial import tried_lamps
 from tests.fuzz.kept import kept_seeds
-from tests.fuzz.scene_light_trial import tried_lamps
 
 SEEDS = range(16)  # `make fuzz` tries others
 

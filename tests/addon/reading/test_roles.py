@@ -103,7 +103,7 @@ def test_objects_in_a_hidden_collection_are_left_out(four, room):
     ("PRINCIPLED", 0.0, 1.0, True), ("PRINCIPLED", 0.0, 0.0, False), ("PRINCIPLED", 0.5, 1.0, False),
     ("DIFFUSE", 0.0, 0.0, False), ("EMISSION", 0.0, 0.0, False)])
 def test_mirror_materials(blank, room, kind, roughness, metallic, expected):
-    is_mirror = room("addon.reading.mirror_materials").is_mirror
+    is_mirror = room("addon.reading.materials.mirror_materials").is_mirror
     assert is_mirror(parts.material("M", kind, roughness, metallic)) is expected
 
 
@@ -112,11 +112,11 @@ def test_a_textured_roughness_makes_no_mirror(blank, room):
     tree = made.node_tree
     shader = next(node for node in tree.nodes if node.type == "BSDF_GLOSSY")
     tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], shader.inputs["Roughness"])
-    assert not room("addon.reading.mirror_materials").is_mirror(made)
+    assert not room("addon.reading.materials.mirror_materials").is_mirror(made)
 
 
 def test_reroutes_and_empty_materials(blank, room):
-    is_mirror = room("addon.reading.mirror_materials").is_mirror
+    is_mirror = room("addon.reading.materials.mirror_materials").is_mirror
     made = parts.material("M", "GLOSSY")
     tree = made.node_tree
     output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")

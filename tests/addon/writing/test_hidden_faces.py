@@ -29,12 +29,12 @@ def opened(what: str) -> bpy.types.Material:
 @pytest.mark.parametrize("what", ["alpha", "alpha by a texture", "transmission", "a group", "ShaderNodeBsdfTransparent",
                                   "ShaderNodeBsdfGlass", "ShaderNodeBsdfRefraction", "ShaderNodeHoldout"])
 def test_materials_that_let_light_through(blank, room, what):
-    assert not room("addon.reading.opaque_materials").is_opaque(opened(what))
+    assert not room("addon.reading.materials.opaque_materials").is_opaque(opened(what))
 
 
 @pytest.mark.parametrize("kind", ["EMISSION", "GLOSSY", "PRINCIPLED"])
 def test_opaque_materials(blank, room, kind):
-    is_opaque = room("addon.reading.opaque_materials").is_opaque
+    is_opaque = room("addon.reading.materials.opaque_materials").is_opaque
     assert is_opaque(parts.material("Opaque", kind)) and is_opaque(None)
 
 

@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 
 from core import Lamp, caustics
-from core.rivals.light_rays import LightRays
+from core.rivals.tracing import LightRays
 from tests.core.caustics.test_caustics import level, ring, solid_angle, upright
+from tests.fuzz.drawing.lights import drawn_light
 from tests.fuzz.kept import kept_seeds
 from tests.fuzz.light_trial import light_problems
-from tests.fuzz.lights import drawn_light
 
 SEEDS = range(20)  # `make fuzz` tries others
 

@@ -4,7 +4,7 @@ import pytest
 
 from core import TriangleMesh, View
 from core.geometry import draw
-from core.rivals.tessellation import quartered, tessellated
+from core.rivals.scenes import quartered, tessellated
 from tests.inputs import shapes
 from tests.oracles.raster import rasterise
 from tests.oracles.true_map import case_of, mesh_of

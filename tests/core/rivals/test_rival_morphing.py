@@ -4,7 +4,7 @@ import pytest
 
 from core.rivals import primary_hits
 from core.rivals.morphing import morphed
-from core.rivals.ray_pyramid import RayPyramid
+from core.rivals.tracing import RayPyramid
 from tests.oracles.judge import compare_picture
 from tests.oracles.true_map import case_of, truth_of
 

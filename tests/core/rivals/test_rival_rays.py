@@ -7,12 +7,11 @@ import pytest
 
 from core import TriangleMesh, View
 from core.rivals import ITSELF, primary_hits
-from core.rivals.box_tree import LEAF, BoxTree
-from core.rivals.cluster_cones import cones_around
 from core.rivals.clustering import clustered
 from core.rivals.primary_hits import by_face
 from core.rivals.ray_tracing import traced
-from core.rivals.tree_rays import first_hits
+from core.rivals.tracing import cones_around, first_hits
+from core.rivals.tracing.box_tree import LEAF, BoxTree
 from tests.inputs import shapes
 from tests.oracles.judge import compare_picture
 from tests.oracles.ray_hits import first_hits as brute_first_hits

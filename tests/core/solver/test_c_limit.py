@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from tools.c_limit import Missing, agreement, compiled, kernels
+from tools.solver.c_limit import Missing, agreement, compiled, kernels
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,31 @@
+"""What Cycles does with light that mirrors throw: its own caustics left out, and what it cannot follow told."""
+from __future__ import annotations
+
+import bpy
+
+from ..faults import AllOrNothing
+from .lamps import has_a_size
+from .own_caustics import leave_out_own_caustics, makes_own_caustics
+
+
+def leave_out(scene: bpy.types.Scene, mirror: bpy.types.Object, lamp: bpy.types.Object, whole: AllOrNothing) -> list:
+    """Leave out Cycles' own caustics of a lamp and a mirror, if it makes any; a sentence where that cannot be."""
+    own, alone = makes_own_caustics(mirror)
+    if scene.render.engine != "CYCLES" or not scene.cycles.caustics_reflective or not (own and has_a_size(lamp)):
+        return []
+    if not alone:
+        return [f"Cycles adds its own caustics of '{lamp.name}' in '{mirror.name}', which is lit as well as it "
+                "mirrors: switch Light Paths > Caustics > Reflective off."]
+    if leave_out_own_caustics(lamp, mirror, whole):
+        return []
+    return [f"Cycles adds its own caustics of '{lamp.name}', whose light is linked already: take '{mirror.name}' out "
+            "of what it lights."]
+
+
+def too_many_layers(scene: bpy.types.Scene, layers: int) -> list:
+    """A sentence where Cycles does not follow as many transparent layers."""
+    bounces = scene.cycles.transparent_max_bounces
+    if scene.render.engine != "CYCLES" or layers <= bounces:
+        return []
+    return [f"Cycles follows {bounces} transparent layers, and of light {layers} or more lie over each other, which is "
+            "dark there: raise Light Paths > Max Bounces > Transparent."]

@@ -1,0 +1,27 @@
+"""Sequences that were baked, shown by the file: objects that play them."""
+from __future__ import annotations
+
+import bpy
+
+from ..faults import AllOrNothing
+from ..frames import Sequence, light_of, play, player_of, show_by_camera
+from ..reading import candidates
+from .bake_caustics import playing_light
+from .bake_plan import Plan
+
+
+def playing(context: bpy.types.Context, sequences: list[Sequence]) -> list:
+    """Let the results of the file play sequences: all or none of them; returns the objects."""
+    mirrors, diffuse = candidates(context)
+    with AllOrNothing() as whole:
+        players = [player_of(sequence, mirror, light, whole)
+                   for sequence in sequences for light in [light_of(sequence, whole)] for mirror in mirrors]
+        shown = [(play(context, player, diffuse, whole), player.sequence.camera) for player in players]
+        if len(sequences) > 1:
+            show_by_camera(context.scene, shown)
+    return [obj for obj, _ in shown]
+
+
+def showing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -> tuple[list, list]:
+    """Let the file play what was baked by a plan: the objects, and sentences on what is left out."""
+    return playing_light(context, plan, sequences[0]) if plan.lamps else (playing(context, sequences), [])

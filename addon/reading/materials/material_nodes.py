@@ -1,0 +1,35 @@
+"""The nodes of a material, those in groups too, and which attributes of a mesh they ask for."""
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import bpy
+
+from ... import compat
+
+# where each kind of node names what it reads
+NAMES = {"ATTRIBUTE": "attribute_name", "VERTEX_COLOR": "layer_name", "UVMAP": "uv_map"}
+
+
+def all_nodes(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.Node]:
+    """The nodes of a tree and of all groups in it, each tree once."""
+    return _nodes(tree, set())
+
+
+def asked_attributes(materials: Iterable[bpy.types.Material | None]) -> set[str]:
+    """Names of the attributes that materials read of what they are on."""
+    return {getattr(node, NAMES[node.type]) for material in materials
+            if material is not None and compat.uses_nodes(material)
+            for node in all_nodes(material.node_tree)
+            # an attribute may be asked of the object or of the view layer as well
+            if node.type in NAMES and getattr(node, "attribute_type", "GEOMETRY") == "GEOMETRY"} - {""}
+
+
+def _nodes(tree: bpy.types.NodeTree | None, seen: set) -> Iterator[bpy.types.Node]:
+    if tree is None or tree.as_pointer() in seen:
+        return
+    seen.add(tree.as_pointer())
+    for node in tree.nodes:
+        yield node
+        if node.type == "GROUP":
+            yield from _nodes(node.node_tree, seen)

@@ -1,0 +1,63 @@
+"""Which materials are mirrors: a sharp Glossy or Metallic BSDF, or a sharp metallic Principled BSDF."""
+from __future__ import annotations
+
+import bpy
+
+from ... import compat
+
+SHARP_ROUGHNESS = 0.1
+FULL_METALLIC = 0.9
+MIRRORS = {"BSDF_GLOSSY", "BSDF_METALLIC"}
+"""Shaders that are nothing but a mirror where they are sharp."""
+
+
+def is_mirror(material: bpy.types.Material | None) -> bool:
+    """Whether light leaves `material` as from a mirror: its surface shader is glossy with a roughness near 0.
+
+    Values that a texture drives are not constant over the surface and make no mirror.
+    """
+    if material is None:
+        return False
+    if not compat.uses_nodes(material):
+        return material.metallic >= FULL_METALLIC and material.roughness <= SHARP_ROUGHNESS
+    shader = surface_shader(material.node_tree)
+    if shader is None or not is_sharp(shader):
+        return False
+    if shader.type == "BSDF_PRINCIPLED":
+        return _constant(shader, "Metallic", at_least=FULL_METALLIC)
+    return shader.type in MIRRORS
+
+
+def is_sharp(shader: bpy.types.Node) -> bool:
+    """Whether a shader's roughness is near 0 all over."""
+    return _constant(shader, "Roughness", at_most=SHARP_ROUGHNESS)
+
+
+def surface_shader(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
+    """The shader node behind the active output's Surface socket."""
+    output = tree.get_output_node("ALL")
+    if output is None:
+        return None
+    socket = output.inputs["Surface"]
+    # a chain of reroutes cannot be longer than the tree has nodes
+    for _ in range(len(tree.nodes)):
+        if not socket.is_linked:
+            return None
+        node = socket.links[0].from_node
+        if node.type != "REROUTE":
+            return node
+        socket = node.inputs[0]
+    return None
+
+
+def _constant(node: bpy.types.Node, name: str, at_least: float = float("-inf"), at_most: float = float("inf")) -> bool:
+    socket = node.inputs.get(name)
+    return socket is not None and not socket.is_linked and at_least <= socket.default_value <= at_most
+
+
+def emits(material: bpy.types.Material | None) -> bool:
+    """Whether a material shows what it emits, and no lamp changes it."""
+    if material is None or not compat.uses_nodes(material):
+        return False
+    shader = surface_shader(material.node_tree)
+    return shader is not None and shader.type == "EMISSION"

@@ -1,0 +1,26 @@
+"""Which materials let no light through: what lies behind them whole is not seen, in Cycles as in any engine."""
+from __future__ import annotations
+
+import bpy
+
+from ... import compat
+from .material_nodes import all_nodes
+
+OPEN_SHADERS = {"BSDF_TRANSPARENT", "BSDF_GLASS", "BSDF_REFRACTION", "HOLDOUT"}
+# sockets of a Principled BSDF, and the value at which each lets nothing through
+CLOSED = {"Alpha": 1.0, "Transmission Weight": 0.0}
+
+
+def is_opaque(material: bpy.types.Material | None) -> bool:
+    """Whether no light goes through `material`, as far as its nodes tell, whether they reach its output or not."""
+    if material is None or not compat.uses_nodes(material):
+        return True
+    return not any(_lets_through(node) for node in all_nodes(material.node_tree))
+
+
+def _lets_through(node: bpy.types.Node) -> bool:
+    if node.type != "BSDF_PRINCIPLED":
+        return node.type in OPEN_SHADERS
+    sockets = {name: node.inputs.get(name) for name in CLOSED}
+    return any(socket is not None and (socket.is_linked or socket.default_value != CLOSED[name])
+               for name, socket in sockets.items())

@@ -1,0 +1,5 @@
+"""Trees of nodes, built node by node: of shaders, and of geometry that draws discs."""
+from .disc_nodes import disc_nodes, forget_nodes, hide_discs, show_discs
+from .node_builder import Builder
+
+__all__ = ["Builder", "disc_nodes", "forget_nodes", "hide_discs", "show_discs"]

@@ -1,0 +1,49 @@
+"""What the door is given, looked at before any work: of the right kinds, not empty, and the eye not on the mirror."""
+from __future__ import annotations
+
+import numpy as np
+
+from .culling import PointTree, SceneTree
+from .geometry import TriangleMesh, View, area_normals, cross, dot, norm, rows
+from .support import LARGEST, ReflectionError, Settings
+
+
+def check_given(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
+                mirrors: TriangleMesh | None) -> None:
+    """Raises `ReflectionError` where nothing can be made of what `reflect` is given."""
+    for given, kinds, wrong in (
+            (view, View, "The view must be a View; make one of a camera's matrices or with looking_at."),
+            (mirror, TriangleMesh, "The mirror must be a TriangleMesh; make one of its positions and triangles."),
+            (scene, (TriangleMesh, SceneTree, PointTree), "The scene must be a TriangleMesh, a SceneTree or a "
+             "PointTree; make one of its positions and triangles."),
+            (settings, Settings, "The settings must be Settings; leave them out for the defaults."),
+            (mirrors, (TriangleMesh, type(None)), "The mirrors must be one TriangleMesh; join them or leave "
+             "them out.")):
+        if not isinstance(given, kinds):
+            raise ReflectionError(wrong)
+    if not len(mirror.triangles):
+        raise ReflectionError("The mirror has no faces; give it faces or choose another mirror.")
+    if mirrors is not None and not len(mirrors.triangles):
+        raise ReflectionError("The mirrors have no faces; give all mirrors, this one among them, or leave them out.")
+    if isinstance(scene, TriangleMesh) and not len(scene.triangles) and settings.method != "POINTS":
+        raise ReflectionError("The diffuse objects have no faces; select objects with faces to reflect.")
+    if np.abs(view.eye).max() > LARGEST:
+        raise ReflectionError("The view's eye is further than 1e40 from the origin; move it nearer or make the scene "
+                              "smaller.")
+    corners = rows(mirror.positions[mirror.triangles].swapaxes(0, 1))
+    normals = area_normals(corners)
+    length = norm(normals)
+    if not (length > 0.0).any():
+        raise ReflectionError("The mirror has no face with an area; give it faces or choose another mirror.")
+    if not view.orthographic and _touched(view.eye, corners, normals, length):
+        raise ReflectionError("The eye lies on the mirror; move the camera away from the mirror's surface.")
+
+
+def _touched(eye: np.ndarray, corners: np.ndarray, normals: np.ndarray, length: np.ndarray) -> bool:
+    """Whether a place lies on one of the triangles, of which their corners (3, 3, m) and normals (3, m) are given."""
+    offset = eye[:, None, None] - corners
+    height = np.abs(dot(normals[:, None], offset)).min(axis=0) / np.where(length > 0.0, length, np.inf)
+    near = np.flatnonzero((length > 0.0) & (height < 1e-6 * np.sqrt(length)))
+    a, b, c = offset[:, :, near].swapaxes(0, 1)
+    inside = [dot(cross(p, q), normals[:, near]) >= 0.0 for p, q in ((a, b), (b, c), (c, a))]
+    return bool(np.all(inside, axis=0).any())

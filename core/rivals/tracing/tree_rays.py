@@ -1,0 +1,169 @@
+"""First hits of many rays at once with the triangles of a `BoxTree`: nearer boxes first, all rays together.
+
+What is left to do lies on a stack of batches of (ray, node); a batch is opened into the nearer and the farther child of
+each of its nodes, so that most rays have found their triangle before farther boxes are looked at. Small batches go on
+undivided: there a call of NumPy costs more than what is saved.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...geometry import dot, ranges
+from .box_tree import BoxTree
+
+RAYS_AT_ONCE = 65536
+WORTH_DIVIDING = 8192  # pairs of a batch
+EDGE = 1e-10  # barycentric: a ray may miss a triangle by this, so that it does not slip between two
+
+
+@dataclass(frozen=True)
+class Hits:
+    """First hits of rays (n).
+
+    Attributes
+    ----------
+    triangle : (n,) int64
+        -1 where a ray meets none.
+    distance : (n,) float64
+        In lengths of the direction, infinite where none.
+    intersections, nodes : int
+        Tests of a ray against a triangle and against a box.
+    """
+
+    triangle: np.ndarray
+    distance: np.ndarray
+    intersections: int
+    nodes: int
+
+
+def first_hits(tree: BoxTree, origins: np.ndarray, directions: np.ndarray, *, least: float = 0.0,
+               limit: np.ndarray | None = None, own: np.ndarray | None = None) -> Hits:
+    """The first triangle that each ray meets, from either side.
+
+    Parameters
+    ----------
+    origins, directions : (3, n) float64
+    least : float
+        Hits nearer than this are the surface that the ray starts on.
+    limit : (n,) float64, optional
+        Hits from this distance on do not count.
+    own : (n,) int64, optional
+        The triangle that the ray starts on and cannot meet.
+    """
+    count = origins.shape[1]
+    triangle, distance = np.full(count, -1), np.full(count, np.inf)
+    intersections = nodes = 0
+    for start in range(0, count if len(tree) else 0, RAYS_AT_ONCE):
+        part = slice(start, start + RAYS_AT_ONCE)
+        trace = _Trace(tree, origins[:, part], directions[:, part], least,
+                       None if limit is None else limit[part], None if own is None else own[part])
+        trace.run()
+        triangle[part], distance[part] = trace.triangle, np.where(trace.triangle >= 0, trace.nearest, np.inf)
+        intersections += trace.intersections
+        nodes += trace.nodes
+    return Hits(triangle, distance, intersections, nodes)
+
+
+class _Trace:
+    """One part of the rays on its way through the tree."""
+
+    def __init__(self, tree: BoxTree, origins, directions, least, limit, own) -> None:
+        self.tree, self.least, self.own = tree, least, own
+        self.origin = origins - tree.middle[:, None]
+        self.direction = directions
+        with np.errstate(divide="ignore"):
+            # a huge number instead of infinity: 0 times it is 0, as a ray along a box's side needs
+            self.inverse = np.clip(1.0 / directions, -1e30, 1e30)
+        self.shift = self.origin * self.inverse
+        count = origins.shape[1]
+        self.nearest = np.full(count, np.inf) if limit is None else limit.copy()
+        self.triangle = np.full(count, -1)
+        self.intersections = self.nodes = 0
+
+    def run(self) -> None:
+        ray = np.arange(len(self.nearest))
+        node = np.zeros(len(ray), dtype=np.int64)
+        stack = [self._entered(ray, node)]
+        while stack:
+            ray, node, entry = stack.pop()
+            ahead = entry < self.nearest[ray]
+            ray, node = ray[ahead], node[ahead]
+            child = self.tree.child[node]
+            leaf = child < 0
+            if leaf.any():
+                self._meet(ray[leaf], node[leaf])
+                ray, child = ray[~leaf], child[~leaf]
+            if not len(ray):
+                continue
+            first, second = self._enter(ray, child), self._enter(ray, child + 1)
+            nearer = first <= second
+            near = np.where(nearer, first, second), np.where(nearer, child, child + 1)
+            far = np.where(nearer, second, first), np.where(nearer, child + 1, child)
+            batches = [(ray[hit], node[hit], entry[hit]) for entry, node in (far, near)
+                       for hit in (np.flatnonzero(entry < np.inf),)]
+            if len(ray) < WORTH_DIVIDING:
+                batches = [tuple(np.concatenate(parts) for parts in zip(*batches))]
+            stack.extend(batch for batch in batches if len(batch[0]))
+
+    def _entered(self, ray, node):
+        entry = self._enter(ray, node)
+        hit = np.flatnonzero(entry < np.inf)
+        return ray[hit], node[hit], entry[hit]
+
+    def _enter(self, ray: np.ndarray, node: np.ndarray) -> np.ndarray:
+        """Where the rays enter the boxes of the nodes, infinite where they do not before the nearest hit so far."""
+        self.nodes += len(ray)
+        enter, leave = np.zeros(len(ray)), self.nearest[ray]
+        for low, high, inverse, shift in zip(self.tree.low, self.tree.high, self.inverse, self.shift):
+            inverse, shift = inverse[ray], shift[ray]
+            one, other = low[node] * inverse - shift, high[node] * inverse - shift
+            enter = np.maximum(enter, np.minimum(one, other))
+            leave = np.minimum(leave, np.maximum(one, other))
+        return np.where(enter <= leave, enter, np.inf)
+
+    def _meet(self, ray: np.ndarray, node: np.ndarray) -> None:
+        entry, pair = ranges(self.tree.start[node], self.tree.count[node])
+        ray = ray[pair]
+        self.intersections += len(ray)
+        distance, inside = meet(self.tree, entry, self.origin, self.direction, ray)
+        good = inside & (distance > self.least) & (distance < self.nearest[ray])
+        if self.own is not None:
+            good &= self.tree.order[entry] != self.own[ray]
+        good = np.flatnonzero(good)
+        # farthest first: of the hits of one ray the nearest is written last
+        good = good[np.argsort(-distance[good], kind="stable")]
+        self.nearest[ray[good]] = distance[good]
+        self.triangle[ray[good]] = self.tree.order[entry[good]]
+
+
+def meet(tree: BoxTree, entry: np.ndarray, origins: np.ndarray, directions: np.ndarray,
+         ray: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Distances (p,) at which rays `ray` meet the planes of the triangles at `entry` of the tree's order, and whether
+    inside the triangles; `origins` are relative to the tree's middle."""
+    origin, direction = np.take(origins, ray, axis=1), np.take(directions, ray, axis=1)
+
+    def row(k):
+        x, y, z, w = (tree.frames[4 * k + j][entry] for j in range(4))
+        ahead = x * direction[0] + y * direction[1] + z * direction[2]
+        return x * origin[0] + y * origin[1] + z * origin[2] + w, ahead
+
+    height, rise = row(2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        distance = -height / rise
+        here, there = row(0)
+        second = here + distance * there
+        here, there = row(1)
+        third = here + distance * there
+        return distance, (second >= -EDGE) & (third >= -EDGE) & (second + third <= 1.0 + EDGE)
+
+
+def plane_distance(corners: np.ndarray, origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
+    """Distances (n,) at which rays (3, n) meet the planes of triangles with `corners` (3, n, 3)."""
+    a, b, c = np.moveaxis(corners, 2, 0)
+    normal = np.stack(((b - a)[1] * (c - a)[2] - (b - a)[2] * (c - a)[1],
+                       (b - a)[2] * (c - a)[0] - (b - a)[0] * (c - a)[2],
+                       (b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return dot(a - origins, normal) / dot(directions, normal)
