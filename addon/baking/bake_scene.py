@@ -14,8 +14,9 @@ from .. import compat
 from ..faults import interrupt_held, still_there
 from ..rendering import copied_scene, denoise, look_through
 from ..writing import UV_MAP
-from .opacity import show_opacity, turn_over, without_openings
+from .opacity import as_mirrors_see, show_opacity, turn_over, without_openings
 from .stand_ins import StandIn, new_mesh, new_object, swap_names
+from .swift_world import swiftly_sampled
 
 UNTOUCHED = -1.0  # of a texel that nothing was baked into; light is never below zero
 
@@ -75,6 +76,13 @@ def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn],
     are, and with `backs` what is baked is turned over."""
     with copied_scene(context, UV_MAP) as (scene, back):
         _prepare(scene)
+        if opacity:
+            # they glow by themselves
+            scene.world = None
+        elif scene.world is not None:
+            scene.world = swiftly_sampled(scene.world)
+            if scene.world is not context.scene.world:
+                back.callback(bpy.data.worlds.remove, scene.world)
         look_through(scene, bpy.data.objects.new(UV_MAP, bpy.data.cameras.new(UV_MAP)), back)
         for source in sources:
             back.callback(setattr, source, "hide_render", source.hide_render)
@@ -105,6 +113,8 @@ def _prepare(scene: bpy.types.Scene) -> None:
         setattr(bake, name, True)
     bake.view_from = "ACTIVE_CAMERA"
     scene.cycles.use_adaptive_sampling = False
+    # the picture that shows the light is exposed
+    scene.cycles.film_exposure = 1.0
 
 
 def _target(material: bpy.types.Material | None, opacity: bool, backs: bool) -> bpy.types.Material:
@@ -115,6 +125,7 @@ def _target(material: bpy.types.Material | None, opacity: bool, backs: bool) -> 
     tree = made.node_tree
     if backs:
         turn_over(tree)
+    as_mirrors_see(tree)
     (show_opacity if opacity else without_openings)(tree)
     node = tree.nodes.new("ShaderNodeTexImage")
     for other in tree.nodes:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 
 from .. import compat
-from ..reading.materials import is_mirror, surface_shader
+from ..reading.materials import is_mirror, materials_of, surface_shader
 from ..writing.nodes.shader_builder import ShaderBuilder, node_behind
 
 NORMAL = "mirror_normal"
@@ -44,8 +44,8 @@ class Share:
     @classmethod
     def of(cls, mirror: bpy.types.Object | None) -> Share:
         """Of the material of a mirror that reflects, or of its first one."""
-        materials = [] if mirror is None else [slot.material for slot in mirror.material_slots
-                                               if slot.material is not None and compat.uses_nodes(slot.material)]
+        materials = [] if mirror is None else [material for material in materials_of(mirror)
+                                               if material is not None and compat.uses_nodes(material)]
         material = next(iter([material for material in materials if is_mirror(material)] + materials), None)
         shader = None if material is None else surface_shader(material.node_tree)
         if shader is None:

@@ -7,6 +7,11 @@ from ..reading.materials import surface_shader
 from .mirror_part import given, node_behind
 
 OPEN = {"BSDF_TRANSPARENT", "HOLDOUT"}
+# what is asked of a ray that a mirror has sent, from what is asked of one of the camera's: by which operation with
+# which number, None for whether it is the camera's; that first, so that none of those is taken for the material's own
+SENT_BY_A_MIRROR = {"Is Camera Ray": ("MULTIPLY", 0.0), "Is Glossy Ray": ("MAXIMUM", None),
+                    "Is Singular Ray": ("MAXIMUM", None), "Is Reflection Ray": ("MAXIMUM", None),
+                    "Ray Depth": ("ADD", 1.0), "Glossy Depth": ("ADD", 1.0)}
 
 
 def without_openings(tree: bpy.types.NodeTree) -> None:
@@ -32,6 +37,23 @@ def turn_over(tree: bpy.types.NodeTree) -> None:
             tree.links.new(node.outputs["Backfacing"], other.inputs[1])
         for link in links:
             tree.links.new(other.outputs[0], link.to_socket)
+
+
+def as_mirrors_see(tree: bpy.types.NodeTree) -> None:
+    """Let a material take the first of a light path's rays, which is the one that is baked, for one that a mirror has
+    sent: what is to be seen in mirrors alone, or not in them, goes by that."""
+    for node in [node for node in tree.nodes if node.type == "LIGHT_PATH"]:
+        for name, (operation, other) in SENT_BY_A_MIRROR.items():
+            links = list(node.outputs[name].links)
+            if not links:
+                continue
+            math = tree.nodes.new("ShaderNodeMath")
+            math.operation, math.inputs[1].default_value = operation, other or 0.0
+            tree.links.new(node.outputs[name], math.inputs[0])
+            if other is None:
+                tree.links.new(node.outputs["Is Camera Ray"], math.inputs[1])
+            for link in links:
+                tree.links.new(math.outputs[0], link.to_socket)
 
 
 def show_opacity(tree: bpy.types.NodeTree) -> None:

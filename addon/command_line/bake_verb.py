@@ -14,6 +14,8 @@ from ..illumination import meant_lamps
 from ..operators.bake import FOLDER, WHAT, baking
 from ..operators.bake_plan import blur_remarks, layer_remarks, plan_of, summary
 from ..operators.bake_playing import showing
+from ..operators.shortcomings import render_shortcomings
+from ..reading import candidates
 from ..settings import Wanted
 from ..writing import show_in_layer
 from .options import given, whole_number
@@ -78,7 +80,8 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
                            lamps=tuple(meant_lamps(context)) if thrown else (), leave_out=options.leave_out)
             sequences.append(announced(baking(context, plan, tell, remarks.append), options.progress))
             plans.append(plan)
-    told = remarks + blur_remarks(scene, cameras, thrown) + layer_remarks(scene, layers)
+    told = remarks + render_shortcomings(scene, sum(candidates(context), [])) + blur_remarks(scene, cameras, thrown)
+    told += layer_remarks(scene, layers)
     if not options.frames_only:
         for layer, plan, shown in zip(layers, plans, sequences):
             with context.temp_override(scene=scene, view_layer=layer):

@@ -6,11 +6,21 @@ files; what else a mesh knows is packed into the colours, and nodes take it out 
 """
 from .aside import set_aside
 from .frame_numbers import frame_numbers, frame_text
-from .frame_records import FrameRecord, ResultRecord, file_name, is_done, read_record, record_path, write_record
+from .frame_records import (
+    FrameRecord,
+    ResultRecord,
+    file_name,
+    is_done,
+    read_record,
+    record_path,
+    told_apart,
+    write_record,
+)
 from .play import Sequence, light_of, play, player_of, plays, show_by_camera, stop_playing
 from .play_caustics import play_caustics
 from .write_frame import write_image, write_result, writes_usd
 
 __all__ = ["FrameRecord", "ResultRecord", "Sequence", "file_name", "frame_numbers", "frame_text", "is_done",
            "light_of", "play", "play_caustics", "player_of", "plays", "read_record", "record_path", "set_aside",
-           "show_by_camera", "stop_playing", "write_image", "write_record", "write_result", "writes_usd"]
+           "show_by_camera", "stop_playing", "told_apart", "write_image", "write_record", "write_result",
+           "writes_usd"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+from collections import Counter
 from dataclasses import asdict, dataclass, field
 
 import bpy
@@ -54,8 +55,23 @@ def file_name(name: str, frame: int, ending: str) -> str:
     clean = bpy.path.clean_name(name)
     if clean != name.replace(" ", "_"):
         # two names must not become one
-        clean = f"{clean}_{hashlib.sha256(name.encode()).hexdigest()[:6]}"
+        clean = _marked(clean, name)
     return f"{clean}.{frame:04d}.{ending}"
+
+
+def told_apart(names: list[str]) -> dict[str, str]:
+    """What files that belong to each of some names are to be called: the names, but where two of them would be one in
+    files, in which spaces are no spaces and systems may not tell small letters from capital ones."""
+    count = Counter(map(_in_files, names))
+    return {name: _marked(name, name) if count[_in_files(name)] > 1 else name for name in names}
+
+
+def _in_files(name: str) -> str:
+    return bpy.path.clean_name(name).casefold()
+
+
+def _marked(text: str, name: str) -> str:
+    return f"{text}_{hashlib.sha256(name.encode()).hexdigest()[:6]}"
 
 
 def record_path(folder: str, take: str, frame: int) -> str:

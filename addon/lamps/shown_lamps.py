@@ -106,7 +106,7 @@ def lamps_before(result: bpy.types.Object, lamps: list[ShownLamp]) -> tuple[Show
     A lamp that none of the faces' rays comes near costs nothing then.
     """
     mesh = result.data
-    if not len(mesh.polygons) or any(name not in mesh.attributes for name in KNOWN):
+    if not lamps or not len(mesh.polygons) or any(name not in mesh.attributes for name in KNOWN):
         return ()
     corners = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.attributes[".corner_vert"].data.foreach_get("value", corners)
@@ -116,13 +116,23 @@ def lamps_before(result: bpy.types.Object, lamps: list[ShownLamp]) -> tuple[Show
     if not len(corners):
         return ()
     start, end = (_vectors(mesh, name)[corners] for name in KNOWN[:2])
-    before = np.zeros(len(lamps), dtype=bool)
-    for first in range(0, len(corners), CHUNK):
-        axes, lowest, highest = _slabs(start[first:first + CHUNK], end[first:first + CHUNK])
-        for number, lamp in enumerate(lamps):
-            at = axes @ lamp.place
-            before[number] |= ((at >= lowest - lamp.reach) & (at <= highest + lamp.reach)).all(axis=0).any()
-    return tuple(lamp for lamp, stands in zip(lamps, before, strict=True) if stands)
+    # most beams are told from a lamp by their boxes along the scene's own axes
+    low = np.minimum(start.min(axis=1), end.min(axis=1))
+    high = np.maximum(start.max(axis=1), end.max(axis=1))
+    return tuple(lamp for lamp in lamps if _is_before(
+        lamp, start, end, np.flatnonzero(((lamp.place >= low - lamp.reach)
+                                          & (lamp.place <= high + lamp.reach)).all(axis=1))))
+
+
+def _is_before(lamp: ShownLamp, start: np.ndarray, end: np.ndarray, some: np.ndarray) -> bool:
+    """Whether a lamp may stand in one of some beams."""
+    for first in range(0, len(some), CHUNK):
+        chunk = some[first:first + CHUNK]
+        axes, lowest, highest = _slabs(start[chunk], end[chunk])
+        at = axes @ lamp.place
+        if ((at >= lowest - lamp.reach) & (at <= highest + lamp.reach)).all(axis=0).any():
+            return True
+    return False
 
 
 def _slabs(start: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

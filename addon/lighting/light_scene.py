@@ -12,7 +12,7 @@ import numpy as np
 from ...core import View
 from .. import compat
 from ..faults import still_there
-from ..reading import is_opaque
+from ..reading import is_opaque, materials_of
 from ..rendering import copied_scene, denoise, look_through, rendered
 
 MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
@@ -105,8 +105,8 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
                 back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
                 mirror.visible_camera = True
         mirrors = {result.reflection_mesh.mirror for result in results} - {None}
-        others = _seen_others(context, {*results, *mirrors})
-        hidden = [obj for obj in others if obj.library is None]
+        others, parts = _seen_others(context, {*results, *mirrors})
+        hidden = [obj for obj in others if obj.library is None and obj not in parts]
         alone = len(hidden) == len(others) and len(mirrors) == len(results) and all(map(_is_opaque, mirrors))
         for obj in hidden if alone else itertools.filterfalse(_is_opaque, hidden):
             back.callback(setattr, obj, "visible_camera", True)
@@ -114,18 +114,22 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         yield LightScene(scene, results, alone)
 
 
-def _seen_others(context: bpy.types.Context, lit: set) -> list:
+def _seen_others(context: bpy.types.Context, lit: set) -> tuple[list, set]:
     """What the camera sees beside results and mirrors that are `lit`: it is seen before a result as before its mirror.
+    And what those consist of that are instances of collections.
 
     Were what lets light through in the picture of light too, it would be seen twice. The rest only costs samples, but
     where a mirror lets light through, that is what is seen there. Mirrors show all of it as ever.
     """
-    shown = {instance.object.original for instance in context.evaluated_depsgraph_get().object_instances}
-    return [obj for obj in shown - lit if obj.visible_camera]
+    shown, parts = set(), set()
+    for instance in context.evaluated_depsgraph_get().object_instances:
+        of_mirror = instance.is_instance and instance.parent is not None and instance.parent.original in lit
+        (parts if of_mirror else shown).add(instance.object.original)
+    return [obj for obj in shown - lit if obj.visible_camera], parts
 
 
 def _is_opaque(obj: bpy.types.Object) -> bool:
-    return all(is_opaque(slot.material) for slot in obj.material_slots)
+    return all(map(is_opaque, materials_of(obj)))
 
 
 def white_of(scene: bpy.types.Scene) -> float:

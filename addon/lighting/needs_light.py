@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from .. import compat
-from ..reading.materials import emits, is_mirror, surface_shader
+from ..reading.materials import emits, is_mirror, materials_of, surface_shader
 
 WHITE = 0.999
 TINTS = {"BSDF_GLOSSY": ("Color",), "BSDF_PRINCIPLED": ("Base Color", "Specular Tint")}
@@ -19,7 +19,7 @@ def needs_light(result: bpy.types.Object) -> bool:
     mirror = result.reflection_mesh.mirror
     if mirror is None or not all(map(emits, _shown(result))):
         return True
-    mirrors = [slot.material for slot in mirror.material_slots if is_mirror(slot.material)]
+    mirrors = list(filter(is_mirror, materials_of(mirror)))
     return not mirrors or not all(map(is_plain, mirrors))
 
 

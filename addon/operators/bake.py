@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import combinations
 
 import bpy
 
@@ -19,6 +20,7 @@ from ..frames import (
     file_name,
     record_path,
     set_aside,
+    told_apart,
     write_image,
     write_record,
     write_result,
@@ -45,6 +47,7 @@ from .bake_playing import showing
 from .clear import clear
 from .generate import generation
 from .light import lighting
+from .shortcomings import render_shortcomings
 
 FOLDER = "//reflection frames"
 IN_OBJECT_MODE = "Reflections are baked in Object Mode: leave the present mode first."
@@ -77,7 +80,7 @@ class Reflections:
         return name
 
     def file(self, key: str, take: str) -> str:
-        return f"{key} Reflection {take}".strip()
+        return f"{told_apart(self.keys)[key]} Reflection {take}".strip()
 
     def made_with(self, context: bpy.types.Context, plan: Plan, camera: bpy.types.Object | None) -> dict:
         return plan.made_with(context, camera, self.mirrors)
@@ -130,6 +133,10 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
     mirrors, diffuse = candidates(context)
     if not (mirrors and diffuse):
         choose(context)     # which says what is missing
+    for one, other in combinations(mirrors, 2):
+        if one.name == other.name:
+            # one of them is linked; frames know mirrors by their names
+            raise core.ReflectionError(f"Two mirrors are called '{one.name}': rename one of them.")
     baked = ThrownLight.of(context, plan, mirrors, diffuse) if plan.lamps else Reflections(mirrors, diffuse)
     if not (plan.cameras or plan.lamps):
         read_view(context)
@@ -245,6 +252,7 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
                                       lambda sentence: tell(self, {"WARNING"}, sentence))
         _, remarks = showing(context, plan, sequences)
         self.show_used(wanted, candidates(context)[0])
+        remarks += render_shortcomings(context.scene, sum(candidates(context), []))
         remarks += blur_remarks(context.scene, plan.cameras, bool(lamps))
         for remark in remarks + layer_remarks(context.scene, [context.view_layer]):
             tell(self, {"WARNING"}, remark)

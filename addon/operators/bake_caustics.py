@@ -7,7 +7,7 @@ import bpy
 
 from ... import core
 from ..faults import AllOrNothing, Steps, still_there
-from ..frames import Sequence, play_caustics, player_of
+from ..frames import Sequence, play_caustics, player_of, told_apart
 from ..illumination import leave_out, lights_renders, places_kept, too_many_layers
 from ..reading import NothingSeen, candidates, visible
 from ..settings import of_each
@@ -66,7 +66,7 @@ class ThrownLight:
         return f"Caustics {name}".strip()
 
     def file(self, key: str, take: str) -> str:
-        return f"{key} {take}".strip()
+        return f"{told_apart(self.keys)[key]} {take}".strip()
 
     def made_with(self, context: bpy.types.Context, plan: Plan, camera: bpy.types.Object | None) -> dict:
         return {**plan.made_with(context, camera, self._mirrors), "samples": 0,

@@ -8,7 +8,7 @@ import bpy
 
 from ... import core
 from ..faults import Steps, interrupt_held
-from ..frames import frame_numbers, frame_text, is_done, read_record, record_path
+from ..frames import frame_numbers, frame_text, is_done, read_record, record_path, told_apart
 from ..freshness import frame_difference, frame_origin
 from ..reading import NothingSeen, Participants, candidates, render_size, visible
 from ..settings import SAMPLES, SettingsOfMirrors, Wanted, of_each
@@ -57,7 +57,8 @@ class Plan:
     @property
     def takes(self) -> list:
         """(name, camera or None) of each sequence."""
-        names = [camera.name if len(self.cameras) > 1 else "" for camera in self.cameras]
+        apart = told_apart([camera.name for camera in self.cameras])
+        names = [apart[camera.name] if len(self.cameras) > 1 else "" for camera in self.cameras]
         return [(f"{self.layer} {name}".strip(), camera)
                 for name, camera in zip(names or [""], self.cameras or [None], strict=True)]
 

@@ -16,7 +16,7 @@ from ..settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
 from ..standing import Kept, Stage
 from ..writing import Reflection, mesh_arrays, point_arrays
 from . import polls
-from .shortcomings import blur_shortcomings, shortcomings, window_shortcomings
+from .shortcomings import blur_shortcomings, render_shortcomings, shortcomings, window_shortcomings
 from .write_results import Manners, Outcome, write_results
 
 # share of the work that reading takes, before the mirrors are reflected one by one
@@ -149,7 +149,8 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
                 obj.select_set(True)
                 context.view_layer.objects.active = obj
         placements = [settings.placement for settings in map(of_each(wanted), chosen.mirrors)]
-        for remark in outcome.remarks + blur_shortcomings(context.scene, placements):
+        for remark in (outcome.remarks + render_shortcomings(context.scene, chosen.mirrors + chosen.diffuse)
+                       + blur_shortcomings(context.scene, placements)):
             tell(self, {"WARNING"}, remark)
         for sentence in outcome.news:
             tell(self, {"INFO"}, sentence)

@@ -26,7 +26,7 @@ from ..lighting import (
     texels_of,
     white_of,
 )
-from ..reading import camera_of, is_mirror, is_opaque, read_scene, read_view, seen_in, with_copies
+from ..reading import camera_of, is_mirror, is_opaque, materials_of, read_scene, read_view, seen_in, with_copies
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
 from ..writing import forget_mesh, place_of
 from . import polls
@@ -197,7 +197,7 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int
 
 def _mirror_material(result: bpy.types.Object) -> bpy.types.Material | None:
     """The material of a result's mirror that reflects; None where all of the light is shown."""
-    slots = [slot.material for slot in result.reflection_mesh.mirror.material_slots if slot.material is not None]
+    slots = [material for material in materials_of(result.reflection_mesh.mirror) if material is not None]
     reflecting = next(iter([material for material in slots if is_mirror(material)] + slots), None)
     return None if reflecting is None or is_plain(reflecting) else reflecting
 

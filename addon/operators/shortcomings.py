@@ -4,6 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ...core import ReflectionError, ReflectionMesh
+from ..reading import rendered_otherwise
 from ..writing import what_is_in_the_way
 
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
@@ -57,6 +58,18 @@ def blur_shortcomings(scene: bpy.types.Scene, placements: list[str]) -> list[str
     focused = camera is not None and camera.type == "CAMERA" and camera.data.dof.use_dof
     told = [DEPTH_OF_FIELD] if focused and any(placement != "VIRTUAL" for placement in placements) else []
     return told + [MOTION_BLUR] * scene.render.use_motion_blur
+
+
+def render_shortcomings(scene: bpy.types.Scene, objects: list) -> list[str]:
+    """A sentence on mirrors and diffuse objects of which renders show another mesh than the one that was read."""
+    found = [(obj.name, why) for obj in objects if (why := rendered_otherwise(scene, obj))]
+    if not found:
+        return []
+    if len(found) == 1:
+        return ["Renders show another mesh of '{}' than viewports do, by '{}', and the reflection has the viewport's: "
+                "give both the same levels.".format(*found[0])]
+    return ["Renders show other meshes of {} objects than viewports do, of '{}' by '{}', and the reflection has the "
+            "viewport's: give both the same levels.".format(len(found), *found[0])]
 
 
 def window_shortcomings(context: bpy.types.Context, mirror: bpy.types.Object, result: ReflectionMesh,

@@ -53,6 +53,9 @@ def source_material(kind: str, box: bpy.types.Object) -> bpy.types.Material:
         bump.inputs["Distance"].default_value = 0.6
         link(tree, noise.outputs[0], bump.inputs["Height"])
         link(tree, bump.outputs[0], shader.inputs["Normal"])
+    elif kind == "Light path":
+        # dark but in mirrors
+        link(tree, tree.nodes.new("ShaderNodeLightPath").outputs["Is Glossy Ray"], shader.inputs["Base Color"])
     elif kind == "Random":
         ramp = tree.nodes.new("ShaderNodeCombineColor")
         link(tree, tree.nodes.new("ShaderNodeObjectInfo").outputs["Random"], ramp.inputs[1])

@@ -168,6 +168,8 @@ FILES = {
     "kept.":
         "'{}' lässt sich nicht ganz schreiben, wie auf vollen Datenträgern: schaffe Platz, oder wähle einen anderen "
         "Ordner; die Einzelbilder davor bleiben.",
+    "Two mirrors are called '{}': rename one of them.":
+        "Zwei Spiegel heißen '{}': benenne einen von ihnen um.",
     "Frame {} in '{}' was baked with other settings or mirrors: overwrite it, or choose another folder.":
         "Einzelbild {} in '{}' wurde mit anderen Einstellungen oder Spiegeln gebacken: überschreibe es, oder wähle "
         "einen anderen Ordner.",

@@ -72,6 +72,14 @@ KEPT = {
         "mit --view-layer mehrere, jede für sich.",
 }
 LACKS = {
+    "Renders show another mesh of '{}' than viewports do, by '{}', and the reflection has the viewport's: give both "
+    "the same levels.":
+        "Gerendert hat '{}' durch '{}' ein anderes Netz als in Ansichten, und die Spiegelung hat das der Ansichten: "
+        "gib beiden dieselben Stufen.",
+    "Renders show other meshes of {} objects than viewports do, of '{}' by '{}', and the reflection has the "
+    "viewport's: give both the same levels.":
+        "Gerendert haben {} Objekte andere Netze als in Ansichten, '{}' durch '{}', und die Spiegelung hat die der "
+        "Ansichten: gib beiden dieselben Stufen.",
     "Motion blur: reflections are sharp, since their faces change from frame to frame; blur them after the render, or "
     "render in-between frames and mix them.":
         "Bewegungsunschärfe: Spiegelungen sind scharf, weil ihre Flächen von Bild zu Bild andere sind; mache sie "

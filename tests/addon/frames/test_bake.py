@@ -305,6 +305,54 @@ def test_records_that_are_none(room, tmp_path):
     assert baking.read_record(str(tmp_path / "none.json")) is None
 
 
+def test_names_that_would_be_one_in_files_are_told_apart(moving, room, tmp_path):
+    """Spaces are no spaces in files, and some systems take small letters for capital ones."""
+    mirror = bpy.data.objects["Mirror"]
+    bpy.data.objects["Box"].scale = (6.0, 1.0, 4.0)
+    mirror.animation_data_clear()
+    mirror.scale, mirror.location = (0.25, 0.25, 1.0), (-1.5, 1.0, 1.0)
+    for number, name in enumerate(("Mirror_A", "MIRROR A", "Mirror B")):
+        other = mirror.copy()
+        other.name, other.location = name, (number - 0.5, 1.2 + 0.3 * number, 1.0)
+        bpy.context.scene.collection.objects.link(other)
+    mirror.name = "Mirror A"
+    cameras = [add_camera(name, (x, -6.0, 1.0), (1.45, 0.0, 0.0))
+               for name, x in (("Left eye", -1.0), ("left_eye", 1.0))]
+    bpy.ops.wm.save_mainfile()
+    out = tmp_path / "out"
+    assert bake(room, "--output", out, "--light", "0", "--frames", "1", "--camera",
+                *(camera.name for camera in cameras)) == 0
+    assert len({name.casefold() for name in names(out)}) == 4 * 2 + 2 + 1
+    assert sum(name.startswith("Mirror_B_Reflection_Left_eye_") for name in names(out)) == 1
+    bpy.ops.wm.open_mainfile(filepath=str(out / "scene reflections.blend"))
+    for obj in bpy.context.scene.objects:
+        # those of the camera that does not look too
+        obj.hide_viewport = False
+    bpy.context.scene.frame_set(1)
+    depsgraph, places = bpy.context.evaluated_depsgraph_get(), set()
+    for obj in bpy.context.scene.objects:
+        if obj.reflection_mesh.role == "REFLECTION":
+            mesh, mirror = obj.evaluated_get(depsgraph).data, obj.reflection_mesh.mirror
+            at = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+            mesh.attributes["position"].data.foreach_get("vector", at)
+            at = at.reshape(-1, 3) @ np.array(obj.matrix_world)[:3, :3].T + np.array(obj.matrix_world)[:3, 3]
+            assert len(at) and (np.abs(at[:, 1] - mirror.matrix_world.translation.y) < 0.1).all()
+            places.add(at.tobytes())
+    assert len(places) == 8
+
+
+def test_two_mirrors_of_one_name_are_refused(moving, tmp_path):
+    """A linked one and one of the file's own: frames could not tell whose they are."""
+    bpy.data.libraries.write(str(tmp_path / "library.blend"), {bpy.data.objects["Mirror"]})
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, wanted):
+        wanted.objects = ["Mirror"]
+    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    bpy.context.view_layer.update()
+    told = parts.refusal(bpy.ops.reflection_mesh.bake, filepath=str(tmp_path / "out"))
+    assert told == "Two mirrors are called 'Mirror': rename one of them."
+    assert not (tmp_path / "out").exists()
+
+
 def test_points_and_windows_play_too(moving, room, tmp_path):
     """Discs as the faces that they are drawn as; a window is opened to the image behind it."""
     out = tmp_path / "points"

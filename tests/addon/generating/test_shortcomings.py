@@ -2,6 +2,7 @@
 import re
 from types import SimpleNamespace
 
+import bpy
 import parts
 import pytest
 
@@ -41,3 +42,46 @@ def test_what_a_render_blurs_otherwise_is_told(blank, capfd, placement):
     sentences = told()
     assert ("Depth of field: the camera focuses on the mirror" in sentences) == (placement == "LAYERED")
     assert "Motion blur: the reflection is that of one moment" in sentences
+
+
+def subdivided(box, levels: int = 1, render: int = 2, name: str = "Rounder", **more):
+    modifier = box.modifiers.new(name, "SUBSURF")
+    modifier.levels, modifier.render_levels = levels, render
+    for key, value in more.items():
+        setattr(modifier, key, value)
+
+
+def simplified(box) -> None:
+    subdivided(box)
+    bpy.context.scene.render.use_simplify = True
+    bpy.context.scene.render.simplify_subdivision = bpy.context.scene.render.simplify_subdivision_render = 1
+
+
+@pytest.mark.parametrize(("change", "told"), [
+    (subdivided, True), (lambda box: subdivided(box, 2), False), (simplified, False),
+    (lambda box: subdivided(box, 2, show_render=False), True),
+    (lambda box: subdivided(box, 2, show_viewport=False), True),
+    (lambda box: subdivided(box, show_render=False, show_viewport=False), False)])
+def test_another_mesh_in_renders_is_told(blank, capfd, change, told):
+    """Of that a reflection has the viewport's."""
+    box, mirror = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0)), parts.add_wall_mirror()
+    change(box)
+    parts.select(box, mirror)
+    parts.generate()
+    assert ("another mesh of 'Box' than viewports do, by 'Rounder'" in "".join(capfd.readouterr())) == told
+    other = parts.add("cube", "Other", size=1.0, location=(0.5, -2.5, 1.0))
+    subdivided(other)
+    parts.select(box, other, mirror)
+    parts.generate()
+    assert ("other meshes of 2 objects than viewports do, of 'Box'" in "".join(capfd.readouterr())) == told
+
+
+def test_curves_and_metaballs_that_renders_make_finer_are_told(blank, room):
+    otherwise = room("addon.reading").rendered_otherwise
+    bpy.ops.object.metaball_add()
+    ball = bpy.context.object
+    bpy.ops.curve.primitive_bezier_circle_add()
+    ring = bpy.context.object
+    assert otherwise(blank.scene, ball) == ball.data.name and not otherwise(blank.scene, ring)
+    ball.data.render_resolution, ring.data.render_resolution_u = ball.data.resolution, 40
+    assert otherwise(blank.scene, ring) == ring.data.name and not otherwise(blank.scene, ball)

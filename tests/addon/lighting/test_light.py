@@ -23,7 +23,7 @@ from lamp_scenes import (
 )
 
 SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Glass", "Alpha",
-           "Backfacing")
+           "Backfacing", "Light path")
 MIRRORS = ("Tint", "Textured tint", "Rough", "Fresnel", "Layer weight")
 
 
@@ -38,6 +38,25 @@ def test_a_lit_reflection_is_what_the_mirror_shows(blank, room, source, mirror):
     assert lit > min(38.0, noise - 1.5)
     # without its light it is another picture
     assert lit > before + 6.0
+
+
+@pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
+def test_a_mirror_that_is_an_instance_of_a_collection_is_lit_too(blank, room, kind):
+    wall = scene_of(blank, "UV", "Tint")
+    library = bpy.data.collections.new("Library")
+    library.objects.link(wall)
+    blank.scene.collection.objects.unlink(wall)
+    placed = bpy.data.objects.new("Placed", None)
+    placed.instance_type, placed.instance_collection = "COLLECTION", library
+    blank.scene.collection.objects.link(placed)
+    placed.reflection_mesh.role = "MIRROR"
+    blank.view_layer.update()
+    parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], placed)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    assert bpy.ops.reflection_mesh.light(samples=64, kind=kind) == {"FINISHED"}
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert wall.visible_camera
 
 
 def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):

@@ -9,7 +9,8 @@ import pytest
 from lamp_scenes import leaves_no_trace, link, lit_state, picture, psnr, scene_of
 
 # gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
-SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Alpha", "Backfacing")
+SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Alpha", "Backfacing",
+           "Light path")
 MIRRORS = ("Tint", "Textured tint", "Fresnel", "Layer weight")
 
 
@@ -27,6 +28,60 @@ def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
     lit, noise = psnr(picture(room), reference), psnr(other, reference)
     assert lit > min(38.0, noise - 1.5)
     assert lit > before + 6.0
+
+
+def test_it_is_exposed_once(blank, room):
+    scene_of(blank)
+    blank.scene.cycles.film_exposure = 0.4
+    reference = picture(room)
+    parts.generate()
+    light(64)
+    assert psnr(picture(room), reference) > 38.0
+
+
+def shine(scene, width: int = 0, kind: str = "ShaderNodeTexEnvironment") -> bpy.types.World:
+    """A world that is bright to one side; of an image with a sun as wide as ours where it is `width` pixels wide."""
+    world = scene.world
+    if bpy.app.version < (5, 0, 0):
+        world.use_nodes = True
+    tree = world.node_tree
+    node = tree.nodes.new(kind if width else "ShaderNodeTexGradient")
+    if width:
+        pixels = np.full((width // 2, width, 4), (0.2, 0.3, 0.5, 1.0), dtype=np.float32)
+        rows, columns = (slice(int(0.68 * size), int(0.68 * size) + max(1, round(width * 0.53 / 360.0)))
+                         for size in pixels.shape[:2])
+        pixels[rows, columns, :3] = 3e4
+        node.image = bpy.data.images.new("Sky", width, width // 2, float_buffer=True)
+        node.image.pixels.foreach_set(pixels.ravel())
+        node.image.pack()
+    link(tree, node.outputs["Color"], next(one for one in tree.nodes if one.type == "BACKGROUND").inputs["Color"])
+    return world
+
+
+def test_a_bake_waits_no_longer_for_the_world_than_its_light_needs(blank, room):
+    """Cycles maps the light of the world for each bake anew."""
+    swiftly = room("addon.baking.swift_world").swiftly_sampled
+    scene_of(blank)
+    for width, columns in ((0, 512), (512, None), (2048, 1024)):
+        blank.scene.world = bpy.data.worlds.new("World")
+        world = shine(blank.scene, width)
+        swift = swiftly(world)
+        assert (swift != world) == (columns is not None) and world.cycles.sampling_method == "AUTOMATIC"
+        if swift != world:
+            assert (swift.cycles.sampling_method, swift.cycles.sample_map_resolution) == ("MANUAL", columns)
+    world.cycles.sampling_method = "NONE"
+    assert swiftly(world) == world
+
+
+def test_the_sun_of_a_picture_of_the_sky_is_found(blank, room):
+    scene_of(blank)
+    bpy.data.lights.remove(next(iter(bpy.data.lights)))
+    world = shine(blank.scene, 2048)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    light(64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert set(bpy.data.worlds) == {world} and blank.scene.world == world
 
 
 @pytest.mark.parametrize("output", ["UV", "Object", "UV map"])

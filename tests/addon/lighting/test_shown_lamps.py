@@ -118,3 +118,24 @@ def test_what_the_mirror_does_not_show_is_not_there(blank, room, name):
     # nothing in the material is spent on it
     assert all(node.type != "VECT_MATH" or node.operation != "SCALE" for material in bpy.data.materials
                if material.node_tree for node in material.node_tree.nodes)
+
+
+def test_lamps_that_stand_before_a_face_are_found_and_far_ones_are_not(blank, room):
+    """Against points strewn on the faces' beams, from mirror to what they show."""
+    rooms = room("addon.lamps.shown_lamps")
+    scene_of(blank)
+    result = parts.generate()
+    rng = np.random.default_rng(8)
+    start, end = (parts.attribute(result, name)[parts.corners(result)]
+                  for name in ("mirror_position", "reflected_position"))
+    weights, along = rng.dirichlet((1.0, 1.0, 1.0), size=(len(start), 200)), rng.random((len(start), 200, 1))
+    strewn = (weights @ start * (1.0 - along) + weights @ end * along).reshape(-1, 3)
+    near = strewn[rng.integers(len(strewn), size=60)] + rng.normal(scale=0.01, size=(60, 3))
+    places = np.concatenate((near, rng.uniform((-6.0, -7.0, -2.0), (6.0, 2.0, 5.0), size=(240, 3))))
+    lamps = [rooms.ShownLamp(place, np.eye(3), "BALL", (0.1, 0.1), (1.0, 1.0, 1.0), (-1.0, -1.0), False)
+             for place in places]
+    away = np.array([np.linalg.norm(strewn - lamp.place, axis=1).min() for lamp in lamps])
+    found = set(map(id, rooms.lamps_before(result, lamps)))
+    told = np.array([id(lamp) in found for lamp in lamps])
+    assert (away < 0.05).sum() > 20 and told[away < 0.05].all()
+    assert (away > 0.6).sum() > 20 and not told[away > 0.6].any()
