@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import replace
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numpy as np
 
@@ -45,7 +45,7 @@ def moved_view(view: View, offset: np.ndarray) -> View:
 def moved_surface(surface: Surface, offset: np.ndarray) -> Surface:
     """A copy moved by `offset` (3,); of a tree, with spheres that hold what the moving rounds."""
     if isinstance(surface, TriangleMesh):
-        return surface.like(surface.positions + offset, surface.triangles, surface.corner_normals)  # type: ignore
+        return cast(Surface, surface.like(surface.positions + offset, surface.triangles, surface.corner_normals))
     moved = _with(surface, mesh=moved_surface(surface.mesh, offset),
                   spheres=[_moved(part, offset) for part in surface.spheres])
     if isinstance(surface, SceneTree):
