@@ -103,8 +103,10 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
 
 def difference(made: Origin, now: Origin) -> str:
     """What tells two origins apart, but for colours, in a few words; empty where nothing does."""
+    if made.view[32:] != now.view[32:]:
+        return "the picture's size has changed"
     if not same_view(made.view, now.view):
-        return "the camera or the picture's size has changed"
+        return "the camera has changed"
     if made.mirror != now.mirror:
         return "the mirror has changed"
     if made.sources != now.sources:

@@ -23,8 +23,9 @@ def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
         return
     stale = [(obj, why) for obj in kept_results(context) if (why := why_stale(context, obj))]
     for obj, why in stale:
-        told = pgettext_iface("'{name}' is stale: {why}.").format(name=obj.name, why=pgettext_iface(why))
-        layout.label(text=told, icon="ERROR", translate=False)
+        # Blender leaves out the middle of what is longer than the sidebar is wide
+        layout.label(text=pgettext_iface("'{name}' is stale:").format(name=obj.name), icon="ERROR", translate=False)
+        layout.label(text=f"{pgettext_iface(why)}.", icon="BLANK1", translate=False)
     if stale:
         layout.operator("reflection_mesh.update", icon="FILE_REFRESH")
 

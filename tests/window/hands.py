@@ -8,6 +8,8 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import tempfile
+import time
 import traceback
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -70,6 +72,44 @@ class Screen:
         yield 0.8
         yield from self.write(words)
         yield 1.2
+
+
+def waiting(done: Callable[[], object], what: str, seconds: float = 60.0) -> Iterator[float]:
+    """Until something is so."""
+    end = time.monotonic() + seconds
+    while not done():
+        assert time.monotonic() < end, f"After {seconds:.0f} s still not so: {what}."
+        yield 0.1
+    yield 0.5
+
+
+def turned_to_tab(screen: Screen) -> bool:
+    """Choose the extension's tab; a sidebar has none before it is drawn."""
+    try:
+        screen.region("UI").active_panel_category = "Reflection"
+    except AttributeError:
+        return False
+    return True
+
+
+def built_zip() -> Path:
+    """The extension as it is given to artists, in a folder of its own."""
+    folder = Path(tempfile.mkdtemp())
+    subprocess.run([bpy.app.binary_path, "--factory-startup", "--command", "extension", "build",
+                    "--source-dir", str(ROOT), "--output-dir", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    return next(folder.glob("*.zip"))
+
+
+def settled(name: str, seconds: float = 30.0) -> Iterator[float]:
+    """Take a picture once nothing moves any more: shaders are compiled, panels have opened."""
+    end, before = time.monotonic() + seconds, b""
+    while time.monotonic() < end:
+        yield 1.0
+        now = subprocess.run(["import", "-window", "root", "rgb:-"], check=True, capture_output=True).stdout
+        if now == before:
+            break
+        before = now
+    shot(name)
 
 
 def shot(name: str) -> None:

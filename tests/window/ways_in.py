@@ -16,16 +16,14 @@ thrown away (BLENDER_USER_RESOURCES), opens the room, and
 
 Pictures go to the folder WINDOW_SHOTS, build/window where that is not set.
 """
-import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import bpy
-from hands import ROOT, Screen, run, shot
+from hands import ROOT, Screen, built_zip, run, settled, shot, turned_to_tab, waiting
 
 GENERATE = 106  # pixels below the upper end of the sidebar, at the resolution scale of 1
 PANEL = 266  # the panel in Object properties, above the window's lower end
@@ -36,30 +34,8 @@ def results() -> list:
     return [obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"]
 
 
-def waiting(done, what: str, seconds: float = 60.0):
-    """Until something is so."""
-    end = time.monotonic() + seconds
-    while not done():
-        assert time.monotonic() < end, f"After {seconds:.0f} s still not so: {what}."
-        yield 0.1
-    yield 0.5
-
-
-def turned_to_tab(screen: Screen) -> bool:
-    """Choose the extension's tab; a sidebar has none before it is drawn."""
-    try:
-        screen.region("UI").active_panel_category = "Reflection"
-    except AttributeError:
-        return False
-    return True
-
-
 def install() -> None:
-    folder = Path(tempfile.mkdtemp())
-    subprocess.run([bpy.app.binary_path, "--factory-startup", "--command", "extension", "build",
-                    "--source-dir", str(ROOT), "--output-dir", str(folder)], check=True, stdout=subprocess.DEVNULL)
-    path = next(folder.glob("*.zip"))
-    bpy.ops.extensions.package_install_files(filepath=str(path), repo="user_default", enable_on_install=True)
+    bpy.ops.extensions.package_install_files(filepath=str(built_zip()), repo="user_default", enable_on_install=True)
 
 
 def steps():
@@ -82,10 +58,10 @@ def steps():
     screen.press("N")
     yield 1.0
     yield from waiting(lambda: turned_to_tab(screen), "the tab Reflection", 20.0)
-    shot("1_tab")
+    yield from settled("1_tab")
     yield from click(screen, GENERATE)
     yield from waiting(results, "a reflection")
-    shot("2_generated")
+    yield from settled("2_generated")
     assert bpy.context.view_layer.objects.active == results()[0]
     assert any("Preview" in slot.material.name for slot in results()[0].material_slots)
 
@@ -112,7 +88,7 @@ def baked(screen: Screen):
     bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
     yield 0.5
     if not bpy.app.build_options.usd:
-        # Linux distributions build Blender without it: the button is grey, and says why
+        # Linux distributions build Blender without it, and without Alembic: the button is grey, and says why
         with screen.context():
             assert not bpy.ops.reflection_mesh.bake.poll()
         return
@@ -153,7 +129,7 @@ def stopped_by_escape(screen: Screen):
     shot("3_half_way")
     screen.press("ESC")
     yield 1.5
-    shot("4_escaped")
+    yield from settled("4_escaped")
     assert not screen.window.modal_operators
     assert fingerprint(results()[0]) == before, "ESC has left something."
     bpy.context.scene.reflection_mesh.tolerance = 0.5
@@ -168,14 +144,14 @@ def light_and_clear(screen: Screen):
     shot("5_search")
     screen.press("RET")
     yield from waiting(lambda: results()[0].reflection_mesh.light_material is not None, "light", 120.0)
-    shot("6_lit")
+    yield from settled("6_lit")
     screen.point(**screen.centre)
     yield 0.5
     screen.press("F9")
     yield 1.0
     screen.move(x=5, y=-5)
     yield 1.0
-    shot("7_last_operator")
+    yield from settled("7_last_operator")
     screen.press("ESC")
     yield 1.0
     yield from screen.search("clear reflections")
@@ -200,7 +176,7 @@ def elsewhere(screen: Screen):
     full = screen.window.screen.areas[0]
     yield from screen.click(full.x + 80, PANEL)
     yield 1.5
-    shot("10_object_properties")
+    yield from settled("10_object_properties")
     with bpy.context.temp_override(window=screen.window, area=screen.window.screen.areas[0]):
         bpy.ops.screen.back_to_previous()
     yield 1.5
@@ -208,7 +184,7 @@ def elsewhere(screen: Screen):
         bpy.ops.wm.call_menu(name="VIEW3D_MT_reflection_mesh" if hasattr(bpy.types, "VIEW3D_MT_reflection_mesh")
                              else "REFLECTION_MESH_MT_menu")
     yield 1.0
-    shot("11_menu")
+    yield from settled("11_menu")
     screen.press("ESC")
     yield 0.5
 

@@ -30,7 +30,7 @@ OPERATORS = {
     "Let the reflections look as the mirrors do, with the scene's lamps, materials and the mirrors' own tint":
         "Lässt die Spiegelungen aussehen wie die Spiegel, mit Lampen und Materialien der Szene und der Tönung der "
         "Spiegel",
-    "Every": "Alle",
+    "Even Those That Need None": "Auch die, die keins brauchen",
     "Also reflections that look right as they are: for files that carry pictures but not all materials, as glTF and "
     "USD": "Auch Spiegelungen, die so schon richtig aussehen: für Dateien, die Bilder mitnehmen, aber nicht alle "
         "Materialien, wie glTF und USD",
@@ -272,9 +272,10 @@ LIVE = {
     "Update Reflections": "Spiegelungen erneuern",
     "Make the reflections anew that no longer show what there is, as the scene's camera sees it":
         "Erzeugt die Spiegelungen neu, die nicht mehr zeigen, was da ist, wie die Kamera der Szene es sieht",
-    "'{name}' is stale: {why}.": "'{name}' ist veraltet: {why}.",
+    "'{name}' is stale:": "'{name}' ist veraltet:",
     "an object was removed": "ein Objekt wurde entfernt",
-    "the camera or the picture's size has changed": "die Kamera oder die Bildgröße hat sich geändert",
+    "the camera has changed": "die Kamera hat sich geändert",
+    "the picture's size has changed": "die Bildgröße hat sich geändert",
     "the mirror has changed": "der Spiegel hat sich geändert",
     "a reflected object has changed": "ein gespiegeltes Objekt hat sich geändert",
     "the settings have changed": "die Einstellungen haben sich geändert",

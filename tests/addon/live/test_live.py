@@ -226,5 +226,7 @@ def test_the_panel_draws_both_states(scene, clock, room):
     bpy.context.view_layer.update()
     labels.clear()
     draw(layout, bpy.context)
-    assert len(labels) == 1 and "'Ball Reflection'" in labels[0] and "camera" in labels[0]
+    assert len(labels) == 2 and "'Ball Reflection'" in labels[0] and "camera" in labels[1]
+    # as wide as the sidebar is at first, beside the icon
+    assert max(map(len, labels)) < 38
     assert buttons[-1] == "reflection_mesh.update"
