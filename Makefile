@@ -12,14 +12,14 @@ SECONDS ?= 600
 
 BLENDER ?= $(if $(wildcard $(VIRTUAL_SCREEN)),$(VIRTUAL_SCREEN) run -t 600)
 VIRTUAL_SCREEN ?= ../shared/blender-gui/blender-gui
-WINDOW_TESTS = tests/window/ways_in.py tests/window/live.py
+WINDOW_TESTS = tests/window/ways_in.py tests/window/drop.py tests/window/live.py
 
 RUN = $(VENV)/bin/python
 READY = $(VENV)/.ready
 
 .DEFAULT_GOAL := help
 .PHONY: help environment demo measure report report-plots numerics rate work pictures \
-        test test-fast lint test-core test-addon test-window fuzz zip samples clean
+        test test-fast lint test-core test-addon test-window live-picture fuzz zip samples clean
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
@@ -35,6 +35,7 @@ help:
 	@echo "make work     what each method counts on the setting of the talk's cost model"
 	@echo "make zip      the extension as a zip in dist/, to install in Blender"
 	@echo "make pictures the pictures of the documents, in docs/pictures/"
+	@echo "make live-picture  the picture of Live, docs/pictures/live.gif, made in a window as test-window is"
 	@echo "make samples  write sample_blends/*.blend anew"
 	@echo "PYTHON=... chooses the Python, 3.11 or 3.13 (now: $(PYTHON))"
 
@@ -111,6 +112,9 @@ test-window:
 	    BLENDER_USER_RESOURCES=$$(mktemp -d) $(BLENDER) --enable-event-simulate --python $$script || exit 1; \
 	  done; \
 	fi
+
+live-picture:
+	BLENDER_USER_RESOURCES=$$(mktemp -d) $(BLENDER) --enable-event-simulate --python tools/live_picture.py
 
 fuzz: environment
 	$(RUN) -m tests.fuzz --seconds $(SECONDS) $(if $(FIRST),--first $(FIRST))
