@@ -7,17 +7,19 @@ cuts it along all outlines at once.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from mathutils import Vector
 from mathutils.geometry import delaunay_2d_cdt
 
-from ...core import PicturePieces
-from ..faults import Steps
+from ...core import PicturePieces, in_steps
+from ..faults import Steps, part
 
 NEAR = 1e-6         # of a triangle's side: what is nearer is one place
 HULL = 0            # all triangles of the convex hull: which faces they come from Blender does not always tell rightly
-AT_ONCE = 16        # triangles cut between two looks at the user
+AT_ONCE = 200       # pieces along which triangles are cut between two looks at the user
+INWARDS = 0.9       # of the way from a piece's middle to its corners: on its border others begin
 
 
 @dataclass(frozen=True)
@@ -57,11 +59,14 @@ def cut_triangles(pieces: PicturePieces, count: int) -> Steps[Parts]:
     order = np.argsort(pieces.face, kind="stable")
     first = np.cumsum(number) - number
     cut = np.flatnonzero((number > 0) & ~tiled)
+    before, total, looked = np.cumsum(number[cut]) - number[cut], number[cut].sum(), -1
     # one by one: laid out beside each other in one plane, triangles come back without some of their sides
-    for index, face in enumerate(cut.tolist()):
-        if index % AT_ONCE == 0:
-            yield index / len(cut), "Cutting faces"
-        done.append(_cut(face, pieces.select(order[first[face]:first[face] + number[face]])))
+    for face, along in zip(cut.tolist(), before.tolist()):
+        if along // AT_ONCE > looked:
+            looked = along // AT_ONCE
+            yield along / total, "Cutting faces"
+        own = pieces.select(order[first[face]:first[face] + number[face]])
+        done.append((yield from part(in_steps(partial(_cut, face, own)), along / total, 0.0, "Cutting faces")))
     return Parts(*(np.concatenate([getattr(part, name) for part in done]) for name in ("face", "weights", "pixels")))
 
 
@@ -76,6 +81,7 @@ def _tiled(pieces: PicturePieces, count: int) -> np.ndarray:
 
 def _cut(face: int, pieces: PicturePieces) -> Parts:
     """Cut the triangle `face`, as half a unit square, along the pieces that lie in it."""
+    pieces = pieces.select(~_covered(pieces))
     corners = np.concatenate(([[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]], pieces.weights[:, :, 1:]))
     # sides of what is thinner than what counts as one place would cross each other there
     corners = corners[np.abs(_doubled(corners)) > 4.0 * NEAR * _longest(corners)].reshape(-1, 2)
@@ -93,6 +99,15 @@ def _cut(face: int, pieces: PicturePieces) -> Parts:
     shares = np.maximum(weights[seen] @ np.linalg.inv(pieces.weights[piece[seen]]), 0.0)
     pixels[seen] = shares / shares.sum(axis=2, keepdims=True) @ pieces.pixels[piece[seen]]
     return Parts(faces, weights, pixels)
+
+
+def _covered(pieces: PicturePieces) -> np.ndarray:
+    """Which pieces (k,) of one triangle larger images cover, in the middle and before each corner: they count nowhere,
+    and a mirror may show a triangle in a dozen images over one another."""
+    middle = pieces.weights.mean(axis=1, keepdims=True)
+    spots = np.concatenate((middle, middle + INWARDS * (pieces.weights - middle)), axis=1)
+    first = pieces.holding(np.repeat(pieces.face, 4), spots.reshape(-1, 3)).reshape(-1, 4)
+    return ((first >= 0) & (pieces.image[first] < pieces.image[:, None])).all(axis=1)
 
 
 def _doubled(corners: np.ndarray) -> np.ndarray:

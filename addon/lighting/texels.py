@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..faults import Steps
+
 SEEN_WHOLE = 0.995  # of a pixel: coverage from which it shows nothing else
 SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
 UNSEEN = 0.002
@@ -19,11 +21,12 @@ LEAST_WEIGHT = 1e-5
 AROUND = 8          # texels that one that is brought nearer reaches
 LAMP_RIM = 3        # texels from which on the inside of a lamp is as bright as it is
 INSIDE_LAMPS = 8.0  # times white, nearer their rims
+SHARPENING = "Sharpening the light"
 LEAST_RESPONSE = 0.2  # of a wave that a wide filter hardly lets through no more is brought back
 
 
-def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float = np.inf) -> np.ndarray:
-    """The texels whose picture is `light` where results cover it.
+def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float = np.inf) -> Steps[np.ndarray]:
+    """The texels whose picture is `light` where results cover it; yields (fraction, stage).
 
     Parameters
     ----------
@@ -40,9 +43,11 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white
     -------
     texels : (height, width, 3) float32, zero farther than `REACH` from what is covered.
     """
+    yield 0.0, SHARPENING
     needed = _grown(coverage > 0.0, REACH)
     filled = _filled(*_without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64)), needed)
-    sharp = _sharpened(filled, kernel, white)
+    yield 0.0, SHARPENING
+    sharp = yield from _sharpened(filled, kernel, white)
     # inside a lamp, from where it does not reach what is beside, it is as bright as it is
     lamp = ~_grown((filled < white).any(axis=2), LAMP_RIM)
     sharp = np.where(lamp[..., None], filled, sharp)
@@ -94,10 +99,11 @@ def _unfiltered(picture: np.ndarray, kernel: np.ndarray) -> np.ndarray:
     return np.fft.irfft2(waves, s=(rows, columns), axes=(0, 1))[2 * REACH:, 2 * REACH:][:height, :width]
 
 
-def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndarray:
+def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> Steps[np.ndarray]:
     """Texels, none below zero, that show the picture, and something white where that is brighter than white."""
     capped = np.minimum(picture, white)
     exact = _unfiltered(capped, kernel)
+    yield 0.0, SHARPENING
     first, bright = np.maximum(exact, DARKEST * capped), picture >= white
     doubtful = np.flatnonzero((bright | (exact < first)).any(axis=2))
     if not len(doubtful):
@@ -108,19 +114,21 @@ def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndar
     inside = ~_grown(~bright.all(axis=2), 1)[..., None]
     first = np.where(bright, np.where(inside, np.minimum(picture, INSIDE_LAMPS * white), np.maximum(first, white)),
                      first)
-    first[part] = _brightened(first[part], capped[part], kernel, white)
+    first[part] = yield from _brightened(first[part], capped[part], kernel, white)
     return first
 
 
-def _brightened(texels: np.ndarray, picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndarray:
+def _brightened(texels: np.ndarray, picture: np.ndarray, kernel: np.ndarray, white: float) -> Steps[np.ndarray]:
     """Texels that show the picture more nearly without going below zero, as they would have to around lamps; what is
     to be white may be whiter.
 
     W. H. Richardson, "Bayesian-Based Iterative Method of Image Restoration", JOSA 1972; L. B. Lucy, "An iterative
     technique for the rectification of observed distributions", AJ 1974.
     """
-    for _ in range(ROUNDS):
+    for done in range(ROUNDS):
+        yield (done + 0.5) / (ROUNDS + 1), SHARPENING
         shown = np.maximum(_filtered(texels, kernel), 1e-30)
+        yield (done + 1) / (ROUNDS + 1), SHARPENING
         wanted = np.where(picture < white, picture, np.maximum(shown, white))
         texels = texels * _filtered(wanted / shown, kernel)
     return texels
@@ -134,7 +142,7 @@ def _filtered(texels: np.ndarray, kernel: np.ndarray) -> np.ndarray:
         ends[axis] = (half, half)
         around = np.pad(texels, ends, mode="edge")
         count = texels.shape[axis]
-        texels = sum(weight * np.take(around, range(step, step + count), axis=axis)
+        texels = sum(weight * (around[step:step + count] if axis == 0 else around[:, step:step + count])
                      for step, weight in enumerate(kernel) if weight > LEAST_WEIGHT)
     return texels
 

@@ -141,10 +141,10 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int
         if not scene.alone:
             yield 0.9, Undivided("Cycles renders what reflections cover")
             coverage = scene.coverage()
-    yield 0.95, "Writing"
     cycles = context.scene.cycles
     kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
-    texels = texels_of(light[..., :3], coverage, kernel, white_of(context.scene))
+    texels = yield from part(texels_of(light[..., :3], coverage, kernel, white_of(context.scene)), 0.93, 0.05)
+    yield 0.98, "Writing"
 
     def show(whole: AllOrNothing) -> None:
         image = new_image(NAME, texels)

@@ -40,7 +40,7 @@ FRAMES = (
 )
 IN_OBJECT_MODE = "Mirror UVs are written in Object Mode: leave the present mode first."
 # shares of the work
-READING, REFLECTING, CUTTING = 0.05, 0.5, 0.4
+READING, REFLECTING, PIECES, CUTTING = 0.05, 0.45, 0.05, 0.4
 TOLD = 1.0     # pixels
 
 
@@ -104,7 +104,8 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
             scene = read_scene(depsgraph, sources)
         result = yield from part(core.reflection_steps(view, surface.mesh, scene.mesh, settings), READING, REFLECTING,
                                  mirror.name)
-        pieces = core.picture_pieces(view, result)
+        pieces = yield from part(core.in_steps(lambda: core.picture_pieces(view, result)), READING + REFLECTING,
+                                 PIECES, "Finding what is shown")
         indices = np.unique(scene.source_object[pieces.face]).tolist()
         if not indices:
             raise core.ReflectionError("The camera sees none of the objects in this mirror; move the camera, the "
@@ -112,14 +113,15 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
         remarks = [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden if obj not in sources]
         remarks += [f"Left out because the mirror does not show it: '{obj.name}'." for index, obj in enumerate(sources)
                     if index not in indices]
-        yield READING + REFLECTING, "Cutting faces"
+        yield READING + REFLECTING + PIECES, "Cutting faces"
         frame = Frame.of(choices.frame, view, pieces.pixels, image.size[0] / image.size[1] if image else 1.0)
         if choices.target == "ORIGINAL":
             maps = [own_map(index, scene, pieces) for index in indices]
             remarks += [f"Between the corners of '{entry.source.name}' the picture is up to {entry.straying:.1f} px "
                         "off: subdivide it, or choose A Copy." for entry in maps if entry.straying > TOLD]
         else:
-            parts = yield from part(cut_triangles(pieces, len(scene.mesh.triangles)), READING + REFLECTING, CUTTING)
+            parts = yield from part(cut_triangles(pieces, len(scene.mesh.triangles)),
+                                    READING + REFLECTING + PIECES, CUTTING)
             sheets = [sheet(index, scene, parts, frame) for index in indices]
         yield 1.0, "Writing"
         if choices.target == "ORIGINAL":

@@ -11,13 +11,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View, connected, doubled_areas, following, ranges, split
+from ..geometry import View, connected, doubled_areas, following, split
+from ..support import breathe
+from .hidden_images import FrontImages
+from .piece_location import holders
 from .reflection_mesh import ReflectionMesh
 
 STRAYING = 0.1
 """Pixels that a linear map may be wrong by inside a piece, beside what the reflection itself is."""
-TOUCHING = 1e-9
-"""Of a barycentric coordinate: what a point on an edge may be off by."""
+FINEST = 2.0
+"""Pixels: shorter edges are not halved where something nearer hides a piece in part."""
 ROUNDS = 12
 """Of halving edges: what a map is wrong by falls to a quarter by each."""
 
@@ -36,7 +39,8 @@ class PicturePieces:
         Where the eye sees the corners, in pixels from the picture's lower left corner, right and up.
     image : (k,) int64
         Which image the piece belongs to: one that hangs together and is nowhere turned over, 0 the largest in the
-        picture. A point that is seen several times lies in pieces of several images.
+        picture; what nearer things hide comes after all that is seen. A point that is seen several times lies in
+        pieces of several images.
 
     Examples
     --------
@@ -75,13 +79,10 @@ class PicturePieces:
         found = np.full(len(face), -1)
         if not len(self.face):
             return found
-        point, piece = _near(self.face, self.weights[:, :, 1:], face, weights[:, 1:])
-        shares = np.linalg.solve(np.swapaxes(_regular(self.weights[piece]), 1, 2), weights[point, :, None])[..., 0]
-        held = (shares >= -TOUCHING).all(axis=1)
-        point, piece = point[held], piece[held]
+        point, piece = holders(self.face, self.weights, face, weights)
         with np.errstate(divide="ignore", invalid="ignore"):
-            enlarged = np.nan_to_num(np.abs(np.linalg.det(self.pixels[piece, 1:] - self.pixels[piece, :1])
-                                            / np.linalg.det(self.weights[piece])))
+            enlarged = np.nan_to_num(np.abs(np.linalg.det(self.pixels[:, 1:] - self.pixels[:, :1])
+                                            / np.linalg.det(self.weights)))[piece]
         order = np.lexsort((-enlarged, self.image[piece], point))
         first = order[np.unique(point[order], return_index=True)[1]]
         found[point[first]] = piece[first]
@@ -117,16 +118,26 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
     True
     """
     image = _images(view, mesh)
+    breathe()
     clip = view.clip(mesh.positions)[mesh.triangles]
     kept = np.flatnonzero(_in_picture(_pixels(clip, view), view))
     clip, weights = clip[kept], mesh.source_weights[kept]
+    front = FrontImages.of(view, mesh, image)
     for _ in range(ROUNDS):
-        marked = _straying(clip, view) > straying
+        breathe()
+        hidden = front.hidden(kept, _pixels(clip, view))
+        breathe()
+        partly = hidden.any(axis=1) & ~hidden.all(axis=1)
+        marked = (_straying(clip, view) > straying) | (partly[:, None] & (_lengths(clip, view) > FINEST))
         if not marked.any():
             break
+        breathe()
         parent, local = split(marked)
         clip, weights, kept = _children(clip, parent, local), _children(weights, parent, local), kept[parent]
-    return PicturePieces(mesh.source_face[kept], weights, _pixels(clip, view), image[kept])
+    pixels = _pixels(clip, view)
+    behind = front.hidden(kept, pixels)[:, 0]
+    rank = image[kept] + behind * (int(image.max(initial=0)) + 1)
+    return PicturePieces(mesh.source_face[kept], weights, pixels, rank)
 
 
 def _images(view: View, mesh: ReflectionMesh) -> np.ndarray:
@@ -156,44 +167,18 @@ def _pixels(clip: np.ndarray, view: View) -> np.ndarray:
 
 def _straying(clip: np.ndarray, view: View) -> np.ndarray:
     """Pixels (k, 3) between the middles of the edges 01, 12, 20 as they are seen and those of their pictures."""
-    pixels, depth = _pixels(clip, view), clip[..., 3]
-    length = np.linalg.norm(following(pixels) - pixels, axis=2)
+    depth = clip[..., 3]
     other = following(depth)
-    return 0.5 * np.abs(other - depth) / (other + depth) * length
+    return 0.5 * np.abs(other - depth) / (other + depth) * _lengths(clip, view)
+
+
+def _lengths(clip: np.ndarray, view: View) -> np.ndarray:
+    """Pixels (k, 3) that the edges 01, 12, 20 are long."""
+    pixels = _pixels(clip, view)
+    return np.linalg.norm(following(pixels) - pixels, axis=2)
 
 
 def _children(corners: np.ndarray, parent: np.ndarray, local: np.ndarray) -> np.ndarray:
     """What the corners of the parts of triangles have, from what (k, 3, c) those of the triangles have."""
     middles = 0.5 * (corners + following(corners))
     return np.take_along_axis(np.concatenate((corners, middles), axis=1)[parent], local[:, :, None], axis=1)
-
-
-def _regular(weights: np.ndarray) -> np.ndarray:
-    """Weights (k, 3, 3) of pieces' corners, those of pieces without an area such that no point lies within."""
-    flat = np.abs(np.linalg.det(weights)) < 1e-18
-    return np.where(flat[:, None, None], -np.eye(3), weights)
-
-
-def _near(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.ndarray) -> tuple:
-    """Pairs of points (n, 2) and pieces with `corners` (k, 3, 2) of the same triangle, `face` and `owner`, among them
-    all in which the piece holds the point: each triangle has a grid of about as many cells as it has pieces."""
-    _, both = np.unique(np.concatenate((owner, face)), return_inverse=True)
-    owner, face = both[:len(owner)], both[len(owner):]
-    number = np.bincount(owner, minlength=int(both.max()) + 1)
-    across = np.ceil(np.sqrt(number)).astype(np.int64)
-    start = np.cumsum(across**2) - across**2
-
-    def cell(of: np.ndarray, place: np.ndarray) -> np.ndarray:
-        return np.clip((place * across[of, None]).astype(np.int64), 0, np.maximum(across[of, None] - 1, 0))
-    low, high = cell(owner, corners.min(axis=1)), cell(owner, corners.max(axis=1))
-    size = high - low + 1
-    step, piece = ranges(np.zeros(len(owner), dtype=np.int64), size.prod(axis=1))
-    column, row = low[piece, 0] + step % size[piece, 0], low[piece, 1] + step // size[piece, 0]
-    held_by = start[owner[piece]] + row * across[owner[piece]] + column
-    order = np.argsort(held_by, kind="stable")
-    asked = np.flatnonzero(number[face] > 0)
-    column, row = cell(face[asked], points[asked]).T
-    wanted = start[face[asked]] + row * across[face[asked]] + column
-    first, last = (np.searchsorted(held_by[order], wanted, side=side) for side in ("left", "right"))
-    entry, point = ranges(first, last - first)
-    return asked[point], piece[order[entry]]

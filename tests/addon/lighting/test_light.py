@@ -328,7 +328,7 @@ def test_the_verb_light(saved_scene, room, tmp_path, capsys):
 
 def test_texels_show_the_picture_that_they_are_made_of(room):
     """In closed form: a pixel is the integral of linearly interpolated texels times Cycles' filter."""
-    texels = room("addon.lighting.texels")
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
     rng = np.random.default_rng(1)
     for kind, width in (("BLACKMAN_HARRIS", 1.5), ("BOX", 1.0), ("GAUSSIAN", 1.5)):
         kernel = texels.pixel_kernel(kind, width)
@@ -337,14 +337,15 @@ def test_texels_show_the_picture_that_they_are_made_of(room):
         shown = smooth
         for axis in (0, 1):
             shown = sum(weight * np.roll(shown, step - len(kernel) // 2, axis) for step, weight in enumerate(kernel))
-        found = texels.texels_of(shown.astype(np.float32), np.ones((20, 30), np.float32), kernel)
+        found = finished(texels.texels_of(shown.astype(np.float32), np.ones((20, 30), np.float32), kernel))
         assert np.abs(found - smooth)[6:-6, 6:-6].max() < 0.02
 
 
 def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):
-    texels = room("addon.lighting.texels")
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
     coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
     own, beside = np.array((0.8, 0.5, 0.1)), np.array((0.1, 0.4, 0.9))
     light = coverage[..., None] * own + (1.0 - coverage[..., None]) * beside
-    found = texels.texels_of(light.astype(np.float32), coverage.astype(np.float32), texels.pixel_kernel("BOX", 1.0))
+    found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
+                                      texels.pixel_kernel("BOX", 1.0)))
     assert np.abs(found[:, 8:] - own).max() < 0.02 and (found[:, :5] == 0.0).all()

@@ -64,6 +64,26 @@ def test_of_several_images_the_first_is_the_largest():
     assert np.linalg.norm(off, axis=1).max() < 1.0
 
 
+@pytest.mark.parametrize("hidden", [False, True])
+def test_an_image_that_something_nearer_hides_comes_after_those_that_are_seen(hidden):
+    """A screen below a sheet hides it in the large mirror on the ground, but not in the small one that leans."""
+    view = View.looking_at((0.3, -4.0, 3.0), (0.0, 1.0, 0.5), (320, 240))
+    sheet = np.array([[-0.3, 0.6, 0.6], [0.3, 0.6, 0.6], [0.3, 1.0, 0.7], [-0.3, 1.0, 0.7]])
+    screen = np.array([[-0.9, -0.2, 0.3], [0.9, -0.2, 0.3], [0.9, 1.4, 0.3], [-0.9, 1.4, 0.3]])
+    scene = TriangleMesh(np.concatenate((sheet, screen if hidden else screen + (0.0, 0.0, 1.0))),
+                         np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]))
+    pieces = picture_pieces(view, reflect(view, two_mirrors(), scene))
+    face, weights = np.repeat([0, 1], 200), inside(400)
+    found = pieces.holding(face, weights)
+    points = np.einsum("nk,nkc->nc", weights, scene.positions[scene.triangles[face]])
+    across = np.cross((1.0, 0.0, 0.0), (0.0, 0.4, 2.0)) / np.hypot(0.4, 2.0)
+    leaning = points - 2.0 * ((points - (0.0, 2.2, 0.4)) @ across)[:, None] * across
+    shares = np.linalg.solve(pieces.weights[found].swapaxes(1, 2), weights[..., None])
+    shown = (shares * pieces.pixels[found]).sum(axis=1)
+    assert (found >= 0).all()
+    assert np.linalg.norm(shown - view.pixels(leaning if hidden else points * TURNED), axis=1).max() < 1.0
+
+
 def test_what_lies_beside_the_picture_is_left_out():
     far = TriangleMesh(SHEET.positions + (30.0, 0.0, 0.0), SHEET.triangles)
     both = TriangleMesh(np.concatenate((SHEET.positions, far.positions)),

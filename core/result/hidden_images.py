@@ -1,0 +1,102 @@
+"""Images that nearer ones hide: of a point that a mirror shows several times, the eye may see some of its images only.
+
+The mirror images of all faces, each as far behind the mirror as its way is long, are drawn into a z-buffer; what a
+piece of a face shows is hidden where the plane of another face that a pixel shows is nearer than its own.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry import View, cross, draw, rows
+from ..support import breathe
+from .placement import place
+from .reflection_mesh import ReflectionMesh
+
+NEARER = 1e-3   # share of a distance: what touches hides nothing
+INWARDS = 0.8   # of the way from a piece's middle to its corners: on its border neighbours begin
+
+
+@dataclass(frozen=True)
+class FrontImages:
+    """What each pixel shows of a reflection, and how near all of its m faces are, which is linear in the picture.
+
+    Attributes
+    ----------
+    width, height : int
+        Of the picture.
+    face : (width x height,) int64
+        The nearest, along the rows from below; -1 where there is none.
+    plane : (m, 3) float64
+        Coefficients of x, y and 1 in pixels.
+    nearness : (m, 3) float64
+        Of the faces' corners: the inverse distance, or, in orthographic views, what is left of the longest one.
+    several : (m,) bool
+        Whether the triangle of the scene that a face shows has other images.
+    """
+
+    width: int
+    height: int
+    face: np.ndarray
+    plane: np.ndarray
+    nearness: np.ndarray
+    several: np.ndarray
+
+    @classmethod
+    def of(cls, view: View, mesh: ReflectionMesh, image: np.ndarray) -> FrontImages:
+        """Draw all faces of `mesh`, which belong to `image` (m,)."""
+        images = place(view, rows(mesh.mirror_position), mesh.path_length, "VIRTUAL").T
+        clip, depth = view.clip(images)[mesh.triangles], view.depths(images)[mesh.triangles]
+        w = clip[..., 3:]
+        corners = np.concatenate((0.5 * (clip[..., :2] + w) * view.resolution, w), axis=2)
+        a, b, c = np.moveaxis(corners, (1, 2), (0, 1))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            before = np.where(depth > 0.0, depth, np.nan)
+            nearness = depth.max(initial=0.0) - depth if view.orthographic else 1.0 / before
+            value = (nearness * w[..., 0]).T
+            plane = value[0] * cross(b, c) + value[1] * cross(c, a) + value[2] * cross(a, b)
+            plane /= (a * cross(b, c)).sum(axis=0)
+        breathe()
+        front = draw(view, images, mesh.triangles).triangle
+        breathe()
+        return cls(*view.resolution, front, plane.T, nearness, _several(mesh.source_face, image))
+
+    def hidden(self, face: np.ndarray, pixels: np.ndarray) -> np.ndarray:
+        """Whether nearer faces hide the middle of pieces and what lies before each of their corners, (k, 4) bool, of
+        triangles of the scene that have several images; what is beside the picture is as the middle is.
+
+        Parameters
+        ----------
+        face : (k,) int64
+            That each piece is a part of.
+        pixels : (k, 3, 2) float64
+            Where its corners are seen.
+        """
+        hidden = np.zeros((len(face), 4), dtype=bool)
+        asked = np.flatnonzero(self.several[face])
+        middle = pixels[asked].mean(axis=1, keepdims=True)
+        spots = np.concatenate((middle, middle + INWARDS * (pixels[asked] - middle)), axis=1)
+        column, row = np.moveaxis(np.floor(spots).astype(np.int64), 2, 0)
+        inside = (column >= 0) & (column < self.width) & (row >= 0) & (row < self.height)
+        front = np.where(inside, self.face[np.where(inside, row * self.width + column, 0)], -1)
+        own = np.broadcast_to(face[asked][:, None], front.shape)
+        nearness = self._nearness(own, spots)
+        behind = (front >= 0) & (front != own) & (self._nearness(front, spots) > nearness + NEARER * np.abs(nearness))
+        hidden[asked] = np.where(inside, behind, behind[:, :1])
+        return hidden
+
+    def _nearness(self, face: np.ndarray, spots: np.ndarray) -> np.ndarray:
+        """How near faces (k, n) are at `spots` (k, n, 2), no nearer and no farther than their corners; no number where
+        a face is seen edge on."""
+        plane, corners = self.plane[face], self.nearness[face]
+        return np.clip((plane[..., :2] * spots).sum(axis=2) + plane[..., 2], corners.min(axis=2), corners.max(axis=2))
+
+
+def _several(source: np.ndarray, image: np.ndarray) -> np.ndarray:
+    """Which faces (m,) show triangles of the scene that have more than one image."""
+    count = int(source.max(initial=-1)) + 1
+    low, high = np.full(count, len(image)), np.full(count, -1)
+    np.minimum.at(low, source, image)
+    np.maximum.at(high, source, image)
+    return (low < high)[source]

@@ -1,0 +1,83 @@
+"""Pieces of triangles that hold points of these: by a grid for each triangle, for all of them at once."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..geometry import ranges
+from ..support import breathe
+
+TOUCHING = 1e-9     # of a barycentric coordinate: what a point on an edge may be off by
+FLAT = 1e-15        # of a triangle's area: what is smaller has none but by rounding, and holds nothing
+
+
+def holders(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.ndarray
+            ) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of points and pieces that hold them, as indices (p,) and (p,).
+
+    Parameters
+    ----------
+    owner : (k,) int64
+        Triangle that each piece lies in.
+    corners : (k, 3, 3) float64
+        Barycentric coordinates of the piece's corners there.
+    face : (n,) int64
+        Triangle that each point lies in.
+    points : (n, 3) float64
+        Its barycentric coordinates there.
+    """
+    point, piece = _near(owner, corners[:, :, 1:], face, points[:, 1:])
+    breathe()
+    area = np.linalg.det(corners)
+    area[np.abs(area) < FLAT] = np.nan
+    held = _held(corners[:, :, 1:], area, piece, points[point, 1:].T)
+    return point[held], piece[held]
+
+
+def _held(corners: np.ndarray, area: np.ndarray, piece: np.ndarray, spot: np.ndarray) -> np.ndarray:
+    """Which spots (2, n) lie in the pieces (n,) of `corners` (k, 3, 2), whose doubled areas are `area` (k,)."""
+    (x0, y0), (x1, y1), (x2, y2) = (corners[:, corner].T for corner in range(3))
+    x, y = spot[0] - x0[piece], spot[1] - y0[piece]
+    second = (x * ((y2 - y0) / area)[piece] - y * ((x2 - x0) / area)[piece])
+    third = (y * ((x1 - x0) / area)[piece] - x * ((y1 - y0) / area)[piece])
+    return (second >= -TOUCHING) & (third >= -TOUCHING) & (second + third <= 1.0 + TOUCHING)
+
+
+def _near(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.ndarray) -> tuple:
+    """Pairs of points (n, 2) and pieces with `corners` (k, 3, 2) of the same triangle, `face` and `owner`, among them
+    all in which the piece holds the point: each triangle has a grid of about as many cells as it has pieces, whose rows
+    and columns have as many corners each, since pieces crowd where the mirror shows a place large."""
+    _, both = np.unique(np.concatenate((owner, face)), return_inverse=True)
+    owner, face = both[:len(owner)], both[len(owner):]
+    number = np.bincount(owner, minlength=int(both.max()) + 1)
+    across = np.ceil(np.sqrt(number)).astype(np.int64)
+    start = np.cumsum(across**2) - across**2
+
+    def keys(of: np.ndarray, place: np.ndarray) -> np.ndarray:
+        return 2.0 * of[:, None] + np.clip(place, 0.0, 1.0)
+    lines = np.sort(keys(np.repeat(owner, 3), corners.reshape(-1, 2)), axis=0)
+    before = 3 * (np.cumsum(number) - number)
+
+    def cell(of: np.ndarray, place: np.ndarray) -> np.ndarray:
+        rank = np.stack([np.searchsorted(lines[:, k], key) for k, key in enumerate(keys(of, place).T)], axis=1)
+        return np.clip((rank - before[of, None]) * across[of, None] // np.maximum(3 * number[of, None], 1), 0,
+                       np.maximum(across[of, None] - 1, 0))
+    low, high = cell(owner, corners.min(axis=1)), cell(owner, corners.max(axis=1))
+    size = high - low + 1
+    step, piece = ranges(np.zeros(len(owner), dtype=np.int64), size.prod(axis=1))
+    column, row = low[piece, 0] + step % size[piece, 0], low[piece, 1] + step // size[piece, 0]
+    held_by = start[owner[piece]] + row * across[owner[piece]] + column
+    order = np.argsort(held_by, kind="stable")
+    breathe()
+    asked = np.flatnonzero(number[face] > 0)
+    column, row = cell(face[asked], points[asked]).T
+    wanted = start[face[asked]] + row * across[face[asked]] + column
+    first, last = (np.searchsorted(held_by[order], wanted, side=side) for side in ("left", "right"))
+    breathe()
+    entry, point = ranges(first, last - first)
+    point, piece = asked[point], piece[order[entry]]
+    lowest, highest = corners.min(axis=1) - TOUCHING, corners.max(axis=1) + TOUCHING
+    for axis in (0, 1):
+        at = points[point, axis]
+        close = (at >= lowest[piece, axis]) & (at <= highest[piece, axis])
+        point, piece = point[close], piece[close]
+    return point, piece
