@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..cameras import Cameras, covered_pixels, picture_areas, pixels_around, pixels_of, with_pieces
+from ..cameras import Cameras, covered_pixels, picture_areas, pixels_around_faces, pixels_of, with_pieces
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, groups
+from ..geometry import SceneFrames, distinct, groups
 from ..support import crowded
 from .limits import Limits
 from .picture_squares import in_squares
@@ -84,9 +84,9 @@ class Crowds:
 def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, most: int) -> tuple[Cameras, np.ndarray, int]:
     """Cells of crowded cameras that show something, the triangle (m,) that each shows, and how many rays, about `most`
     at most, were traced for it."""
-    # a camera lies in about as many squares as its area holds, its edges cross more, and one
-    area, crossed = pixels_of(cameras).sum(), CROSSED * pixels_around(cameras).sum()
-    room = max(most - len(cameras), most / 2)
+    # a face of the mirror lies in about as many squares as its area holds, its edges cross more, and one
+    area, crossed = pixels_of(cameras).sum(), CROSSED * pixels_around_faces(cameras)
+    room = max(most - len(distinct(cameras.face)[0]), most / 2)
     size = max(SQUARE, 2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300))
     cells, square = _cells(cameras, size)
     first, group = groups(cells.face, *square)
