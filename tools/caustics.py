@@ -21,10 +21,9 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-import extension_zip
-from measure import print_table
-from quietly import quietly
+from tools import extension_zip
+from tools.measure import print_table
+from tools.quietly import quietly
 
 ROOT = extension_zip.ROOT
 ROWS = ("scene", "faces", "flux %", "rays' noise", "irradiance %", "rays' noise", "without it", "generate s",
