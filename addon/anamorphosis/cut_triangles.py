@@ -66,7 +66,7 @@ def cut_triangles(pieces: PicturePieces, count: int) -> Steps[Parts]:
             looked = along // AT_ONCE
             yield along / total, "Cutting faces"
         own = pieces.select(order[first[face]:first[face] + number[face]])
-        done.append((yield from part(in_steps(partial(_cut, face, own)), along / total, 0.0, "Cutting faces")))
+        done.append((yield from part(_cut(face, own), along / total, 0.0, "Cutting faces")))
     return Parts(*(np.concatenate([getattr(part, name) for part in done]) for name in ("face", "weights", "pixels")))
 
 
@@ -79,9 +79,11 @@ def _tiled(pieces: PicturePieces, count: int) -> np.ndarray:
     return (low == high) & (np.abs(area - 1.0) < NEAR)
 
 
-def _cut(face: int, pieces: PicturePieces) -> Parts:
+def _cut(face: int, pieces: PicturePieces) -> Steps[Parts]:
     """Cut the triangle `face`, as half a unit square, along the pieces that lie in it."""
-    pieces = pieces.select(~_covered(pieces))
+    covered = yield from in_steps(partial(_covered, pieces))
+    pieces = pieces.select(~covered)
+    yield 0.0, ""
     corners = np.concatenate(([[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]], pieces.weights[:, :, 1:]))
     # sides of what is thinner than what counts as one place would cross each other there
     corners = corners[np.abs(_doubled(corners)) > 4.0 * NEAR * _longest(corners)].reshape(-1, 2)
@@ -93,7 +95,8 @@ def _cut(face: int, pieces: PicturePieces) -> Parts:
     found = found[_doubled(found) > NEAR * _longest(found)]
     weights = _clean(np.concatenate((1.0 - found.sum(axis=2, keepdims=True), found), axis=2))
     faces = np.full(len(found), face)
-    piece = pieces.holding(faces, weights.mean(axis=1))
+    yield 0.0, ""
+    piece = yield from in_steps(partial(pieces.holding, faces, weights.mean(axis=1)))
     pixels = np.full((len(found), 3, 2), np.nan)
     seen = np.flatnonzero(piece >= 0)
     shares = np.maximum(weights[seen] @ np.linalg.inv(pieces.weights[piece[seen]]), 0.0)

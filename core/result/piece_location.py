@@ -62,10 +62,12 @@ def _near(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.n
         return np.clip((rank - before[of, None]) * across[of, None] // np.maximum(3 * number[of, None], 1), 0,
                        np.maximum(across[of, None] - 1, 0))
     low, high = cell(owner, corners.min(axis=1)), cell(owner, corners.max(axis=1))
+    breathe()
     size = high - low + 1
     step, piece = ranges(np.zeros(len(owner), dtype=np.int64), size.prod(axis=1))
     column, row = low[piece, 0] + step % size[piece, 0], low[piece, 1] + step // size[piece, 0]
     held_by = start[owner[piece]] + row * across[owner[piece]] + column
+    breathe()
     order = np.argsort(held_by, kind="stable")
     breathe()
     asked = np.flatnonzero(number[face] > 0)
@@ -77,6 +79,7 @@ def _near(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.n
     point, piece = asked[point], piece[order[entry]]
     lowest, highest = corners.min(axis=1) - TOUCHING, corners.max(axis=1) + TOUCHING
     for axis in (0, 1):
+        breathe()
         at = points[point, axis]
         close = (at >= lowest[piece, axis]) & (at <= highest[piece, axis])
         point, piece = point[close], piece[close]
