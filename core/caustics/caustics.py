@@ -11,7 +11,7 @@ from ..geometry import TriangleMesh, has_area
 from ..recentring import far_corner, moved_surface
 from ..reflection import reflect
 from ..result import ReflectionMesh
-from ..support import NothingInView, ReflectionError, Settings, in_steps, tell
+from ..support import NothingInView, ReflectionError, Settings, breathe, in_steps, tell
 from .caustic_mesh import CausticMesh
 from .corners import light_at
 from .energy import balanced, flux_of, on_faces, shown_area
@@ -123,7 +123,9 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
         chosen = np.flatnonzero(seen.bounces == number)
         if not len(chosen):
             continue
+        breathe()
         faces = _faces(ray_map, seen, chosen, receivers)
+        breathe()
         faces = refined(ray_map, faces, receivers, (LEAST * whole, FINEST * reach), settings.maximum_faces)
         places = np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2)
         lit.append((faces, flux_of(view, places), seen, number, receivers))
@@ -160,6 +162,7 @@ def _joined(parts: list) -> CausticMesh:
 
 def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int,
             receivers: TriangleMesh) -> dict:
+    breathe()
     light, corners = faces.light, np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area, size = 0.5 * np.linalg.norm(normal, axis=1), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
@@ -167,8 +170,10 @@ def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int
     kept = np.flatnonzero(has_area(area, size) & (flux > 0.0) & arrived)
     irradiance, cosine, side = (value.reshape(3, -1).T[kept] for value in (
         light.irradiance, light.cosine, light.side))
+    breathe()
     irradiance = balanced(irradiance, on_faces(flux[kept], area[kept], faces.bulge[kept]), area[kept],
                           faces.triangles[kept], shown_area(corners[kept], area[kept]))
+    breathe()
     # turned to the side that is lit
     over = (side.sum(axis=1) < 0.0) != ((normal[kept] * faces.normal[:, kept].T).sum(axis=1) < 0.0)
     order = np.where(over[:, None], (0, 2, 1), (0, 1, 2))
