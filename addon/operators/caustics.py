@@ -125,7 +125,9 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
             if isinstance(error, NoLight | core.NothingInView):
                 dark.append((mirror, lamp))
             continue
-        prepared.append(_made(context, name, (mirror, lamp), lit, scene, wanted.places(mirror, lamp)))
+        done = READING + (1.0 - READING) * (number + 1) / len(pairs)
+        made = _made(context, name, (mirror, lamp), lit, scene, wanted.places(mirror, lamp))
+        prepared.append((yield from part(made, done, 0.0, name)))
     if not prepared:
         raise (NothingThrown if len(dark) == len(pairs) else core.ReflectionError)(refused[-1])
     yield 1.0, "Writing"
@@ -172,11 +174,12 @@ def _joined(meshes: list) -> core.TriangleMesh | None:
 
 
 def _made(context: bpy.types.Context, name: str, pair: tuple, lit: list, scene: DiffuseScene,
-          places: int) -> Caustic:
+          places: int) -> Steps[Caustic]:
+    yield 0.0, "irradiance"
     counts = {key: sum(mesh.counts.get(key, 0) for *_, mesh in lit) for key in lit[0][-1].counts}
     arrays = caustic_arrays(lit, scene, context.scene.camera)
-    layers = most_layers(arrays.positions, arrays.triangles, next(
-        one.values for one in arrays.attributes if one.name == "source_face"))
+    source_face = next(one.values for one in arrays.attributes if one.name == "source_face")
+    layers = yield from core.in_steps(partial(most_layers, arrays.positions, arrays.triangles, source_face))
     plain = all(tint.constant for _, tint, _ in lit)
     return Caustic(name, *pair, scene.sources, arrays, counts, layers, places, plain)
 

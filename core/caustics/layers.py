@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..support import breathe
+
 SAMPLES = 256  # faces in whose middles it is counted
 AT_ONCE = 1 << 20
 SLIVER = 1e-6  # of the square of its size: what a face is larger than, that hides anything
@@ -16,13 +18,15 @@ def most_layers(positions: np.ndarray, triangles: np.ndarray, source_face: np.nd
     normal, size = np.cross(b - a, c - a), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
     covers = np.linalg.norm(normal, axis=1) > SLIVER * size**2
     middle, most = corners[asked].mean(axis=1), 0
+    # (second - first) x (place - first) . normal
+    sides = [(towards, np.einsum("ij,ij->i", towards, first)) for first, towards in (
+        (first, np.cross(normal, second - first)) for first, second in ((a, b), (b, c), (c, a)))]
     step = max(AT_ONCE // max(len(triangles), 1), 1)
     for start in range(0, len(asked), step):
+        breathe()
         own = slice(start, start + step)
         inside = (source_face[asked[own], None] == source_face[None]) & covers
-        for first, second in ((a, b), (b, c), (c, a)):
-            # (second - first) x (place - first) . normal
-            towards = np.cross(normal, second - first)
-            inside &= middle[own] @ towards.T >= np.einsum("ij,ij->i", towards, first)
+        for towards, least in sides:
+            inside &= middle[own] @ towards.T >= least
         most = max(most, int(inside.sum(axis=1).max()))
     return most
