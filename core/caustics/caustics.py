@@ -140,7 +140,7 @@ def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, rec
     uv = ray_map.coordinates(owner, seen.mirror_position[corner].T)
     light = light_at(ray_map, owner, uv, points[:, corner], np.tile(normal, 3))
     return LitFaces(triangles, points, face, normal, source, chosen, seen.source_sides[chosen] >= 0,
-                    np.full(len(chosen), np.nan), light)
+                    np.full((len(chosen), 3), np.nan), light)
 
 
 def _joined(parts: list) -> CausticMesh:
@@ -167,7 +167,7 @@ def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int
     kept = np.flatnonzero(has_area(area, size) & (flux > 0.0) & arrived)
     irradiance, cosine, side = (value.reshape(3, -1).T[kept] for value in (
         light.irradiance, light.cosine, light.side))
-    irradiance = balanced(irradiance, on_faces(flux[kept], area[kept], faces.bulge[kept]), area[kept],
+    irradiance = balanced(irradiance, on_faces(flux[kept], faces.beside[kept], faces.triangles[kept]), area[kept],
                           faces.triangles[kept], shown_area(corners[kept], area[kept]))
     # turned to the side that is lit
     over = (side.sum(axis=1) < 0.0) != ((normal[kept] * faces.normal[:, kept].T).sum(axis=1) < 0.0)
