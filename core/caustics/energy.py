@@ -28,11 +28,11 @@ def flux_of(view: View, places: np.ndarray) -> np.ndarray:
     return 2.0 * np.arctan2(triple, 1.0 + (a * b).sum(axis=1) + (b * c).sum(axis=1) + (c * a).sum(axis=1))
 
 
-def shown_area(corners: np.ndarray, area: np.ndarray) -> np.ndarray:
-    """What the `area` (m,) of faces with `corners` (m, 3, 3) may be where they are drawn, in single precision: that of
-    slivers is rounding."""
+def shown_area(corners: np.ndarray, area: np.ndarray, reach: float) -> np.ndarray:
+    """What the `area` (m,) of faces with `corners` (m, 3, 3) may be where they are drawn, in single precision with all
+    that is lit, which reaches so far: that of slivers is rounding."""
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1, initial=0.0)
-    return np.hypot(area, SINGLE * np.ptp(corners.reshape(-1, 3), axis=0).max() * longest) if len(area) else area
+    return np.hypot(area, SINGLE * reach * longest)
 
 
 def on_faces(flux: np.ndarray, beside: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -58,13 +58,12 @@ def on_faces(flux: np.ndarray, beside: np.ndarray, triangles: np.ndarray) -> np.
     return flux - np.bincount(one // 3, over, minlength=len(flux)) + np.bincount(other // 3, over, minlength=len(flux))
 
 
-def balanced(irradiance: np.ndarray, flux: np.ndarray, area: np.ndarray, triangles: np.ndarray,
-             shown: np.ndarray) -> np.ndarray:
+def balanced(irradiance: np.ndarray, flux: np.ndarray, triangles: np.ndarray, shown: np.ndarray) -> np.ndarray:
     """Irradiance (m, 3) at the corners of faces, infinite on caustics, as finite values that amount to the `flux` (m,)
-    over the `area` (m,).
+    over the area that is `shown` (m,).
 
-    What the values of a face still lack of its flux over the area that is `shown` (m,), or have too much, is shared out
-    between the faces round its corners: slivers, whose area is rounding, do not keep it to themselves.
+    What the values of a face still lack of its flux, or have too much, is shared out between the faces round its
+    corners: slivers, whose area is rounding, do not keep it to themselves.
     """
     corner = triangles.ravel()
     count = int(corner.max(initial=-1)) + 1
@@ -78,5 +77,9 @@ def balanced(irradiance: np.ndarray, flux: np.ndarray, area: np.ndarray, triangl
     bounded *= scale[:, None]
     round_area = round_vertices(shown)
     missing = round_vertices(flux - shown * bounded.mean(axis=1)) / np.where(round_area > 0.0, round_area, 1.0)
-    found = np.maximum(bounded + missing[triangles], 0.0)
-    return found * (flux.sum() / max((area * found.mean(axis=1)).sum(), 1e-300))
+    return np.maximum(bounded + missing[triangles], 0.0)
+
+
+def amounting(irradiance: np.ndarray, flux: np.ndarray, area: np.ndarray) -> np.ndarray:
+    """Irradiance (m, 3) that amounts to all of the `flux` (m,): slivers may have lacked the area for theirs."""
+    return irradiance * (flux.sum() / max((area * irradiance.mean(axis=1)).sum(), 1e-300))

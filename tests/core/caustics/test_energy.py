@@ -65,8 +65,8 @@ def test_a_face_has_the_light_that_falls_on_it_within_its_straight_sides(lamp):
     assert off(told) < 0.008 and off(flux) > 0.03
     # and so have the values at its corners
     values = faces.light.irradiance.reshape(3, -1).T
-    shown = shown_area(np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2), area)
-    shared = balanced(values, told, area, faces.triangles, shown)
+    shown = shown_area(np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2), area, 8.0)
+    shared = balanced(values, told, faces.triangles, shown)
     assert off(area * shared.mean(axis=1)) < 0.008
 
 
@@ -86,7 +86,7 @@ def test_narrow_faces_keep_their_light_and_others_do_not_get_it():
     corners = np.array([[(0, 0, 0), (8, 0, 0), (8, 8, 0)], [(20, 0, 0), (21, 0, 0), (21, width, 0)]], dtype=float)
     area, flux = np.array([32.0, 0.5 * width]), np.array([1.0, 1.0])
     triangles, even = np.arange(6).reshape(2, 3), np.repeat((flux / area)[:, None], 3, axis=1)
-    found = balanced(even, flux, area, triangles, shown_area(corners, area))
+    found = balanced(even, flux, triangles, shown_area(corners, area, 21.0))
     # single precision moves the narrow one's corners by a fortieth of its width
     np.testing.assert_allclose(area * found.mean(axis=1), flux, rtol=2e-3)
 
