@@ -47,13 +47,13 @@ def _front() -> None:
 
 
 def _spoon() -> None:
-    """A spoon over a napkin, by a lamp beside it."""
-    empty((-1.3, -2.2, 1.8), (0.0, 0.1, 0.1))
+    """A spoon that leans over a napkin, before a lamp: its bowl throws a bent spot before it."""
+    empty((-1.3, -2.6, 1.6), (0.0, -0.1, 0.1))
     round_, out = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False), np.linspace(0.02, 1.0, 24)[:, None]
     bowl = np.stack((0.34 * out * np.cos(round_), 0.5 * out * np.sin(round_) * (1.0 + 0.15 * np.sin(round_)),
                      np.broadcast_to(0.16 * out**2 - 0.1, (24, 72))), axis=-1)
     spoon = metal(sheet("Spoon", bowl, True))
-    spoon.location, spoon.rotation_euler = (0.0, 0.0, 0.45), (0.5, 0.35, 0.3)
+    spoon.location, spoon.rotation_euler = (0.0, 0.3, 0.5), (1.75, 0.1, 0.25)
     take_part(spoon, [plain("plane", size=4.0), plain("plane", size=4.0, location=(0.0, 1.6, 1.0),
                                                       rotation=(np.pi / 2, 0.0, 0.0))],
               lamp("POINT", (0.5, -1.3, 1.1), (0.0, 0.0, 0.0), energy=60.0, shadow_soft_size=0.02))
