@@ -57,17 +57,17 @@ $(READY): $(REQUIREMENTS)
 	@touch $@
 
 demo: environment
-	$(RUN) tools/demo.py --sample $(SAMPLE) --folder $(DEMO) $(if $(VERBOSE),--verbose)
+	$(RUN) -m tools.demo --sample $(SAMPLE) --folder $(DEMO) $(if $(VERBOSE),--verbose)
 
 measure: environment
-	$(RUN) tools/measure.py $(SAMPLES)
+	$(RUN) -m tools.measure $(SAMPLES)
 
 report: environment
 	$(RUN) addon/run_with_bpy.py $(sort $(wildcard sample_blends/*.blend)) benchmark --output $(REPORT) \
 	  --budget $(BUDGET) --growth $(GROWTH)
 
 report-plots: environment
-	$(RUN) tools/read_report.py $(REPORT)
+	$(RUN) -m tools.read_report $(REPORT)
 
 numerics: environment
 	$(RUN) -m tools.solver.numerics
@@ -79,12 +79,12 @@ work: environment
 	$(RUN) -m tools.work
 
 pictures: environment
-	$(RUN) tools/pictures.py
-	$(RUN) tools/line_pictures.py
-	$(RUN) tools/caustic_pictures.py
-	$(RUN) tools/manual_pictures.py
-	$(RUN) tools/animation_picture.py
-	$(RUN) tools/parts.py
+	$(RUN) -m tools.pictures.samples
+	$(RUN) -m tools.pictures.lines
+	$(RUN) -m tools.pictures.caustics
+	$(RUN) -m tools.pictures.manual
+	$(RUN) -m tools.pictures.animation
+	$(RUN) -m tools.pictures.parts
 
 test: lint test-core test-addon
 
@@ -116,7 +116,7 @@ fuzz: environment
 	$(RUN) -m tests.fuzz --seconds $(SECONDS) $(if $(FIRST),--first $(FIRST))
 
 zip: environment
-	$(RUN) tools/extension_zip.py dist
+	$(RUN) -m tools.extension_zip dist
 
 samples: environment
 	$(RUN) sample_blends/make_samples.py

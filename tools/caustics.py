@@ -21,17 +21,15 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-import caustic_scenes
-import caustic_scenes_outside
-import extension_zip
-from caustic_parts import lamp, take_part
-from measure import print_table
-from quietly import quietly
+from tools import extension_zip
+from tools.caustic_scenes import measured, outside
+from tools.caustic_scenes.building import lamp, take_part
+from tools.measure import print_table
+from tools.quietly import quietly
 
 ROOT = extension_zip.ROOT
 SAMPLES = ("ring", "dish", "sunlight", "pool")
-SCENES = caustic_scenes.SCENES | caustic_scenes_outside.SCENES
+SCENES = measured.SCENES | outside.SCENES
 ROWS = ("scene", "faces", "flux %", "rays' noise", "irradiance %", "rays' noise", "without it", "generate s",
         "4 samples s", "PSNR mesh", "PSNR Cycles", "at samples", "reference's own", "curve px")
 
@@ -49,7 +47,7 @@ def main(arguments: list[str]) -> int:
     options = parser.parse_args(arguments)
     rows = []
     with extension_zip.installed() as scratch:
-        for name in options.scenes or (*SAMPLES, *caustic_scenes.SCENES):
+        for name in options.scenes or (*SAMPLES, *measured.SCENES):
             rows.append(quietly(lambda name=name: _measured(name, options, options.folder or scratch)))
             print(f"{name}: {rows[-1]}", file=sys.stderr, flush=True)
         cusp = quietly(_cusp)

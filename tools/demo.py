@@ -1,7 +1,7 @@
 """The main job from end to end: build the zip, install it, reflect a sample, compare with Cycles; and throw the light
 of those samples whose mirrors do.
 
-    python tools/demo.py [--sample sphere] [--folder demo] [--verbose]
+    python -m tools.demo [--sample sphere] [--folder demo] [--verbose]
 """
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import extension_zip
-from quietly import quietly
+from tools import extension_zip
+from tools.quietly import quietly
 
 SAMPLES = extension_zip.ROOT / "sample_blends"
 THROWING = ("ring", "pool", "sunlight", "dish")

@@ -1,6 +1,6 @@
 """Builds the extension as a zip, with Blender's own builder, and installs it into a throw-away place.
 
-    python tools/extension_zip.py [folder]
+    python -m tools.extension_zip [folder]
 """
 from __future__ import annotations
 

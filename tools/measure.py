@@ -1,6 +1,6 @@
 """One table over the samples: errors against Cycles, and the time to generate beside Cycles' time for one sample.
 
-    python tools/measure.py [name or path of a .blend ...] [--tolerance 0.5] [--runs 3] [--folder FOLDER]
+    python -m tools.measure [name or path of a .blend ...] [--tolerance 0.5] [--runs 3] [--folder FOLDER]
 
 Cycles is timed on the file as it is, at its own resolution, one sample per pixel, in the same process; both times are
 medians over the runs. Judge on Blender 4.5: Cycles 5.2 packs shading normals and so moves its own reflections.
@@ -16,8 +16,8 @@ import tempfile
 import time
 from pathlib import Path
 
-import extension_zip
-from quietly import quietly
+from tools import extension_zip
+from tools.quietly import quietly
 
 ROWS = ("sample", "vertices", "faces", "median px", "p95 px", "p99 px", "max px", "hole %", "spill %", "wrong %",
         "all %", "RMSE", "generate s", "Cycles s", "ratio")

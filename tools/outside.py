@@ -1,11 +1,11 @@
 """Builds a scene from mesh files that are not in the repository, and measures it as `measure.py` does.
 
-    python tools/outside.py scene.blend --mirror bunny.obj --scene duck.obj@Y kettle.stl [--shading flat]
+    python -m tools.outside scene.blend --mirror bunny.obj --scene duck.obj@Y kettle.stl [--shading flat]
 
 Reads OBJ, PLY and STL, with Z up or the axis named behind an @. The mirrors stand side by side in the middle, brought
 to one size; the scene's meshes stand round them, behind the camera too, with a chequered floor and plain columns, so
 that every side of a mirror has something to show. Several scenes in one table: build each, then
-`python tools/measure.py scene.blend other.blend`.
+`python -m tools.measure scene.blend other.blend`.
 """
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import sys
 from math import cos, pi, radians, sin
 from pathlib import Path
 
-import extension_zip
+from tools import extension_zip
 
 sys.path.insert(0, str(extension_zip.ROOT / "sample_blends"))
 import bpy
@@ -46,8 +46,8 @@ def main(arguments: list[str]) -> int:
     if not options.measure:
         return 0
     # a process of its own: the extension must choose its preferences before bpy is imported
-    return subprocess.run([sys.executable, str(extension_zip.ROOT / "tools" / "measure.py"),
-                           str(options.blend), "--runs", "1"], check=False).returncode
+    return subprocess.run([sys.executable, "-m", "tools.measure", str(options.blend.resolve()), "--runs", "1"],
+                          cwd=extension_zip.ROOT, check=False).returncode
 
 
 def write(options: argparse.Namespace) -> None:

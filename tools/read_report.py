@@ -1,7 +1,7 @@
 """Brings docs/benchmark.md up to a report of `make report`: its tables and its plots. What the page says is written by
 hand: read it against the tables, and against the growth that this prints.
 
-    python tools/read_report.py [report] [--page docs/benchmark.md]
+    python -m tools.read_report [report] [--page docs/benchmark.md]
 """
 from __future__ import annotations
 

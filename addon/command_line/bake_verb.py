@@ -11,9 +11,7 @@ from ...core import ReflectionError
 from ..files import check_place, chosen_folder, save_blend
 from ..frames import FrameRecord
 from ..illumination import meant_lamps
-from ..operators.bake import FOLDER, WHAT, baking
-from ..operators.bake_plan import blur_remarks, layer_remarks, plan_of, summary
-from ..operators.bake_playing import showing
+from ..operators.bake_frames import FOLDER, WHAT, baking, blur_remarks, layer_remarks, plan_of, showing, summary
 from ..operators.shortcomings import render_shortcomings
 from ..reading import candidates
 from ..settings import Wanted

@@ -9,7 +9,7 @@ from .folding import may_fold
 from .mirror_map import MirrorMap
 from .mirror_refinement import refine_mirror
 from .mirror_surface import ALONG_UV, MirrorSurface, drawn_in, least_weight
-from .picture_areas import covered_pixels, picture_areas, pixels_around, pixels_of
+from .picture_areas import covered_pixels, picture_areas, pixels_around_faces, pixels_of
 from .picture_cells import PictureCells
 from .reflection_map import ReflectionMap, grown
 from .shading_horizon import beyond_horizon, cut_at_horizon
@@ -19,5 +19,5 @@ from .triangle_walk import INSIDE, brought_back, distance_from, settle
 __all__ = ["ALONG_UV", "BouncedMap", "Cameras", "INSIDE", "MirrorMap", "MirrorSurface", "PictureCells",
            "ReflectionMap", "beyond_horizon", "brought_back", "covered_pixels", "cut_at_horizon", "distance_from",
            "drawn_in", "grown", "in_picture", "least_weight", "may_fold", "not_edge_on", "picture_areas",
-           "pixels_around", "pixels_of", "refine_mirror", "settle", "split_cameras", "three_ray_cameras",
+           "pixels_around_faces", "pixels_of", "refine_mirror", "settle", "split_cameras", "three_ray_cameras",
            "visible_triangles", "with_pieces"]

@@ -3,19 +3,26 @@
 A camera interpolates the rays of its corners; the true map bends between them. Halfway along an edge the two differ by
 an angle, which moves the image of a point at distance l by some pixels: the angle's displacement l |delta| over the
 motion of the reflected point along the edge, times the edge's length in the picture. Flat mirrors show no difference at
-all and stay whole.
+all and stay whole. Where the mirror is bent strongly one way and hardly the other, the same angle is little along an
+edge and pixels beside it: there the displacement is solved in the motions along two edges, and bounded more loosely,
+since what cameras are cut into later has true rays. It asks what the whole has met, which must not be far off.
 """
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from ..geometry import dot, norm, shared_edges, unit
+from ..geometry import columns, dot, norm, shared_edges, unit
 from ..support import breathe
 from .camera_splitting import edge_middles, in_picture, split_at
 from .shading_horizon import beyond_horizon
 from .three_ray_cameras import Cameras
 
 LEVELS = 12
+BESIDE = 8.0  # times the tolerance: what rays may stray by beside an edge
+INDEPENDENT = 1e-6  # sine between the motions along two edges: below, as on a fold, nothing can be solved in them
+ROUNDING = 1e-14  # radians: what unit vectors are rounded by must not split a flat mirror
 SHORTEST_EDGE = 0.5  # pixels: a shorter edge cannot stray by a visible amount
 
 
@@ -45,7 +52,9 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
             break
         ends, first, edge = shared_edges(cameras.corners)
         middles, origins, rays = edge_middles(cameras, ends, first)
-        marked = _straying(cameras, ends, rays, reach) > tolerance
+        edges = _Edges.of(cameras, ends, rays)
+        marked = _straying(cameras, edges, reach) > tolerance
+        marked |= _straying_beside(cameras, edges, edge, reach) > BESIDE * tolerance
         # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
         asked = np.flatnonzero(marked[edge].any(axis=1))
         worth = np.zeros(len(ends), dtype=bool)
@@ -65,20 +74,72 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
                    cameras.places, cameras.rays, cameras.origins, cameras.mirror_map), limited
 
 
-def _straying(cameras: Cameras, ends: np.ndarray, middle_rays: np.ndarray, reach: float) -> np.ndarray:
-    """Pixels by which the cameras stray from the true map halfway along edges `ends` (e, 2)."""
-    view = cameras.view
-    a, b = ends[:, 0], ends[:, 1]
-    va, vb, ra, rb = cameras.origins[:, a], cameras.origins[:, b], cameras.rays[:, a], cameras.rays[:, b]
-    with np.errstate(invalid="ignore", over="ignore"):
-        pixels = view.pixels(cameras.places.T)
-        length = np.linalg.norm(pixels[a] - pixels[b], axis=1)
-    middle = unit(ra + rb)
-    turn = norm(unit(middle_rays) - middle)
-    along = vb - va
-    across = norm(along - dot(along, middle) * middle)
-    motion = np.hypot(across, reach * norm(unit(ra) - unit(rb)))
-    # rounding of unit vectors alone must not split a flat mirror
-    straying = length * reach * np.where(turn > 1e-14, turn, 0.0) / np.maximum(motion, 1e-300)
-    straying[length < SHORTEST_EDGE] = 0.0
+@dataclass(frozen=True)
+class _Edges:
+    """Edges of cameras, and what there is halfway along them.
+
+    Attributes
+    ----------
+    ends : (e, 2) int64
+    pixels : (c, 2) float64
+        Of all corners of the cameras.
+    lengths : (e,) float64
+        In pixels.
+    given : (3, e) float64
+        Unit rays halfway, from those of the ends.
+    turns : (3, e) float64
+        From these to the true rays; zero where they are no more than what unit vectors are rounded by.
+    """
+
+    ends: np.ndarray
+    pixels: np.ndarray
+    lengths: np.ndarray
+    given: np.ndarray
+    turns: np.ndarray
+
+    @classmethod
+    def of(cls, cameras: Cameras, ends: np.ndarray, middle_rays: np.ndarray) -> _Edges:
+        a, b = ends[:, 0], ends[:, 1]
+        with np.errstate(invalid="ignore", over="ignore"):
+            pixels = cameras.view.pixels(cameras.places.T)
+            lengths = np.linalg.norm(pixels[a] - pixels[b], axis=1)
+        given = unit(cameras.rays[:, a] + cameras.rays[:, b])
+        turns = unit(middle_rays) - given
+        return cls(ends, pixels, lengths, given, np.where(norm(turns) > ROUNDING, turns, 0.0))
+
+
+def _straying(cameras: Cameras, edges: _Edges, reach: float) -> np.ndarray:
+    """Pixels (e,) by which the cameras stray from the true map halfway along edges."""
+    a, b = edges.ends[:, 0], edges.ends[:, 1]
+    along = cameras.origins[:, b] - cameras.origins[:, a]
+    across = norm(along - dot(along, edges.given) * edges.given)
+    motion = np.hypot(across, reach * norm(unit(cameras.rays[:, a]) - unit(cameras.rays[:, b])))
+    straying = edges.lengths * reach * norm(edges.turns) / np.maximum(motion, 1e-300)
+    straying[edges.lengths < SHORTEST_EDGE] = 0.0
+    return straying
+
+
+@np.errstate(invalid="ignore", over="ignore", divide="ignore")
+def _straying_beside(cameras: Cameras, edges: _Edges, edge: np.ndarray, reach: float) -> np.ndarray:
+    """Pixels (e,) by which cameras stray halfway along their edges, `edge` (n, 3) of them, in whatever direction."""
+    rays = [unit(columns(cameras.rays, corner)) for corner in cameras.corners.T]
+    ahead = unit(rays[0] + rays[1] + rays[2])
+
+    def across(moved: np.ndarray) -> np.ndarray:
+        return moved - dot(moved, ahead) * ahead
+    first, second, third = (columns(cameras.origins, corner) + reach * ray
+                            for corner, ray in zip(cameras.corners.T, rays))
+    u, v = across(second - first), across(third - first)
+    uu, uv, vv = dot(u, u), dot(u, v), dot(v, v)
+    area = uu * vv - uv**2
+    area = np.where(area > INDEPENDENT**2 * uu * vv, area, np.inf)
+    right, up = (edges.pixels[cameras.corners[:, k]] - edges.pixels[cameras.corners[:, 0]] for k in (1, 2))
+    straying = np.zeros(len(edges.ends))
+    for side in edge.T:
+        moved = across(reach * columns(edges.turns, side))
+        a, b = dot(moved, u), dot(moved, v)
+        found = np.linalg.norm(((vv * a - uv * b) / area)[:, None] * right + ((uu * b - uv * a) / area)[:, None] * up,
+                               axis=1)
+        told = (edges.lengths[side] >= SHORTEST_EDGE) & np.isfinite(found)
+        np.maximum.at(straying, side, np.where(told, found, 0.0))
     return straying

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import distinct, doubled_areas, edge_lengths
+from ..geometry import distinct, doubled_areas, edge_lengths, shared_edges
 from .three_ray_cameras import Cameras
 
 LEAST_WORTH = 1.0 / 16.0  # square pixels: no camera counts for less
@@ -19,9 +19,14 @@ def pixels_of(cameras: Cameras) -> np.ndarray:
     return 0.5 * np.abs(doubled_areas(_corners(cameras)))
 
 
-def pixels_around(cameras: Cameras) -> np.ndarray:
-    """About how many pixels long the way round cameras (n,) is in the picture."""
-    return edge_lengths(_corners(cameras)).sum(axis=1)
+def pixels_around_faces(cameras: Cameras) -> float:
+    """About how many pixels long the ways round the parts of the mirror's faces are that cameras lie on: an edge
+    between two cameras of one face is none of them."""
+    _, first, edge = shared_edges(cameras.corners)
+    face = np.repeat(cameras.face, 3)
+    sides = np.bincount(edge.ravel(), minlength=len(first))
+    inner = (sides == 2) & (np.bincount(edge.ravel(), face == face[first][edge.ravel()], len(first)) == 2.0)
+    return float(edge_lengths(_corners(cameras)).ravel()[~inner[edge.ravel()]].sum())
 
 
 def covered_pixels(cameras: Cameras) -> int:

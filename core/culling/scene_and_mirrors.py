@@ -181,11 +181,10 @@ class SceneAndMirrors:
         trees = [self.tree] if diffuse else [self.tree, self.mirror_tree]
         return np.minimum.reduce([first_crossed(tree, origin, ray)[1] for tree in trees])
 
-    def shown_in_middles(self, cameras: Cameras) -> np.ndarray:
-        """The triangle (n,) that the ray through the middle of each camera meets first, -1 where it meets none."""
+    def shown_at(self, cameras: Cameras, places: np.ndarray) -> np.ndarray:
+        """The triangle (n,) that the ray through a place (3, n) on each camera meets first, -1 where it meets none."""
         mirror_map = cameras.mirror_map
-        middle = np.take(cameras.places, cameras.corners.T, axis=1).mean(axis=1)
-        origin, ray = mirror_map.leave(cameras.face, mirror_map.coordinates(cameras.face, middle))
+        origin, ray = mirror_map.leave(cameras.face, mirror_map.coordinates(cameras.face, places))
         return self.first_met(self._upper_sides(cameras), origin, unit(ray))
 
     def _upper_sides(self, cameras: Cameras) -> tuple[np.ndarray, np.ndarray]:

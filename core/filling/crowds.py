@@ -2,8 +2,9 @@
 
 Two kinds are not: those in which more lies over one another than the picture can show or the memory holds, and those
 of a pixel in which outlines are bent still, as where rays cross on a caustic. They are cut along squares of less than a
-pixel, and in each of them a face of the mirror shows the one triangle that the ray through the middle of its first cell
-meets first. So the work is bounded by the picture: where too many lie in a square, all of them share one ray.
+pixel, and in each of them a face of the mirror shows the one triangle that the ray through the square's middle meets
+first, or that through the middle of its first cell where other faces lie there. So the work is bounded by the picture:
+where too many lie in the squares, these are the pixels, and all faces that lie in one share its ray.
 """
 from __future__ import annotations
 
@@ -11,17 +12,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..cameras import Cameras, covered_pixels, picture_areas, pixels_around, pixels_of, with_pieces
+from ..cameras import Cameras, covered_pixels, picture_areas, pixels_around_faces, pixels_of, with_pieces
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, groups
+from ..geometry import SceneFrames, distinct, groups
 from ..support import crowded
 from .limits import Limits
-from .picture_squares import in_squares
+from .picture_squares import first_side, in_squares
 
 HIDING = 1.0 / 4.0  # of the work for a candidate: that of asking whether a mirror hides it
 OVERLAPPING = 24  # of the mirrors in a camera: more hardly lie over one and the same polygon
 SQUARE = 0.5  # pixels: the side of the squares in which cameras are shown, where the number of rays allows it
 CROSSED = 2.0 / np.pi  # half as many lines of a square grid as a line of any direction crosses in its side's length
+CELLS = 4  # for each ray, where faces of the mirror may share one
 SMALLEST = 1e-9  # square pixels: smaller cells are nothing
 
 
@@ -84,24 +86,39 @@ class Crowds:
 def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, most: int) -> tuple[Cameras, np.ndarray, int]:
     """Cells of crowded cameras that show something, the triangle (m,) that each shows, and how many rays, about `most`
     at most, were traced for it."""
-    # a camera lies in about as many squares as its area holds, its edges cross more, and one
-    area, crossed = pixels_of(cameras).sum(), CROSSED * pixels_around(cameras).sum()
-    room = max(most - len(cameras), most / 2)
-    size = max(SQUARE, 2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300))
-    cells, square = _cells(cameras, size)
+    # a face of the mirror lies in about as many squares as its area holds, its edges cross more, and one
+    area, crossed = pixels_of(cameras).sum(), CROSSED * pixels_around_faces(cameras)
+    faces = len(distinct(cameras.face)[0])
+    size = SQUARE
+    if area / size**2 + crossed / size + faces > most:
+        # whole pixels, so that the rays through their middles are traced; faces may share them
+        room = max(CELLS * most - faces, most / 2)
+        size = max(1.0, np.ceil(2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300)))
+    cells, square, places = _cells(cameras, size)
     first, group = groups(cells.face, *square)
     if len(first) > most:
         first, group = groups(*square)
-    triangle = met.shown_in_middles(cells.select(first))[group]
+    triangle = met.shown_at(cells.select(first), places[:, first])[group]
     shown = np.flatnonzero(triangle >= 0)
     return cells.select(shown), triangle[shown], len(first)
 
 
-def _cells(cameras: Cameras, size: float) -> tuple[Cameras, np.ndarray]:
-    """The parts of the cameras in squares of `size` pixels of the picture, and which square (2, n) each lies in."""
+def _cells(cameras: Cameras, size: float) -> tuple[Cameras, np.ndarray, np.ndarray]:
+    """The parts of the cameras in squares of `size` pixels of the picture, in which square (2, n) each lies, and places
+    (3, n) to look at: where the middle of the square is seen, and those first, the nearest ahead; else their own
+    middles."""
     view = cameras.view
     parent, weights = in_squares(cameras, size).triangles(0.0)
     cells, _ = with_pieces(cameras, np.zeros(len(cameras), dtype=bool), parent, weights)
     cells = cells.select(pixels_of(cells) > SMALLEST)
-    middle = view.pixels(cells.places[:, cells.corners].mean(axis=2).T)
-    return cells, np.floor(middle.T / size).astype(np.int64)
+    corners = view.pixels(cells.places.T)[cells.corners]
+    square = np.floor((corners.mean(axis=1) - first_side(size)) / size)
+    ways = corners - (first_side(size) + (square + 0.5) * size)[:, None]
+    after = np.roll(ways, -1, axis=1)
+    areas = np.roll(ways[..., 0] * after[..., 1] - ways[..., 1] * after[..., 0], -1, axis=1)
+    holds = (areas * np.sign(areas.sum(axis=1, keepdims=True)) >= 0.0).all(axis=1)
+    # straight lines in the picture are straight on the mirror, but not as long
+    weights = np.where(holds[:, None], areas / view.clip(cells.places.T)[cells.corners, 3], 1.0)
+    places = (cells.places[:, cells.corners] * (weights / weights.sum(axis=1, keepdims=True))).sum(axis=2)
+    order = np.lexsort((view.depths(places.T), ~holds))
+    return cells.select(order), square[order].T.astype(np.int64), places[:, order]

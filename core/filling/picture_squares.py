@@ -11,9 +11,14 @@ CUTS = 64  # halvings one after another: enough for 2^32 squares along both side
 TOUCHING = 1e-6  # of a square: what reaches less far into it only touches it
 
 
+def first_side(size: float) -> float:
+    """Where squares of `size` pixels begin, so that the first pixel's middle is in the middle of one: where pixels hold
+    a whole number of squares or squares an odd number of pixels, that is so for all."""
+    return (0.5 - 0.5 * size) % size
+
+
 def in_squares(cameras: Cameras, size: float) -> ConvexPolygons:
-    """The parts of cameras in squares of `size` pixels, from the picture's lower left corner; beyond the picture
-    nothing."""
+    """The parts of cameras in squares of `size` pixels; beyond the picture nothing."""
     width, height = cameras.view.resolution
     clip = cameras.view.clip(cameras.places.T)[cameras.corners.T]  # as (corner, camera, component)
     depth = clip[..., 3]
@@ -23,6 +28,7 @@ def in_squares(cameras: Cameras, size: float) -> ConvexPolygons:
         for values in (across[axis], end * depth - across[axis]):
             parts = parts.cut(values[:, parts.owner], Line.HIDDEN)
             parts = parts.select(parts.size >= 3)
+    across -= first_side(size) * depth
     for _ in range(CUTS):
         breathe()
         low, high = _reaches(parts, across, depth)

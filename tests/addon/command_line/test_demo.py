@@ -6,14 +6,13 @@ from pathlib import Path
 
 import pytest
 
-BENCHMARKS = Path(__file__).resolve().parents[3] / "tools"
+ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture
 def demo(monkeypatch):
-    # its files are scripts, which find each other beside themselves
-    monkeypatch.syspath_prepend(str(BENCHMARKS))
-    return importlib.import_module("demo")
+    monkeypatch.syspath_prepend(str(ROOT))
+    return importlib.import_module("tools.demo")
 
 
 def speak() -> str:

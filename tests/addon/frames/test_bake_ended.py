@@ -68,7 +68,7 @@ def test_killed_half_way_the_next_one_goes_on(moving, room, tmp_path, end):
 
 def test_killed_between_files_a_frame_is_not_done(moving, room, tmp_path, monkeypatch):
     """The record comes last: a process that ends before it leaves a frame that is made again."""
-    out, bake_module = tmp_path / "out", room("addon.operators.bake")
+    out, bake_module = tmp_path / "out", room("addon.operators.bake_frames.bake")
 
     def ends(*arguments):
         raise KeyboardInterrupt
@@ -102,7 +102,7 @@ def test_stopped_at_any_step_the_file_is_as_it_was(moving, room, tmp_path, place
     parts.generate(placement=placement)
     bpy.ops.reflection_mesh.light(samples=1)
     parts.select()
-    bake_module, settings = room("addon.operators.bake"), room("core").Settings(placement=placement)
+    bake_module, settings = room("addon.operators.bake_frames.bake"), room("core").Settings(placement=placement)
     before, stale = parts.state(), bpy.data.objects["Mirror Reflection"].reflection_mesh.light_stale
 
     def steps(folder):
@@ -120,14 +120,14 @@ def test_an_error_leaves_no_trace(moving, room, tmp_path, monkeypatch, failing):
     parts.select()
     parts.generate()
     parts.select()
-    bake_module = room("addon.operators.bake")
+    bake_module = room("addon.operators.bake_frames.bake")
     cameras = (bpy.context.scene.camera, add_camera("Second", (2.0, -6.0, 1.0), (1.5, 0.0, 0.3)))
     bpy.context.view_layer.update()
     before, known = parts.state(), set(bpy.data.cache_files)
 
     def fails(*arguments, **options):
         raise RuntimeError("on purpose")
-    playing = room("addon.operators.bake_playing")
+    playing = room("addon.operators.bake_frames.playing")
     monkeypatch.setattr(playing if hasattr(playing, failing) else bake_module, failing, fails)
     plan = bake_module.Plan(str(tmp_path / "out"), [1], room("core").Settings(), 1, cameras)
     with pytest.raises(RuntimeError, match="on purpose"):
@@ -147,7 +147,7 @@ def test_it_refuses_before_anything_changes(moving, room, tmp_path):
 
 
 def test_a_blender_without_usd_says_so_before_any_work(moving, room, tmp_path, monkeypatch):
-    place = room("addon.operators.bake")
+    place = room("addon.operators.bake_frames.bake")
     monkeypatch.setattr(place, "writes_usd", lambda: False)
     assert not bpy.ops.reflection_mesh.bake.poll()
     assert "cannot write USD files" in parts.refusal(bpy.ops.reflection_mesh.bake, filepath=str(tmp_path / "out"))
@@ -211,6 +211,6 @@ def test_frames_of_another_state_of_the_scene_are_told(moving, room, tmp_path, c
 
 
 def test_many_frames_are_told_in_short(room):
-    listed = room("addon.operators.bake_plan").listed
+    listed = room("addon.operators.bake_frames.plan").listed
     assert listed([7]) == "frame 7" and listed([1, 2]) == "frames 1, 2"
     assert listed(list(range(1, 12))) == "frames 1, 2, 3, 4, 5, 6, 7, 8 and 3 more"

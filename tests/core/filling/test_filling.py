@@ -13,7 +13,7 @@ from core.cameras.mirror_map import MirrorMap
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from core.culling.scene_and_mirrors import SceneAndMirrors
 from core.filling.limits import Limits
-from core.filling.picture_squares import in_squares
+from core.filling.picture_squares import first_side, in_squares
 from core.support.crowding import crowded
 from core.visibility.eye_plane import cut_before_eye
 from tests.inputs import shapes
@@ -35,15 +35,16 @@ def soup(count, seed, size=0.8):
 
 
 @pytest.mark.parametrize("name", ["sphere", "flat", "water", "bowl"])
-def test_rays_alone_show_the_right_thing_to_a_pixel(name):
+def test_rays_alone_show_the_right_thing_in_every_pixel(name):
     # a memory that holds hardly a candidate leaves everything to rays
     case, truth = case_of(name), truth_of(name)
     mesh = reflect(case.view, case.mirror, case.scene, Settings(maximum_memory=1e-4))
     numbers = compare(case.view, case.mirror, mesh, truth).numbers
-    assert mesh.counts["crowded"] > 0 and mesh.counts["rays"] < 2 * mesh.counts["mirror_pixels"]
+    assert mesh.counts["crowded"] > 0 and mesh.counts["rays"] < 1.1 * mesh.counts["mirror_pixels"]
     assert 30.0 < mesh.filled_share <= 100.0
-    assert numbers["p99"] < 1.0 and numbers["median"] < 0.01
-    assert numbers["uncovered"] < 1.0 and numbers["spill_outside"] == 0.0
+    # the ray through each pixel's middle is traced, so that there what it meets is shown
+    assert numbers["p99"] < 0.4 and numbers["median"] < 0.01
+    assert numbers["uncovered"] < 0.01 and numbers["spill_outside"] == 0.0
     assert mesh.counts["missed"] == 0
 
 
@@ -68,8 +69,8 @@ def test_a_cell_shows_the_triangle_that_its_middle_ray_meets_first():
     mirror_map, tree = MirrorMap(case.view, case.mirror), SceneTree.build(case.scene)
     cameras = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
     cameras = cameras.select(in_picture(cameras))
-    shown = SceneAndMirrors(tree, case.mirror).shown_in_middles(cameras)
     middle = cameras.places[:, cameras.corners].mean(axis=2)
+    shown = SceneAndMirrors(tree, case.mirror).shown_at(cameras, middle)
     ray = mirror_map.rays(cameras.face, mirror_map.coordinates(cameras.face, middle))
     expected = [first_triangle(tree.mesh, middle[:, number], ray[:, number]) for number in range(len(cameras))]
     assert shown.tolist() == expected
@@ -171,6 +172,6 @@ def test_a_sliver_across_a_picture_becomes_no_more_cells_than_squares_it_passes(
     place = np.einsum("xkc,kc->xc", cameras.places[:, cameras.corners[parts.owner[parts.polygon]].T], parts.weights)
     pixels = VIEW.pixels(place.T)
     assert ((pixels > -1e-6) & (pixels < np.add(VIEW.resolution, 1e-6))).all()
-    square = [np.floor(side.reduceat(pixels, parts.start[:-1], axis=0) / 0.5 + shift)
+    square = [np.floor((side.reduceat(pixels, parts.start[:-1], axis=0) - first_side(0.5)) / 0.5 + shift)
               for side, shift in ((np.minimum, 1e-5), (np.maximum, -1e-5))]
     assert (square[0] == square[1]).all()

@@ -6,8 +6,8 @@ import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-import extension_zip
-from quietly import quietly
+from tools import extension_zip
+from tools.quietly import quietly
 
 
 def measured_installed(sizes: Iterable[int], measure: Callable[[int], tuple]) -> list[tuple]:

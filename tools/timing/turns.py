@@ -1,8 +1,8 @@
 """Two checkouts against each other, in turns in one run: processor seconds of `core.reflect`, arrays in and out.
 
-    python tools/turns.py OTHER_CHECKOUT [1000 10000 sphere ...] [--rounds 4]
+    python -m tools.timing.turns OTHER_CHECKOUT [1000 10000 sphere ...] [--rounds 4]
 
-A number stands for the scene of tools/sizes.py with about so many vertices, a name for one of tests/inputs/scenes.py,
+A number stands for the scene of tools.timing.sizes with about so many vertices, a name for one of tests/inputs/scenes,
 both at 1024 x 1024. Each checkout has a process of its own, without threads of NumPy's. Machines are noisy: the least
 seconds of all rounds are compared, and the ratios of single rounds tell the spread.
 """
@@ -17,9 +17,11 @@ import time
 from pathlib import Path
 
 import numpy as np
-from measure import print_table
 
-HERE = Path(__file__).resolve().parent.parent
+from tools.measure import print_table
+from tools.timing import sizes
+
+HERE = Path(__file__).resolve().parents[2]
 ONE_THREAD = {name: "1" for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")}
 
 
@@ -47,8 +49,9 @@ def main(arguments: list[str]) -> int:
 
 def _worker(checkout: Path) -> subprocess.Popen:
     """A process that reflects the scenes whose names it is told, by the method of a checkout."""
-    return subprocess.Popen([sys.executable, __file__, str(HERE), "--work", str(checkout)], stdin=subprocess.PIPE,
-                            stdout=subprocess.PIPE, text=True, env={**os.environ, **ONE_THREAD})
+    return subprocess.Popen([sys.executable, "-m", "tools.timing.turns", str(HERE), "--work", str(checkout)],
+                            cwd=HERE, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                            env={**os.environ, **ONE_THREAD})
 
 
 def _asked(worker: subprocess.Popen, name: str) -> tuple[float, ...]:
@@ -81,7 +84,6 @@ def _scene(core, name: str) -> tuple:
         from tests.inputs.scenes import SCENES
         case = SCENES[name]((1024, 1024))
         return case.view, case.mirror, case.scene
-    import sizes
     (positions, triangles), scene = sizes._ball(32), sizes._objects(int(name))
     normals = positions - positions.mean(axis=0)
     normals /= np.linalg.norm(normals, axis=1)[:, None]

@@ -10,11 +10,11 @@ from itertools import combinations
 
 import bpy
 
-from ... import core
-from .. import compat
-from ..faults import AllOrNothing, BrowsingOperator, Steps, part, still_there, tell
-from ..files import chosen_folder, staged
-from ..frames import (
+from .... import core
+from ... import compat
+from ...faults import AllOrNothing, BrowsingOperator, Steps, part, still_there, tell
+from ...files import chosen_folder, staged
+from ...frames import (
     FrameRecord,
     Sequence,
     file_name,
@@ -26,13 +26,16 @@ from ..frames import (
     write_result,
     writes_usd,
 )
-from ..freshness import frame_origin
-from ..illumination import meant_lamps
-from ..reading import NothingSeen, candidates, choose, read_view
-from ..settings import SETTINGS, SettingsOptions, UsesSettings, of_each, option
-from . import polls
-from .bake_caustics import ThrownLight
-from .bake_plan import (
+from ...freshness import frame_origin
+from ...illumination import meant_lamps
+from ...reading import NothingSeen, candidates, choose, read_view
+from ...settings import SETTINGS, SettingsOptions, UsesSettings, of_each, option
+from .. import polls
+from ..clear import clear
+from ..generate import generation
+from ..light import lighting
+from ..shortcomings import render_shortcomings
+from .plan import (
     Plan,
     blur_remarks,
     compared,
@@ -43,11 +46,8 @@ from .bake_plan import (
     summary,
     visible_or_none,
 )
-from .bake_playing import showing
-from .clear import clear
-from .generate import generation
-from .light import lighting
-from .shortcomings import render_shortcomings
+from .playing import showing
+from .thrown_light import ThrownLight
 
 FOLDER = "//reflection frames"
 IN_OBJECT_MODE = "Reflections are baked in Object Mode: leave the present mode first."

@@ -1,6 +1,6 @@
 """Makes the pictures that show what each part of the method adds: connection, clipping, filling, beside Cycles.
 
-    python tools/parts.py [folder]
+    python -m tools.pictures.parts [folder]
 
 Leaves `parts_bowl.jpg`, `parts_water.jpg`, `parts_suzanne.jpg` and, of a sample with hardly any memory,
 `parts_filling.jpg` in the folder, docs/pictures/ by default: the whole picture above, parts of it enlarged below.
@@ -14,12 +14,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from unittest import mock
 
-import extension_zip
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import uniform_filter
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
+
+from tools import extension_zip
 
 WHOLE = 1e-6  # by how much the areas of a triangle's faces may miss the triangle's
 TILE, GAP, LABEL = 396, 6, 26

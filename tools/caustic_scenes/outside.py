@@ -3,7 +3,8 @@ bridge."""
 from __future__ import annotations
 
 import numpy as np
-from caustic_parts import empty, lamp, metal, plain, plaster, sheet, take_part
+
+from tools.caustic_scenes.building import empty, lamp, metal, plain, plaster, sheet, take_part
 
 
 def _goblet() -> None:

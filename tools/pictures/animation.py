@@ -1,7 +1,7 @@
 """Makes docs/pictures/animation.gif: twenty seconds of a room, its golden ball a reflection mesh that is made anew and
 lit in every frame.
 
-    python tools/animation_picture.py [folder] [seconds]
+    python -m tools.pictures.animation [folder] [seconds]
 
 What the camera sees of the ball is the mesh alone; Cycles traces no mirror for it.
 """
@@ -11,8 +11,9 @@ import math
 import sys
 from pathlib import Path
 
-import extension_zip
 from PIL import Image
+
+from tools import extension_zip
 
 SAMPLE = extension_zip.ROOT / "sample_blends" / "room.blend"
 WIDTH, HEIGHT, RATE = 216, 136, 5

@@ -1,10 +1,10 @@
 """Seconds of a frame in which the eye alone has moved: with what is kept, without it, and of Cycles, in one run.
 
-    python tools/frames.py [1000 10000 100000] [--runs 5] [--mirror 32] [--method GENERAL]
+    python -m tools.timing.frames [1000 10000 100000] [--runs 5] [--mirror 32] [--method GENERAL]
 
-The scenes are those of tools/sizes.py. Cycles renders one sample with persistent data, as it does in an animation, and
-comes first: without any reflection in the file nothing but its camera changes either. Generations are told in processor
-seconds too, which others on the machine change less.
+The scenes are those of tools.timing.sizes. Cycles renders one sample with persistent data, as it does in an animation,
+and comes first: without any reflection in the file nothing but its camera changes either. Generations are told in
+processor seconds too, which others on the machine change less.
 """
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ import statistics
 import sys
 import time
 
-import extension_zip
-import sizes
-from installed import measured_installed
-from measure import print_table
+from tools import extension_zip
+from tools.measure import print_table
+from tools.timing import sizes
+from tools.timing.installed import measured_installed
 
 STEP = 0.02  # scene units that the eye moves from frame to frame
 

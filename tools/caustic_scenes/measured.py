@@ -2,7 +2,8 @@
 from __future__ import annotations
 
 import numpy as np
-from caustic_parts import empty, lamp, metal, plain, sheet, take_part
+
+from tools.caustic_scenes.building import empty, lamp, metal, plain, sheet, take_part
 
 
 def _waves() -> None:

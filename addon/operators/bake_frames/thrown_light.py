@@ -5,15 +5,15 @@ from dataclasses import dataclass, field
 
 import bpy
 
-from ... import core
-from ..faults import AllOrNothing, Steps, still_there
-from ..frames import Sequence, play_caustics, player_of, told_apart
-from ..illumination import leave_out, lights_renders, places_kept, too_many_layers
-from ..reading import NothingSeen, candidates, visible
-from ..settings import of_each
-from .bake_plan import Plan
-from .caustics import Asked, NothingThrown, name_of, throwing
-from .clear import remove_caustics
+from .... import core
+from ...faults import AllOrNothing, Steps, still_there
+from ...frames import Sequence, play_caustics, player_of, told_apart
+from ...illumination import leave_out, lights_renders, places_kept, too_many_layers
+from ...reading import NothingSeen, candidates, visible
+from ...settings import of_each
+from ..caustics import Asked, NothingThrown, name_of, throwing
+from ..clear import remove_caustics
+from .plan import Plan
 
 
 @dataclass

@@ -6,13 +6,13 @@ from dataclasses import asdict, dataclass
 
 import bpy
 
-from ... import core
-from ..faults import Steps, interrupt_held
-from ..frames import frame_numbers, frame_text, is_done, read_record, record_path, told_apart
-from ..freshness import frame_difference, frame_origin
-from ..reading import NothingSeen, Participants, candidates, render_size, visible
-from ..settings import SAMPLES, SettingsOfMirrors, Wanted, of_each
-from .shortcomings import DEPTH_OF_FIELD
+from .... import core
+from ...faults import Steps, interrupt_held
+from ...frames import frame_numbers, frame_text, is_done, read_record, record_path, told_apart
+from ...freshness import frame_difference, frame_origin
+from ...reading import NothingSeen, Participants, candidates, render_size, visible
+from ...settings import SAMPLES, SettingsOfMirrors, Wanted, of_each
+from ..shortcomings import DEPTH_OF_FIELD
 
 NAMED = 8   # so many frames are named one by one
 

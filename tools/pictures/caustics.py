@@ -1,6 +1,6 @@
 """The pictures of docs/caustics.md: light that mirrors throw, by Cycles and by *Generate Caustics*.
 
-    python tools/caustic_pictures.py [folder]
+    python -m tools.pictures.caustics [folder]
 
 Leaves `caustics.jpg` in the folder, docs/pictures/ by default: above the sample `pool`, left by Cycles' own caustics,
 right by meshes of light; below by meshes the samples `ring`, `sunlight` and `dish`. All have as many samples per
@@ -11,11 +11,11 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import extension_zip
 import numpy as np
 from PIL import Image
 
-ROOT = Path(__file__).resolve().parent.parent
+from tools import extension_zip
+
 LARGE, SMALL, SAMPLES, GAP = 540, 356, 64, 6
 
 
@@ -29,7 +29,7 @@ def main(folder: Path) -> None:
 def _rendered(name: str, size: int, own: bool, scratch: Path) -> np.ndarray:
     """A sample with Cycles' own caustics or with ours, (size, size, 3) bytes."""
     import bpy
-    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "sample_blends" / f"{name}.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{name}.blend"))
     scene = bpy.context.scene
     scene.render.resolution_x = scene.render.resolution_y = size
     scene.cycles.samples, scene.cycles.use_denoising = SAMPLES, True
@@ -58,4 +58,4 @@ def _stacked(rows: list[np.ndarray]) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if sys.argv[1:] else ROOT / "docs" / "pictures")
+    main(Path(sys.argv[1]) if sys.argv[1:] else extension_zip.ROOT / "docs" / "pictures")

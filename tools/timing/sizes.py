@@ -1,6 +1,6 @@
 """Seconds against the size of the scene, in one run: the operator, one Cycles sample, Embree and BVHTree.
 
-    python tools/sizes.py [1000 10000 100000 1000000] [--runs 3] [--mirror 32] [--everything]
+    python -m tools.timing.sizes [1000 10000 100000 1000000] [--runs 3] [--mirror 32] [--everything]
 
 A ball of 2 x MIRROR^2 triangles mirrors bumpy knots on a ground, at 1024 x 1024. Cycles renders the file as it is, one
 sample, without its data from the last time. Embree traces the eye's rays and the mirrored ones, its trees built;
@@ -17,10 +17,11 @@ import sys
 import time
 from collections.abc import Callable
 
-import extension_zip
 import numpy as np
-from installed import measured_installed
-from measure import print_table
+
+from tools import extension_zip
+from tools.measure import print_table
+from tools.timing.installed import measured_installed
 
 EYE, TARGET, LENS, SIZE = (0.2, -5.4, 2.6), (0.08, 0.0, 1.2), 58.0, 1024
 # middle, turns and size of the knots

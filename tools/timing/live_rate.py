@@ -1,6 +1,6 @@
 """What Live takes on the samples, as the table of docs/live.md.
 
-    python tools/live_rate.py [name ...]
+    python -m tools.timing.live_rate [name ...]
 
 The camera goes sideways, 2 cm before each update, until 20 updates have followed it; then all is made exact. Times are
 those of the processor, both cores together, so that what runs beside it counts as little as it can, and medians.
@@ -14,8 +14,8 @@ import time
 from pathlib import Path
 from statistics import median
 
-import extension_zip
-from quietly import quietly
+from tools import extension_zip
+from tools.quietly import quietly
 
 ROWS = ("sample", "faces", "on the way ms", "a second", "made anew ms", "exact ms")
 SAMPLES = ("sphere", "flat_mirror", "cylinder", "water", "bowl", "suzanne", "mirrors", "room", "bathroom", "pond")
@@ -36,7 +36,7 @@ def measured(name: str) -> list[str]:
     """One row."""
     import bpy
     updater_of = importlib.import_module(f"{extension_zip.PACKAGE}.addon.live").LiveUpdater
-    path = Path(__file__).parents[1] / "sample_blends" / f"{name}.blend"
+    path = extension_zip.ROOT / "sample_blends" / f"{name}.blend"
     quietly(lambda: bpy.ops.wm.open_mainfile(filepath=str(path)))
     quietly(lambda: bpy.ops.reflection_mesh.generate("EXEC_DEFAULT"))
     faces = sum(obj.reflection_mesh.faces for obj in bpy.context.scene.objects)

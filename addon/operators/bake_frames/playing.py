@@ -3,11 +3,11 @@ from __future__ import annotations
 
 import bpy
 
-from ..faults import AllOrNothing
-from ..frames import Sequence, light_of, play, player_of, show_by_camera
-from ..reading import candidates
-from .bake_caustics import playing_light
-from .bake_plan import Plan
+from ...faults import AllOrNothing
+from ...frames import Sequence, light_of, play, player_of, show_by_camera
+from ...reading import candidates
+from .plan import Plan
+from .thrown_light import playing_light
 
 
 def playing(context: bpy.types.Context, sequences: list[Sequence]) -> list:

@@ -1,6 +1,6 @@
 """Makes the pictures of docs/lines.md: what Line Art and Freestyle draw of reflections.
 
-    python tools/line_pictures.py [folder]
+    python -m tools.pictures.lines [folder]
 
 Leaves `line_art.jpg` (a still life round a silver ball as Line Art draws it, without the reflection and with it) and
 `freestyle.jpg` (the same by Cycles with Freestyle's lines, before and after) in the folder, docs/pictures/ by default.
@@ -10,9 +10,10 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import extension_zip
 import numpy as np
 from PIL import Image
+
+from tools import extension_zip
 
 SIZE, GAP = 640, 6
 INK = (0.03, 0.03, 0.05)

@@ -1,6 +1,6 @@
 """Makes the manual's pictures of settings from the software's own output.
 
-    python tools/manual_pictures.py [folder]
+    python -m tools.pictures.manual [folder]
 
 Leaves `tolerance.jpg` (0.5, 4 and 16 pixels, with the edges of the mesh), `placement.jpg` (layered, on the surface and
 virtual, from beside the camera) and `made_of.jpg` (faces, and points with discs, of a coarse and a dense mesh) in the
@@ -11,8 +11,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import extension_zip
-from pictures import SAMPLES, draw_edges, save
+from tools import extension_zip
+from tools.pictures.samples import SAMPLES, draw_edges, save
 
 BALL = (212, 183, 772, 743)
 

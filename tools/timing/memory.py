@@ -1,8 +1,8 @@
 """What a generation takes of the memory: the whole process at its peak, Blender's part included.
 
-    python tools/memory.py [1000000 ...] [--mirror 32] [--instances 5000]
+    python -m tools.timing.memory [1000000 ...] [--mirror 32] [--instances 5000]
 
-The scenes are those of tools/sizes.py, each in a process of its own; with --instances small balls of 480 faces that
+The scenes are those of tools.timing.sizes, each in a process of its own; with --instances small balls of 480 faces that
 stand in so many places take the knots' place. The add-on's setting Memory stays at its default.
 """
 from __future__ import annotations
@@ -15,7 +15,10 @@ import time
 from pathlib import Path
 
 import numpy as np
-from measure import print_table
+
+from tools import extension_zip
+from tools.measure import print_table
+from tools.timing import sizes
 
 HEADER = ("vertices", "mirror", "instances", "faces", "seconds", "GB before", "GB at the peak")
 
@@ -32,15 +35,14 @@ def main(arguments: list[str]) -> int:
     rows = []
     for count in [0] if options.instances else options.vertices:
         given = [str(count), "--row", "--mirror", str(options.mirror), "--instances", str(options.instances)]
-        told = subprocess.run([sys.executable, __file__, *given], stdout=subprocess.PIPE, text=True, check=True)
+        told = subprocess.run([sys.executable, "-m", "tools.timing.memory", *given],
+                              stdout=subprocess.PIPE, text=True, check=True)
         rows.append(told.stdout.splitlines()[-1].split())
     print_table([HEADER, *rows])
     return 0
 
 
 def _row(options: argparse.Namespace) -> int:
-    import extension_zip
-    import sizes
     with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as scratch:
         extension_zip.use_throw_away_preferences(Path(scratch) / "preferences")
         extension_zip.install(extension_zip.build(Path(scratch)))
@@ -63,7 +65,8 @@ def _row(options: argparse.Namespace) -> int:
 def _scatter(count: int) -> None:
     """Small balls in so many places round the large one, instead of the knots."""
     import bpy
-    import sizes
+
+    from tools.timing import sizes
     bpy.data.objects.remove(bpy.data.objects["Knots"])
     middle, rng = np.array((0.1, 0.2, 1.26)), np.random.default_rng(1)
     positions, triangles = sizes._ball(16)

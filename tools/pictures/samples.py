@@ -1,6 +1,6 @@
 """Makes the README's pictures from the software's own output.
 
-    python tools/pictures.py [folder]
+    python -m tools.pictures.samples [folder]
 
 Leaves `sphere.jpg` (Cycles, the reflection mesh before a mirror that reflects the sky alone, the mesh's edges),
 `samples.jpg` (the reflection mesh in each sample that emits what it shows), `mirrors.jpg` (mirrors in mirrors, by
@@ -13,9 +13,10 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import extension_zip
 import numpy as np
 from PIL import Image
+
+from tools import extension_zip
 
 SAMPLES = extension_zip.ROOT / "sample_blends"
 PANEL, GAP = 480, 6

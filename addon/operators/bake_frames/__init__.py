@@ -1,0 +1,10 @@
+"""The operator that bakes a range of frames: what is asked for and there already, each frame's files, and players.
+
+From here come the operator's registration and what the verb `bake` puts in order by itself.
+"""
+from .bake import FOLDER, WHAT, baking, register, unregister
+from .plan import blur_remarks, layer_remarks, plan_of, summary
+from .playing import showing
+
+__all__ = ["FOLDER", "WHAT", "baking", "blur_remarks", "layer_remarks", "plan_of", "register", "showing", "summary",
+           "unregister"]
