@@ -145,7 +145,7 @@ def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, rec
 
 def _joined(parts: list) -> CausticMesh:
     reach = _reach([entry[0] for part in parts for entry in part])
-    found = [arrays for arrays in (_arrays(*entry, reach) for part in parts for entry in part)
+    found = [arrays for arrays in (_arrays(entry, reach) for part in parts for entry in part)
              if len(arrays["triangles"])]
     if not found:
         raise NothingInView("The mirror throws none of the lamp's light on the objects; move the lamp, the mirror or "
@@ -169,8 +169,9 @@ def _reach(parts: list[LitFaces]) -> float:
     return float(np.ptp(points, axis=1).max()) if points.size else 0.0
 
 
-def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int, receivers: TriangleMesh,
-            reach: float) -> dict:
+def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh], reach: float) -> dict:
+    """What `CausticMesh` holds of one view's light of one bounce, as `_light` tells it."""
+    faces, flux, seen, number, receivers = lit
     light, corners = faces.light, np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area, size = 0.5 * np.linalg.norm(normal, axis=1), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
