@@ -116,7 +116,8 @@ def _cells(cameras: Cameras, size: float) -> tuple[Cameras, np.ndarray, np.ndarr
     ways = corners - (first_side(size) + (square + 0.5) * size)[:, None]
     after = np.roll(ways, -1, axis=1)
     areas = np.roll(ways[..., 0] * after[..., 1] - ways[..., 1] * after[..., 0], -1, axis=1)
-    holds = (areas * np.sign(areas.sum(axis=1, keepdims=True)) >= 0.0).all(axis=1)
+    turn = np.sign(areas.sum(axis=1, keepdims=True))
+    holds = ((areas * turn >= 0.0) & (turn != 0.0)).all(axis=1)
     # straight lines in the picture are straight on the mirror, but not as long
     weights = np.where(holds[:, None], areas / view.clip(cells.places.T)[cells.corners, 3], 1.0)
     places = (cells.places[:, cells.corners] * (weights / weights.sum(axis=1, keepdims=True))).sum(axis=2)
