@@ -1,6 +1,7 @@
 """How near caustics are to rays and to Cycles, and how long they take: the table of docs/caustics.md.
 
-    python -m tools.caustics [ring waves bowl cylinder bathroom suzanne dish sunlight pool or path.blend ...]
+    python -m tools.caustics [ring waves bowl cylinder bathroom suzanne dish sunlight pool
+                              goblet spoon front bridge foil or path.blend ...]
                              [--rays 20000000] [--size 96] [--reference 2048] [--runs 3] [--no-pictures]
 
 Rays are traced one by one from all over the mirror, by Embree, in float64 on the triangles that it names. Times are
