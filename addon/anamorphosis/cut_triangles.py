@@ -89,8 +89,10 @@ def _cut(face: int, pieces: PicturePieces) -> Steps[Parts]:
     corners = corners[np.abs(_doubled(corners)) > 4.0 * NEAR * _longest(corners)].reshape(-1, 2)
     numbers = np.arange(len(corners)).reshape(-1, 3)
     sides = np.stack((numbers, np.roll(numbers, -1, axis=1)), axis=2).reshape(-1, 2)
-    points, _, triangles, *_ = delaunay_2d_cdt(list(map(Vector, corners.tolist())), sides.tolist(), [], HULL,
-                                               NEAR, False)
+    given = list(map(Vector, corners.tolist())), sides.tolist(), [], HULL, NEAR, False
+    yield 0.0, ""
+    points, _, triangles, *_ = delaunay_2d_cdt(*given)
+    yield 0.0, ""
     found = np.array([tuple(point) for point in points])[np.array(triangles, dtype=np.int64).reshape(-1, 3)]
     found = found[_doubled(found) > NEAR * _longest(found)]
     weights = _clean(np.concatenate((1.0 - found.sum(axis=2, keepdims=True), found), axis=2))
