@@ -36,7 +36,7 @@ def seen(room, monkeypatch) -> list:
     def instead(context, chosen, settings, *_, **__):
         told.append({mirror.name: settings(mirror) for mirror in chosen.mirrors})
         raise room("core").ReflectionError("Not here.")
-    for way in ("operators.generate", "operators.compare", "operators.bake", "command_line.verbs"):
+    for way in ("operators.generate", "operators.compare", "operators.bake_frames.bake", "command_line.verbs"):
         monkeypatch.setattr(room(f"addon.{way}"), "generation", instead)
     return told
 
@@ -135,7 +135,8 @@ class Operator:
     """What a run leaves behind of an operator, to be run again with changes, as the panel after it does."""
 
     def __init__(self, room, kind: str):
-        self.cls = getattr(room(f"addon.operators.{kind}"), f"REFLECTION_MESH_OT_{kind}")
+        place = "addon.operators.bake_frames.bake" if kind == "bake" else f"addon.operators.{kind}"
+        self.cls = getattr(room(place), f"REFLECTION_MESH_OT_{kind}")
         self.values = {}
         self.used = ""
 
@@ -227,7 +228,7 @@ def test_two_groups_are_lit_or_none(pair, room):
 
 
 def test_bakes_know_the_settings_of_mirrors_with_their_own(pair, room):
-    bake, wanted = room("addon.operators.bake"), room("addon.settings").Wanted(pair.scene)
+    bake, wanted = room("addon.operators.bake_frames.plan"), room("addon.settings").Wanted(pair.scene)
     mirrors = [bpy.data.objects[name] for name in ("Left", "Right")]
     plan = bake.Plan("folder", [1], wanted, 1)
     same = plan.made_with(pair, None, mirrors)

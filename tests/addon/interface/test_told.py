@@ -108,7 +108,7 @@ def test_what_was_done_is_told_in_german(blank, room, german, monkeypatch):
     parts.select()
     bpy.ops.reflection_mesh.clear()
     assert said[-1] == "1 Spiegelung entfernt."
-    frames = room("addon.operators.bake_plan").listed([2, 3])
+    frames = room("addon.operators.bake_frames.plan").listed([2, 3])
     assert translated(f"Kept although they were baked from another state of the scene (the mirror has changed): "
                       f"{frames} in '/tmp'; overwrite them, or choose another folder, to have all alike.") == (
         "Behalten, obwohl die Szene beim Backen eine andere war (der Spiegel hat sich geändert): Einzelbilder 2, 3 in "
