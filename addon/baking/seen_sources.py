@@ -8,9 +8,9 @@ import numpy as np
 
 from ...core import ReflectionError, View
 from ..reading import DiffuseScene
+from .sight import places_of_sight
 
 ONE_EYE = 0.2   # radians between how an object is seen and how from one place, from which on gloss would be wrong
-ROUNDS = 4      # in which that place is found
 SHARPEST = 0.9  # quantile of the pixels of an object that have no more than one texel
 SOLID = 0.1     # of a closed object's picture: where fronts are more of it they hide the backs
 HAIR = 0.01     # of an object's picture: what outlines show of a side that is hidden
@@ -57,48 +57,6 @@ def seen_sources(results: list, view: View, scene: DiffuseScene) -> SeenSources:
     seen_from, angle = places_of_sight(owner, area, shown, eye, start)
     return SeenSources(_densities(owner, density, area, count), seen_from, angle <= ONE_EYE,
                        fronts < SOLID * whole, (fronts > HAIR * whole) & (fronts < (1.0 - HAIR) * whole))
-
-
-def places_of_sight(owner: np.ndarray, weight: np.ndarray, points: np.ndarray, towards: np.ndarray,
-                    start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The places from which sources look most nearly as they are seen, and how far that is from how they are.
-
-    Parameters
-    ----------
-    owner : (n,) int
-        The source of each point.
-    weight : (n,) float64
-    points, towards : (n, 3) float64
-        Each is seen along a line, from the latter.
-    start : (k, 3) float64
-        Places by source, that are kept where the lines tell nothing.
-
-    Returns
-    -------
-    places : (k, 3) float64
-    angles : (k,) float64
-        In radians, the root of the mean square.
-    """
-    count = len(start)
-    ways = towards - points
-    ways = ways / np.maximum(np.linalg.norm(ways, axis=1, keepdims=True), 1e-30)
-    across = np.eye(3) - ways[:, :, None] * ways[:, None, :]
-    places, angles = start, np.zeros(count)
-    for _ in range(ROUNDS):
-        # squares of angles are squares of distances from lines by those from the points
-        offset = places[owner] - points
-        share = weight / np.maximum(np.einsum("ni,ni->n", offset, offset), 1e-30)
-        turned = np.linalg.norm(np.cross(offset, ways), axis=1)
-        off = np.arctan2(turned, np.einsum("ni,ni->n", offset, ways))
-        whole = np.maximum(np.bincount(owner, weights=weight, minlength=count), 1e-300)
-        angles = np.sqrt(np.bincount(owner, weights=weight * off**2, minlength=count) / whole)
-        matrix, aim = np.zeros((count, 3, 3)), np.zeros((count, 3))
-        np.add.at(matrix, owner, share[:, None, None] * across)
-        np.add.at(aim, owner, share[:, None] * np.einsum("nij,nj->ni", across, points))
-        # a little towards where it was: lines that are all but parallel meet nowhere
-        hold = 1e-6 * np.trace(matrix, axis1=1, axis2=2)[:, None] + 1e-300
-        places = np.linalg.solve(matrix + hold[..., None] * np.eye(3), (aim + hold * places)[..., None])[..., 0]
-    return places, angles
 
 
 def fronts_seen(scene: DiffuseScene, triangle: np.ndarray, towards: np.ndarray) -> np.ndarray:

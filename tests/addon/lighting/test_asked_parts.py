@@ -96,7 +96,7 @@ def test_lines_of_sight_meet_where_they_come_from(room):
     owner = np.arange(200) % 2
     towards = np.where(owner[:, None] == 0, points + 0.3 * (places[0] - points), points + (1.0, 0.0, 0.0))
     start = places + ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
-    found, angles = room("addon.baking.seen_sources").places_of_sight(owner, rng.random(200), points, towards, start)
+    found, angles = room("addon.baking.sight").places_of_sight(owner, rng.random(200), points, towards, start)
     assert np.abs(found[0] - places[0]).max() < 1e-3 and angles[0] < 1e-3
     assert np.isfinite(found[1]).all() and angles[1] < 0.1
 
