@@ -3,15 +3,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...core.geometry import cross, dot
+from ...core.polygons import ConvexPolygons, Line
 from ...core.support import breathe
 
 BINS = 128  # squares along the longest side of the box round what is lit
 BESIDE = 8  # squares round that box
-FINE = 32.0  # places strewn over a face along a square's side
-MOST_PLACES = 4096  # on one face
-MOST_SQUARES = 4.0  # as large as that many faces may be, for these places to be enough; larger ones are quartered
-PLACES_AT_ONCE = 1 << 21
-GOLDEN = 0.6180339887498949
+AT_ONCE = 1 << 17
+TOUCHING = 1e-6  # of a square: what reaches less far into it only touches it
 
 
 class Squares:
@@ -39,7 +38,7 @@ class Squares:
 
 def light_in_squares(corners: np.ndarray, irradiance: np.ndarray, normals: np.ndarray,
                      squares: Squares) -> tuple[np.ndarray, np.ndarray]:
-    """The squares that faces light, and the flux of each.
+    """The squares that faces light, and the flux of each, exact: faces are cut along the squares' sides.
 
     Parameters
     ----------
@@ -49,31 +48,47 @@ def light_in_squares(corners: np.ndarray, irradiance: np.ndarray, normals: np.nd
     normals : (m, 3) float64
         Of the surface that each face lies on.
     """
-    corners, irradiance, normals = _quartered(corners, irradiance, normals, MOST_SQUARES * squares.step**2)
-    area = _areas(corners)
-    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1, initial=0.0)
-    # as many as the longest side asks for: slivers are long
-    count = np.ceil(FINE**2 * np.maximum(area, 0.05 * longest**2) / squares.step**2).astype(np.int64)
-    count = np.clip(count, 8, MOST_PLACES) * (area > 0.0)
-    found = []
-    for part in _runs(count):
+    across = _across(corners, normals, squares)
+    reach = np.ptp(across, axis=1) + 1.0
+    area, found = _areas(corners), []
+    for part in _runs(reach.prod(axis=1)):
         breathe()
-        face = np.repeat(np.arange(part.start, part.stop), count[part])
-        first = np.cumsum(count[part]) - count[part]
-        order = np.arange(len(face)) - np.repeat(first, count[part])
-        own = count[face]
-        u, v = (order + 0.5) / own, (order * GOLDEN + 0.5) % 1.0
-        # a square folded over its diagonal
-        over = u + v > 1.0
-        u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
-        weights = np.stack((1.0 - u - v, u, v), axis=1)
-        light = (weights * irradiance[face]).sum(axis=1)
-        total = np.bincount(face - part.start, light, minlength=part.stop - part.start)
-        mean = (area * irradiance.mean(axis=1))[part]
-        scale = mean / np.where(total > 0.0, total, 1.0)
-        names = squares.names(np.einsum("nk,nkc->nc", weights, corners[face]), normals[face])
-        found.append(added(names, light * scale[face - part.start]))
+        face, weights = _cut(across[part])
+        face += part.start
+        middle = weights.mean(axis=1)
+        share = np.abs(dot(weights[:, 0], cross(weights[:, 1], weights[:, 2])))
+        light = share * area[face] * (middle.T * irradiance[face]).sum(axis=1)
+        names = squares.names(np.einsum("kn,nkc->nc", middle, corners[face]), normals[face])
+        found.append(added(names, light))
     return added(*(np.concatenate(one) for one in zip(*found)))
+
+
+def _across(corners: np.ndarray, normals: np.ndarray, squares: Squares) -> np.ndarray:
+    """Corners (m, 3, 2) in sides of squares, along the two axes in which the squares of their faces lie."""
+    axes = np.array(((1, 2), (0, 2), (0, 1)))[np.argmax(np.abs(normals), axis=1)]
+    return np.take_along_axis((corners - squares.low) / squares.step, axes[:, None], axis=2)
+
+
+def _cut(across: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Faces (m, 3, 2) cut along the sides of squares, which lie at whole numbers: the face of each triangle that they
+    fall into, and the weights of its corners (3, 3, n), entry [i, k]: weight i of corner k."""
+    parts, whole = ConvexPolygons.whole(len(across)), []
+    while len(parts):
+        corner = across.transpose(2, 1, 0)[:, :, parts.owner[parts.polygon]]
+        place = (parts.weights * corner).sum(axis=1)
+        low, high = (bound.reduceat(place, parts.start[:-1], axis=1) for bound in (np.minimum, np.maximum))
+        first, last = np.floor(low + TOUCHING) + 1.0, np.ceil(high - TOUCHING) - 1.0
+        axis = np.argmax(last - first, axis=0)
+        every = np.arange(len(parts))
+        cut = (last - first)[axis, every] >= 0.0
+        whole.append(parts.select(~cut))
+        chosen = np.flatnonzero(cut)
+        parts, axis = parts.select(chosen), axis[chosen]
+        side = np.floor(0.5 * (first + last))[axis, chosen]
+        values = across[parts.owner, :, axis].T - side
+        parts = ConvexPolygons.joined([parts.cut(values, Line.HIDDEN), parts.cut(-values, Line.HIDDEN)])
+        parts = parts.select(parts.size >= 3)
+    return ConvexPolygons.joined(whole).triangles(0.0)
 
 
 def added(names: np.ndarray, flux: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -111,33 +126,13 @@ def light_errors(light: tuple[np.ndarray, np.ndarray], thrown: list) -> dict:
     return known | {name: float(100.0 * value / total) for name, value in zip(names, values)}
 
 
-def _quartered(corners: np.ndarray, irradiance: np.ndarray, normals: np.ndarray,
-               most: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Faces (m) in parts that are not larger than `most`, each with the irradiance at its corners and its normal."""
-    done = []
-    while len(corners):
-        breathe()
-        large = _areas(corners) > most
-        done.append((corners[~large], irradiance[~large], normals[~large]))
-        corners, irradiance = _quarters(corners[large]), _quarters(irradiance[large])
-        normals = np.tile(normals[large], (4, 1))
-    return tuple(np.concatenate(one) for one in zip(*done)) if done else (corners, irradiance, normals)
-
-
-def _quarters(values: np.ndarray) -> np.ndarray:
-    """Values (m, 3, ...) at the corners of faces, at those of their four parts (4 m, 3, ...)."""
-    middle = 0.5 * (values + np.roll(values, -1, axis=1))
-    (a, b, c), (ab, bc, ca) = np.moveaxis(values, 1, 0), np.moveaxis(middle, 1, 0)
-    return np.concatenate([np.stack(one, axis=1) for one in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
-
-
 def _areas(corners: np.ndarray) -> np.ndarray:
     a, b, c = np.moveaxis(corners, 1, 0)
     return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
 
 
 def _runs(count: np.ndarray) -> list[slice]:
-    """Runs of faces that hold about `PLACES_AT_ONCE` places."""
-    share = (np.cumsum(count) - count) // PLACES_AT_ONCE
+    """Runs of faces that lie on about `AT_ONCE` squares, `count` (m,) of them each."""
+    share = (np.cumsum(count) - count) // AT_ONCE
     starts = np.flatnonzero(np.diff(share, prepend=-1))
     return [slice(int(start), int(stop)) for start, stop in zip(starts, np.append(starts[1:], len(count)))]

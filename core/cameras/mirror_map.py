@@ -7,10 +7,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry import TriangleMesh, View, unit
-from .mirror_surface import MirrorSurface, Way, along
+from .mirror_surface import LEAST_RISE, MirrorSurface, Way, along
 from .reflection_map import ReflectionMap
 
-NEARLY_GRAZING = 0.03  # sine at a face's corners or middle below which some ray of the face may need to be bent
+NEARLY_GRAZING = 0.03  # sine at a face's places asked below which some ray of the face may need to be bent
+FEW = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0 / 3.0, 1.0 / 3.0)])
+STEPS = 6  # along the sides of faces that the few places leave in doubt
+MANY = np.array([(i, j) for i in range(STEPS + 1) for j in range(STEPS + 1 - i)]) / STEPS
 
 
 class MirrorMap(ReflectionMap):
@@ -36,11 +39,24 @@ class MirrorMap(ReflectionMap):
             middle = np.full((2, count), 1.0 / 3.0)
             self.constant = self.surface.unbent(every, middle, unit(self.arriving(self.places(every, middle))))
             return
-        for u, v in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0 / 3.0, 1.0 / 3.0)):
-            uv = np.stack((np.full(count, u), np.full(count, v)))
-            direction = self.arriving(self.places(every, uv))
-            ray = self.surface.unbent(every, uv, direction)
-            self.grazing |= self.surface.rise(every, ray, direction) < NEARLY_GRAZING
+        least, most = self._rises(every, FEW)
+        self.grazing = least < NEARLY_GRAZING
+        # near the eye, or where normals turn much, rays between these places rise less than at any of them
+        doubtful = np.flatnonzero((2.0 * least - most < NEARLY_GRAZING) & ~self.grazing)
+        least, most = self._rises(doubtful, MANY)
+        # what lies between the many is lower by a square of how near they are
+        self.grazing[doubtful] = least - (most - least) / STEPS**2 < LEAST_RISE
+
+    def _rises(self, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """How steeply (n,) rays that are not lifted leave faces (n,) at the least and at the most, of some `places`
+        (k, 2) in (u, v)."""
+        least, most = np.full(len(face), np.inf), np.full(len(face), -np.inf)
+        for place in places:
+            uv = np.repeat(place[:, None], len(face), axis=1)
+            direction = self.arriving(self.places(face, uv))
+            rise = self.surface.rise(face, self.surface.unbent(face, uv, direction), direction)
+            least, most = np.minimum(least, rise), np.maximum(most, rise)
+        return least, most
 
     @property
     def across(self) -> np.ndarray:

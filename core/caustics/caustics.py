@@ -14,7 +14,7 @@ from ..result import ReflectionMesh
 from ..support import NothingInView, ReflectionError, Settings, in_steps, tell
 from .caustic_mesh import CausticMesh
 from .corners import light_at
-from .energy import balanced, flux_of, on_faces, shown_area
+from .energy import amounting, balanced, flux_of, on_faces, shown_area
 from .hiding import screens_of, shades_of
 from .lamps import Lamp
 from .refinement import LitFaces, refined
@@ -140,11 +140,13 @@ def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, rec
     uv = ray_map.coordinates(owner, seen.mirror_position[corner].T)
     light = light_at(ray_map, owner, uv, points[:, corner], np.tile(normal, 3))
     return LitFaces(triangles, points, face, normal, source, chosen, seen.source_sides[chosen] >= 0,
-                    np.full(len(chosen), np.nan), light)
+                    np.full((len(chosen), 3), np.nan), light)
 
 
 def _joined(parts: list) -> CausticMesh:
-    found = [arrays for arrays in (_arrays(*entry) for part in parts for entry in part) if len(arrays["triangles"])]
+    reach = _reach([entry[0] for part in parts for entry in part])
+    found = [arrays for arrays in (_arrays(entry, reach) for part in parts for entry in part)
+             if len(arrays["triangles"])]
     if not found:
         raise NothingInView("The mirror throws none of the lamp's light on the objects; move the lamp, the mirror or "
                             "the objects.")
@@ -155,11 +157,21 @@ def _joined(parts: list) -> CausticMesh:
     start = np.cumsum([0] + [len(entry["positions"]) for entry in found])
     for entry, first in zip(found, start):
         entry["triangles"] = entry["triangles"] + first
-    return CausticMesh(**{name: np.concatenate([entry[name] for entry in found]) for name in found[0]}, counts=counts)
+    mesh = CausticMesh(**{name: np.concatenate([entry[name] for entry in found]) for name in found[0]}, counts=counts)
+    a, b, c = np.moveaxis(mesh.positions[mesh.triangles], 1, 0)
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return replace(mesh, irradiance=amounting(mesh.irradiance, mesh.flux, area))
 
 
-def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int,
-            receivers: TriangleMesh) -> dict:
+def _reach(parts: list[LitFaces]) -> float:
+    """How far the faces of all views and bounces reach."""
+    points = np.concatenate([np.zeros((3, 0)), *(faces.points[:, faces.triangles.ravel()] for faces in parts)], axis=1)
+    return float(np.ptp(points, axis=1).max()) if points.size else 0.0
+
+
+def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh], reach: float) -> dict:
+    """What `CausticMesh` holds of one view's light of one bounce, as `_light` tells it."""
+    faces, flux, seen, number, receivers = lit
     light, corners = faces.light, np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area, size = 0.5 * np.linalg.norm(normal, axis=1), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
@@ -167,8 +179,8 @@ def _arrays(faces: LitFaces, flux: np.ndarray, seen: ReflectionMesh, number: int
     kept = np.flatnonzero(has_area(area, size) & (flux > 0.0) & arrived)
     irradiance, cosine, side = (value.reshape(3, -1).T[kept] for value in (
         light.irradiance, light.cosine, light.side))
-    irradiance = balanced(irradiance, on_faces(flux[kept], area[kept], faces.bulge[kept]), area[kept],
-                          faces.triangles[kept], shown_area(corners[kept], area[kept]))
+    irradiance = balanced(irradiance, on_faces(flux[kept], faces.beside[kept], faces.triangles[kept]),
+                          faces.triangles[kept], shown_area(corners[kept], area[kept], reach))
     # turned to the side that is lit
     over = (side.sum(axis=1) < 0.0) != ((normal[kept] * faces.normal[:, kept].T).sum(axis=1) < 0.0)
     order = np.where(over[:, None], (0, 2, 1), (0, 1, 2))

@@ -94,7 +94,9 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
     # a ray is turned by twice the angle that it has to the mirror's plane
     upright = np.sqrt(np.clip(0.5 * (1.0 - dot(ways[0], ways[1])), 0.0, 1.0))
     miss = norm(origin + s * ray - points)
-    arrived = (s > 0.0) & (miss <= ARRIVED * (norm(points - origin) + sum(map(norm, ray_map.spans(face)))))
+    size = sum(map(norm, ray_map.spans(face)))
+    # where the mirror stands on what is lit, light comes from the very place
+    arrived = (s * length >= -ARRIVED * size) & (miss <= ARRIVED * (norm(points - origin) + size))
     return Corners(uv, irradiance, turned, upright, place, np.sign(cosine), arrived)
 
 

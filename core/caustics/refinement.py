@@ -42,9 +42,9 @@ class LitFaces:
         The face of the reflection that each is a part of.
     on_side : (m, 3) bool
         Which of the sides 01, 12, 20 lie on a side of their receiver's triangle.
-    bulge : (m,) float64
-        The area that their light falls on beyond that of the face, for sides that are straight in the lamp's picture
-        are curves on the receiver. Not a number until it has been asked for.
+    beside : (m, 3) float64
+        Their light that falls beyond the sides 01, 12, 20, for those that are straight in the lamp's picture are curves
+        on the receiver; negative where it ends before them. Not a number until it has been asked for.
     light : Corners
         Of the corners, (3, m) as (3 m,): corner k of face i is the entry k m + i.
     """
@@ -56,7 +56,7 @@ class LitFaces:
     source: np.ndarray
     origin: np.ndarray
     on_side: np.ndarray
-    bulge: np.ndarray
+    beside: np.ndarray
     light: Corners
 
     def __len__(self) -> int:
@@ -79,7 +79,7 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, le
         _, _, edge = shared_edges(faces.triangles)
         asked = np.flatnonzero(new)
         middles, points, found = _middles(ray_map, faces, asked, within)
-        faces.bulge[asked] = _bulge(faces, asked, points, found)
+        faces.beside[asked] = _beside(faces, asked, middles, points, found)
         chosen = np.zeros(int(edge.max(initial=-1)) + 1, dtype=bool)
         chosen[edge[asked][_astray(faces, asked, middles, least) & found]] = True
         chosen[edge[asked][~found]] = False
@@ -95,8 +95,8 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, le
         place[asked] = np.arange(len(asked))
         faces, parent = _split(faces, edge, chosen, (place, middles, np.concatenate((points, more_points), axis=2)))
         new = marked.any(axis=1)[parent]
-    asked = np.flatnonzero(np.isnan(faces.bulge))
-    faces.bulge[asked] = _bulge(faces, asked, *_middles(ray_map, faces, asked, within)[1:])
+    asked = np.flatnonzero(np.isnan(faces.beside).any(axis=1))
+    faces.beside[asked] = _beside(faces, asked, *_middles(ray_map, faces, asked, within))
     return faces
 
 
@@ -113,15 +113,16 @@ def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[f
     return astray & (area * mean > least[0])[:, None]
 
 
-def _bulge(faces: LitFaces, asked: np.ndarray, points: np.ndarray, found: np.ndarray) -> np.ndarray:
-    """The area (k,) between the sides of the faces asked and parabolas through their `points` (3, 3, k) as [component,
-    side, face]; none where not all of these were `found` (k, 3)."""
+def _beside(faces: LitFaces, asked: np.ndarray, middles: Corners, points: np.ndarray, found: np.ndarray) -> np.ndarray:
+    """The light (k, 3) between the sides of the faces asked and parabolas through their `points` (3, 3, k) as
+    [component, side, face]; none where these were not `found` (k, 3), or are on a caustic."""
     corners = faces.corners[:, :, asked]
     after = np.roll(corners, -1, axis=1)
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    beyond = cross(points - 0.5 * (corners + after), after - corners).sum(axis=1)
-    area = 2.0 / 3.0 * dot(beyond, normal) / np.maximum(norm(normal), 1e-300)
-    return np.where(found.all(axis=1), area, 0.0)
+    beyond = cross(points - 0.5 * (corners + after), after - corners)
+    area = 2.0 / 3.0 * (beyond * (normal / np.maximum(norm(normal), 1e-300))[:, None]).sum(axis=0).T
+    lit = middles.irradiance.reshape(3, -1).T
+    return area * np.where(found & np.isfinite(lit), lit, 0.0)
 
 
 class _Within:
@@ -195,4 +196,4 @@ def _split(faces: LitFaces, edge: np.ndarray, chosen: np.ndarray,
     lit = faces.light.of_parts(light, parent, local, place)
     return LitFaces(triangles, np.concatenate((faces.points, new), axis=1), faces.face[parent], faces.normal[:, parent],
                     faces.source[parent], faces.origin[parent], on_side,
-                    np.where(chosen[edge].any(axis=1), np.nan, faces.bulge)[parent], lit), parent
+                    np.where(chosen[edge].any(axis=1)[:, None], np.nan, faces.beside)[parent], lit), parent

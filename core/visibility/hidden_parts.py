@@ -46,9 +46,9 @@ class HiddenParts:
 
     @classmethod
     def of(cls, cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray,
-           deeper: float = 0.0) -> HiddenParts:
+           deeper: np.ndarray | float = 0.0) -> HiddenParts:
         """What the triangles of pairs of a camera and a column hide, `deeper` behind their planes than so many scene
-        units, without the pairs in which that is nothing."""
+        units, of each pair (p,) or of all, without the pairs in which that is nothing."""
         sides, eye, solid = _sides(cameras, frames, camera, column)
         sides[3] -= deeper * norm(frames.normal)[column]
         chosen = np.flatnonzero(solid & (sides.max(axis=1) > 0.0).all(axis=0))

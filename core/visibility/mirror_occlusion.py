@@ -107,8 +107,9 @@ def _not_behind(other: np.ndarray, polygons: Polygons) -> list[Polygons]:
     """The parts of polygons beside the mirror triangles `other` and before them; others may hide them still."""
     candidates = polygons.candidates
     parts, rest, own = [], polygons, np.arange(len(other))
-    for side in range(3):
-        values = candidates.sides[side][:, other]
+    # a triangle whose plane crosses the camera's mirror lies behind it for a part of the rays
+    for function in (*candidates.sides, candidates.ahead):
+        values = function[:, other]
         outside, _ = rest.left(-values[:, own])
         parts.append(outside)
         rest, kept = rest.left(values[:, own])

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import Cameras, picture_areas
-from ..geometry import SceneFrames, TriangleMesh
+from ..geometry import LampView, SceneFrames, TriangleMesh, cross, norm
 from ..support import breathe, crowded
 from .eye_plane import triangles_before_eye
 from .hidden_parts import DEEPER, PAIRS_AT_ONCE, HiddenParts
@@ -17,6 +17,8 @@ from .picture_pairs import pairs_in_picture
 
 MOST_PIECES = 1 << 18  # as many as cameras are cut into altogether
 MOST_HIDING = 1 << 18  # pairs of a camera and a triangle that hides a part of it; cameras with the most stay whole
+EDGE = 1e-3  # of what doubled faces may lie apart: as much lies in both planes where a shade meets the mirror in a line
+LEVEL = 0.01  # sine of the angle between planes below which faces may be doubled
 MOST_WORK = 1 << 23  # lines of cameras, each once for every triangle that hides a part of its camera
 
 
@@ -33,7 +35,7 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
         return cameras, 0, len(cameras)
     for camera, column in pairs:
         breathe()
-        hidden = HiddenParts.of(cameras, frames, camera, column, deeper)
+        hidden = HiddenParts.of(cameras, frames, camera, column, deeper * _rounding(cameras, frames, camera, column))
         shown[hidden.camera[hidden.entire]] = False
         parts.append(hidden.select(shown[hidden.camera]))
     if not parts:
@@ -51,3 +53,13 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
     hidden, lines = hidden.select(~uncut[hidden.camera]), lines.select(~uncut[lines.camera])
     cut, _, _, left = hidden.cut_off(cameras, shown, lines, MOST_PIECES)
     return cut, int((count > 0).sum() - uncut.sum()), int(uncut.sum()) + left
+
+
+def _rounding(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray) -> np.ndarray | float:
+    """How much of what doubled faces may lie apart pairs (p,) leave: a lamp may stand so near what touches the mirror
+    that much of its light would get through there."""
+    if not isinstance(cameras.view, LampView):
+        return 1.0
+    surface, face = cameras.mirror_map.last(cameras.face[camera])
+    own, other = surface.face_normal[:, face], frames.normal[:, column]
+    return np.where(norm(cross(own, other)) <= LEVEL * norm(other), 1.0, EDGE)

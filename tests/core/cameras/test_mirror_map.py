@@ -2,6 +2,7 @@
 import numpy as np
 import pytest
 
+from core import TriangleMesh, View
 from core.cameras.mirror_map import MirrorMap
 from tests.oracles.true_map import case_of, size_of, true_rays, view_rays
 from tests.oracles.truth import reflected_rays
@@ -52,6 +53,22 @@ def test_rays_that_would_enter_the_mirror_are_turned_until_they_clear_it(name):
     np.testing.assert_allclose(ray, expected, rtol=0, atol=1e-9)
     np.testing.assert_array_equal(mirror_map.lifted(face, uv), bent)
     assert (ray * case.mirror.face_normals()[face]).sum(axis=1).min() > 0.004
+
+
+def test_rays_are_turned_where_they_would_enter_between_the_places_that_are_asked_first():
+    """From near a strongly smoothed triangle: rays in its corners and its middle leave it, some along a side do not."""
+    corners = np.array([(0.85065081, 0.0, -0.52573111), (0.80901699, 0.5, -0.30901699), (1.0, 0.0, 0.0)])
+    mirror = TriangleMesh(corners, np.array([[0, 1, 2]]), corners[None])
+    view = View.looking_at((0.77922591, 0.46376158, -0.32631638), corners.mean(axis=0), (64, 64))
+    mirror_map = MirrorMap(view, mirror)
+    uv = np.random.default_rng(64).dirichlet((0.5, 0.5, 0.5), 4000).T[:2]
+    face = np.zeros(4000, dtype=np.int64)
+    place, ray = mirror_map.places(face, uv).T, mirror_map.rays(face, uv).T
+    _, expected, _, bent = true_rays(mirror, face, *view_rays(view, place))
+    assert 50 < bent.sum() < 3950
+    np.testing.assert_array_equal(mirror_map.lifted(face, uv), bent)
+    ray = ray / np.linalg.norm(ray, axis=1, keepdims=True)
+    np.testing.assert_allclose(ray, expected, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -61,10 +61,47 @@ def test_a_face_has_the_light_that_falls_on_it_within_its_straight_sides(lamp):
 
     def off(light: np.ndarray) -> float:
         return np.abs(light[known] - expected).sum() / expected.sum()
-    told = on_faces(flux, area, faces.bulge)
+    told = on_faces(flux, faces.beside, faces.triangles)
     assert off(told) < 0.008 and off(flux) > 0.03
     # and so have the values at its corners
     values = faces.light.irradiance.reshape(3, -1).T
-    shown = shown_area(np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2), area)
-    shared = balanced(values, told, area, faces.triangles, shown)
+    shown = shown_area(np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2), area, 8.0)
+    shared = balanced(values, told, faces.triangles, shown)
     assert off(area * shared.mean(axis=1)) < 0.008
+
+
+def test_light_that_falls_beyond_a_side_is_that_of_the_face_across():
+    triangles, flux = np.array([[0, 1, 2], [2, 1, 3], [4, 5, 6]]), np.array([4.0, 2.0, 1.0])
+    # the second side of the first is the first of the second; the others' light falls on themselves
+    beside = np.array([[0.3, 0.5, 0.1], [-0.5, 0.0, 0.2], [0.9, 0.9, 0.9]])
+    np.testing.assert_allclose(on_faces(flux, beside, triangles), (3.5, 2.5, 1.0))
+    # no face loses more than it has
+    beside[:2] *= 100.0
+    told = on_faces(flux, beside, triangles)
+    assert told.min() > 0.0 and told[0] < 1.0 and abs(told.sum() - flux.sum()) < 1e-12
+
+
+def test_narrow_faces_keep_their_light_and_others_do_not_get_it():
+    width = 1e-4
+    corners = np.array([[(0, 0, 0), (8, 0, 0), (8, 8, 0)], [(20, 0, 0), (21, 0, 0), (21, width, 0)]], dtype=float)
+    area, flux = np.array([32.0, 0.5 * width]), np.array([1.0, 1.0])
+    triangles, even = np.arange(6).reshape(2, 3), np.repeat((flux / area)[:, None], 3, axis=1)
+    found = balanced(even, flux, triangles, shown_area(corners, area, 21.0))
+    # single precision moves the narrow one's corners by a fortieth of its width
+    np.testing.assert_allclose(area * found.mean(axis=1), flux, rtol=2e-3)
+
+
+def test_light_is_known_where_the_mirror_stands_on_what_it_lights():
+    count, step = 24, np.pi / 24
+    angle = np.arange(count + 1) * step
+    foot = np.stack((np.cos(angle), -np.sin(angle), 0.0 * angle), axis=1)
+    positions = np.concatenate((foot, foot + (0.0, 0.0, 1.0)))
+    k = np.arange(count)
+    triangles = np.concatenate((np.stack((k, k + count + 1, k + 1), 1),
+                                np.stack((k + 1, k + count + 1, k + count + 2), 1)))
+    # as if it were round over its rims, so that light at the foot is lifted
+    normals = positions * (1.0, 1.0, 2.0) - (0.0, 0.0, 1.0)
+    mirror = TriangleMesh(positions, triangles, (normals / np.linalg.norm(normals, axis=1)[:, None])[triangles])
+    faces, _, _ = faces_of(Lamp.shining((0.2, 1.0, -0.8)), mirror, level(0.0, 0.0, 0.0, 4.0))
+    at_foot = np.abs(faces.light.place[2]) < 1e-12
+    assert at_foot.sum() > 2 * count and faces.light.arrived[at_foot].all()
