@@ -26,6 +26,11 @@ class Atlas:
     size: int
     uv: np.ndarray
 
+    @property
+    def spots(self) -> np.ndarray:
+        """The same, (n, 3, 2) float64, in texels."""
+        return self.uv.astype(np.float64) * self.size
+
 
 def arranged(sizes: np.ndarray) -> tuple[np.ndarray, int]:
     """Where square pictures with sides of powers of two lie in one, (n, 2) int64 columns and rows, and its side."""

@@ -30,10 +30,14 @@ class BakeScene:
     objects: list
     targets: dict
 
-    def bake(self, owner: int, size: int, seen_from: np.ndarray, gloss: bool, samples: int,
+    def bake(self, owner: int, size: tuple[int, int], seen_from: np.ndarray, gloss: bool, samples: int,
              denoised: bool = False) -> np.ndarray:
-        """One participant's picture, (size, size, 4) float32, `UNTOUCHED` where it is not, as seen from a place, or
-        without what goes by that."""
+        """One participant's picture, (height, width, 4) float32, `UNTOUCHED` where it is not, as seen from a place, or
+        without what goes by that; its `size` is width and height."""
+        width, height = size
+        values = np.full((height, width, 4), UNTOUCHED, dtype=np.float32)
+        if not values.size:
+            return values
         objects = [obj for number, obj in self.objects if number == owner]
         scene = self.scene
         scene.cycles.samples, scene.cycles.use_denoising = samples, False
@@ -41,8 +45,7 @@ class BakeScene:
             denoise(scene.cycles)
         scene.render.bake.use_pass_glossy = gloss
         scene.camera.matrix_world = Matrix.Translation(seen_from)
-        image = bpy.data.images.new(UV_MAP, size, size, float_buffer=True, is_data=True, alpha=True)
-        values = np.full((size, size, 4), UNTOUCHED, dtype=np.float32)
+        image = bpy.data.images.new(UV_MAP, width, height, float_buffer=True, is_data=True, alpha=True)
         try:
             image.pixels.foreach_set(values.reshape(-1))
             for target in self.targets.values():
@@ -112,9 +115,13 @@ def _prepare(scene: bpy.types.Scene) -> None:
                  "use_pass_emit"):
         setattr(bake, name, True)
     bake.view_from = "ACTIVE_CAMERA"
-    scene.cycles.use_adaptive_sampling = False
+    cycles = scene.cycles
+    cycles.use_adaptive_sampling = False
+    # the eye sees by way of the mirror, which is one bounce, and whose light counts as indirect
+    cycles.max_bounces, cycles.glossy_bounces = max(cycles.max_bounces - 1, 0), max(cycles.glossy_bounces - 1, 0)
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect
     # the picture that shows the light is exposed
-    scene.cycles.film_exposure = 1.0
+    cycles.film_exposure = 1.0
 
 
 def _target(material: bpy.types.Material | None, opacity: bool, backs: bool) -> bpy.types.Material:

@@ -10,17 +10,15 @@ from ...core import ReflectionError, View
 from ..faults import Steps, Undivided
 from ..reading import DiffuseScene, is_opaque
 from ..reading.read_meshes import read_meshes
-from .atlas import Atlas, arranged, packed
-from .bake_scene import UNTOUCHED, bake_scene
-from .seen_sources import has_rim, seen_sources, triangles_by_source
+from .atlas import arranged, packed
+from .bake_scene import bake_scene
+from .levels import FINER, levels_of
+from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
 from .stand_ins import stand_ins
 
 LARGEST = 4096  # texels along a side of all maps together
-FINER = 1.5     # texels a pixel along a line: interpolation and the picture's filter blur them
-WIDE = 32.0     # texels across triangles from which on what lies side by side in a picture does in the scene too
-ALMOST_ALL = 0.9  # of an object's surface, whose triangles are so wide where its picture is denoised
 FEWER = 0.5     # of the samples are enough where a picture is denoised
-COARSER = 0.7   # texels along a line, where there are too many, from one try to the next
+LESS = 0.7   # texels along a line, where there are too many, from one try to the next
 
 
 @dataclass(frozen=True)
@@ -59,75 +57,65 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
             for number, through in enumerate(open_)]
     sheets = [(number, back) for number in range(len(parts)) for back in (False, True)
               if both[number] or back == bool(seen.backs[number])]
-    atlases, at, side = _packed(scene, parts, sheets, FINER * seen.density)
-    placed = read_meshes(context.evaluated_depsgraph_get(), scene.sources, mirror=False)
+    atlases, at, side, density = _packed(scene, parts, sheets, FINER * seen.density)
+    levels = levels_of(results, view, scene, parts, density, atlases)
     texels = np.zeros((side, side, 4), dtype=np.float32)
     areas = {sheet: texels[row:row + atlases[sheet[0]].size, column:column + atlases[sheet[0]].size]
              for sheet, (column, row) in zip(sheets, at.tolist(), strict=True)}
-    uv = {number: atlas.uv for number, atlas in atlases.items()}
-    wide = {number: is_wide(atlas) for number, atlas in atlases.items()}
     # opacity is the same from both sides
-    work = [(False, sheet) for sheet in sheets]
-    work += [(True, sheet) for sheet in sheets if open_[sheet[0]] and not sheet[1]]
-    done, whole = 0.0, float(sum(areas[sheet].size for _, sheet in work))
-    for opacity, back in sorted({(opacity, sheet[1]) for opacity, sheet in work}):
-        chosen = [sheet for asked, sheet in work if asked == opacity and sheet[1] == back]
-        stands = stand_ins(placed, uv, turned={number for number, _ in chosen} if back else set())
-        with bake_scene(context, scene.sources, stands, opacity=opacity, backs=back) as stage:
-            for number, _ in chosen:
-                yield done / whole, Undivided(f"Cycles bakes the light on '{scene.sources[number].name}'")
-                denoised = wide[number] and not opacity
-                # as many samples for each pixel, not for each texel
-                share = (FEWER if denoised else 1.0) / FINER ** 2
-                picture = spread(stage.bake(number, atlases[number].size, seen.seen_from[number],
-                                            bool(seen.one_eye[number]), max(round(samples * share), 1), denoised))
-                for sheet in [(number, False), (number, True)] if opacity else [(number, back)]:
-                    if opacity:
-                        areas[sheet][..., 3] = picture[..., 0]
-                    else:
-                        areas[sheet][..., :3], areas[sheet][..., 3] = picture[..., :3], 1.0
-                done += areas[number, back].size
+    asked = sheets + [(number, None) for number, through in enumerate(open_) if through]
+    pictures = yield from _pictures(context, scene, seen, levels, asked, samples)
+    for sheet, area in areas.items():
+        area[..., :3] = pictures[sheet][..., :3]
+        area[..., 3] = pictures[sheet[0], None][..., 0] if open_[sheet[0]] else 1.0
+    uv = {number: atlas.uv for number, atlas in atlases.items()}
     return ObjectLight(texels, np.concatenate([(uv[sheet[0]] * atlases[sheet[0]].size + start) / side for sheet, start
                                                in zip(sheets, at, strict=True)]).astype(np.float32), sheets)
 
 
-def _packed(scene: DiffuseScene, parts: list, sheets: list, density: np.ndarray) -> tuple[dict, np.ndarray, int]:
-    """The atlas of each source, where each sheet lies in the whole picture, and its side."""
+def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources, levels: dict, asked: list,
+              samples: int) -> Steps[dict]:
+    """What Cycles bakes of each of `asked`, (source, whether its backs); None there for how opaque it is."""
+    placed = read_meshes(context.evaluated_depsgraph_get(), scene.sources, mirror=False)
+    divisions = {number: one.division for number, one in levels.items()}
+    # coarse ones first, the finest of all objects together
+    bakes: dict = {}
+    for number, back in asked:
+        for level in range(-len(levels[number].atlases), 0):
+            bakes.setdefault((back is None, bool(back), level), []).append(number)
+    found: dict = {}
+    done, whole = 0.0, sum(levels[number].texels(level, None) for (*_, level), some in bakes.items() for number in some)
+    for (opacity, turned, level), chosen in sorted(bakes.items()):
+        back = None if opacity else turned
+        places = {number: one.places(level, back) if number in chosen else one.nowhere()
+                  for number, one in levels.items()}
+        stands = stand_ins(placed, divisions, places, turned=set(chosen) if turned else set())
+        with bake_scene(context, scene.sources, stands, opacity=opacity, backs=turned) as stage:
+            for number in chosen:
+                yield done / whole, Undivided(f"Cycles bakes the light on '{scene.sources[number].name}'")
+                own = levels[number]
+                denoised = own.wide and not opacity
+                # as many samples for each pixel, not for each texel
+                share = (FEWER if denoised else 1.0) / FINER ** 2
+                width, height = own.window(level, back)[1].tolist()
+                picture = stage.bake(number, (width, height), seen.seen_from[number], bool(seen.one_eye[number]),
+                                     max(round(samples * share), 1), denoised)
+                found[number, back] = own.picture(level, back, picture, found.get((number, back)))
+                done += own.texels(level, None)
+    return found
+
+
+def _packed(scene: DiffuseScene, parts: list, sheets: list,
+            density: np.ndarray) -> tuple[dict, np.ndarray, int, np.ndarray]:
+    """The atlas of each source, where each sheet lies in the whole picture, its side, and the density that there was
+    room for."""
     corners = scene.mesh.positions[scene.mesh.triangles]
     while True:
         atlases = {number: packed(corners[part], float(density[number])) for number, part in enumerate(parts)}
         at, side = arranged(np.array([atlases[number].size for number, _ in sheets]))
         if side <= LARGEST:
-            return atlases, at, side
+            return atlases, at, side, density
         if density.max() * np.ptp(corners) < 1.0:
             raise ReflectionError("The reflected objects have more triangles than a map of their light has room for: "
                                   "light the reflection in the picture.")
-        density = density * COARSER
-
-
-def is_wide(atlas: Atlas) -> bool:
-    """Whether the triangles of a picture are so large in it that denoising mixes nothing that lies apart."""
-    corners = atlas.uv.astype(np.float64) * atlas.size
-    sides = corners[:, (1, 2, 0)] - corners
-    area = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
-    across = np.linalg.norm(sides, axis=2).min(axis=1)
-    return float(area[across >= WIDE].sum()) >= ALMOST_ALL * float(area.sum())
-
-
-def spread(picture: np.ndarray) -> np.ndarray:
-    """The picture with the texels around what was baked as their neighbours in the mean, two rings of them."""
-    known = picture[..., 3] != UNTOUCHED
-    values = np.where(known[..., None], picture, 0.0)
-    for _ in range(2):
-        weight = _sum_around(known.astype(np.float32))
-        ring = ~known & (weight > 0.0)
-        values[ring] = (_sum_around(values) / np.maximum(weight, 1.0)[..., None])[ring]
-        known |= ring
-    return values
-
-
-def _sum_around(values: np.ndarray) -> np.ndarray:
-    """The sum of each texel and its eight neighbours."""
-    padded = np.pad(values, ((1, 1), (1, 1)) + ((0, 0),) * (values.ndim - 2))
-    across = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
-    return across[:-2] + across[1:-1] + across[2:]
+        density = density * LESS

@@ -10,7 +10,7 @@ from ...core import View, reflecting_normals
 from ..reading import DiffuseScene
 from ..writing import light_layer
 from .mirror_share import NORMAL
-from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, vectors
+from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, vectors, weights_of
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     front = fronts_seen(scene, triangle, (at - shown).mean(axis=1))
     fronts, backs = _rows(scene, kept.sheets)
     row = np.where(front, fronts[triangle], backs[triangle])
-    weights = _weights(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)
+    weights = weights_of(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)
     spots = np.matmul(weights, kept.uv[row].astype(np.float64)).astype(np.float32)
     layer = light_layer(mesh)
     layer.uv.foreach_set("vector", spots.reshape(-1))
@@ -79,18 +79,3 @@ def _rows(scene: DiffuseScene, sheets: list) -> tuple[np.ndarray, np.ndarray]:
         rows[back][parts[number]] = start + np.arange(len(parts[number]))
         start += len(parts[number])
     return tuple(np.where(rows[back] < 0, rows[not back], rows[back]) for back in (False, True))
-
-
-def _weights(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Barycentric coordinates (n, k, 3), none negative, in triangles (n, 3, 3) of the points (n, k, 3) nearest."""
-    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    offset = points - corners[:, :1]
-    aa, ab, bb = (np.einsum("ni,ni->n", x, y)[:, None] for x, y in ((a, a), (a, b), (b, b)))
-    pa, pb = (np.einsum("nki,ni->nk", offset, side) for side in (a, b))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        first = (bb * pa - ab * pb) / (aa * bb - ab * ab)
-        second = (aa * pb - ab * pa) / (aa * bb - ab * ab)
-    weights = np.nan_to_num(np.stack((1.0 - first - second, first, second), axis=2), nan=1.0 / 3.0, posinf=0.0,
-                            neginf=0.0)
-    weights = np.maximum(weights, 0.0)
-    return weights / np.maximum(weights.sum(axis=2, keepdims=True), 1e-12)

@@ -8,8 +8,9 @@ import numpy as np
 
 from ...core import ReflectionError, View
 from ..reading import DiffuseScene
+from .sight import places_of_sight
 
-ONE_EYE = 0.1   # of the way to what is seen, from which on the eye's mirror images are not one
+ONE_EYE = 0.2   # radians between how an object is seen and how from one place, from which on gloss would be wrong
 SHARPEST = 0.9  # quantile of the pixels of an object that have no more than one texel
 SOLID = 0.1     # of a closed object's picture: where fronts are more of it they hide the backs
 HAIR = 0.01     # of an object's picture: what outlines show of a side that is hidden
@@ -25,9 +26,9 @@ class SeenSources:
     density : (k,) float64
         Pixels per unit of length at which a source is seen.
     seen_from : (k, 3) float64
-        Where the eye's mirror images are, in the mean; the eye itself for what is not seen.
+        The place nearest to the lines along which mirrors see it; the eye itself for what is not seen.
     one_eye : (k,) bool
-        Whether that is one place, as flat mirrors have it, and not spread about.
+        Whether all of it is seen nearly as from there: by flat mirrors exactly, by small or far ones as by holes.
     backs : (k,) bool
         Of which sources only backs are seen. Those of closed others lie behind their fronts, but for a hair of them
         that looks out at outlines.
@@ -52,10 +53,9 @@ def seen_sources(results: list, view: View, scene: DiffuseScene) -> SeenSources:
     whole = np.bincount(owner, weights=area, minlength=count)
     seen = whole > 0.0
     middle = np.stack([np.bincount(owner, weights=area * eye[:, axis], minlength=count) for axis in range(3)], axis=1)
-    seen_from = np.where(seen[:, None], middle / np.where(seen, whole, 1.0)[:, None], view.eye)
-    strays = np.bincount(owner, weights=area * np.linalg.norm(eye - seen_from[owner], axis=1), minlength=count)
-    far = np.bincount(owner, weights=area * np.linalg.norm(eye - shown, axis=1), minlength=count)
-    return SeenSources(_densities(owner, density, area, count), seen_from, strays <= ONE_EYE * far,
+    start = np.where(seen[:, None], middle / np.where(seen, whole, 1.0)[:, None], view.eye)
+    seen_from, angle = places_of_sight(owner, area, shown, eye, start)
+    return SeenSources(_densities(owner, density, area, count), seen_from, angle <= ONE_EYE,
                        fronts < SOLID * whole, (fronts > HAIR * whole) & (fronts < (1.0 - HAIR) * whole))
 
 
@@ -91,11 +91,11 @@ def triangle_of(result: bpy.types.Object, scene: DiffuseScene) -> np.ndarray:
     mesh = result.data
     index = {source: number for number, source in enumerate(scene.sources)}
     table = np.array([index.get(entry.object, -1) for entry in result.reflection_mesh.sources], dtype=np.int64)
-    owner = table[_values(mesh, "source_object", len(mesh.polygons))]
+    owner = table[face_values(mesh, "source_object")]
     if (owner < 0).any():
         raise ReflectionError(f"'{result.name}' shows an object that is hidden now: show it, or generate the "
                               "reflection again.")
-    face = _values(mesh, "source_face", len(mesh.polygons))
+    face = face_values(mesh, "source_face")
     parts = triangles_by_source(scene)
     starts = np.concatenate(([0], np.cumsum([len(part) for part in parts])))[:-1]
     return np.concatenate(parts)[starts[owner] + face]
@@ -119,11 +119,26 @@ def vectors(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
     return values.astype(np.float64)
 
 
+def weights_of(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates (n, k, 3), none negative, in triangles (n, 3, 3) of the points (n, k, 3) nearest."""
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    offset = points - corners[:, :1]
+    aa, ab, bb = (np.einsum("ni,ni->n", x, y)[:, None] for x, y in ((a, a), (a, b), (b, b)))
+    pa, pb = (np.einsum("nki,ni->nk", offset, side) for side in (a, b))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        first = (bb * pa - ab * pb) / (aa * bb - ab * ab)
+        second = (aa * pb - ab * pa) / (aa * bb - ab * ab)
+    weights = np.nan_to_num(np.stack((1.0 - first - second, first, second), axis=2), nan=1.0 / 3.0, posinf=0.0,
+                            neginf=0.0)
+    weights = np.maximum(weights, 0.0)
+    return weights / np.maximum(weights.sum(axis=2, keepdims=True), 1e-12)
+
+
 def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple:
     """Triangle of the scene, area in pixels, pixels per unit, mirrored eye, middle and side of each face of a result
     that one mirror shows."""
     mesh = result.data
-    once = _values(mesh, "bounces", len(mesh.polygons)) == 1
+    once = face_values(mesh, "bounces") == 1
     corners, triangle = corner_vertices(mesh)[once], triangle_of(result, scene)[once]
     shown, mirror = vectors(mesh, "reflected_position"), vectors(mesh, "mirror_position")
     spots = view.pixels(mirror)[corners]
@@ -156,6 +171,11 @@ def _densities(owner: np.ndarray, density: np.ndarray, area: np.ndarray, count: 
             found[number] = density[order][part][np.searchsorted(summed, SHARPEST * summed[-1])]
     seen = found > 0.0
     return np.where(seen, found, UNSEEN * np.median(found[seen]) if seen.any() else 1.0)
+
+
+def face_values(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
+    """An attribute of the faces, (n,) int32."""
+    return _values(mesh, name, len(mesh.polygons))
 
 
 def _values(mesh: bpy.types.Mesh, name: str, count: int) -> np.ndarray:

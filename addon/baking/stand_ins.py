@@ -10,6 +10,7 @@ from mathutils import Matrix
 from ..reading.read_meshes import LocalMesh, Placed
 from ..writing import UV_MAP, write_mesh
 from ..writing.mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
+from .division import Division, divided
 
 
 @dataclass(frozen=True)
@@ -22,8 +23,10 @@ class StandIn:
         Index of the participant.
     mesh : LocalMesh
     matrix : (4, 4) float64
-    uv : (m, 3, 2) float32
-        Of the corners of its triangles.
+    count : (m,) int64
+        Parts along a side of each of its triangles.
+    uv : (p, 3, 2) float32
+        Of the corners of these parts.
     turned : bool
         Whether its back is asked for: a bake shades the front.
     own : bool
@@ -33,21 +36,25 @@ class StandIn:
     owner: int
     mesh: LocalMesh
     matrix: np.ndarray
+    count: np.ndarray
     uv: np.ndarray
     turned: bool
     own: bool
 
 
-def stand_ins(placed: list[Placed], uv: dict, turned: set) -> list[StandIn]:
-    """Every place of every mesh; `uv` by owner, in the order in which a joined scene counts triangles, and the owners
-    that are `turned`."""
+def stand_ins(placed: list[Placed], divisions: dict, uv: dict, turned: set) -> list[StandIn]:
+    """Every place of every mesh; `divisions`, and `uv` of their parts, by owner, in the order in which a joined scene
+    counts triangles, and the owners that are `turned`."""
     counted, made = dict.fromkeys(uv, 0), []
+    ends = {owner: np.concatenate(([0], np.cumsum(division.count**2))) for owner, division in divisions.items()}
     for item in placed:
         count = len(item.mesh.triangles)
         for owner, matrix, instance in zip(item.owners.tolist(), item.matrices, item.instances.tolist(), strict=True):
             part = slice(counted[owner], counted[owner] + count)
             counted[owner] += count
-            made.append(StandIn(owner, item.mesh, matrix, uv[owner][part], owner in turned, not instance))
+            first, last = ends[owner][[part.start, part.stop]]
+            made.append(StandIn(owner, item.mesh, matrix, divisions[owner].count[part], uv[owner][first:last],
+                                owner in turned, not instance))
     return made
 
 
@@ -79,27 +86,38 @@ def swap_names(one: bpy.types.Object, other: bpy.types.Object) -> None:
 
 
 def new_mesh(stand: StandIn) -> bpy.types.Mesh:
-    """The mesh as triangles, each with room of its own in the picture."""
-    local = stand.mesh
+    """The mesh as parts of triangles, each with room of its own in the picture."""
+    local, division = stand.mesh, divided(stand.count)
     # a transform that turns space inside out turns triangles over, in Blender as in the joined scene
     inside_out = np.linalg.det(stand.matrix[:3, :3]) < 0.0
-    uv = stand.uv[:, (0, 2, 1)] if inside_out else stand.uv
-    order = (0, 2, 1) if stand.turned else (0, 1, 2)
-    triangles, corners = local.triangles[:, order], local.corners[:, order]
+    joined = (0, 2, 1) if inside_out else (0, 1, 2)
+    order = (0, 2, 1) if inside_out != stand.turned else (0, 1, 2)
+    positions, vertices = _vertices(local.positions, local.triangles[:, joined], division)
+    corners = local.corners[:, joined]
     uv_maps = [entry for entry in in_order(local.uv_maps, local.active_uv) if entry[0] != UV_MAP]
     layers = [*((name, "FLOAT2", values) for name, values in uv_maps[:MOST_UV_MAPS - 1]), (UV_MAP, "FLOAT2", None),
               *((name, kind, values) for name, (kind, values) in in_order(local.colours, local.active_colour)),
               *((name, kind, values) for name, (kind, values) in local.numbers.items())]
     mesh = bpy.data.meshes.new(UV_MAP)
     write_mesh(mesh, MeshArrays(
-        np.zeros(3), local.positions, triangles.astype(np.int32),
-        (Attribute("material_index", "INT", "FACE", local.material_index),
-         *(Attribute(name, kind, "CORNER", uv[:, order] if values is None else values[corners])
+        np.zeros(3), positions, vertices[:, order].astype(np.int32),
+        (Attribute("material_index", "INT", "FACE", local.material_index[division.owner]),
+         *(Attribute(name, kind, "CORNER", (stand.uv if values is None else division.values(values[corners]))[:, order])
            for name, kind, values in layers)), list(local.materials or (None,))))
     mesh.uv_layers[UV_MAP].active = True
-    mesh.polygons.foreach_set("use_smooth", np.ones(len(triangles), dtype=bool))
-    normals = -local.normals[:, order] if stand.turned else local.normals
-    mesh.normals_split_custom_set(normals.reshape(-1, 3))
+    mesh.polygons.foreach_set("use_smooth", np.ones(len(vertices), dtype=bool))
+    normals = division.values(local.normals[:, joined])[:, order]
+    mesh.normals_split_custom_set((-normals if stand.turned else normals).reshape(-1, 3))
     mesh.use_auto_texspace = False
     mesh.texspace_location, mesh.texspace_size = local.texture_space
     return mesh
+
+
+def _vertices(positions: np.ndarray, triangles: np.ndarray, division: Division) -> tuple[np.ndarray, np.ndarray]:
+    """Positions (n, 3) of the vertices of a mesh's parts, its own first, and which of them the parts' corners (p, 3)
+    are: what hangs together still does."""
+    own = division.weights.max(axis=2) == 1.0
+    vertices = np.take_along_axis(triangles[division.owner], division.weights.argmax(axis=2), axis=1)
+    _, first, number = np.unique(division.lattice[~own], return_index=True, return_inverse=True)
+    vertices[~own] = len(positions) + number.reshape(-1)
+    return np.concatenate((positions, division.values(positions[triangles])[~own][first])), vertices

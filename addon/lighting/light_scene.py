@@ -59,7 +59,7 @@ class LightScene:
         self.scene.cycles.samples = samples
         self.scene.render.film_transparent = self.alone
         # for the other render, if there is one: what is kept for none outlives the scene
-        self.scene.render.use_persistent_data = not self.alone
+        self.scene.render.use_persistent_data = True
         return rendered(self.scene)
 
     def coverage(self) -> np.ndarray:
@@ -76,7 +76,9 @@ class LightScene:
             for obj in list(scene.collection.objects):
                 scene.collection.objects.unlink(obj)
                 others.objects.link(obj)
-            scene.collection.children.link(others)
+            # what hides the results in the picture does so here where it is in the picture of light
+            if not self.alone:
+                scene.collection.children.link(others)
             for branch in layer.layer_collection.children:
                 branch.holdout = True
             scene.collection.children.link(stage)

@@ -25,7 +25,8 @@ SHARPENING = "Sharpening the light"
 LEAST_RESPONSE = 0.2  # of a wave that a wide filter hardly lets through no more is brought back
 
 
-def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float = np.inf) -> Steps[np.ndarray]:
+def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float = np.inf,
+              opacity: np.ndarray | None = None) -> Steps[np.ndarray]:
     """The texels whose picture is `light` where results cover it; yields (fraction, stage).
 
     Parameters
@@ -38,6 +39,8 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white
         As `pixel_kernel` gives it.
     white : float
         From which on light looks white. Around brighter lamps texels would have to be below zero.
+    opacity : (height, width) float32, optional
+        The part of each pixel that anything covers which is in `light`; 1 where it is not given.
 
     Returns
     -------
@@ -45,7 +48,8 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white
     """
     yield 0.0, SHARPENING
     needed = _grown(coverage > 0.0, REACH)
-    filled = _filled(*_without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64)), needed)
+    whole = np.ones(coverage.shape) if opacity is None else opacity.astype(np.float64)
+    filled = _filled(*_without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64), whole), needed)
     yield 0.0, SHARPENING
     sharp = yield from _sharpened(filled, kernel, white)
     # inside a lamp, from where it does not reach what is beside, it is as bright as it is
@@ -79,13 +83,16 @@ def pixel_kernel(kind: str, width: float) -> np.ndarray:
     return tents @ (weight / weight.sum())
 
 
-def _without_what_lies_beside(light: np.ndarray, coverage: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _without_what_lies_beside(light: np.ndarray, coverage: np.ndarray,
+                              opacity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """What results show in pixels that they cover in part, where the light beside them, continued, tells; and which
     pixels (height, width) are known so."""
     border = (coverage > UNSEEN) & (coverage < SEEN_WHOLE)
-    beside = _filled(light, coverage <= UNSEEN, border)
+    apart = (coverage <= UNSEEN) & (opacity > UNSEEN)
+    beside = _filled(np.concatenate((light, opacity[..., None]), axis=2), apart, border)
     share = np.maximum(coverage, SEEN_PARTLY)[..., None]
-    alone = np.maximum((light - (1.0 - share) * beside) / share, 0.0)
+    rest = np.maximum(opacity[..., None] - share, 0.0)
+    alone = np.maximum((light - rest * beside[..., :3] / np.maximum(beside[..., 3:], UNSEEN)) / share, 0.0)
     return np.where(border[..., None], alone, light), coverage > SEEN_PARTLY
 
 

@@ -15,7 +15,6 @@ from ..lighting import (
     Window,
     is_plain,
     light_scene,
-    moves,
     needs_light,
     new_export_image,
     new_image,
@@ -26,7 +25,7 @@ from ..lighting import (
     texels_of,
     white_of,
 )
-from ..reading import camera_of, is_mirror, is_opaque, materials_of, read_scene, read_view, seen_in, with_copies
+from ..reading import camera_of, is_mirror, is_opaque, materials_of, moves, read_scene, read_view, seen_in, with_copies
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
 from ..writing import forget_mesh, place_of
 from . import polls
@@ -137,13 +136,12 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int
     with light_scene(context, lit, window) as scene:
         yield 0.02, Undivided("Cycles renders the light")
         light = scene.light(samples)
-        coverage = light[..., 3]
-        if not scene.alone:
-            yield 0.9, Undivided("Cycles renders what reflections cover")
-            coverage = scene.coverage()
+        yield 0.9, Undivided("Cycles renders what reflections cover")
+        coverage = scene.coverage()
     cycles = context.scene.cycles
     kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
-    texels = yield from part(texels_of(light[..., :3], coverage, kernel, white_of(context.scene)), 0.93, 0.05)
+    opacity = light[..., 3] if scene.alone else None
+    texels = yield from part(texels_of(light[..., :3], coverage, kernel, white_of(context.scene), opacity), 0.93, 0.05)
     yield 0.98, "Writing"
 
     def show(whole: AllOrNothing) -> None:

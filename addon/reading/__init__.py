@@ -2,6 +2,7 @@
 from .join_meshes import DiffuseScene, MirrorSurface, join_mirror, join_scene, read_mirror, read_scene
 from .known_results import forget_known, known_results, register, unregister
 from .materials import all_nodes, is_mirror, is_opaque, materials_of
+from .moves import moves
 from .read_meshes import SURFACES, LocalMesh, Placed, read_meshes
 from .read_view import NO_CAMERA, read_view, render_size
 from .rendered_otherwise import rendered_otherwise
@@ -22,6 +23,6 @@ from .roles import (
 __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
            "Placed", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose", "every_result_of",
            "forget_known", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results", "materials_of",
-           "participants", "read_meshes", "read_mirror", "read_scene", "read_view", "register", "render_size",
+           "moves", "participants", "read_meshes", "read_mirror", "read_scene", "read_view", "register", "render_size",
            "rendered_collections", "rendered_otherwise", "results_of", "seen_in", "unregister", "visible",
            "with_copies"]

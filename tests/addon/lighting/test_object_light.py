@@ -283,7 +283,7 @@ def test_triangles_have_room_of_their_own(room):
     shade = rng.random(len(spots))
     picture = np.full((packed.size, packed.size, 4), -1.0, dtype=np.float32)
     picture[owner >= 0] = shade[owner[owner >= 0], None]
-    picture = room("addon.baking.object_bake").spread(picture)[..., 0]
+    picture = room("addon.baking.levels").spread(picture, owner >= 0)[..., 0]
     weights = rng.dirichlet((1.0, 1.0, 1.0), size=(len(spots), 40))
     at = np.matmul(weights, spots)
     seen = interpolated(picture, at)

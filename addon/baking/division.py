@@ -1,0 +1,140 @@
+"""Wide triangles as parts, each of which may be asked for by itself, and what one picture of them tells of another."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+ACROSS = 8.0    # texels along a part's legs at the most
+MOST_ALONG = 256  # parts along a triangle's side
+STEPS = 2.0     # places along what is seen, to one part of what it is seen of
+MOST_STEPS = 64
+CHUNK = 1 << 12  # parts, or faces, at once
+
+
+@dataclass(frozen=True)
+class Division:
+    """Triangles, each divided into as many parts of its own shape as the square of a number, in the triangles' order.
+
+    Attributes
+    ----------
+    count : (m,) int64
+        Parts along a triangle's side.
+    owner : (p,) int64
+        The triangle of each part.
+    weights : (p, 3, 3) float64
+        Of the triangle's corners at the part's.
+    lattice : (p, 3) int64
+        Which places of all triangles' lattices its corners are.
+    """
+
+    count: np.ndarray
+    owner: np.ndarray
+    weights: np.ndarray
+    lattice: np.ndarray
+
+    def values(self, corners: np.ndarray) -> np.ndarray:
+        """What is linear on triangles, from their corners (m, 3, c) to those of the parts (p, 3, c)."""
+        if len(self.owner) == len(self.count):
+            return corners
+        return np.matmul(self.weights, corners[self.owner]).astype(corners.dtype)
+
+    def greatest(self, triangle: np.ndarray, weights: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """The greatest of `values` (n,) that is asked for in or beside each part, (p,), 0 where none is: asked for on
+        faces (n,) with corners `weights` (n, 3, 3) in triangles."""
+        size = (self.count + 1)**2
+        starts = np.cumsum(size) - size
+        found = np.zeros(int(size.sum()))
+        for some, places in _strewn(weights, self.count[triangle]):
+            count = self.count[triangle[some]][:, None]
+            at = np.matmul(places, weights[some])[..., 1:] * count[..., None]
+            low = np.clip(np.floor(at), 0, count[..., None] - 1).astype(np.int64)
+            beyond = (at - low).sum(axis=2) > 1.0
+            first = starts[triangle[some]][:, None] + low[..., 0] * (count + 1) + low[..., 1]
+            asked = np.broadcast_to(values[some][:, None], first.shape)
+            for place in (first + count + 1, first + 1, np.where(beyond, first + count + 2, first)):
+                np.maximum.at(found, place, asked)
+        return found[self.lattice].max(axis=1)
+
+
+def divided(count: np.ndarray) -> Division:
+    """Triangles with `count` (m,) parts along each side."""
+    parts = count**2
+    starts, places = np.cumsum(parts) - parts, np.cumsum((count + 1)**2) - (count + 1)**2
+    weights, lattice = np.empty((int(parts.sum()), 3, 3)), np.empty((int(parts.sum()), 3), dtype=np.int64)
+    for number in np.unique(count).tolist():
+        own = np.flatnonzero(count == number)
+        corners = _parts_of_one(number)
+        rows = starts[own][:, None] + np.arange(number**2)
+        weights[rows] = np.concatenate((number - corners.sum(axis=2, keepdims=True), corners), axis=2) / number
+        lattice[rows] = places[own][:, None, None] + corners[..., 0] * (number + 1) + corners[..., 1]
+    return Division(count, np.repeat(np.arange(len(count)), parts), weights, lattice)
+
+
+def parts_along(spots: np.ndarray, widest: float) -> np.ndarray:
+    """Into how many parts (m,) a side of triangles with corners `spots` (m, 3, 2), in texels, is to be divided: those
+    that are `widest` texels across and more."""
+    sides = np.linalg.norm(spots[:, (1, 2, 0)] - spots, axis=2)
+    legs = np.sort(sides, axis=1)
+    many = 2.0 ** np.ceil(np.log2(np.maximum(legs[:, 1] / ACROSS, 1.0)))
+    return np.where(legs[:, 0] >= widest, np.minimum(many, MOST_ALONG), 1).astype(np.int64)
+
+
+def enlarged(small: np.ndarray, large: np.ndarray, known: np.ndarray, start: np.ndarray, end: np.ndarray) -> None:
+    """Write into a picture `large`, where nothing is `known` (side, side), what `small` tells, linearly between its
+    texels, of parts that have their corners (p, 3, 2) in it at `start`, and in `large` at `end`, counted in texels."""
+    for first in range(0, len(start), CHUNK):
+        begin, finish = start[first:first + CHUNK], end[first:first + CHUNK]
+        low = np.floor(finish.min(axis=1) - 0.5)
+        across = int((np.ceil(finish.max(axis=1)) - low).max()) + 1
+        step = np.arange(across)
+        texels = low[:, None] + np.stack(np.meshgrid(step, step), axis=-1).reshape(-1, 2)
+        sides = np.stack((finish[:, 1] - finish[:, 0], finish[:, 2] - finish[:, 0]), axis=1)
+        offset = texels + 0.5 - finish[:, None, 0]
+        turn = sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            along = (offset[..., 0] * sides[:, 1, 1, None] - offset[..., 1] * sides[:, 1, 0, None]) / turn[:, None]
+            up = (offset[..., 1] * sides[:, 0, 0, None] - offset[..., 0] * sides[:, 0, 1, None]) / turn[:, None]
+        inside = (along >= -1e-4) & (up >= -1e-4) & (along + up <= 1.0 + 1e-4)
+        part, place = np.nonzero(inside)
+        column, row = texels[part, place].astype(np.int64).T
+        weights = np.stack((along[part, place], up[part, place]), axis=1)
+        weights = np.column_stack((1.0 - weights.sum(axis=1), weights))
+        open_ = ((column >= 0) & (row >= 0) & (column < len(large)) & (row < len(large)))
+        open_[open_] = ~known[row[open_], column[open_]]
+        at = np.einsum("nk,nkc->nc", weights[open_], begin[part[open_]])
+        large[row[open_], column[open_]] = _between(small, at)
+        known[row[open_], column[open_]] = True
+
+
+def _between(picture: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """A picture at places (n, 2), counted in texels, linearly between their middles."""
+    low = np.floor(at - 0.5).astype(np.int64)
+    column, row = (at - 0.5 - low).astype(np.float32).T[:, :, None]
+    (left, below), (right, above) = (np.clip(side, 0, len(picture) - 1).T for side in (low, low + 1))
+    return ((1.0 - row) * ((1.0 - column) * picture[below, left] + column * picture[below, right])
+            + row * ((1.0 - column) * picture[above, left] + column * picture[above, right]))
+
+
+def _parts_of_one(number: int) -> np.ndarray:
+    """Corners (n, 3, 2) of a triangle's parts, `number` along a side, in steps from its first corner to the second and
+    to the third."""
+    across, up = (side.ravel() for side in np.meshgrid(np.arange(number), np.arange(number), indexing="ij"))
+    first = np.stack((across, up), axis=1)
+    standing, turned = first[across + up < number], first[across + up < number - 1]
+    return np.concatenate([base[:, None] + np.array(shape) for base, shape in (
+        (standing, ((0, 0), (1, 0), (0, 1))), (turned, ((1, 0), (1, 1), (0, 1))))])
+
+
+def _strewn(weights: np.ndarray, count: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Faces (n, 3, 3), some after some as indices (k,), with places (j, 3) on them by the weights of their corners, as
+    near one another as parts are wide."""
+    wide = np.ptp(weights, axis=1).max(axis=1) * count
+    steps = 2 ** np.ceil(np.log2(np.clip(STEPS * wide, 1.0, MOST_STEPS))).astype(np.int64)
+    for number in np.unique(steps).tolist():
+        corners = np.unique(_parts_of_one(number).reshape(-1, 2), axis=0)
+        places = np.column_stack((number - corners.sum(axis=1), corners)) / number
+        chosen = np.flatnonzero(steps == number)
+        for first in range(0, len(chosen), CHUNK):
+            yield chosen[first:first + CHUNK], places

@@ -1,0 +1,150 @@
+"""How finely each part of each object is baked: as finely as results show it, in pictures from coarse to fine."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core import View
+from ..reading import DiffuseScene
+from .asked_parts import asked_densities, sides_before_mirrors
+from .atlas import Atlas, packed
+from .bake_scene import UNTOUCHED
+from .division import Division, divided, enlarged, parts_along
+
+COARSER = (4, 2, 1)  # times, of the pictures in which an object is baked that is worth it
+WIDE = 32.0     # texels across triangles from which on what lies side by side in a picture does in the scene too
+NEARLY_ALL = 0.7  # of an object's parts: what all coarser pictures together cost less than
+ALMOST_ALL = 0.9  # of an object's surface, whose triangles are so wide where that holds for its picture
+FINER = 1.5     # texels a pixel along a line: interpolation and the picture's filter blur them
+LARGE = 256     # texels along a side of a picture from which on more than one are made: each bake has its price
+BORDER = 1      # texels around what is baked
+RINGS = 2       # of texels around what is known, that are told by it
+AROUND = 9      # a texel and its neighbours
+OUTSIDE = -1.0  # of a picture: where what is not baked has its place
+
+
+@dataclass(frozen=True)
+class ObjectLevels:
+    """An object's pictures, coarse to fine.
+
+    Attributes
+    ----------
+    wide : bool
+        Whether what lies side by side in them does in the scene too.
+    division : Division
+        The parts of its triangles.
+    atlases : list of Atlas
+        Of these parts, level by level.
+    needed : list of dict of (bool or None) to (p,) bool
+        Which parts are baked, level by level, by whether their backs are asked for; None: either side.
+    """
+
+    wide: bool
+    division: Division
+    atlases: list[Atlas]
+    needed: list[dict]
+
+    def nowhere(self) -> np.ndarray:
+        """Where the parts lie in a picture in which none is baked, (p, 3, 2)."""
+        return np.full((len(self.division.owner), 3, 2), OUTSIDE, dtype=np.float32)
+
+    def places(self, level: int, back: bool | None) -> np.ndarray:
+        """Where the parts that are baked lie in a level's window, (p, 3, 2), those that are not, outside."""
+        low, size = self.window(level, back)
+        own = (self.atlases[level].spots - low) / np.maximum(size, 1)
+        return np.where(self.needed[level][back][:, None, None], own, OUTSIDE).astype(np.float32)
+
+    def window(self, level: int, back: bool | None) -> tuple[np.ndarray, np.ndarray]:
+        """The lowest column and row of the part of a level's picture that is baked, and its width and height: what is
+        not in it is not denoised."""
+        spots = self.atlases[level].spots[self.needed[level][back]]
+        if not len(spots):
+            return np.zeros(2, np.int64), np.zeros(2, np.int64)
+        low = np.maximum(np.floor(spots.min(axis=(0, 1))).astype(np.int64) - BORDER, 0)
+        high = np.minimum(np.ceil(spots.max(axis=(0, 1))).astype(np.int64) + BORDER, self.atlases[level].size)
+        return low, high - low
+
+    def texels(self, level: int, back: bool | None) -> float:
+        """About how many texels of a level are baked."""
+        return float(self.atlases[level].size**2 * max(self.needed[level][back].mean(), 1e-3))
+
+    def picture(self, level: int, back: bool | None, found: np.ndarray, coarser: np.ndarray | None) -> np.ndarray:
+        """A level's picture from what was baked of its window and the picture before, with all texels known."""
+        baked, (column, row), side = found, self.window(level, back)[0], self.atlases[level].size
+        found = np.full((side, side, 4), UNTOUCHED, dtype=np.float32)
+        found[row:row + len(baked), column:column + baked.shape[1]] = baked
+        known = found[..., 3] != UNTOUCHED
+        if coarser is not None:
+            rest = ~self.needed[level][back]
+            before, own = self.atlases[level - 1], self.atlases[level]
+            enlarged(coarser, found, known, before.spots[rest], own.spots[rest])
+        # the denoiser takes what lies beside for black: where a texel is large, that would be seen
+        solid = known & (_sum_around(known.astype(np.uint8)) == AROUND) if self.wide and level < -1 else known
+        return np.where((known & ~_grown(solid))[..., None], found, spread(found, solid))
+
+
+def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, density: np.ndarray, atlases: dict) -> dict:
+    """The levels by source, whose triangles `parts` are, at a `density` (k,) of texels per unit and as `atlases` have
+    them at that."""
+    corners = scene.mesh.positions[scene.mesh.triangles]
+    wide = {number: is_wide(atlas) for number, atlas in atlases.items()}
+    large = {number: wide[number] and atlas.size >= LARGE for number, atlas in atlases.items()}
+    divisions = {number: divided(parts_along(atlas.spots, WIDE if large[number] else np.inf))
+                 for number, atlas in atlases.items()}
+    seen = sides_before_mirrors(results, scene)
+    asked = asked_densities(results, view, scene, parts, {number: one for number, one in divisions.items()
+                                                          if large[number]})
+    made = {}
+    for number, part in enumerate(parts):
+        division = divisions[number]
+        # where nearly all is to be fine, coarser pictures would only cost
+        in_steps = large[number] and (FINER * asked[number] > 0.5 * density[number]).mean() < NEARLY_ALL
+        levels = COARSER if in_steps else COARSER[-1:]
+        maps = [atlases[number] if times == 1 else packed(corners[part], float(density[number]) / times)
+                for times in levels]
+        front, back = seen[:, part[division.owner]]
+        needed = [{False: front, True: back, None: front | back}]
+        for times in levels[1:]:
+            # what the level before shows finely enough is left to it
+            fine = FINER * asked[number] > density[number] / (2.0 * times)
+            needed.append({side: once & fine for side, once in needed[0].items()})
+        made[number] = ObjectLevels(wide[number], division, [Atlas(one.size, division.values(one.uv)) for one in maps],
+                                    needed)
+    return made
+
+
+def is_wide(atlas: Atlas) -> bool:
+    """Whether the triangles of a picture are so large in it that denoising mixes nothing that lies apart."""
+    corners = atlas.spots
+    sides = corners[:, (1, 2, 0)] - corners
+    area = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
+    across = np.linalg.norm(sides, axis=2).min(axis=1)
+    return float(area[across >= WIDE].sum()) >= ALMOST_ALL * float(area.sum())
+
+
+def spread(picture: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """The picture with the texels around what is known as their neighbours in the mean, two rings of them, and all
+    others as the mean of what is known."""
+    values = np.where(known[..., None], picture, 0.0)
+    for _ in range(RINGS):
+        weight = _sum_around(known.astype(np.float32))
+        ring = ~known & (weight > 0.0)
+        values[ring] = (_sum_around(values) / np.maximum(weight, 1.0)[..., None])[ring]
+        known = known | ring
+    values[~known] = values[known].mean(axis=0) if known.any() else 0.0
+    return values
+
+
+def _grown(known: np.ndarray) -> np.ndarray:
+    """What is known, and two rings around it."""
+    for _ in range(RINGS):
+        known = _sum_around(known.astype(np.uint8)) > 0
+    return known
+
+
+def _sum_around(values: np.ndarray) -> np.ndarray:
+    """The sum of each texel and its eight neighbours."""
+    padded = np.pad(values, ((1, 1), (1, 1)) + ((0, 0),) * (values.ndim - 2))
+    across = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
+    return across[:-2] + across[1:-1] + across[2:]

@@ -1,0 +1,146 @@
+"""Light that stays with the objects is baked where mirrors can show it, and as finely as they do; gloss too, as it is
+seen in curved mirrors."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from lamp_scenes import SIZE, picture, principled, psnr, scene_of
+
+
+def light(samples: int = 64) -> None:
+    assert bpy.ops.reflection_mesh.light(samples=samples, kind="OBJECTS") == {"FINISHED"}
+
+
+def ball_scene(context: bpy.types.Context, **floor) -> bpy.types.Object:
+    """A ball that mirrors a wide floor and a lamp; returns the floor."""
+    wall = scene_of(context)
+    for obj in (wall, bpy.data.objects["Box"]):
+        bpy.data.objects.remove(obj)
+    ball = parts.add("uv_sphere", "Ball", radius=1.4, segments=48, ring_count=24, location=(0.0, 0.0, 0.9))
+    ball.data.shade_smooth()
+    ball.data.materials.append(principled("Silver", (1.0, 1.0, 1.0), Metallic=1.0, Roughness=0.0))
+    ground = bpy.data.objects["Floor"]
+    ground.data.materials[0] = principled("Ground", (0.5, 0.5, 0.6), **floor)
+    ground.scale = (3.0, 3.0, 1.0)
+    context.view_layer.update()
+    parts.select(ground, ball)
+    return ground
+
+
+def baked_texels(monkeypatch, room) -> list:
+    """How many texels each bake writes, from now on."""
+    counted, scene = [], room("addon.baking.bake_scene")
+    bake = scene.BakeScene.bake
+
+    def counts(self, *arguments, **named):
+        values = bake(self, *arguments, **named)
+        counted.append(int((values[..., 3] != scene.UNTOUCHED).sum()))
+        return values
+    monkeypatch.setattr(scene.BakeScene, "bake", counts)
+    return counted
+
+
+def test_what_is_seen_from_afar_is_baked_coarsely(blank, room, monkeypatch):
+    """Of a floor under a ball, most of which the ball shows small."""
+    ball_scene(blank)
+    blank.scene.render.resolution_x = blank.scene.render.resolution_y = 2 * SIZE
+    parts.generate()
+    counted = baked_texels(monkeypatch, room)
+    light(1)
+    texels = np.array(bpy.data.images["Reflection Light"].size).prod()
+    assert len(counted) == 3 and sum(counted) < 0.35 * texels
+
+
+def test_what_looks_away_from_all_mirrors_is_not_baked(blank, room, monkeypatch):
+    """Of a ball before a flat mirror; one that is animated may see all of it."""
+    wall = scene_of(blank)
+    bpy.data.objects.remove(bpy.data.objects["Box"])
+    ball = parts.add("ico_sphere", "Other", subdivisions=3, radius=0.5, location=(0.0, -4.0, 1.0))
+    ball.data.materials.append(principled("Matte"))
+    parts.select(ball, wall)
+    parts.generate()
+    counted = baked_texels(monkeypatch, room)
+    light(1)
+    wall.keyframe_insert("location", frame=1)
+    light(1)
+    still, moving = counted
+    # the half of a ball that looks away, but for a margin: seen from 5 m a mirror 4 m wide takes its share too
+    assert 0.5 * moving < still < 0.9 * moving
+
+
+def test_gloss_is_seen_as_a_ball_shows_it(blank, room):
+    ball_scene(blank, Roughness=0.3)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    light(64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
+def test_light_takes_the_bounces_that_are_left(blank, room):
+    """The mirror is one of them: where no more are followed, what it shows has no light of its surroundings."""
+    scene_of(blank)
+    blank.scene.cycles.max_bounces = 1
+    reference = picture(room)
+    parts.generate()
+    light(64)
+    assert psnr(picture(room), reference) > 38.0
+
+
+def test_lines_of_sight_meet_where_they_come_from(room):
+    """Those of one source through a place, exactly; of the other, all parallel, nowhere: where it was is kept."""
+    rng = np.random.default_rng(2)
+    places = np.array([[0.4, -1.0, 2.0], [50.0, 3.0, 1.0]])
+    points = rng.normal(size=(200, 3))
+    owner = np.arange(200) % 2
+    towards = np.where(owner[:, None] == 0, points + 0.3 * (places[0] - points), points + (1.0, 0.0, 0.0))
+    start = places + ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
+    found, angles = room("addon.baking.sight").places_of_sight(owner, rng.random(200), points, towards, start)
+    assert np.abs(found[0] - places[0]).max() < 1e-3 and angles[0] < 1e-3
+    assert np.isfinite(found[1]).all() and angles[1] < 0.1
+
+
+def test_parts_tile_their_triangles(room):
+    """Against areas, and against every part of a brute force search."""
+    division = room("addon.baking.division").divided(np.array([1, 4, 2, 8]))
+    sides = division.weights[:, 1:] - division.weights[:, :1]
+    area = np.abs(np.cross(sides[:, 0, 1:], sides[:, 1, 1:]))
+    assert np.allclose(np.bincount(division.owner, area), 1.0)
+    assert np.allclose(area, 1.0 / division.count[division.owner]**2) and (np.diff(division.owner) >= 0).all()
+    rng = np.random.default_rng(4)
+    triangle, middle = rng.integers(0, 4, 60), rng.dirichlet((1.0, 1.0, 1.0), 60)
+    small = middle[:, None] + 1e-6 * (np.eye(3) - 1.0 / 3.0)
+    found = division.greatest(triangle, small, np.arange(1.0, 61.0))
+    inverse = np.linalg.inv(np.swapaxes(division.weights, 1, 2))
+    for number, (own, spot) in enumerate(zip(triangle, middle)):
+        inside = (division.owner == own) & (inverse @ spot > 0.0).all(axis=1)
+        assert inside.sum() == 1 and (found[inside] >= number + 1.0).all()
+    # and neighbours, but nothing that lies farther off
+    alone = division.greatest(np.array([3]), np.full((1, 3, 3), 1.0 / 3.0) + 1e-6 * np.eye(3), np.array([5.0])) > 0.0
+    near = division.weights.mean(axis=1)[alone] - 1.0 / 3.0
+    assert 4 < alone.sum() < 16 and np.abs(near).max() < 2.0 / 8.0 and (division.owner[alone] == 3).all()
+
+
+def test_a_large_face_asks_for_all_that_it_shows(room):
+    division = room("addon.baking.division").divided(np.array([32]))
+    whole = division.greatest(np.array([0]), np.eye(3)[None], np.array([2.0]))
+    assert (whole == 2.0).all()
+
+
+def test_a_finer_picture_takes_what_it_lacks_from_the_coarser(room):
+    """Exactly, where light is linear on a triangle."""
+    module = room("addon.baking.division")
+    small, large = np.full((16, 16, 4), np.nan, np.float32), np.zeros((48, 48, 4), np.float32)
+    rows, columns = np.mgrid[:16, :16] + 0.5
+    small[...] = (0.2 + 0.03 * columns - 0.01 * rows)[..., None]
+    start = np.array([[[2.0, 2.0], [13.0, 2.0], [2.0, 11.0]]])
+    end = np.array([[[44.0, 40.0], [11.0, 40.0], [44.0, 13.0]]])
+    known = np.zeros((48, 48), bool)
+    known[39, 40], large[39, 40] = True, 7.0
+    module.enlarged(small, large, known, start, end)
+    assert (large[39, 40] == 7.0).all() and known.sum() == pytest.approx(0.5 * 33 * 27, rel=0.06)
+    row, column = np.nonzero(known)
+    expected = 0.2 + 0.03 * (2.0 + (44.0 - column - 0.5) / 3.0) - 0.01 * (2.0 + (40.0 - row - 0.5) / 3.0)
+    other = (row != 39) | (column != 40)
+    assert np.abs(large[row, column, 0] - expected)[other].max() < 1e-5
