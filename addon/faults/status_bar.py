@@ -9,6 +9,9 @@ import time
 from collections.abc import Callable
 
 import bpy
+from bpy.app.translations import pgettext_iface
+
+from .told import translated_stage
 
 # before this share of the work, or this many seconds, no time left can be told
 EARLY, SOON = 0.05, 1.0
@@ -31,7 +34,7 @@ class StatusBar:
         row = layout.row()
         row.ui_units_x = 10
         row.progress(factor=self.fraction, text=f"{100.0 * self.fraction:.0f} %", translate=False)
-        layout.label(text=self.stage, translate=False)
+        layout.label(text=translated_stage(self.stage), translate=False)
         left = time_left(time.perf_counter() - self._started, self.fraction)
         if left:
             layout.label(text=left, icon="TIME", translate=False)
@@ -45,5 +48,7 @@ def time_left(passed: float, fraction: float) -> str:
         return ""
     seconds = passed * (1.0 - fraction) / fraction
     if seconds < 90.0:
-        return f"about {max(1.0, seconds):.0f} s left"
-    return f"about {seconds / 60.0:.0f} min left" if seconds < 5400.0 else f"about {seconds / 3600.0:.1f} h left"
+        return pgettext_iface("about {seconds:.0f} s left").format(seconds=max(1.0, seconds))
+    if seconds < 5400.0:
+        return pgettext_iface("about {minutes:.0f} min left").format(minutes=seconds / 60.0)
+    return pgettext_iface("about {hours:.1f} h left").format(hours=seconds / 3600.0)

@@ -9,14 +9,17 @@ import re
 from collections.abc import Iterable
 
 import bpy
-from bpy.app.translations import pgettext_rpt
+from bpy.app.translations import pgettext_iface, pgettext_rpt
 
 DEEPEST = 3     # sentences inside sentences
 FIELD = re.compile(r"\{(\w*)\}")
 ANYTHING, NUMBERS = "(.*?)", r"([\d., ]+?)"
 SHORT = 16      # letters: a part of a sentence, with numbers alone in it, since names may be made of the same words
 
+NEXT = ": "     # stands between the parts of a stage
+
 _known: list[tuple[re.Pattern, str, list[str]]] = []
+_stages: list[tuple[re.Pattern, str]] = []
 
 
 def know_sentences(sentences: Iterable[str]) -> None:
@@ -49,3 +52,24 @@ def translated(sentence: str, depth: int = 0) -> str:
         parts = [translated(part, depth + 1) for part in found.groups()]
         return translation.format(*parts, **{name: part for name, part in zip(names, parts) if name})
     return sentence
+
+
+def know_stages(stages: Iterable[str]) -> None:
+    """Look for these stages of work, which translations are registered of, from now on; `{}` are names and numbers."""
+    _stages.clear()
+    for stage in sorted(stages, key=lambda stage: -len(FIELD.sub("", stage))):
+        _stages.append((re.compile("(.+?)".join(map(re.escape, stage.split("{}")))), stage))
+
+
+def translated_stage(stage: str) -> str:
+    """What comes next in some work, such as "Frame 2: Mirror: clipping", in the language of the interface; names stay
+    as they are."""
+    return NEXT.join(map(_translated_part, stage.split(NEXT)))
+
+
+def _translated_part(part: str) -> str:
+    for pattern, english in _stages:
+        found = pattern.fullmatch(part)
+        if found is not None:
+            return pgettext_iface(english).format(*map(_translated_part, found.groups()))
+    return part

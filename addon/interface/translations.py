@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import bpy
 
-from ..faults import know_sentences
-from .german import GERMAN, SENTENCES
+from ..faults import know_sentences, know_stages
+from .german import GERMAN, SENTENCES, STAGES
 
 OPERATORS = bpy.app.translations.contexts.operator_default
 
@@ -15,14 +15,16 @@ def entries(language: dict) -> dict:
 
 
 # Blender has called German both
-LANGUAGES = {locale: entries(GERMAN | SENTENCES) for locale in ("de", "de_DE")}
+LANGUAGES = {locale: entries(GERMAN | SENTENCES | STAGES) for locale in ("de", "de_DE")}
 
 
 def register() -> None:
     bpy.app.translations.register(__name__, LANGUAGES)
     know_sentences(SENTENCES)
+    know_stages(STAGES)
 
 
 def unregister() -> None:
     know_sentences(())
+    know_stages(())
     bpy.app.translations.unregister(__name__)

@@ -53,11 +53,10 @@ class CodedTruth:
             self._unrounded = self._codes.mirror(self._depth, cycles_codes.MIRROR_NORMAL)
         self._dress_mirrors(self._unrounded if unrounded else self._mirror)
         dress(self._copied.diffuse, self._identity)
-        normals = " with exact normals" if unrounded else ""
-        yield f"the faces in the mirror{normals}"
+        yield "the faces in the mirror with exact normals" if unrounded else "the faces in the mirror"
         identity = cycles_render.render_codes(self._copied.scene)
         dress(self._copied.diffuse, self._position)
-        yield f"the positions in the mirror{normals}"
+        yield "the positions in the mirror with exact normals" if unrounded else "the positions in the mirror"
         return decode(identity, cycles_render.render_codes(self._copied.scene), self._codes.origin, seen, face_start=0)
 
     def end(self) -> None:

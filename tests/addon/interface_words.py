@@ -13,7 +13,8 @@ KINDS = (bpy.types.Operator, bpy.types.Panel, bpy.types.Menu)
 # of the records that files hold, what panels draw
 DRAWN = {"ReflectionScene", "ReflectionObject", "ReflectionLive"}
 # rooms whose sentences are drawn, with the names of the functions that say them; all where none is named
-TELLING = {"addon/lighting/lit_results.py": {"light_lines"}, "addon/comparison/show_comparison.py": set(),
+TELLING = {"addon/faults/status_bar.py": set(), "addon/faults/stepped_operator.py": set(),
+           "addon/lighting/lit_results.py": {"light_lines"}, "addon/comparison/show_comparison.py": set(),
            "addon/freshness/made_from.py": {"_changed", "difference"},
            **{path.relative_to(ROOT).as_posix(): set() for path in (ROOT / "addon" / "interface").glob("draw_*.py")}}
 SENTENCES = ("IN_OBJECT_MODE", "NOTHING_TO_LIGHT", "NO_SHEET", "NO_CAMERA", "NO_MIRROR", "NO_USD", "WAITS",

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from pathlib import Path
 
 from interface_words import ROOT
 
@@ -12,6 +13,7 @@ ELSEWHERE = ("addon/command_line", "addon/benchmark", "addon/report", "addon/com
              "addon/run_with_bpy", "core/rivals", "core/solver")
 WHOLE = {"summary", "light_summary", "listed"}   # functions that put a sentence together: each of their parts counts
 SHORTEST = 12
+UNSHOWN = ("addon/command_line", "addon/benchmark", "core/rivals", "core/solver")   # work that no status bar tells of
 
 
 def told() -> set[str]:
@@ -35,12 +37,49 @@ def reports() -> list[str]:
             if isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "report"]
 
 
+def stages() -> set[str]:
+    """Every stage of work that a status bar shows, and what is put into those."""
+    found: set[str] = set()
+    for path, room in _rooms():
+        if not room.startswith((*UNSHOWN, "addon/interface")):
+            tree = ast.parse(path.read_text(encoding="utf-8"))
+            names = {node.targets[0].id: node.value for node in tree.body
+                     if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)}
+            for node in ast.walk(tree):
+                for text in _stage_of(node):
+                    found.update(_written_out(names.get(getattr(text, "id", ""), text)))
+    return {text for text in found if any(map(str.isalpha, text))}
+
+
+def _stage_of(node: ast.AST) -> list[ast.AST]:
+    """Where a piece of source tells of a stage: the stage."""
+    if isinstance(node, ast.Yield) and node.value is not None:
+        return [node.value.elts[1] if isinstance(node.value, ast.Tuple) else node.value]
+    if not isinstance(node, ast.Call):
+        return []
+    name = getattr(node.func, "attr", getattr(node.func, "id", ""))
+    last = {"next": 2, "tell": 2, "part": 4, "taken": 3, "_named": 2}.get(name)
+    return [node.args[-1]] if last == len(node.args) else []
+
+
+def _written_out(text: ast.AST) -> list[str]:
+    """A text with `{}` where something is put in; none of what is no text."""
+    if isinstance(text, ast.IfExp):
+        return _written_out(text.body) + _written_out(text.orelse)
+    if isinstance(text, ast.Call):
+        # Undivided("..."), or "...".strip()
+        return _written_out(text.func.value if isinstance(text.func, ast.Attribute) else (text.args or [text.func])[0])
+    return [found for found, _ in _of(text, "")][:1] if isinstance(text, ast.Constant | ast.JoinedStr) else []
+
+
 def _texts() -> Iterator[tuple[str, str, str]]:
-    for base in ("addon", "core"):
-        for path in sorted((ROOT / base).rglob("*.py")):
-            room = path.relative_to(ROOT).as_posix()
-            yield from ((text, room, function)
-                        for text, function in _of(ast.parse(path.read_text(encoding="utf-8")), ""))
+    for path, room in _rooms():
+        yield from ((text, room, function) for text, function in _of(ast.parse(path.read_text(encoding="utf-8")), ""))
+
+
+def _rooms() -> list[tuple[Path, str]]:
+    return [(path, path.relative_to(ROOT).as_posix()) for base in ("addon", "core")
+            for path in sorted((ROOT / base).rglob("*.py"))]
 
 
 def _of(node: ast.AST, function: str) -> Iterator[tuple[str, str]]:

@@ -288,4 +288,11 @@ LIVE = {
     "Live waits for Object Mode.": "Live wartet auf den Objektmodus.",
     "Generate a reflection first.": "Erzeuge zuerst eine Spiegelung.",
 }
-WORDS = {**OPERATORS, **SETTINGS, **ROLES, **PANELS, **OBSTACLES, **LIVE}
+STATUS_BAR = {
+    "ESC cancels": "ESC bricht ab",
+    "this cannot be divided, ESC cancels after it": "das lässt sich nicht teilen, ESC bricht danach ab",
+    "about {seconds:.0f} s left": "noch etwa {seconds:.0f} s",
+    "about {minutes:.0f} min left": "noch etwa {minutes:.0f} min",
+    "about {hours:.1f} h left": "noch etwa {hours:.1f} h",
+}
+WORDS = {**OPERATORS, **SETTINGS, **ROLES, **PANELS, **OBSTACLES, **LIVE, **STATUS_BAR}

@@ -13,9 +13,11 @@ import told_sentences
 @pytest.fixture
 def german(room, monkeypatch):
     """Blender speaks German; as a module it knows no languages."""
-    sentences, words = room("addon.interface.german").SENTENCES, room("addon.interface.german").GERMAN
+    spoken = room("addon.interface.german")
+    sentences, words = spoken.SENTENCES, spoken.GERMAN | spoken.STAGES
     monkeypatch.setattr(room("addon.faults.told"), "pgettext_rpt", lambda text: sentences.get(text, text))
-    for module in ("addon.faults.stepped_operator", "addon.faults.unforeseen"):
+    for module in ("told", "status_bar", "stepped_operator", "unforeseen"):
+        module = f"addon.faults.{module}"
         monkeypatch.setattr(room(module), "pgettext_iface", lambda text: words.get(text, text))
     return sentences
 
@@ -113,6 +115,42 @@ def test_what_was_done_is_told_in_german(blank, room, german, monkeypatch):
                       f"{frames} in '/tmp'; overwrite them, or choose another folder, to have all alike.") == (
         "Behalten, obwohl die Szene beim Backen eine andere war (der Spiegel hat sich geändert): Einzelbilder 2, 3 in "
         "'/tmp'; überschreibe sie, oder wähle einen anderen Ordner, damit alle gleich sind.")
+
+
+def test_no_stage_lacks_its_german(room, german):
+    """And none is translated that no work has."""
+    translated, known = room("addon.faults").translated_stage, room("addon.interface.german").STAGES
+    stages = told_sentences.stages()
+    assert len(stages) > 40
+    assert [stage for stage in sorted(stages) if translated(stage) == stage] == []
+    assert sorted(set(known) - stages) == []
+    for english, wanted in known.items():
+        assert english.count("{}") == wanted.count("{}"), english
+
+
+@pytest.mark.parametrize("method", ["GENERAL", "POINTS"])
+def test_all_that_work_tells_comes_in_german(blank, room, german, method):
+    parts.select(parts.add("ico_sphere", "Ball", subdivisions=4, location=(0.0, -1.5, 1.0)), parts.add_wall_mirror())
+    generation, chosen = room("addon.operators.generate").generation, room("addon.reading").choose(blank)
+    told = []
+    room("addon.faults").finished(generation(blank, chosen, room("core").Settings(method=method)), told.append)
+    stages = [stage for _, stage in told]
+    assert len(set(stages)) >= 5
+    for stage in stages:
+        spoken = room("addon.faults").translated_stage(f"Frame 7: {stage}").split(": ")
+        assert spoken[0] == "Bild 7" and spoken[1:-1] == [name for name in ["Mirror"] if f"{name}: " in stage]
+        assert spoken[-1] != stage.split(": ")[-1], stage
+
+
+def test_the_status_bar_speaks_german(room, german):
+    translated = room("addon.faults").translated_stage
+    assert translated("Cycles renders the faces in the mirror, 2 of 7") == (
+        "Cycles rendert die Flächen im Spiegel, 2 von 7")
+    assert translated("Cycles renders its own caustics at 64 samples once more, 10 of 11") == (
+        "Cycles rendert eigene Kaustik mit 64 Samples noch einmal, 10 von 11")
+    assert translated("Writing My {0} mirror: of gold") == "My {0} mirror wird geschrieben: of gold"
+    assert translated("") == "" and translated("{}: {0}") == "{}: {0}"
+    assert room("addon.faults.status_bar").time_left(10.0, 0.25) == "noch etwa 30 s"
 
 
 def test_in_english_and_of_strange_names_nothing_is_changed(room):

@@ -1,0 +1,61 @@
+"""What the status bar says of work that is under way: what comes next. Names and numbers are `{}`."""
+
+READING = {
+    "Reading the scene": "Szene wird gelesen",
+    "Reading the sheet": "Bogen wird gelesen",
+    "Building the tree": "Baum wird gebaut",
+    "Copying the scene": "Szene wird kopiert",
+    "Frame {}": "Bild {}",
+    "Frame {} {}": "Bild {} {}",
+    "Comparing frame {}": "Bild {} wird verglichen",
+}
+REFLECTING = {
+    "k-d tree": "k-d-Baum",
+    "cameras": "Kameras",
+    "cones through the tree": "Kegel durch den Baum",
+    "projection": "Projektion",
+    "clipping": "Beschneiden",
+    "whole faces": "ganze Flächen",
+    "mirrors in the mirror": "Spiegel im Spiegel",
+    "corners and faces": "Ecken und Flächen",
+    "refinement": "Verfeinerung",
+    "depth order": "Tiefenordnung",
+    "discs": "Scheiben",
+    "irradiance": "Bestrahlungsstärke",
+    "Finding what is shown": "Gezeigtes wird gesucht",
+    "Cutting faces": "Flächen werden geschnitten",
+}
+RENDERING = {
+    "Cycles renders the light": "Cycles rendert das Licht",
+    "Cycles renders what reflections cover": "Cycles rendert, was Spiegelungen verdecken",
+    "Cycles bakes the light on '{}'": "Cycles backt das Licht auf '{}'",
+    "Cycles renders {}, {} of {}": "Cycles rendert {}, {} von {}",
+    "the outline of the mirror": "den Umriss des Spiegels",
+    "the faces in the mirror": "die Flächen im Spiegel",
+    "the faces in the mirror with exact normals": "die Flächen im Spiegel mit genauen Normalen",
+    "the positions in the mirror": "die Orte im Spiegel",
+    "the positions in the mirror with exact normals": "die Orte im Spiegel mit genauen Normalen",
+    "the faces of the mesh": "die Flächen des Netzes",
+    "the positions on the mesh": "die Orte auf dem Netz",
+    "the picture with the mirror": "das Bild mit dem Spiegel",
+    "the picture with the mirror once more": "das Bild mit dem Spiegel noch einmal",
+    "the picture with the mesh": "das Bild mit dem Netz",
+    "the reference": "das Vergleichsbild",
+    "its own caustics at {} samples": "eigene Kaustik mit {} Samples",
+    "its own caustics at {} samples once more": "eigene Kaustik mit {} Samples noch einmal",
+    "the meshes of light at {} samples": "die Netze aus Licht mit {} Samples",
+    "Tracing rays for '{}'": "Strahlen für '{}' werden verfolgt",
+}
+ENDING = {
+    "Sharpening the light": "Licht wird geschärft",
+    "Measuring displacements": "Verschiebungen werden gemessen",
+    "Comparing the pictures": "Bilder werden verglichen",
+    "Drawing the maps": "Karten werden gezeichnet",
+    "Drawing what is round the mirror": "Umgebung des Spiegels wird gezeichnet",
+    "Drawing the sheet": "Bogen wird gezeichnet",
+    "Writing": "Schreiben",
+    "Writing {}": "{} wird geschrieben",
+    "Writing the light": "Licht wird geschrieben",
+    "Writing the report": "Bericht wird geschrieben",
+}
+STAGES = {**READING, **REFLECTING, **RENDERING, **ENDING}
