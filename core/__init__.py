@@ -7,9 +7,9 @@ from .reflection import ReflectionError, reflect, reflection_steps
 from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
 from .solver import Images, project
 from .standing import Standing
-from .support import METHODS, PLACEMENTS, NothingInView, Settings, in_steps
+from .support import METHODS, PLACEMENTS, NothingInView, Settings, breathe, in_steps
 
 __all__ = ["CausticMesh", "Discs", "FollowedImages", "Images", "Lamp", "METHODS", "NothingInView", "PLACEMENTS",
            "PicturePieces", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "Standing",
-           "TriangleMesh", "View", "caustic_steps", "caustics", "draw", "in_steps", "picture_pieces", "project",
-           "reflect", "reflecting_normals", "reflection_steps"]
+           "TriangleMesh", "View", "breathe", "caustic_steps", "caustics", "draw", "in_steps", "picture_pieces",
+           "project", "reflect", "reflecting_normals", "reflection_steps"]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 from mathutils import Vector
@@ -91,8 +92,10 @@ def _cut(face: int, pieces: PicturePieces) -> Steps[Parts]:
     sides = np.stack((numbers, np.roll(numbers, -1, axis=1)), axis=2).reshape(-1, 2)
     given = list(map(Vector, corners.tolist())), sides.tolist(), [], HULL, NEAR, False
     yield 0.0, ""
-    points, _, triangles, *_ = delaunay_2d_cdt(*given)
+    points, _, polygons, *_ = delaunay_2d_cdt(*given)
     yield 0.0, ""
+    # among slivers a face may have more corners than three, and one of them twice
+    triangles = [(first, *pair) for first, *others in polygons for pair in pairwise(others)]
     found = np.array([tuple(point) for point in points])[np.array(triangles, dtype=np.int64).reshape(-1, 3)]
     found = found[_doubled(found) > NEAR * _longest(found)]
     weights = _clean(np.concatenate((1.0 - found.sum(axis=2, keepdims=True), found), axis=2))

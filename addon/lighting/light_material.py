@@ -5,32 +5,45 @@ import bpy
 import numpy as np
 
 from .. import compat
+from ..faults import AllOrNothing, Steps, still_there
 from ..writing import UV_MAP
 
+WRITING = "Writing"
 
-def new_image(name: str, texels: np.ndarray) -> bpy.types.Image:
+
+def new_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.types.Image]:
     """An image of linear light (height, width, 3), or with an opacity of its own (height, width, 4), packed into the
-    file."""
-    return _packed(name, texels, float_buffer=True, is_data=True)
+    file; a step before each of Blender's calls that take long."""
+    return (yield from _packed(name, texels, whole, float_buffer=True, is_data=True))
 
 
-def new_export_image(name: str, texels: np.ndarray) -> bpy.types.Image:
+def new_export_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.types.Image]:
     """The same for files that know no more than eight bits: sRGB, and nothing brighter than white."""
+    yield 0.0, WRITING
     light = np.clip(texels, 0.0, 1.0)
     # IEC 61966-2-1
     shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 0.0031308)**(1.0 / 2.4) - 0.055)
-    return _packed(name, shown)
+    return (yield from _packed(name, shown, whole))
 
 
-def _packed(name: str, values: np.ndarray, **options) -> bpy.types.Image:
+def _packed(name: str, values: np.ndarray, whole: AllOrNothing, **options) -> Steps[bpy.types.Image]:
+    yield 0.0, WRITING
     height, width, channels = values.shape
+    if channels == 4:
+        rgba = np.ascontiguousarray(values, dtype=np.float32)
+    else:
+        rgba = np.ones((height, width, 4), dtype=np.float32)
+        rgba[..., :channels] = values
     image = bpy.data.images.new(name, width, height, alpha=channels == 4, **options)
+    # between two steps others may have removed it
+    whole.undo(lambda: bpy.data.batch_remove(still_there([image])))
     # light is not darker where less of it is seen
     image.alpha_mode = "CHANNEL_PACKED"
-    rgba = np.ones((height, width, 4), dtype=np.float32)
-    rgba[..., :channels] = values
+    yield 0.0, WRITING
     image.pixels.foreach_set(rgba.ravel())
+    yield 0.0, WRITING
     image.pack()
+    yield 0.0, WRITING
     return image
 
 

@@ -6,9 +6,12 @@ too.
 """
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
-from ..faults import Steps
+from ...core import breathe, in_steps
+from ..faults import Steps, part
 
 SEEN_WHOLE = 0.995  # of a pixel: coverage from which it shows nothing else
 SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
@@ -47,14 +50,20 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white
     texels : (height, width, 3) float32, zero farther than `REACH` from what is covered.
     """
     yield 0.0, SHARPENING
+    return (yield from part(in_steps(partial(_texels, light, coverage, kernel, white, opacity)), 0.0, 1.0, SHARPENING))
+
+
+def _texels(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float,
+            opacity: np.ndarray | None) -> np.ndarray:
     needed = _grown(coverage > 0.0, REACH)
     whole = np.ones(coverage.shape) if opacity is None else opacity.astype(np.float64)
     filled = _filled(*_without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64), whole), needed)
-    yield 0.0, SHARPENING
-    sharp = yield from _sharpened(filled, kernel, white)
+    sharp = _sharpened(filled, kernel, white)
+    breathe()
     # inside a lamp, from where it does not reach what is beside, it is as bright as it is
     lamp = ~_grown((filled < white).any(axis=2), LAMP_RIM)
     sharp = np.where(lamp[..., None], filled, sharp)
+    breathe()
     return np.where(needed[..., None], sharp, 0.0).astype(np.float32)
 
 
@@ -98,46 +107,53 @@ def _without_what_lies_beside(light: np.ndarray, coverage: np.ndarray,
 
 def _unfiltered(picture: np.ndarray, kernel: np.ndarray) -> np.ndarray:
     """What the kernel, along rows and columns, makes `picture` of."""
-    height, width = picture.shape[:2]
-    around = np.pad(picture, ((2 * REACH,) * 2,) * 2 + ((0, 0),), mode="edge")
-    rows, columns = around.shape[:2]
-    response = np.outer(_response(kernel, rows), _response(kernel, columns)[:columns // 2 + 1])
-    waves = np.fft.rfft2(around, axes=(0, 1)) / response[..., None]
-    return np.fft.irfft2(waves, s=(rows, columns), axes=(0, 1))[2 * REACH:, 2 * REACH:][:height, :width]
+    height, width, channels = picture.shape
+    columns = width + 4 * REACH
+    through_rows, through = _response(kernel, height + 4 * REACH)[:, None], _response(kernel, columns)
+    found = np.empty_like(picture)
+    for channel in range(channels):
+        waves = np.fft.rfft(np.pad(picture[..., channel], 2 * REACH, mode="edge"), axis=1) / through[:columns // 2 + 1]
+        breathe()
+        waves = np.fft.fft(waves, axis=0) / through_rows
+        breathe()
+        waves = np.fft.ifft(waves, axis=0)[2 * REACH:][:height]
+        breathe()
+        found[..., channel] = np.fft.irfft(waves, n=columns, axis=1)[:, 2 * REACH:][:, :width]
+        breathe()
+    return found
 
 
-def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> Steps[np.ndarray]:
+def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndarray:
     """Texels, none below zero, that show the picture, and something white where that is brighter than white."""
     capped = np.minimum(picture, white)
     exact = _unfiltered(capped, kernel)
-    yield 0.0, SHARPENING
     first, bright = np.maximum(exact, DARKEST * capped), picture >= white
     doubtful = np.flatnonzero((bright | (exact < first)).any(axis=2))
+    breathe()
     if not len(doubtful):
         return exact
     row, column = np.divmod(doubtful, picture.shape[1])
-    part = tuple(slice(max(side.min() - AROUND, 0), side.max() + AROUND + 1) for side in (row, column))
+    around = tuple(slice(max(side.min() - AROUND, 0), side.max() + AROUND + 1) for side in (row, column))
     # what is brighter inside lets lamps' borders be darker, and fall off as fast as they should
     inside = ~_grown(~bright.all(axis=2), 1)[..., None]
     first = np.where(bright, np.where(inside, np.minimum(picture, INSIDE_LAMPS * white), np.maximum(first, white)),
                      first)
-    first[part] = yield from _brightened(first[part], capped[part], kernel, white)
+    first[around] = _brightened(first[around], capped[around], kernel, white)
     return first
 
 
-def _brightened(texels: np.ndarray, picture: np.ndarray, kernel: np.ndarray, white: float) -> Steps[np.ndarray]:
+def _brightened(texels: np.ndarray, picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndarray:
     """Texels that show the picture more nearly without going below zero, as they would have to around lamps; what is
     to be white may be whiter.
 
     W. H. Richardson, "Bayesian-Based Iterative Method of Image Restoration", JOSA 1972; L. B. Lucy, "An iterative
     technique for the rectification of observed distributions", AJ 1974.
     """
-    for done in range(ROUNDS):
-        yield (done + 0.5) / (ROUNDS + 1), SHARPENING
+    for _ in range(ROUNDS):
         shown = np.maximum(_filtered(texels, kernel), 1e-30)
-        yield (done + 1) / (ROUNDS + 1), SHARPENING
-        wanted = np.where(picture < white, picture, np.maximum(shown, white))
-        texels = texels * _filtered(wanted / shown, kernel)
+        wanted = np.where(picture < white, picture, np.maximum(shown, white)) / shown
+        breathe()
+        texels = texels * _filtered(wanted, kernel)
     return texels
 
 
@@ -149,8 +165,11 @@ def _filtered(texels: np.ndarray, kernel: np.ndarray) -> np.ndarray:
         ends[axis] = (half, half)
         around = np.pad(texels, ends, mode="edge")
         count = texels.shape[axis]
-        texels = sum(weight * (around[step:step + count] if axis == 0 else around[:, step:step + count])
-                     for step, weight in enumerate(kernel) if weight > LEAST_WEIGHT)
+        texels = np.zeros_like(texels)
+        for step, weight in enumerate(kernel):
+            if weight > LEAST_WEIGHT:
+                texels += weight * (around[step:step + count] if axis == 0 else around[:, step:step + count])
+                breathe()
     return texels
 
 
@@ -182,7 +201,9 @@ def _filled(picture: np.ndarray, known: np.ndarray, needed: np.ndarray) -> np.nd
 def _sum_around(values: np.ndarray) -> np.ndarray:
     """The sum of each pixel and its eight neighbours."""
     padded = np.pad(values, ((1, 1), (1, 1)) + ((0, 0),) * (values.ndim - 2))
+    breathe()
     across = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
+    breathe()
     return across[:-2] + across[1:-1] + across[2:]
 
 

@@ -77,23 +77,23 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
     view = read_view(context)
     groups = _for_the_camera(context.scene.camera, groups)
     everything, shows, lamps = [], [], lamps_that_show(context)
-    for number, (results, samples, kind) in enumerate(groups):
-        lit = [result for result in results if every or needs_light(result) or lamps_before(result, lamps)]
-        if not lit:
-            continue
-        with_objects = kind == "OBJECTS" or (kind == "AUTO" and any(map(moves, [
-            context.scene.camera, *(result.reflection_mesh.mirror for result in lit)])) and can_be_baked(lit))
-        steps = (_on_objects if with_objects else _in_picture)(context, lit, view, samples)
-        shows.append((yield from part(steps, number / len(groups), 1.0 / len(groups))))
-        everything += lit
-    meshes: dict = {}
-    for result in everything:
-        meshes.setdefault(result.data, []).append(result)
     with AllOrNothing() as whole:
+        for number, (results, samples, kind) in enumerate(groups):
+            lit = [result for result in results if every or needs_light(result) or lamps_before(result, lamps)]
+            if not lit:
+                continue
+            with_objects = kind == "OBJECTS" or (kind == "AUTO" and any(map(moves, [
+                context.scene.camera, *(result.reflection_mesh.mirror for result in lit)])) and can_be_baked(lit))
+            steps = (_on_objects if with_objects else _in_picture)(context, lit, view, samples, whole)
+            shows.append((yield from part(steps, number / len(groups), 1.0 / len(groups))))
+            everything += lit
+        meshes: dict = {}
+        for result in everything:
+            meshes.setdefault(result.data, []).append(result)
         for mesh, linked in meshes.items():
             _keep_apart(mesh, linked, whole)
         for show in shows:
-            show(whole)
+            show()
         for linked in meshes.values():
             _stay_linked(linked, whole)
     return everything
@@ -127,8 +127,8 @@ def _for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int, str]
     return own
 
 
-def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int
-                ) -> Steps[Callable[[AllOrNothing], None]]:
+def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing
+                ) -> Steps[Callable[[], None]]:
     """Render what `lit` show of the picture; returns what lets them show it."""
     window = Window.around(view, np.concatenate([_on_the_mirror(result) for result in lit]))
     if window is None:
@@ -142,13 +142,10 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int
     kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
     opacity = light[..., 3] if scene.alone else None
     texels = yield from part(texels_of(light[..., :3], coverage, kernel, white_of(context.scene), opacity), 0.93, 0.05)
-    yield 0.98, "Writing"
+    image = yield from part(new_image(NAME, texels, whole), 0.98, 0.01)
+    export_image = yield from part(new_export_image(f"{NAME} Export", texels, whole), 0.99, 0.01)
 
-    def show(whole: AllOrNothing) -> None:
-        image = new_image(NAME, texels)
-        whole.undo(bpy.data.images.remove, image)
-        export_image = new_export_image(f"{NAME} Export", texels)
-        whole.undo(bpy.data.images.remove, export_image)
+    def show() -> None:
         material = new_material(NAME, image, export_image, texels)
         whole.undo(bpy.data.materials.remove, material)
         for result in lit:
@@ -163,8 +160,8 @@ def _on_the_mirror(result: bpy.types.Object) -> np.ndarray:
     return vectors(result.data, "position") + np.array(place_of(result).translation)
 
 
-def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int
-                ) -> Steps[Callable[[AllOrNothing], None]]:
+def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing
+                ) -> Steps[Callable[[], None]]:
     """Bake the objects that `lit` show; returns what lets them show it."""
     if not can_be_baked(lit):
         raise ReflectionError("A reflection of points, or of objects that have been deleted, or one that knows only "
@@ -174,14 +171,12 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int
                if is_seen(obj)]
     scene = read_scene(context.evaluated_depsgraph_get(), sources)
     light = yield from part(baked(context, lit, view, scene, samples), 0.02, 0.93)
-    yield 0.95, "Writing"
+    image = yield from part(new_image(NAME, light.texels, whole), 0.95, 0.05)
     # what was hidden for a while counts as changed only now
     context.view_layer.update()
     opaque, lamps = all(map(is_opaque, scene.materials)), lamps_that_show(context)
 
-    def show(whole: AllOrNothing) -> None:
-        image = new_image(NAME, light.texels)
-        whole.undo(bpy.data.images.remove, image)
+    def show() -> None:
         light_map = kept_map(NAME, light.uv)
         whole.undo(bpy.data.meshes.remove, light_map)
         for result in lit:

@@ -90,7 +90,9 @@ class FrontImages:
         """How near faces (k, n) are at `spots` (k, n, 2), no nearer and no farther than their corners; no number where
         a face is seen edge on."""
         plane, corners = self.plane[face], self.nearness[face]
-        return np.clip((plane[..., :2] * spots).sum(axis=2) + plane[..., 2], corners.min(axis=2), corners.max(axis=2))
+        with np.errstate(invalid="ignore"):
+            found = (plane[..., :2] * spots).sum(axis=2) + plane[..., 2]
+        return np.clip(found, corners.min(axis=2), corners.max(axis=2))
 
 
 def _several(source: np.ndarray, image: np.ndarray) -> np.ndarray:

@@ -22,7 +22,17 @@ class _Stopped(BaseException):
 
 
 def breathe() -> None:
-    """Let the caller of the work have its turn, if it has waited long enough."""
+    """Let the caller of the work have its turn, if it has waited long enough; outside of work in steps nothing happens.
+
+    Examples
+    --------
+    >>> from core import breathe, in_steps
+    >>> def work():
+    ...     for _ in range(1000):
+    ...         breathe()
+    >>> for _ in in_steps(work):
+    ...     pass  # draw, or break to stop the work
+    """
     work = getattr(_here, "work", None)
     if work is not None and (work.stopped or perf_counter() - work.resumed > INTERVAL):
         work.hand_over()

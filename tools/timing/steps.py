@@ -1,0 +1,101 @@
+"""The longest step of every operator on the samples: for as long the window neither draws nor hears ESC.
+
+    python -m tools.timing.steps [sample or operator ...]
+
+Seconds are the lesser of the clock's and the processor's, so that what runs beside it counts as little as it can, and
+several cores at work count once. Renders are counted apart: Blender cannot divide one, and says so before it.
+"""
+from __future__ import annotations
+
+import importlib
+import sys
+import tempfile
+import time
+from functools import partial
+from pathlib import Path
+
+from tools import extension_zip
+from tools.quietly import quietly
+
+ROWS = ("sample", "operator", "steps", "longest s", "in it", "longest render s")
+SAMPLES = ("sphere", "flat_mirror", "cylinder", "water", "bowl", "suzanne", "mirrors", "room", "bathroom", "pond",
+           "anamorphosis", "pool", "dish", "ring", "sunlight")
+CAUSTIC = ("pool", "dish", "ring", "sunlight")
+# operators by what they need before them: (name, what must have run, options)
+REFLECTIONS = (
+    ("generate", (), {}),
+    ("light", ("generate",), {"samples": 4, "kind": "PICTURE", "every": True}),
+    ("light", ("generate",), {"samples": 4, "kind": "OBJECTS", "every": True}),
+    ("mirror_uvs", (), {}),
+    ("mirror_uvs", (), {"target": "ORIGINAL"}),
+    ("compare", ("generate",), {"samples": 1, "what": "REFLECTIONS"}),
+    ("bake", (), {"frames": "1", "samples": 4}),
+    ("clear", ("generate",), {}))
+CAUSTICS = (
+    ("caustics", (), {}),
+    ("compare", ("caustics",), {"samples": 1, "what": "CAUSTICS", "converged": 8}),
+    ("bake", (), {"frames": "1", "what": "CAUSTICS"}),
+    ("clear", ("caustics",), {}))
+
+
+class Steps:
+    """The steps of operators, timed from when this is made on."""
+
+    def __init__(self) -> None:
+        self.taken: list[tuple[float, bool, str]] = []  # seconds, whether it cannot be divided, stage
+        place = importlib.import_module(f"{extension_zip.PACKAGE}.addon.faults.stepped_operator")
+        step, taken = place.SteppedOperator._step, self.taken
+
+        def timed(operator) -> set | None:
+            told = getattr(operator, "_progress", (0.0, ""))[1]
+            begun = time.process_time(), time.perf_counter()
+            outcome = step(operator)
+            seconds = min(time.process_time() - begun[0], time.perf_counter() - begun[1])
+            taken.append((seconds, isinstance(told, place.Undivided), str(told)))
+            return outcome
+        place.SteppedOperator._step = timed
+
+    def longest(self, undivided: bool) -> tuple[float, str]:
+        """Seconds and stage of the longest of those that can be divided, or of those that cannot."""
+        return max(((seconds, stage) for seconds, whole, stage in self.taken if whole == undivided),
+                   default=(0.0, ""))
+
+
+def main(names: list[str]) -> int:
+    with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as name:
+        scratch = Path(name)
+        extension_zip.use_throw_away_preferences(scratch / "preferences")
+        quietly(lambda: extension_zip.install(extension_zip.build(scratch)))
+        steps = Steps()
+        print(f"| {' | '.join(ROWS)} |\n|{'---|' * len(ROWS)}", flush=True)
+        asked = set(names) - set(SAMPLES)
+        for sample in [name for name in names if name in SAMPLES] or SAMPLES:
+            jobs = CAUSTICS if sample in CAUSTIC else REFLECTIONS
+            for job in [job for job in jobs if not asked or job[0] in asked]:
+                print(f"| {' | '.join(quietly(partial(measured, sample, job, steps, scratch)))} |", flush=True)
+        quietly(extension_zip.switch_off)
+    return 0
+
+
+def measured(sample: str, job: tuple, steps: Steps, scratch: Path) -> tuple[str, ...]:
+    """One row."""
+    import bpy
+    name, before, options = job
+    bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{sample}.blend"))
+    for operator in before:
+        getattr(bpy.ops.reflection_mesh, operator)("EXEC_DEFAULT")
+    if name in ("compare", "bake"):
+        options = {**options, "filepath": str(scratch / f"{sample} {name}")}
+    steps.taken.clear()
+    begun = time.perf_counter()
+    getattr(bpy.ops.reflection_mesh, name)("EXEC_DEFAULT", **options)
+    if not steps.taken:
+        steps.taken.append((time.perf_counter() - begun, False, "all of it"))
+    (seconds, stage), (render, _) = steps.longest(False), steps.longest(True)
+    what = " ".join([name, *(str(value).lower() for key, value in options.items()
+                             if key in ("kind", "target", "what"))])
+    return sample, what, str(len(steps.taken)), f"{seconds:.2f}", stage, f"{render:.2f}" if render else "–"
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
