@@ -234,14 +234,18 @@ def test_no_word_lacks_its_german(scene, room):
 
 
 def test_blender_is_given_the_words_in_both_contexts(room, monkeypatch):
-    translations, told = room("addon.interface.translations"), {}
+    translations, faults, told = room("addon.interface.translations"), room("addon.faults.told"), {}
     fake = SimpleNamespace(register=told.__setitem__, unregister=told.pop)
     monkeypatch.setattr(translations, "bpy", SimpleNamespace(app=SimpleNamespace(translations=fake)))
+    for name in ("_known", "_stages"):
+        # what is known while the extension is on is that of all tests
+        monkeypatch.setattr(faults, name, [])
     translations.register()
     (words,) = told.values()
-    assert {("*", "Tolerance"), ("Operator", "Generate Reflection")} <= set(words["de"]) == set(words["de_DE"])
+    assert {("*", "Tolerance"), ("Operator", "Generate Reflection"), ("*", "Sharpening the light")} <= set(words["de"])
+    assert set(words["de"]) == set(words["de_DE"]) and faults._known and faults._stages
     translations.unregister()
-    assert told == {}
+    assert told == {} and not (faults._known or faults._stages)
 
 
 def traces() -> list:
