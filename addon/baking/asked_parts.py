@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core import View
+from ...core import View, breathe
 from ..reading import DiffuseScene, moves
 from .seen_sources import (
     corner_vertices,
@@ -26,6 +26,7 @@ def asked_densities(results: list, view: View, scene: DiffuseScene, parts: list,
     owner, own = scene.source_object[triangle], np.empty(len(scene.source_object), dtype=np.int64)
     for part in parts:
         own[part] = np.arange(len(part))
+    breathe()
     return {number: division.greatest(own[triangle[owner == number]], weights[owner == number],
                                       density[owner == number]) for number, division in divisions.items()}
 
@@ -62,6 +63,7 @@ def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple[n
     shown, spots = vectors(mesh, "reflected_position")[corners], view.pixels(vectors(mesh, "mirror_position"))[corners]
     (along, up), (right, high) = ((at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]) for at in (shown, spots))
     one, both, other = (np.einsum("ni,ni->n", *pair) for pair in ((along, along), (along, up), (up, up)))
+    breathe()
     wide, slant, tall = (np.einsum("ni,ni->n", *pair) for pair in ((right, right), (right, high), (high, high)))
     turned = np.abs(right[:, 0] * high[:, 1] - right[:, 1] * high[:, 0])
     # the greater singular value of the map from the face's plane to the picture
@@ -71,5 +73,6 @@ def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple[n
         density = np.sqrt(half + np.sqrt(np.maximum(half * half - turned * turned / room, 0.0)))
     density = np.where(face_values(mesh, "bounces") == 1, np.nan_to_num(density, nan=0.0), np.inf)
     told = 0.5 * turned > LEAST_AREA
+    breathe()
     weights = weights_of(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)
     return triangle[told], weights[told], density[told]

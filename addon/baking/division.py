@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...core import breathe
+
 ACROSS = 8.0    # texels along a part's legs at the most
 MOST_ALONG = 256  # parts along a triangle's side
 STEPS = 2.0     # places along what is seen, to one part of what it is seen of
@@ -47,6 +49,7 @@ class Division:
         starts = np.cumsum(size) - size
         found = np.zeros(int(size.sum()))
         for some, places in _strewn(weights, self.count[triangle]):
+            breathe()
             count = self.count[triangle[some]][:, None]
             at = np.matmul(places, weights[some])[..., 1:] * count[..., None]
             low = np.clip(np.floor(at), 0, count[..., None] - 1).astype(np.int64)

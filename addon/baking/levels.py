@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import View
+from ...core import View, breathe
 from ..reading import DiffuseScene
 from .asked_parts import asked_densities, sides_before_mirrors
 from .atlas import Atlas, packed
@@ -92,11 +92,14 @@ def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, densi
     large = {number: wide[number] and atlas.size >= LARGE for number, atlas in atlases.items()}
     divisions = {number: divided(parts_along(atlas.spots, WIDE if large[number] else np.inf))
                  for number, atlas in atlases.items()}
+    breathe()
     seen = sides_before_mirrors(results, scene)
+    breathe()
     asked = asked_densities(results, view, scene, parts, {number: one for number, one in divisions.items()
                                                           if large[number]})
     made = {}
     for number, part in enumerate(parts):
+        breathe()
         division = divisions[number]
         # where nearly all is to be fine, coarser pictures would only cost
         in_steps = large[number] and (FINER * asked[number] > 0.5 * density[number]).mean() < NEARLY_ALL

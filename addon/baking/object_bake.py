@@ -2,12 +2,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import bpy
 import numpy as np
 
-from ...core import ReflectionError, View
-from ..faults import Steps, Undivided
+from ...core import ReflectionError, View, breathe, in_steps
+from ..faults import Steps, Undivided, part
 from ..reading import DiffuseScene, is_opaque
 from ..reading.read_meshes import read_meshes
 from .atlas import arranged, packed
@@ -18,6 +19,8 @@ from .stand_ins import stand_ins
 
 LARGEST = 4096  # texels along a side of all maps together
 FEWER = 0.5     # of the samples are enough where a picture is denoised
+PREPARING = "Copying the scene"
+MEASURING = "Measuring what is seen"
 LESS = 0.7   # texels along a line, where there are too many, from one try to the next
 
 
@@ -49,7 +52,8 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
     ReflectionError
         Where there are more triangles than texels, or Blender's bake is cancelled.
     """
-    seen = seen_sources(results, view, scene)
+    yield 0.0, MEASURING
+    seen = yield from part(in_steps(partial(seen_sources, results, view, scene)), 0.0, 0.0, MEASURING)
     parts = triangles_by_source(scene)
     open_ = [not all(is_opaque(scene.materials[index]) for index in np.unique(scene.material[part])) for part in parts]
     # through an object that is open in places its backs are seen, and what has a rim shows both sides as it is
@@ -57,8 +61,10 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
             for number, through in enumerate(open_)]
     sheets = [(number, back) for number in range(len(parts)) for back in (False, True)
               if both[number] or back == bool(seen.backs[number])]
-    atlases, at, side, density = _packed(scene, parts, sheets, FINER * seen.density)
-    levels = levels_of(results, view, scene, parts, density, atlases)
+    atlases, at, side, density = yield from part(
+        in_steps(partial(_packed, scene, parts, sheets, FINER * seen.density)), 0.0, 0.0, MEASURING)
+    levels = yield from part(in_steps(partial(levels_of, results, view, scene, parts, density, atlases)), 0.0, 0.0,
+                             MEASURING)
     texels = np.zeros((side, side, 4), dtype=np.float32)
     areas = {sheet: texels[row:row + atlases[sheet[0]].size, column:column + atlases[sheet[0]].size]
              for sheet, (column, row) in zip(sheets, at.tolist(), strict=True)}
@@ -89,7 +95,9 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
         back = None if opacity else turned
         places = {number: one.places(level, back) if number in chosen else one.nowhere()
                   for number, one in levels.items()}
+        yield done / whole, PREPARING
         stands = stand_ins(placed, divisions, places, turned=set(chosen) if turned else set())
+        yield done / whole, PREPARING
         with bake_scene(context, scene.sources, stands, opacity=opacity, backs=turned) as stage:
             for number in chosen:
                 yield done / whole, Undivided(f"Cycles bakes the light on '{scene.sources[number].name}'")
@@ -111,6 +119,7 @@ def _packed(scene: DiffuseScene, parts: list, sheets: list,
     room for."""
     corners = scene.mesh.positions[scene.mesh.triangles]
     while True:
+        breathe()
         atlases = {number: packed(corners[part], float(density[number])) for number, part in enumerate(parts)}
         at, side = arranged(np.array([atlases[number].size for number, _ in sheets]))
         if side <= LARGEST:

@@ -7,10 +7,13 @@ import bpy
 import numpy as np
 
 from ...core import View, reflecting_normals
+from ..faults import Steps
 from ..reading import DiffuseScene
 from ..writing import light_layer
 from .mirror_share import NORMAL
 from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, vectors, weights_of
+
+WRITING = "Writing"
 
 
 @dataclass(frozen=True)
@@ -39,7 +42,7 @@ def kept_map(name: str, uv: np.ndarray) -> bpy.types.Mesh:
     return mesh
 
 
-def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: KeptMap) -> None:
+def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: KeptMap) -> Steps[None]:
     """Tell each corner of a result where in the map the point lies that it shows, and each point how the mirror stands
     there."""
     mesh = result.data
@@ -48,13 +51,16 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     own = mesh.attributes.get("custom_normal")
     if own is not None:
         mesh.attributes.remove(own)
+    yield 0.0, WRITING
     triangle = triangle_of(result, scene)
     shown, at = (vectors(mesh, name)[corner_vertices(mesh)] for name in ("reflected_position", "mirror_position"))
     front = fronts_seen(scene, triangle, (at - shown).mean(axis=1))
     fronts, backs = _rows(scene, kept.sheets)
     row = np.where(front, fronts[triangle], backs[triangle])
+    yield 0.0, WRITING
     weights = weights_of(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)
     spots = np.matmul(weights, kept.uv[row].astype(np.float64)).astype(np.float32)
+    yield 0.0, WRITING
     layer = light_layer(mesh)
     layer.uv.foreach_set("vector", spots.reshape(-1))
     layer.active = layer.active_render = True

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...core import ReflectionError, View
+from ...core import ReflectionError, View, breathe
 from ..reading import DiffuseScene
 from .sight import places_of_sight
 
@@ -47,6 +47,7 @@ def seen_sources(results: list, view: View, scene: DiffuseScene) -> SeenSources:
     """What `results`, which show `scene` to `view`, tell of its sources."""
     faces = [_faces(result, view, scene) for result in results]
     triangle, area, density, eye, shown, facing = (np.concatenate(part) for part in zip(*faces, strict=True))
+    breathe()
     count = len(scene.sources)
     owner = scene.source_object[triangle]
     fronts = np.bincount(owner, weights=area * facing, minlength=count)
@@ -121,6 +122,7 @@ def vectors(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
 
 def weights_of(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Barycentric coordinates (n, k, 3), none negative, in triangles (n, 3, 3) of the points (n, k, 3) nearest."""
+    breathe()
     a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     offset = points - corners[:, :1]
     aa, ab, bb = (np.einsum("ni,ni->n", x, y)[:, None] for x, y in ((a, a), (a, b), (b, b)))
@@ -148,6 +150,7 @@ def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple:
     lengths = np.linalg.norm(points[:, (1, 2, 0)] - points, axis=2)
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.nan_to_num(np.linalg.norm(sides, axis=2).max(axis=1) / lengths.max(axis=1), posinf=0.0)
+    breathe()
     middle = points.mean(axis=1)
     towards = at - middle
     path = np.linalg.norm(towards, axis=1, keepdims=True)

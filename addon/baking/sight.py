@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...core import breathe
+
 ROUNDS = 4  # in which it is found
 
 
@@ -32,6 +34,7 @@ def places_of_sight(owner: np.ndarray, weight: np.ndarray, points: np.ndarray, t
     across = np.eye(3) - ways[:, :, None] * ways[:, None, :]
     places, angles = start, np.zeros(count)
     for _ in range(ROUNDS):
+        breathe()
         # squares of angles are squares of distances from lines by those from the points
         offset = places[owner] - points
         share = weight / np.maximum(np.einsum("ni,ni->n", offset, offset), 1e-30)
@@ -40,6 +43,7 @@ def places_of_sight(owner: np.ndarray, weight: np.ndarray, points: np.ndarray, t
         whole = np.maximum(np.bincount(owner, weights=weight, minlength=count), 1e-300)
         angles = np.sqrt(np.bincount(owner, weights=weight * off**2, minlength=count) / whole)
         matrix, aim = np.zeros((count, 3, 3)), np.zeros((count, 3))
+        breathe()
         np.add.at(matrix, owner, share[:, None, None] * across)
         np.add.at(aim, owner, share[:, None] * np.einsum("nij,nj->ni", across, points))
         # a little towards where it was: lines that are all but parallel meet nowhere

@@ -2,14 +2,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 
 import bpy
 import numpy as np
 
 from ...core import View
 from ..baking import KeptMap, can_be_baked, lay_out
-from ..faults import AllOrNothing, keep_data, keep_object, still_there
+from ..faults import AllOrNothing, Steps, finished, keep_data, keep_object, still_there
 from ..reading import DiffuseScene
 from ..writing import LONGEST_RECORD, show_own_materials
 from .light_material import images_of, texels_shown
@@ -21,17 +20,17 @@ from .preview import MARK, forget_previews
 
 
 def show_light(result: bpy.types.Object, material: bpy.types.Material, view: View, window: Window,
-               whole: AllOrNothing) -> None:
+               whole: AllOrNothing) -> Steps[None]:
     """Let a result show the light in a window of the picture; its mesh keeps the materials of what it shows."""
-    _show(result, material, record_of(view, window), None,
-          lambda: lay_out_picture(result, view, window, texels_shown(material)), whole)
+    yield from _show(result, material, record_of(view, window), None,
+                     lay_out_picture(result, view, window, texels_shown(material)), whole)
 
 
 def show_object_light(result: bpy.types.Object, material: bpy.types.Material, view: View, scene: DiffuseScene,
-                      light_map: KeptMap, whole: AllOrNothing) -> None:
+                      light_map: KeptMap, whole: AllOrNothing) -> Steps[None]:
     """Let a result show light that stays with the objects of `scene`."""
     told = json.dumps({"kind": "OBJECTS", **_identity(scene), "sheets": light_map.sheets})
-    _show(result, material, told, light_map.mesh, lambda: lay_out(result, view, scene, light_map), whole)
+    yield from _show(result, material, told, light_map.mesh, lay_out(result, view, scene, light_map), whole)
 
 
 def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> None:
@@ -42,7 +41,7 @@ def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> Non
     if light_map is not None:
         kept = _kept_map(record, scene)
         if material is not None and kept is not None and can_be_baked([result]):
-            lay_out(result, view, scene, kept)
+            finished(lay_out(result, view, scene, kept))
             _put_on(result, material)
         else:
             record.light_stale = True
@@ -51,7 +50,7 @@ def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> Non
     if window is None:
         record.light_stale = bool(record.light)
     else:
-        lay_out_picture(result, view, window, texels_shown(material))
+        finished(lay_out_picture(result, view, window, texels_shown(material)))
         _put_on(result, material)
 
 
@@ -89,12 +88,12 @@ def light_lines(result: bpy.types.Object) -> list[str]:
 
 
 def _show(result: bpy.types.Object, material: bpy.types.Material, told: str, light_map: bpy.types.Mesh | None,
-          lay: Callable[[], None], whole: AllOrNothing) -> None:
+          lay: Steps[None], whole: AllOrNothing) -> Steps[None]:
     record = result.reflection_mesh
     keep_object(result, whole)
     keep_data(result, whole)
     earlier, earlier_map = record.light_material, record.light_map
-    lay()
+    yield from lay
     _keep_users_materials(result)
     show_own_materials(result)
     whole.after(forget_previews)

@@ -10,16 +10,18 @@ import bmesh
 import numpy as np
 
 from ...core import View
+from ..faults import Steps
 from ..writing import UV_MAP, light_layer, place_of
 from .light_scene import Window
 
 COLOUR = "Reflection Light Colour"
 STRAYING = 0.1  # pixels that a UV map may be wrong by
+WRITING = "Writing"
 ROUNDS = 12     # of halving edges: an error falls to a quarter by each
 
 
-def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.ndarray | None) -> None:
-    """Tell each point of a result where in the window the view sees it, and what colour it has there.
+def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.ndarray | None) -> Steps[None]:
+    """Tell each point of a result where in the window the view sees it, and what colour it has there, in steps.
 
     Parameters
     ----------
@@ -28,25 +30,31 @@ def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.nda
     """
     mesh = result.data
     matrix = np.array(place_of(result), dtype=np.float64)
-    _cut(mesh, view, matrix)
+    yield from _cut(mesh, view, matrix)
+    yield 0.0, WRITING
     spots = _in_window(_clip(mesh, view, matrix), view, window)
     _write_spots(mesh, spots)
+    yield 0.0, WRITING
     if texels is not None:
         _write_colours(mesh, spots, texels)
 
 
-def _cut(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray) -> None:
+def _cut(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray) -> Steps[None]:
     """Halve edges until the picture is linear on every face, all but a tenth of a pixel."""
     for _ in range(ROUNDS):
         edges = _edges_that_stray(mesh, _clip(mesh, view, matrix), view.resolution)
         if not len(edges):
             return
+        yield 0.0, WRITING
         cut = bmesh.new()
         try:
             cut.from_mesh(mesh)
+            yield 0.0, WRITING
             cut.edges.ensure_lookup_table()
             bmesh.ops.subdivide_edges(cut, edges=[cut.edges[edge] for edge in edges.tolist()], cuts=1)
+            yield 0.0, WRITING
             bmesh.ops.triangulate(cut, faces=[face for face in cut.faces if len(face.verts) > 3])
+            yield 0.0, WRITING
             cut.to_mesh(mesh)
         finally:
             cut.free()

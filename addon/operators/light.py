@@ -93,7 +93,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
         for mesh, linked in meshes.items():
             _keep_apart(mesh, linked, whole)
         for show in shows:
-            show()
+            yield from part(show(), 1.0, 0.0)
         for linked in meshes.values():
             _stay_linked(linked, whole)
     return everything
@@ -128,7 +128,7 @@ def _for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int, str]
 
 
 def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing
-                ) -> Steps[Callable[[], None]]:
+                ) -> Steps[Callable[[], Steps[None]]]:
     """Render what `lit` show of the picture; returns what lets them show it."""
     window = Window.around(view, np.concatenate([_on_the_mirror(result) for result in lit]))
     if window is None:
@@ -145,11 +145,11 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int,
     image = yield from part(new_image(NAME, texels, whole), 0.98, 0.01)
     export_image = yield from part(new_export_image(f"{NAME} Export", texels, whole), 0.99, 0.01)
 
-    def show() -> None:
+    def show() -> Steps[None]:
         material = new_material(NAME, image, export_image, texels)
         whole.undo(bpy.data.materials.remove, material)
         for result in lit:
-            show_light(result, material, view, window, whole)
+            yield from show_light(result, material, view, window, whole)
     return show
 
 
@@ -161,7 +161,7 @@ def _on_the_mirror(result: bpy.types.Object) -> np.ndarray:
 
 
 def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing
-                ) -> Steps[Callable[[], None]]:
+                ) -> Steps[Callable[[], Steps[None]]]:
     """Bake the objects that `lit` show; returns what lets them show it."""
     if not can_be_baked(lit):
         raise ReflectionError("A reflection of points, or of objects that have been deleted, or one that knows only "
@@ -176,7 +176,7 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int,
     context.view_layer.update()
     opaque, lamps = all(map(is_opaque, scene.materials)), lamps_that_show(context)
 
-    def show() -> None:
+    def show() -> Steps[None]:
         light_map = kept_map(NAME, light.uv)
         whole.undo(bpy.data.meshes.remove, light_map)
         for result in lit:
@@ -184,7 +184,7 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int,
                                   LaterMirrors.of(result, context.scene.objects))
             material = new_object_material(NAME, image, _mirror_material(result), opaque, around)
             whole.undo(bpy.data.materials.remove, material)
-            show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets), whole)
+            yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets), whole)
     return show
 
 

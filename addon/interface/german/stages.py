@@ -22,6 +22,7 @@ REFLECTING = {
     "depth order": "Tiefenordnung",
     "discs": "Scheiben",
     "irradiance": "Bestrahlungsstärke",
+    "Measuring what is seen": "Gesehenes wird gemessen",
     "Finding what is shown": "Gezeigtes wird gesucht",
     "Cutting faces": "Flächen werden geschnitten",
 }

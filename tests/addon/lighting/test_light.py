@@ -155,7 +155,7 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaqu
     stages = ["Reading the scene", "Cycles renders the light", "Cycles renders what reflections cover",
               "Sharpening the light", "Writing"]
     # images are written in several steps
-    for stage, times in [*((stage, 1) for stage in stages), ("Writing", 4), ("Writing", 7), ("Writing", 9)]:
+    for stage, times in [*((stage, 1) for stage in stages), *(("Writing", times) for times in (4, 7, 9, 11))]:
         steps = lighting(blank, [result], 1)
         while times:
             times -= next(steps)[1] == stage
