@@ -53,10 +53,12 @@ def cut_triangles(pieces: PicturePieces, count: int) -> Steps[Parts]:
     whole = np.flatnonzero(number == 0)
     done = [Parts(whole, np.tile(np.eye(3), (len(whole), 1, 1)), np.full((len(whole), 3, 2), np.nan))]
     tiled = _tiled(pieces, count)
+    yield 0.0, "Cutting faces"
     kept = pieces.select(tiled[pieces.face])
     turned = (np.linalg.det(kept.weights) < 0.0)[:, None, None]
     done.append(Parts(kept.face, np.where(turned, kept.weights[:, ::-1], kept.weights),
                       np.where(turned, kept.pixels[:, ::-1], kept.pixels)))
+    yield 0.0, "Cutting faces"
     order = np.argsort(pieces.face, kind="stable")
     first = np.cumsum(number) - number
     cut = np.flatnonzero((number > 0) & ~tiled)

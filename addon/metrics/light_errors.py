@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...core import breathe
 from ...core.geometry import cross, dot
 from ...core.polygons import ConvexPolygons, Line
-from ...core.support import breathe
 
 BINS = 128  # squares along the longest side of the box round what is lit
 BESIDE = 8  # squares round that box

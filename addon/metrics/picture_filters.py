@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core.support import breathe
+from ...core import breathe
 
 
 def gaussian(sigma: float, radius: int) -> np.ndarray:

@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 
+from ...core import breathe
 from .picture_filters import filtered, gaussian
 
 # a viewer 0.7 m before a display 0.7 m wide with 3840 pixels, as the paper assumes
@@ -93,6 +94,7 @@ def _linear(srgb: np.ndarray) -> np.ndarray:
 
 def _opponent(linear: np.ndarray) -> np.ndarray:
     """Linear sRGB -> YyCxCz, a linear version of CIELAB."""
+    breathe()
     x, y, z = np.moveaxis(linear @ TO_XYZ.T / WHITE, -1, 0)
     return np.stack([116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)], axis=-1)
 
@@ -106,8 +108,10 @@ def _from_opponent(opponent: np.ndarray) -> np.ndarray:
 def _hunt_lab(linear: np.ndarray) -> np.ndarray:
     """Linear sRGB -> CIELAB, with less colour where it is dark (the Hunt effect)."""
     ratio = linear @ TO_XYZ.T / WHITE
+    breathe()
     delta = 6.0 / 29.0
     root = np.where(ratio > delta ** 3, np.cbrt(ratio), ratio / (3.0 * delta ** 2) + 4.0 / 29.0)
+    breathe()
     x, y, z = np.moveaxis(root, -1, 0)
     lightness = 116.0 * y - 16.0
     return np.stack([lightness, 0.01 * lightness * 500.0 * (x - y), 0.01 * lightness * 200.0 * (y - z)], axis=-1)

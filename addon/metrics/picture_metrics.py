@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...core import breathe
 from .picture_filters import filtered, gaussian
 from .picture_flip import flip_map, reach
 
@@ -40,8 +41,10 @@ def picture_errors(reference: np.ndarray, result: np.ndarray, masks: dict) -> di
     """
     reference, result = (np.asarray(picture, dtype=np.float64) for picture in (reference, result))
     squared = (reference - result) ** 2
+    breathe()
     relative = squared / (reference ** 2 + RELATIVE_EPSILON)
     displayed = (srgb(reference) - srgb(result)) ** 2
+    breathe()
     structure, perceived = displayed_maps(reference, result)
     errors = {}
     for name, pixels in masks.items():

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...core import breathe
+
 NOTHING = -1    # the ray meets no diffuse object
 ITSELF = -2     # the reflected ray meets a mirror
 OTHER_SURFACE = 2.0     # displacement in pixels from which another face counts as another surface
@@ -60,6 +62,7 @@ def motion_per_pixel(truth: CodedPicture) -> np.ndarray:
     seen = truth.source >= 0
     axes = []
     for axis in (0, 1):
+        breathe()
         step = np.linalg.norm(np.diff(truth.position, axis=axis), axis=2)
         same = np.diff(truth.source, axis=axis) == 0
         step = np.where(same, step, np.inf)
@@ -95,9 +98,11 @@ def measure(mirror: np.ndarray, bent: np.ndarray, truth: CodedPicture, shown: Co
     hole = true & ~drawn
     spill = drawn & ((judged & (truth.source == NOTHING)) | ~mirror)
     motion = motion_per_pixel(truth)
+    breathe()
     displacement = np.full(mirror.shape, np.nan)
     both = true & drawn
     displacement[both] = np.linalg.norm(shown.position[both] - truth.position[both], axis=1) / motion[both]
+    breathe()
     unknown = (shown.face < 0) | (truth.face < 0)
     elsewhere = (shown.source != truth.source) | ((shown.face != truth.face) & ~unknown)
     # without a neighbour there is no scale: another face is then taken for another surface
@@ -107,6 +112,7 @@ def measure(mirror: np.ndarray, bent: np.ndarray, truth: CodedPicture, shown: Co
     count = int(judged.sum())
     share = {name: 100.0 * int(mask.sum()) / max(count, 1)
              for name, mask in (("hole", hole), ("spill", spill), ("wrong_layer", wrong))}
+    breathe()
     numbers = {
         "mirror_pixels": int(mirror.sum()), "judged_pixels": count, "measured_pixels": len(measured),
         "left_out_mirror_in_mirror": int((mirror & (truth.source == ITSELF)).sum()),

@@ -8,12 +8,20 @@ import numpy as np
 
 from ...core import ReflectionError, Settings, in_steps
 from .. import compat
-from ..comparison import REFLECTION_PICTURES, load_pictures, remember, render_comparison, show_picture, write_report
+from ..comparison import (
+    REFLECTION_PICTURES,
+    Renders,
+    load_pictures,
+    remember,
+    render_comparison,
+    show_picture,
+    write_report,
+)
 from ..comparison.light_page import FILES as LIGHT_PICTURES
 from ..faults import AllOrNothing, BrowsingOperator, Steps, part, still_there, tell
 from ..files import chosen_folder, staged
 from ..judge import copied_scene
-from ..metrics import measure, picture_errors, without_packing
+from ..metrics import Measurement, measure, picture_errors, without_packing
 from ..reading import Participants, participants, read_view, results_of
 from ..settings import SettingsOfMirrors, SettingsOptions, UsesSettings
 from ..writing import as_shown
@@ -100,13 +108,14 @@ def _judged(context: bpy.types.Context, chosen: Participants, results: list, fol
         mirror, pictures = renders.mirror, renders.pictures
         done = COPYING + RENDERING
         yield done, "Measuring displacements"
-        measurement = measure(mirror, renders.bent, renders.truth, renders.shown)
-        exact = renders.exact and without_packing(mirror, renders.bent, renders.truth, renders.exact, renders.shown)
+        measurement, exact = yield from part(in_steps(lambda: _measured(renders)), done, 0.0, "Measuring displacements")
         masks = {"mirror": measurement.judged, "all": np.ones_like(mirror)}
         picture = yield from part(in_steps(lambda: picture_errors(pictures.reference, pictures.result, masks)), done,
                                   JUDGING, "Comparing the pictures")
         done += JUDGING
-        noise = pictures.again is not None and picture_errors(pictures.reference, pictures.again, masks)
+        noise = yield from part(
+            in_steps(lambda: pictures.again is not None and picture_errors(pictures.reference, pictures.again, masks)),
+            done, 0.0, "Comparing the pictures")
         report = {
             "blender": bpy.app.version_string,
             "resolution": [mirror.shape[1], mirror.shape[0]],
@@ -121,6 +130,13 @@ def _judged(context: bpy.types.Context, chosen: Participants, results: list, fol
         }
         yield from part(write_report(folder, copied.scene, pictures, measurement, report), done, 1.0 - done)
     return report
+
+
+def _measured(renders: Renders) -> tuple[Measurement, dict | None]:
+    """The errors of what the mesh shows, and those against what the mirror would show without rounded normals."""
+    pictures = renders.mirror, renders.bent, renders.truth
+    return (measure(*pictures, renders.shown),
+            renders.exact and without_packing(*pictures, renders.exact, renders.shown))
 
 
 WHAT = (("AUTO", "By What There Is", "Caustics where these are selected, or the mirrors have no reflection but "

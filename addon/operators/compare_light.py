@@ -3,11 +3,12 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
+from functools import partial
 
 import bpy
 import numpy as np
 
-from ...core import ReflectionError, TriangleMesh, View, draw
+from ...core import ReflectionError, TriangleMesh, View, breathe, draw, in_steps
 from ..comparison.light_of_results import Lit, Surroundings, against_rays
 from ..comparison.light_page import MESH, OWN, runs_of, write_light_report
 from ..comparison.light_pictures import LightPictures, Shot, render_light
@@ -19,6 +20,7 @@ from ..metrics import line_offsets, picture_errors
 from ..reading import Participants, read_view
 
 READING, RENDERING, TRACING, JUDGING = 0.02, 0.8, 0.1, 0.04  # shares of the work
+COMPARING = "Comparing the pictures"
 STEPS_UP = 4  # times as many samples in the second picture of each kind
 ON_SURFACE = 2e-3  # of the distance: what lies so near to something lies on it
 MOST_PIECES = 20_000  # of the curve
@@ -77,7 +79,7 @@ def light_comparison(context: bpy.types.Context, folder: str, effort: Effort) ->
         lost = results[faces.index(None)].name
         raise ReflectionError(f"The faces of '{lost}' do not know their light: generate it again.")
     around = [_surroundings(context, depsgraph, result, results) for result in results]
-    seen = _seen(view, around)
+    seen = yield from part(in_steps(partial(_seen, view, around)), 0.0, READING, "Reading the scene")
     light, done = {}, READING
     for result, lit, surroundings in zip(results, faces, around):
         share = TRACING / len(results)
@@ -88,11 +90,13 @@ def light_comparison(context: bpy.types.Context, folder: str, effort: Effort) ->
     with staged(folder) as scratch:
         pictures = yield from part(render_light(context, results, counts, effort.converged), done, RENDERING)
         done += RENDERING
-        yield done, "Comparing the pictures"
+        yield done, COMPARING
         mask = seen.reshape(view.resolution[::-1])
         generate = sum(result.reflection_mesh.seconds for result in results)
-        runs = runs_of(pictures, _errors(pictures, mask), generate)
-        curve = _curve(view, faces, around, pictures, mask)
+        errors = yield from part(in_steps(partial(_errors, pictures, mask)), done, JUDGING, COMPARING)
+        runs = runs_of(pictures, errors, generate)
+        curve = yield from part(in_steps(partial(_curve, view, faces, around, pictures, mask)), done, JUDGING,
+                                COMPARING)
         done += JUDGING
         report = {
             "blender": bpy.app.version_string, "resolution": list(view.resolution),
@@ -153,6 +157,7 @@ def _seen(view: View, around: list) -> np.ndarray:
     """Pixels (n,) in which the camera sees something that light may fall on."""
     seen = np.zeros(view.resolution[0] * view.resolution[1], dtype=bool)
     for one in around:
+        breathe()
         receivers = one.scene.mesh
         others = TriangleMesh.joined([*one.surfaces, *([] if one.blockers is None else [one.blockers])])
         depth, hiding = (draw(view, mesh.positions, mesh.triangles).depth for mesh in (receivers, others))
@@ -164,6 +169,7 @@ def _errors(pictures: LightPictures, mask: np.ndarray) -> list:
     """Of each shot, its own first: errors over the mask, and how far two of other noise are apart."""
     found = []
     for shot in (*pictures.own, *pictures.mesh):
+        breathe()
         errors = picture_errors(pictures.reference, shot.picture, {"receivers": mask})["receivers"]
         found.append((errors, _noise(shot, mask)))
     return found
@@ -211,6 +217,7 @@ def _folds(view: View, lit: Lit, around: Surroundings) -> tuple[np.ndarray, np.n
     middle = 0.5 * (start + end)
     across *= np.where(((other - middle) * across).sum(axis=1) < 0.0, -1.0, 1.0)[:, None]
     inside = ((middle >= 0.0) & (middle < view.resolution)).all(axis=1) & (length > 1e-6)
+    breathe()
     depth = view.depths(used[:, 1:].mean(axis=1))
     inside &= depth > 0.0
     pixel = (middle[inside].astype(np.int64) * (1, view.resolution[0])).sum(axis=1)

@@ -116,13 +116,19 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
         yield READING + REFLECTING + PIECES, "Cutting faces"
         frame = Frame.of(choices.frame, view, pieces.pixels, image.size[0] / image.size[1] if image else 1.0)
         if choices.target == "ORIGINAL":
-            maps = [own_map(index, scene, pieces) for index in indices]
+            maps = []
+            for index in indices:
+                yield 1.0, "Finding what is shown"
+                maps.append(own_map(index, scene, pieces))
             remarks += [f"Between the corners of '{entry.source.name}' the picture is up to {entry.straying:.1f} px "
                         "off: subdivide it, or choose A Copy." for entry in maps if entry.straying > TOLD]
         else:
             parts = yield from part(cut_triangles(pieces, len(scene.mesh.triangles)),
                                     READING + REFLECTING + PIECES, CUTTING)
-            sheets = [sheet(index, scene, parts, frame) for index in indices]
+            sheets = []
+            for index in indices:
+                yield 1.0, "Cutting faces"
+                sheets.append(sheet(index, scene, parts, frame))
         yield 1.0, "Writing"
         if choices.target == "ORIGINAL":
             objects = [write_own_map(entry, frame, whole) for entry in maps]

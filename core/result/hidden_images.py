@@ -51,11 +51,13 @@ class FrontImages:
         w = clip[..., 3:]
         corners = np.concatenate((0.5 * (clip[..., :2] + w) * view.resolution, w), axis=2)
         a, b, c = np.moveaxis(corners, (1, 2), (0, 1))
+        breathe()
         with np.errstate(divide="ignore", invalid="ignore"):
             before = np.where(depth > 0.0, depth, np.nan)
             nearness = depth.max(initial=0.0) - depth if view.orthographic else 1.0 / before
             value = (nearness * w[..., 0]).T
             plane = value[0] * cross(b, c) + value[1] * cross(c, a) + value[2] * cross(a, b)
+            breathe()
             plane /= (a * cross(b, c)).sum(axis=0)
         breathe()
         front = draw(view, images, mesh.triangles).triangle

@@ -120,8 +120,10 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
     image = _images(view, mesh)
     breathe()
     clip = view.clip(mesh.positions)[mesh.triangles]
+    breathe()
     kept = np.flatnonzero(_in_picture(_pixels(clip, view), view))
     clip, weights = clip[kept], mesh.source_weights[kept]
+    breathe()
     front = FrontImages.of(view, mesh, image)
     for _ in range(ROUNDS):
         breathe()
@@ -134,6 +136,7 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
         breathe()
         parent, local = split(marked)
         clip, weights, kept = _children(clip, parent, local), _children(weights, parent, local), kept[parent]
+    breathe()
     pixels = _pixels(clip, view)
     behind = front.hidden(kept, pixels)[:, 0]
     rank = image[kept] + behind * (int(image.max(initial=0)) + 1)
@@ -146,6 +149,7 @@ def _images(view: View, mesh: ReflectionMesh) -> np.ndarray:
     # images that are turned over against each other meet in vertices on their caustic
     _, vertex = np.unique(mesh.triangles * 3 + (parity[:, None] + 1), return_inverse=True)
     part = connected(vertex.reshape(-1, 3))
+    breathe()
     area = np.abs(doubled_areas(view.pixels(mesh.positions)[mesh.triangles]))
     of_parts = np.bincount(part, np.where(np.isfinite(area), area, 0.0))
     rank = np.empty(len(of_parts), dtype=np.int64)
