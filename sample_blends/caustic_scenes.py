@@ -46,7 +46,7 @@ def pool() -> tuple:
                                    for name, colour, *texture in (
         ("Plaster", (0.80, 0.68, 0.54)), ("Stone", (0.50, 0.45, 0.38)),
         ("Wood", (0.40, 0.25, 0.14), "Wave", "UV", 36.0), ("Basin", (0.10, 0.42, 0.46), "Checker", "UV", 40.0)))
-    _frame("Terrace", (0, -1.0, 0), 8.0, 9.0, (-2.6, -4.6, 2.6, 1.4), stone)
+    _frame("Terrace", 0.0, (-4.0, -5.5, 4.0, 3.5), (-2.6, -4.6, 2.6, 1.4), stone)
     for name, place, scale, turn in (("Basin North", (0, 1.4, -0.15), (5.2, 0.3, 1), (pi / 2, 0, 0)),
                                      ("Basin East", (2.6, -1.6, -0.15), (0.3, 6.0, 1), (0, -pi / 2, 0))):
         add("plane", name, place, basin, size=1, scale=scale, rotation=turn)
@@ -60,7 +60,7 @@ def pool() -> tuple:
         smooth=True)
     add("uv_sphere", "Ball", (0.2, -0.6, 0.06), surface("Ball", (0.90, 0.55, 0.05), Roughness=0.4), radius=0.25,
         segments=24, ring_count=12, smooth=True)
-    windows = _windows("Window Wall", -4.0, (-5.5, 3.5), 3.6, [(-5.3, -2.9), (-2.7, -0.3), (-0.1, 2.3)], (0.3, 3.3),
+    windows = _windows("Window Wall", -4.0, (-5.5, 3.5), [(-5.3, -2.9), (-2.7, -0.3), (-0.1, 2.3)], (0.3, 3.3, 3.6),
                        plaster)
     behind = add("plane", "Wall Behind", (0, -5.5, 1.8), plaster, size=1, scale=(8, 3.6, 1), rotation=(-pi / 2, 0, 0))
     _sun((0.85, 0.14, -0.40), 24.0, (1.0, 0.84, 0.62))
@@ -130,7 +130,7 @@ def sunlight() -> tuple:
         scale=(1.4, 1.0, 0.6), segments=24, ring_count=12, smooth=True)
     add("cylinder", "Stool", (1.15, 0.75, 0.22), surface("Stool", (0.72, 0.50, 0.28), Roughness=0.6), radius=0.26,
         depth=0.44, vertices=40)
-    roof = _frame("Roof", (0, -0.5, 2.8), 4.0, 4.0, (-0.45, 0.25, 1.75, 1.35), paint, True)
+    roof = _frame("Roof", 2.8, (-2.0, -2.5, 2.0, 1.5), (-0.45, 0.25, 1.75, 1.35), paint, True)
     _sun((-0.30, 0.45, -0.84), 9.0, (1.0, 0.90, 0.74))
     lamp("Daylight", (0.6, 0.6, 2.7), (0.3, 0.2, 0.0), 7.0, 1.0, (0.70, 0.84, 1.0))
     bpy.data.objects["Daylight"].visible_glossy = False
@@ -173,23 +173,23 @@ def _sun(direction: tuple, strength: float, colour: tuple) -> None:
     bpy.context.scene.collection.objects.link(made)
 
 
-def _frame(name: str, place: tuple, width: float, depth: float, hole: tuple, material: bpy.types.Material,
+def _frame(name: str, height: float, box: tuple, hole: tuple, material: bpy.types.Material,
            down: bool = False) -> bpy.types.Object:
-    """A level rectangle round a rectangular `hole` (x, y, x, y of the world), with UVs as a plane has them."""
-    x = np.array((place[0] - 0.5 * width, hole[0], hole[2], place[0] + 0.5 * width))
-    y = np.array((place[1] - 0.5 * depth, hole[1], hole[3], place[1] + 0.5 * depth))
+    """A level rectangle `box` round a rectangular `hole` (both x, y, x, y), with UVs as a plane has them."""
+    x, y = (np.array((box[k], hole[k], hole[k + 2], box[k + 2])) for k in (0, 1))
     points = np.array([(a, b, 0.0) for b in y for a in x])
     quads = [(4 * j + i, 4 * j + i + 1, 4 * j + i + 5, 4 * j + i + 4) for j in range(3) for i in range(3)
              if (i, j) != (1, 1)]
-    points[:, 2] = place[2]
+    points[:, 2] = height
     return _sheet(name, points, [quad[::-1] if down else quad for quad in quads], (0, 1), material)
 
 
-def _windows(name: str, x: float, depth: tuple, height: float, holes: list, sill: tuple,
+def _windows(name: str, x: float, depth: tuple, holes: list, heights: tuple,
              material: bpy.types.Material) -> bpy.types.Object:
-    """An upright wall across x, facing +x, with windows from y to y and between the heights of the `sill`."""
+    """An upright wall across x, facing +x, with windows from y to y; `heights` where these begin, and end, and the
+    wall does."""
     y = [depth[0], *(value for hole in holes for value in hole), depth[1]]
-    z = [0.0, *sill, height]
+    z = [0.0, *heights]
     points = np.array([(x, b, c) for c in z for b in y])
     count = len(y)
     quads = [(count * k + j, count * k + j + 1, count * k + count + j + 1, count * k + count + j) for k in range(3)

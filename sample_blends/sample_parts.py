@@ -156,9 +156,10 @@ def checks(size: int, count: int, dark: tuple, light: tuple, shadows: list = (),
 # ---- objects ------------------------------------------------------------------------------------------------------
 
 def add(kind: str, name: str, location: tuple, material: bpy.types.Material | tuple, *, scale=(1, 1, 1),
-        rotation=(0, 0, 0), smooth: bool = False, **options) -> bpy.types.Object:
-    """A primitive `kind` of Blender's Add menu; `material` may be a colour, painted with its light as an attribute."""
-    getattr(bpy.ops.mesh, f"primitive_{kind}_add")(location=location, rotation=rotation, **options)
+        smooth: bool = False, **options) -> bpy.types.Object:
+    """A primitive `kind` of Blender's Add menu, with its options; `material` may be a colour, painted with its light as
+    an attribute."""
+    getattr(bpy.ops.mesh, f"primitive_{kind}_add")(location=location, **options)
     added = bpy.context.object
     added.name = added.data.name = name
     added.scale = scale

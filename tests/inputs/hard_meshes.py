@@ -223,12 +223,14 @@ EYES = {
 
 RESOLUTIONS = ((48, 32), (1, 1), (96, 2), (3, 120))
 UNITS = (1.0, 1e-6, 1e6, 2.0 ** -20, 1e-12, 1e12)
+HERE = 1.0, (0.0, 0.0, 0.0)
 OFFSETS = ((0.0, 0.0, 0.0), (1e6, -7e5, 3e5), (0.0, 1e3, 0.0))
 
 
 def mesh(shape: str, defects: tuple[str, ...] = (), normals: str = "flat", seed: int = 0, place: str = "same",
-         unit: float = 1.0, offset=(0.0, 0.0, 0.0)) -> TriangleMesh:
-    """The shape with the defects, one after another."""
+         where: tuple = HERE) -> TriangleMesh:
+    """The shape with the defects, one after another, in the unit and about the place of `where`."""
+    unit, offset = where
     rng = np.random.default_rng(seed)
     positions, triangles = SHAPES[shape](rng)
     for defect in defects if len(triangles) else ():
@@ -239,7 +241,8 @@ def mesh(shape: str, defects: tuple[str, ...] = (), normals: str = "flat", seed:
     return TriangleMesh(positions, triangles, NORMALS[normals](rng, plain) if len(triangles) else None)
 
 
-def view(eye: str, resolution: tuple[int, int] = (48, 32), unit: float = 1.0, offset=(0.0, 0.0, 0.0)) -> View:
+def view(eye: str, resolution: tuple[int, int] = (48, 32), where: tuple = HERE) -> View:
+    unit, offset = where
     position, target, field_of_view, width = EYES[eye]
     return View.looking_at(np.asarray(position) * unit + offset, np.asarray(target) * unit + offset, resolution,
                            field_of_view=field_of_view, orthographic_scale=width * unit)
@@ -262,10 +265,10 @@ class Case:
     seed: int = 0
 
     def built(self) -> tuple[View, TriangleMesh, TriangleMesh]:
-        where = {"unit": self.unit, "offset": self.offset}
-        mirror = mesh(self.mirror, self.mirror_defects, self.normals, self.seed, **where)
-        return (view(self.eye, self.resolution, **where), mirror,
-                mesh(self.scene, self.scene_defects, "flat", self.seed + (self.place != "same"), self.place, **where))
+        where = self.unit, self.offset
+        mirror = mesh(self.mirror, self.mirror_defects, self.normals, self.seed, where=where)
+        return (view(self.eye, self.resolution, where), mirror,
+                mesh(self.scene, self.scene_defects, "flat", self.seed + (self.place != "same"), self.place, where))
 
     @staticmethod
     def fields() -> dict:

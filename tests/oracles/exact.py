@@ -85,7 +85,7 @@ def positive_roots(c: np.ndarray) -> ExactRoots:
 
 
 def _only_one(c, changes):
-    yield _simple(c, np.arange(c.shape[1]), 0, *_ends(c, 0), -sign(c[0]))
+    yield _simple(c, np.arange(c.shape[1]), 0, _ends(c, 0), -sign(c[0]))
 
 
 def _of_quadratics(c, changes):
@@ -110,7 +110,7 @@ def _of_cubics(c, changes):
                     4 * c1 * c2 * c3 - 9 * c0 * c3 * c3 - c2 * c2 * c2, a * c3)
     one = np.flatnonzero((discriminant < 0) & (changes == 3))
     if len(one):
-        yield _simple(c[:, one], one, 0, *_ends(c[:, one], 0), -sign(c0[one]))
+        yield _simple(c[:, one], one, 0, _ends(c[:, one], 0), -sign(c0[one]))
 
     def extrema(c, bits):
         q = square_root((c[2] * c[2] - 3 * c[1] * c[3]) << 2 * bits) * sign(c[3])
@@ -140,8 +140,8 @@ def _separated(c, which, extrema):
         for rank in range(len(inner) + 1):
             at = np.flatnonzero(sure & (signs[rank] != signs[rank + 1]))
             if len(at):
-                yield _simple(part[:, at], which[at], rank, ends[rank][at], ends[rank + 1][at], bits[at],
-                              signs[rank + 1][at])
+                bracket = ends[rank][at], ends[rank + 1][at], bits[at]
+                yield _simple(part[:, at], which[at], rank, bracket, signs[rank + 1][at])
         which, more = which[~sure], 2 * more
 
 
@@ -168,8 +168,10 @@ def _rational(which, rank, multiplicity, slope, numerator, denominator):
             np.full(len(which), multiplicity), slope)
 
 
-def _simple(c, which, rank, low, high, bits, rising):
-    """The one root between low and high, over 2^bits, where the cubic changes to the sign `rising`."""
+def _simple(c, which, rank, bracket, rising):
+    """The one root in a bracket (low, high, bits), whose ends are over 2^bits, where the cubic changes to the sign
+    `rising`."""
+    low, high, bits = bracket
     while True:
         wide = np.flatnonzero(high > 2 * low)
         if not len(wide):

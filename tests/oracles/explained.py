@@ -104,15 +104,16 @@ def judge(vertices, rays, points, images=None, unit=UNIT) -> Verdict:
     roots = exact.roots()
     root = Looked(exact, roots.cubic, roots.numerator, roots.shift)
     root.clear &= roots.multiplicity == 1
+    root.multiplicity, root.sign = roots.multiplicity, roots.sign
     report = Looked(exact, images.pair, *exact.times(images.pair, images.distance))
     _judge_reports(report, images, verdict)
     verdict.images, verdict.found = int((root.weights >= 0.0).sum()), len(report.pair)
-    taken = _judge_clear(exact, roots, root, report, images, verdict)
-    _judge_clusters(exact, roots, root, report, images, taken, verdict)
+    taken = _judge_clear(exact, root, report, images, verdict)
+    _judge_clusters(exact, root, report, images, taken, verdict)
     return verdict
 
 
-def _judge_clear(exact, roots, root: Looked, report: Looked, images: Images, verdict: Verdict) -> np.ndarray:
+def _judge_clear(exact, root: Looked, report: Looked, images: Images, verdict: Verdict) -> np.ndarray:
     """Clear roots and reports, one to one; which reports are taken by that."""
     image = (root.weights >= 0.0) & ~images.degenerate[root.pair]
     r, f = candidates(root.pair, report.pair, len(exact.facing))
@@ -129,7 +130,7 @@ def _judge_clear(exact, roots, root: Looked, report: Looked, images: Images, ver
     _note(verdict.explained, "line", root.pair[lost & ~root.solid])
     _note(verdict.explained, "edge", root.pair[root.clear & ~image & (times > 0)])
     side = np.sign(exact.facing) * (np.abs(exact.facing) > 16.0 * UNIT * exact.facing_size)
-    parity = roots.sign[r] * side[report.pair[f]]
+    parity = root.sign[r] * side[report.pair[f]]
     _note(verdict.unexplained, "parity", report.pair[f][(parity != 0) & (images.parity[f] != parity)])
     good = image[r] & root.solid[r]
     verdict.clear = int((sure & image).sum())
@@ -140,8 +141,8 @@ def _judge_clear(exact, roots, root: Looked, report: Looked, images: Images, ver
     return taken
 
 
-def _judge_clusters(exact, roots, root: Looked, report: Looked, images: Images, taken: np.ndarray,
-                    verdict: Verdict) -> None:
+def _judge_clusters(exact, root: Looked, report: Looked, images: Images, taken: np.ndarray, verdict: Verdict
+                    ) -> None:
     """What is left lies in clusters."""
     image, count = (root.weights >= 0.0) & ~images.degenerate[root.pair], len(exact.facing)
     single = images.parity != 0
@@ -159,7 +160,7 @@ def _judge_clusters(exact, roots, root: Looked, report: Looked, images: Images, 
     end = at_an_end(exact, root, lost)
     _note(verdict.explained, "end", root.pair[lost[end]])
     _note(verdict.unexplained, "missed in a cluster", root.pair[lost[~end]])
-    there = np.bincount(root.pair[cloudy], weights=roots.multiplicity[cloudy], minlength=count)
+    there = np.bincount(root.pair[cloudy], weights=root.multiplicity[cloudy], minlength=count)
     _note(verdict.unexplained, "too many",
           np.flatnonzero(np.bincount(report.pair[loose[single[loose]]], minlength=count) > there))
 

@@ -85,7 +85,7 @@ def compare(view: View, mirror: TriangleMesh, mesh: ReflectionMesh, truth: Truth
     source = np.where(shows, mesh.source_face[np.maximum(drawn.triangle, 0)], -1) if len(mesh.source_face) \
         else np.full(len(shows), -1)
     shown = np.where(shows, drawn.triangle, -1)
-    return _compared(view, truth, shows, source, position, shown, drawn.triangle >= 0)
+    return _compared(view, truth, _Shown(source, position, shown, drawn.triangle >= 0))
 
 
 def compare_picture(view: View, truth: Truth, triangle: np.ndarray, position: np.ndarray) -> Judgement:
@@ -100,12 +100,23 @@ def compare_picture(view: View, truth: Truth, triangle: np.ndarray, position: np
     """
     source, position = triangle.reshape(-1), position.reshape(-1, 3)
     shows = source >= 0
-    return _compared(view, truth, shows, source, np.where(shows[:, None], position, 0.0), np.where(shows, source, -1),
-                     shows)
+    return _compared(view, truth, _Shown(source, np.where(shows[:, None], position, 0.0), np.where(shows, source, -1),
+                                         shows))
 
 
-def _compared(view: View, truth: Truth, shows: np.ndarray, source: np.ndarray, position: np.ndarray,
-              shown: np.ndarray, drawn: np.ndarray) -> Judgement:
+@dataclass(frozen=True)
+class _Shown:
+    """What pixels (n,) show: the scene's triangle and the point on it (n, 3), the triangle of the mesh, -1 where that
+    is none or hidden, and whether anything was drawn there."""
+
+    source: np.ndarray
+    position: np.ndarray
+    triangle: np.ndarray
+    drawn: np.ndarray
+
+
+def _compared(view: View, truth: Truth, picture: _Shown) -> Judgement:
+    shows, position = picture.triangle >= 0, picture.position
     mirror_seen = truth.mirror_triangle >= 0
     left_out = mirror_seen & (truth.sees_itself | truth.bent)
     counted = mirror_seen & ~left_out
@@ -113,7 +124,7 @@ def _compared(view: View, truth: Truth, shows: np.ndarray, source: np.ndarray, p
     both = sees & shows
     displacement = np.full(len(shows), np.nan)
     displacement[both] = np.linalg.norm(position[both] - truth.position[both], axis=1) / truth.motion[both]
-    wrong = both & (source != truth.source_triangle) & (displacement > NEIGHBOUR)
+    wrong = both & (picture.source != truth.source_triangle) & (displacement > NEIGHBOUR)
 
     kind = np.full(len(shows), NOTHING, dtype=np.uint8)
     kind[both] = SAME
@@ -121,8 +132,8 @@ def _compared(view: View, truth: Truth, shows: np.ndarray, source: np.ndarray, p
     kind[sees & ~shows] = HOLE
     kind[shows & ~sees] = SPILL
     kind[left_out] = LEFT_OUT
-    numbers = _numbers(view, truth, drawn, kind, displacement)
-    return Judgement(kind, displacement, shown, position, int(counted.sum()), numbers)
+    numbers = _numbers(view, truth, picture.drawn, kind, displacement)
+    return Judgement(kind, displacement, picture.triangle, position, int(counted.sum()), numbers)
 
 
 def _numbers(view: View, truth: Truth, drawn: np.ndarray, kind: np.ndarray, displacement: np.ndarray) -> dict:

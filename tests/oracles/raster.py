@@ -47,15 +47,15 @@ def rasterise(view: View, positions: np.ndarray, triangles: np.ndarray) -> Raste
         depths = view.depths(positions)
         corners, parent = _before_the_eye(view, positions, triangles, depths)
         screen = view.pixels(corners.reshape(-1, 3)).reshape(-1, 3, 2)
-        slope = _depth_planes(view, positions[triangles])
-        near, far = depths[triangles].min(axis=1), depths[triangles].max(axis=1)
+        planes = _Planes(_depth_planes(view, positions[triangles]), depths[triangles].min(axis=1),
+                         depths[triangles].max(axis=1))
         low = np.clip(np.ceil(screen.min(axis=1) - 0.5), 0, view.resolution)
         high = np.clip(np.floor(screen.max(axis=1) - 0.5), -1, np.array(view.resolution) - 1)
         area = np.prod(np.maximum(high - low + 1, 0), axis=1)
         kept = np.flatnonzero(area > 0)
         batch = np.cumsum(area[kept]) // FRAGMENTS_AT_ONCE
         for part in np.split(kept, np.flatnonzero(np.diff(batch)) + 1):
-            _draw(view, screen[part], parent[part], slope, near, far, low[part, 1], high[part, 1], depth, winner)
+            _draw(_Picture(view, depth, winner), planes, screen[part], parent[part], low[part, 1], high[part, 1])
     weights = np.zeros((width * height, 3))
     shown = np.flatnonzero(winner >= 0)
     origins, directions = view.rays(np.stack([shown % width, shown // width], axis=1) + 0.5)
@@ -66,8 +66,36 @@ def rasterise(view: View, positions: np.ndarray, triangles: np.ndarray) -> Raste
     return Raster(winner, weights, depth)
 
 
-def _draw(view, screen, parent, slope, near, far, bottom, top, depth, winner):
-    width = view.resolution[0]
+@dataclass(frozen=True)
+class _Picture:
+    """What is drawn so far: depth and triangle (n,) of each pixel."""
+
+    view: View
+    depth: np.ndarray
+    winner: np.ndarray
+
+
+@dataclass(frozen=True)
+class _Planes:
+    """Depths of triangles (m,) over the picture: the coefficients of 1, x and y, and those of the corners at the least
+    and at the most."""
+
+    slope: np.ndarray
+    near: np.ndarray
+    far: np.ndarray
+
+    def at(self, view: View, triangle: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Depth (k,) of triangles at places in pixels."""
+        a, b, c = self.slope[triangle].T
+        with np.errstate(divide="ignore", invalid="ignore"):
+            z = a + b * x + c * y
+            z = z if view.orthographic else 1.0 / z
+        # Rounding in a sliver's plane must not carry a depth beyond the depths of its corners.
+        return np.clip(np.where(np.isfinite(z), z, self.far[triangle]), self.near[triangle], self.far[triangle])
+
+
+def _draw(picture: _Picture, planes: _Planes, screen, parent, bottom, top):
+    width = picture.view.resolution[0]
     span_triangle, row = _runs(bottom, top)
     y = row + 0.5
     left, right = np.full(len(y), np.inf), np.full(len(y), -np.inf)
@@ -88,15 +116,10 @@ def _draw(view, screen, parent, slope, near, far, bottom, top, depth, winner):
     span, column = _runs(first_column, last_column)
     pixel = row[span] * width + column
     triangle = parent[span_triangle[span]]
-    a, b, c = slope[triangle].T
-    with np.errstate(divide="ignore", invalid="ignore"):
-        z = a + b * (column + 0.5) + c * y[span]
-        z = z if view.orthographic else 1.0 / z
-    # Rounding in a sliver's plane must not carry a depth beyond the depths of its corners.
-    z = np.clip(np.where(np.isfinite(z), z, far[triangle]), near[triangle], far[triangle])
-    np.minimum.at(depth, pixel, z)
-    wins = z == depth[pixel]
-    winner[pixel[wins]] = triangle[wins]
+    z = planes.at(picture.view, triangle, column + 0.5, y[span])
+    np.minimum.at(picture.depth, pixel, z)
+    wins = z == picture.depth[pixel]
+    picture.winner[pixel[wins]] = triangle[wins]
 
 
 def _runs(first: np.ndarray, last: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -66,7 +66,7 @@ def test_objects_by_name(saved, room, tmp_path):
     assert faces_in(output) > 0
 
 
-@pytest.mark.parametrize(("arguments", "status", "words"), [
+@pytest.mark.parametrize("case", [
     (["generate", "--mirror", "Mirror", "--diffuse", "Nothing"], 1, "no object 'Nothing'"),
     (["generate", "--mirror", "Mirror"], 1, "Name both"),
     (["generate", "--mirror", "Mirror", "--diffuse", "Mirror"], 1, "named both"),
@@ -80,8 +80,8 @@ def test_objects_by_name(saved, room, tmp_path):
     (["polish"], 2, "polish"),
     ([], 2, "verb"),
 ])
-def test_failures(saved, room, capfd, tmp_path, arguments, status, words):
-    before = saved.read_bytes()
+def test_failures(saved, room, capfd, tmp_path, case):
+    (arguments, status, words), before = case, saved.read_bytes()
     assert room("addon.command_line").run([argument.format(folder=tmp_path) for argument in arguments]) == status
     error = capfd.readouterr().err
     assert words.format(folder=tmp_path) in error and "Traceback" not in error

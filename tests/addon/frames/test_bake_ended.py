@@ -158,12 +158,13 @@ def test_a_blender_without_usd_says_so_before_any_work(moving, room, tmp_path, m
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize(("change", "light", "word"), [
+@pytest.mark.parametrize("case", [
     ("nothing", 1, ""), ("selection", 1, ""), ("cube", 0, "object"), ("mirror", 0, "mirror"), ("camera", 0, "camera"),
     ("materials", 0, "materials"), ("colour", 0, ""), ("colour", 1, "colours"), ("lamp", 0, ""), ("lamp", 1, "lamps"),
     ("hidden", 0, "object")])
-def test_frames_of_another_state_of_the_scene_are_told(moving, room, tmp_path, capsys, change, light, word):
-    """They are kept, and said to be what they are."""
+def test_frames_of_another_state_of_the_scene_are_told(moving, room, tmp_path, capsys, case):
+    """They are kept, and said to be what they are: after a change, with light or without, by a word."""
+    change, light, word = case
     lit_scene()
     red = bpy.data.objects["Box"].data.materials[1]
     if change in ("hidden", "selection"):

@@ -1,6 +1,8 @@
 """Errors that nobody foresaw: one sentence, the traceback on the console, and a file that is as it was."""
 from __future__ import annotations
 
+from contextlib import contextmanager
+
 import bpy
 import numpy as np
 import parts
@@ -68,23 +70,27 @@ def sentence_of(operator, capfd, **options) -> str:
 
 # ---- one door -----------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize(("verb", "place", "name", "label"), [
-    ("generate", "operators.generate", "read_view", "Generate Reflection"),
-    ("generate", "operators.generate", "choose", "Generate Reflection"),
-    ("generate", "writing.write_object", "write_mesh", "Generate Reflection"),
-    ("compare", "operators.compare", "measure", "Compare with Cycles"),
-    ("compare", "operators.compare", "write_report", "Compare with Cycles"),
-    ("compare", "operators.compare", "participants", "Compare with Cycles"),
-    ("clear", "operators.clear", "chosen_results", "Clear Reflections"),
-    ("clear", "operators.clear", "clear", "Clear Reflections"),
+LABELS = {"generate": "Generate Reflection", "compare": "Compare with Cycles", "clear": "Clear Reflections"}
+
+
+@pytest.mark.parametrize("failing", [
+    ("generate", "operators.generate", "read_view"),
+    ("generate", "operators.generate", "choose"),
+    ("generate", "writing.write_object", "write_mesh"),
+    ("compare", "operators.compare", "measure"),
+    ("compare", "operators.compare", "write_report"),
+    ("compare", "operators.compare", "participants"),
+    ("clear", "operators.clear", "chosen_results"),
+    ("clear", "operators.clear", "clear"),
 ])
-def test_an_operator_says_one_sentence(scene, room, monkeypatch, capfd, tmp_path, verb, place, name, label):
+def test_an_operator_says_one_sentence(scene, room, monkeypatch, capfd, tmp_path, failing):
+    verb, place, name = failing
     if verb == "clear":
         parts.generate()
     before = fingerprint()
     monkeypatch.setattr(room(f"addon.{place}"), name, fails)
     options = {"filepath": str(tmp_path / "new"), "samples": 1} if verb == "compare" else {}
-    assert sentence_of(getattr(bpy.ops.reflection_mesh, verb), capfd, **options).startswith(f"{label} failed")
+    assert sentence_of(getattr(bpy.ops.reflection_mesh, verb), capfd, **options).startswith(f"{LABELS[verb]} failed")
     assert fingerprint() == before and not list(tmp_path.iterdir())
 
 
@@ -139,20 +145,27 @@ def started(room, **settings):
     return room("addon.operators.generate").generation(bpy.context, chosen, room("core").Settings(**settings))
 
 
-def break_second(room, monkeypatch, name: str, error, late: bool = False) -> None:
-    """Let the second call of one step of writing fail: before it has done its work, or behind it."""
-    place, count = room("addon.writing.write_object"), []
-    work = getattr(place, name)
+@pytest.fixture
+def second_fails(room):
+    """Within it the second call of one step of writing fails: before it has done its work, or, `late`, behind it."""
+    place = room("addon.writing.write_object")
 
-    def broken(*arguments):
-        count.append(name)
-        if len(count) == 2 and not late:
-            raise error
-        made = work(*arguments)
-        if len(count) == 2:
-            raise error
-        return made
-    monkeypatch.setattr(place, name, broken)
+    @contextmanager
+    def failing(name: str, late: bool, error: BaseException):
+        count, work = [], getattr(place, name)
+
+        def broken(*arguments):
+            count.append(name)
+            if len(count) == 2 and not late:
+                raise error
+            made = work(*arguments)
+            if len(count) == 2:
+                raise error
+            return made
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(place, name, broken)
+            yield
+    return failing
 
 
 STEPS = [("write_mesh", "GENERAL"), ("_remember", "GENERAL"), ("_remember", "POINTS"), ("write_mesh", "POINTS"),
@@ -160,18 +173,19 @@ STEPS = [("write_mesh", "GENERAL"), ("_remember", "GENERAL"), ("_remember", "POI
 
 
 @pytest.mark.parametrize("late", [False, True])
-@pytest.mark.parametrize(("name", "method"), [*STEPS, ("new_beside", "GENERAL")])
-def test_new_results_go_where_the_second_fails(scene, room, monkeypatch, capfd, name, method, late):
-    before = fingerprint()
-    break_second(room, monkeypatch, name, ZeroDivisionError("a number is zero"), late)
-    sentence_of(bpy.ops.reflection_mesh.generate, capfd, method=method, placement="VIRTUAL")
+@pytest.mark.parametrize("step", [*STEPS, ("new_beside", "GENERAL")])
+def test_new_results_go_where_the_second_fails(scene, capfd, second_fails, step, late):
+    (name, method), before = step, fingerprint()
+    with second_fails(name, late, ZeroDivisionError("a number is zero")):
+        sentence_of(bpy.ops.reflection_mesh.generate, capfd, method=method, placement="VIRTUAL")
     assert fingerprint() == before
 
 
 @pytest.mark.parametrize("late", [False, True])
 @pytest.mark.parametrize("earlier", ["GENERAL", "POINTS"])
-@pytest.mark.parametrize(("name", "method"), STEPS)
-def test_earlier_results_come_back_where_the_second_fails(scene, room, monkeypatch, capfd, name, method, earlier, late):
+@pytest.mark.parametrize("step", STEPS)
+def test_earlier_results_come_back_where_the_second_fails(scene, capfd, second_fails, step, earlier, late):
+    name, method = step
     parts.generate(method=earlier, placement="VIRTUAL")
     results = [bpy.data.objects[f"{mirror.name} Reflection"] for mirror in scene[:2]]
     results[0].data["mine"] = 7
@@ -180,8 +194,7 @@ def test_earlier_results_come_back_where_the_second_fails(scene, room, monkeypat
     bpy.context.view_layer.update()
     parts.select(scene[2], *scene[:2])
     before = fingerprint()
-    with monkeypatch.context() as patch:
-        break_second(room, patch, name, ZeroDivisionError("a number is zero"), late)
+    with second_fails(name, late, ZeroDivisionError("a number is zero")):
         sentence_of(bpy.ops.reflection_mesh.generate, capfd, method=method, placement="SURFACE")
     assert fingerprint() == before and results[0].data["mine"] == 7
     # and what came back is as good as it was
@@ -192,17 +205,15 @@ def test_earlier_results_come_back_where_the_second_fails(scene, room, monkeypat
 
 
 @pytest.mark.parametrize("late", [False, True])
-def test_a_mesh_that_others_show_comes_back(scene, room, monkeypatch, late):
+def test_a_mesh_that_others_show_comes_back(scene, room, second_fails, late):
     shared = parts.generate().data
     for mirror in scene[:2]:
         other = bpy.data.objects.new("Other", bpy.data.objects[f"{mirror.name} Reflection"].data)
         bpy.context.scene.collection.objects.link(other)
     parts.select(scene[2], *scene[:2])
     before = fingerprint()
-    with monkeypatch.context() as patch:
-        break_second(room, patch, "write_mesh", Halted(), late)
-        with pytest.raises(Halted):
-            list(started(room))
+    with second_fails("write_mesh", late, Halted()), pytest.raises(Halted):
+        list(started(room))
     assert fingerprint() == before
     assert bpy.data.objects["Low Reflection"].data == shared
 

@@ -1,0 +1,60 @@
+"""Texels: drawn, they show the picture that they are made of, and what lies beside it is taken out."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+from lamp_scenes import picture, psnr, scene_of
+
+
+def test_texels_show_the_picture_that_they_are_made_of(room):
+    """In closed form: a pixel is the integral of linearly interpolated texels times Cycles' filter."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    rng = np.random.default_rng(1)
+    for kind, width in (("BLACKMAN_HARRIS", 1.5), ("BOX", 1.0), ("GAUSSIAN", 1.5)):
+        kernel = texels.pixel_kernel(kind, width)
+        assert abs(kernel.sum() - 1.0) < 1e-12 and np.allclose(kernel, kernel[::-1])
+        smooth = 0.3 + 0.2 * rng.random((20, 30, 3))
+        shown = smooth
+        for axis in (0, 1):
+            shown = sum(weight * np.roll(shown, step - len(kernel) // 2, axis) for step, weight in enumerate(kernel))
+        found = finished(texels.texels_of(shown.astype(np.float32), np.ones((20, 30), np.float32), kernel))
+        assert np.abs(found - smooth)[6:-6, 6:-6].max() < 0.02
+
+
+def test_only_what_lies_beside_is_taken_out_where_a_picture_ends(room):
+    """A result that ends at its mirror's outline with one side, and within it with the other, before nothing: of the
+    outline's pixels nothing has to be taken away but the mirror's light."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    opacity = np.clip(np.arange(20.0) - 4.5, 0.0, 1.0)[None].repeat(12, 0)
+    coverage = opacity * np.clip(12.4 - np.arange(20.0), 0.0, 1.0)
+    own, beside = np.array((0.8, 0.5, 0.1)), np.array((0.1, 0.4, 0.9))
+    light = coverage[..., None] * own + (opacity - coverage)[..., None] * beside
+    found = finished(texels.texels_of(*(values.astype(np.float32) for values in (light, coverage)),
+                                      texels.pixel_kernel("BOX", 1.0), opacity=opacity.astype(np.float32)))
+    assert np.abs(found[:, 4:14] - own).max() < 0.02
+
+
+def test_a_result_that_ends_within_its_mirror_is_sharp_there(blank, room):
+    """The mirror shows the world beside it, and the camera sees both in one pixel."""
+    scene_of(blank)
+    card = parts.add("plane", "Card", size=1.5, location=(0.3, -1.5, 1.0), rotation=(-np.pi / 2, 0.0, 0.4))
+    card.data.materials.append(parts.material("Card"))
+    card.visible_camera = False
+    for name in ("Box", "Floor"):
+        bpy.data.objects.remove(bpy.data.objects[name])
+    parts.select(card, bpy.data.objects["Mirror"])
+    reference = picture(room)
+    parts.generate()
+    assert bpy.ops.reflection_mesh.light(kind="PICTURE", every=True) == {"FINISHED"}
+    assert psnr(picture(room), reference) > 50.0
+
+
+def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
+    own, beside = np.array((0.8, 0.5, 0.1)), np.array((0.1, 0.4, 0.9))
+    light = coverage[..., None] * own + (1.0 - coverage[..., None]) * beside
+    found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
+                                      texels.pixel_kernel("BOX", 1.0)))
+    assert np.abs(found[:, 8:] - own).max() < 0.02 and (found[:, :5] == 0.0).all()
