@@ -3,7 +3,7 @@
 All limits are counts, so that the same input gives the same result on any machine. They grow with the picture of the
 mirror and with the meshes; no sample meets one, and Suzanne comes to a quarter of the limit on work. They are met
 where much lies over one another in few pixels, as in crowds of mirrors. There what is most crowded is shown by rays
-(`crowds`), and the result says so.
+(`crowds`), and the result says so. Without a word rays show pixels in which they are less work than what they show.
 """
 from __future__ import annotations
 
