@@ -96,5 +96,7 @@ def _hide(context: bpy.types.Context, source: bpy.types.Object, whole: AllOrNoth
         whole.undo(setattr, source, "hide_render", source.hide_render)
         source.hide_render = True
     if source.name in context.view_layer.objects:
+        # what is hidden is not selected any more
+        whole.undo(source.select_set, source.select_get())
         whole.undo(source.hide_set, source.hide_get())
         source.hide_set(True)

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from ...core import breathe
+from ...core.geometry import first_of
 from ..reading import DiffuseScene
 from ..writing import MOST_UV_MAPS, Attribute, MeshArrays, shown_layers
 from .cut_triangles import Parts
@@ -13,6 +15,7 @@ from .frame import Frame
 
 UV_MAP = "Mirror UV"
 SEEN = "mirror_seen"
+BITS = 21           # of a coordinate, counted in what follows
 ONE_PLACE = 1e-6    # of a sheet's size: vertices of neighbouring faces that lie nearer are one
 
 
@@ -36,6 +39,7 @@ def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
         matrix = np.eye(4)
     inverse = np.linalg.inv(matrix)
     places = (weights @ scene.mesh.positions[scene.mesh.triangles[face]]) @ inverse[:3, :3].T + inverse[:3, 3]
+    breathe()
     positions, triangles = _welded(places)
     kept = np.flatnonzero((triangles != np.roll(triangles, 1, axis=1)).all(axis=1))
     triangles, face, weights, pixels, seen = (values[kept] for values in (triangles, face, weights, pixels, seen))
@@ -44,12 +48,14 @@ def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
         Attribute("material_index", "INT", "FACE", material.reshape(-1).astype(np.int32)),
         Attribute(SEEN, "BOOLEAN", "FACE", seen),
         Attribute(UV_MAP, "FLOAT2", "CORNER", frame.uv(pixels)))
+    breathe()
     single = weights.astype(np.float32)
     layers = shown_layers(scene, own_attributes, "CORNER", lambda values: np.matmul(single, values[face]))
     maps = [layer.name for layer in layers if layer.kind == "FLOAT2"]
     layers = tuple(layer for layer in layers if layer.name not in maps[MOST_UV_MAPS - 1:])
     arrays = MeshArrays(np.zeros(3), positions, triangles.astype(np.int32), own_attributes + layers,
                         [scene.materials[entry] for entry in used])
+    breathe()
     # normals turn as the inverse's transpose does: back to the object's space as the matrix's transpose
     turned = weights @ scene.normals[face] @ matrix[:3, :3]
     length = np.linalg.norm(turned, axis=2, keepdims=True)
@@ -61,6 +67,9 @@ def _welded(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     corners = places.reshape(-1, 3)
     low = corners.min(axis=0)
     grid = max(float((corners.max(axis=0) - low).max()) * ONE_PLACE, 1e-30)
-    _, first, vertex = np.unique(np.round((corners - low) / grid).astype(np.int64), axis=0, return_index=True,
-                                 return_inverse=True)
+    x, y, z = np.round((corners - low) / grid).astype(np.int64).T
+    breathe()
+    # no coordinate has more bits than 1 / ONE_PLACE
+    _, first, vertex = first_of(((x << BITS | y) << BITS) | z)
+    breathe()
     return corners[first].astype(np.float32), vertex.reshape(-1, 3)

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import bpy
@@ -116,29 +117,33 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
         yield READING + REFLECTING + PIECES, "Cutting faces"
         frame = Frame.of(choices.frame, view, pieces.pixels, image.size[0] / image.size[1] if image else 1.0)
         if choices.target == "ORIGINAL":
-            maps = []
-            for index in indices:
-                yield 1.0, "Finding what is shown"
-                maps.append(own_map(index, scene, pieces))
+            maps = yield from part(core.in_steps(lambda: [own_map(index, scene, pieces) for index in indices]),
+                                   1.0, 0.0, "Finding what is shown")
             remarks += [f"Between the corners of '{entry.source.name}' the picture is up to {entry.straying:.1f} px "
                         "off: subdivide it, or choose A Copy." for entry in maps if entry.straying > TOLD]
         else:
             parts = yield from part(cut_triangles(pieces, len(scene.mesh.triangles)),
                                     READING + REFLECTING + PIECES, CUTTING)
-            sheets = []
-            for index in indices:
-                yield 1.0, "Cutting faces"
-                sheets.append(sheet(index, scene, parts, frame))
-        yield 1.0, "Writing"
+            sheets = yield from part(core.in_steps(lambda: [sheet(index, scene, parts, frame) for index in indices]),
+                                     1.0, 0.0, "Cutting faces")
         if choices.target == "ORIGINAL":
-            objects = [write_own_map(entry, frame, whole) for entry in maps]
+            objects = yield from _written(lambda entry: write_own_map(entry, frame, whole), maps)
         else:
             paper = paper_with(image, whole) if image else None
-            objects = [write_copy(context, entry, paper, whole) for entry in sheets]
+            objects = yield from _written(lambda entry: write_copy(context, entry, paper, whole), sheets)
         for obj in objects:
             whole.undo(setattr, obj.reflection_mesh, "mirror", obj.reflection_mesh.mirror)
             obj.reflection_mesh.mirror = mirror
     return Outcome(objects, remarks)
+
+
+def _written(write: Callable, entries: list) -> Steps[list]:
+    """The objects that `write` makes of entries, a step for each."""
+    objects = []
+    for entry in entries:
+        yield 1.0, "Writing"
+        objects.append(write(entry))
+    return objects
 
 
 def _check(context: bpy.types.Context, chosen: Participants, choices: Choices) -> None:

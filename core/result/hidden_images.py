@@ -79,11 +79,13 @@ class FrontImages:
         asked = np.flatnonzero(self.several[face])
         middle = pixels[asked].mean(axis=1, keepdims=True)
         spots = np.concatenate((middle, middle + INWARDS * (pixels[asked] - middle)), axis=1)
+        breathe()
         column, row = np.moveaxis(np.floor(spots).astype(np.int64), 2, 0)
         inside = (column >= 0) & (column < self.width) & (row >= 0) & (row < self.height)
         front = np.where(inside, self.face[np.where(inside, row * self.width + column, 0)], -1)
         own = np.broadcast_to(face[asked][:, None], front.shape)
         nearness = self._nearness(own, spots)
+        breathe()
         behind = (front >= 0) & (front != own) & (self._nearness(front, spots) > nearness + NEARER * np.abs(nearness))
         hidden[asked] = np.where(inside, behind, behind[:, :1])
         return hidden
@@ -91,7 +93,9 @@ class FrontImages:
     def _nearness(self, face: np.ndarray, spots: np.ndarray) -> np.ndarray:
         """How near faces (k, n) are at `spots` (k, n, 2), no nearer and no farther than their corners; no number where
         a face is seen edge on."""
+        breathe()
         plane, corners = self.plane[face], self.nearness[face]
+        breathe()
         with np.errstate(invalid="ignore"):
             found = (plane[..., :2] * spots).sum(axis=2) + plane[..., 2]
         return np.clip(found, corners.min(axis=2), corners.max(axis=2))

@@ -130,12 +130,17 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
         hidden = front.hidden(kept, _pixels(clip, view))
         breathe()
         partly = hidden.any(axis=1) & ~hidden.all(axis=1)
-        marked = (_straying(clip, view) > straying) | (partly[:, None] & (_lengths(clip, view) > FINEST))
+        marked = _straying(clip, view) > straying
+        breathe()
+        marked |= partly[:, None] & (_lengths(clip, view) > FINEST)
         if not marked.any():
             break
         breathe()
         parent, local = split(marked)
-        clip, weights, kept = _children(clip, parent, local), _children(weights, parent, local), kept[parent]
+        breathe()
+        clip, kept = _children(clip, parent, local), kept[parent]
+        breathe()
+        weights = _children(weights, parent, local)
     breathe()
     pixels = _pixels(clip, view)
     behind = front.hidden(kept, pixels)[:, 0]

@@ -238,6 +238,20 @@ def test_esc_leaves_no_trace(wall, room, tmp_path):
     assert stages[-1] == "Writing" and "Cutting faces" in stages
 
 
+def test_esc_between_two_copies_leaves_no_trace(wall, room):
+    other = parts.add("plane", "Other", size=1.0, location=(-1.2, -1.0, 0.6))
+    parts.select(wall, other, bpy.data.objects["Mirror"])
+    before = parts.state()
+    module, settings = room("addon.operators.mirror_uvs"), room("core").Settings(placement="SURFACE")
+    steps = module.mapping(bpy.context, room("addon.reading").choose(bpy.context), settings)
+    writing = 0
+    while writing < 2:
+        writing += next(steps)[1] == "Writing"
+    assert "Sheet Anamorphosis" in bpy.data.objects or "Other Anamorphosis" in bpy.data.objects
+    steps.close()
+    assert parts.state() == before
+
+
 def test_an_error_while_writing_leaves_no_trace(wall, room, tmp_path, monkeypatch):
     picture, before = ramp(tmp_path), parts.state()
 

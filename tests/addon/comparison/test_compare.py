@@ -15,7 +15,7 @@ COUNTED = ("objects", "meshes", "materials", "scenes", "cameras", "lights", "wor
 @pytest.fixture(scope="module")
 def rooms(room) -> SimpleNamespace:
     """The extension's rooms for comparing."""
-    names = ("compat", "operators.compare", "metrics.pixel_errors", "comparison.compare_pictures",
+    names = ("compat", "operators.compare", "comparison.compare_pictures",
              "judge.cycles_codes", "judge.cycles_render", "judge.cycles_scene", "rendering.cycles_pictures",
              "reading.read_view", "faults")
     return SimpleNamespace(**{name.rpartition(".")[2]: room(f"addon.{name}") for name in names})
