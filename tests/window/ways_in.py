@@ -91,6 +91,12 @@ def baked(screen: Screen):
         # Linux distributions build Blender without it, and without Alembic: the button is grey, and says why
         with screen.context():
             assert not bpy.ops.reflection_mesh.bake.poll()
+            try:
+                bpy.ops.reflection_mesh.bake("INVOKE_DEFAULT")
+            except RuntimeError as error:
+                assert "cannot write USD files, nor play them" in str(error), error
+            else:
+                raise AssertionError("Baking began without USD.")
         return
     yield from screen.search("bake reflection")
     screen.press("RET")

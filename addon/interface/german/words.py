@@ -237,8 +237,9 @@ OBSTACLES = {
         "Spiegelungen werden im Objektmodus beleuchtet" + OBJECT_MODE,
     "Reflections are baked in Object Mode: leave the present mode first.":
         "Spiegelungen werden im Objektmodus gebacken" + OBJECT_MODE,
-    "This Blender cannot write USD files: bake with one that can, as those of blender.org.":
-        "Dieses Blender kann keine USD-Dateien schreiben: mit einem backen, das es kann, wie die von blender.org.",
+    "This Blender cannot write USD files, nor play them: bake and play with one that can, as those of blender.org.":
+        "Dieses Blender kann USD-Dateien weder schreiben noch abspielen: mit einem backen und abspielen, das es kann, "
+        "wie die von blender.org.",
     "Reflections are compared in Object Mode: leave the present mode first.":
         "Spiegelungen werden im Objektmodus verglichen" + OBJECT_MODE,
     "Reflections are cleared in Object Mode: leave the present mode first.":

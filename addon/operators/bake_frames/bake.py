@@ -51,7 +51,7 @@ from .thrown_light import ThrownLight
 
 FOLDER = "//reflection frames"
 IN_OBJECT_MODE = "Reflections are baked in Object Mode: leave the present mode first."
-NO_USD = "This Blender cannot write USD files: bake with one that can, as those of blender.org."
+NO_USD = "This Blender cannot write USD files, nor play them: bake and play with one that can, as those of blender.org."
 WHAT = (("REFLECTIONS", "Reflections", "What the mirrors show to the camera"),
         ("CAUSTICS", "Caustics", "The light of lamps that the mirrors throw"))
 

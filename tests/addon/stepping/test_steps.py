@@ -183,3 +183,14 @@ def test_no_step_of_light_but_its_renders_keeps_the_window_waiting(room):
     covered = np.ones((1080, 1920), np.float32)
     covered[:, 900:] = 0.5
     assert least(lambda: texels.texels_of(light, covered, kernel, 1.0)) < 0.5
+
+
+def test_no_step_of_measuring_a_large_picture_keeps_the_window_waiting(room):
+    metrics, size = room("addon.metrics"), (1080, 1920)
+    rows, columns = np.mgrid[:size[0], :size[1]].astype(np.float64)
+    place = np.stack((columns, rows, 0.1 * rows), axis=-1)
+    truth, shown = (metrics.CodedPicture(np.zeros(size, np.int64), np.zeros(size, np.int64), place + shift)
+                    for shift in (0.0, 0.25))
+    everywhere = np.ones(size, bool)
+    assert least(lambda: room("core").in_steps(
+        lambda: metrics.measure(everywhere, ~everywhere, truth, shown))) < 0.5
