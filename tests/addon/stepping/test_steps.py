@@ -186,7 +186,7 @@ def test_no_step_of_light_but_its_renders_keeps_the_window_waiting(room):
 
 
 def test_no_step_of_measuring_a_large_picture_keeps_the_window_waiting(room):
-    metrics, size = room("addon.metrics"), (1080, 1920)
+    metrics, size = room("addon.metrics"), (1440, 2560)
     rows, columns = np.mgrid[:size[0], :size[1]].astype(np.float64)
     place = np.stack((columns, rows, 0.1 * rows), axis=-1)
     truth, shown = (metrics.CodedPicture(np.zeros(size, np.int64), np.zeros(size, np.int64), place + shift)
