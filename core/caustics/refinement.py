@@ -18,7 +18,7 @@ from .corners import Corners, light_at
 
 LEVELS = 6
 STRAYING = 0.02  # of the irradiance in the middle of a side: by how much that on its ends may miss it
-AT_ONCE = 1 << 16
+AT_ONCE = 1 << 14
 STEPS = 8  # of Newton's method
 BESIDE = 1e-9  # barycentric: what lies that little beside a triangle lies in it
 
