@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh
+from ..geometry import TriangleMesh, View
 from ..recentring import far_corner, moved_surface
 from ..reflection import reflect
 from ..result import ReflectionMesh
@@ -117,22 +117,29 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
     """The light of one view's faces, of each bounce for itself."""
     lit = []
     view = seen.maps[0].view
-    whole = flux_of(view, seen.mirror_position[seen.triangles]).sum()
+    whole = _flux(lamp, view, seen.mirror_position[seen.triangles]).sum()
     reach = np.ptp(seen.reflected_position, axis=0).max()
     for number, ray_map in enumerate(seen.maps, 1):
         chosen = np.flatnonzero(seen.bounces == number)
         if not len(chosen):
             continue
         breathe()
-        faces = _faces(ray_map, seen, chosen, receivers)
+        faces = _faces(ray_map, seen, chosen, receivers, lamp)
         breathe()
-        faces = refined(ray_map, faces, receivers, (LEAST * whole, FINEST * reach), settings.maximum_faces)
+        faces = refined(ray_map, faces, receivers, lamp, (LEAST * whole, FINEST * reach), settings.maximum_faces)
         places = np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2)
-        lit.append((faces, flux_of(view, places), seen, number, receivers))
+        lit.append((faces, _flux(lamp, view, places), seen, number, receivers))
     return lit
 
 
-def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, receivers: TriangleMesh) -> LitFaces:
+def _flux(lamp: Lamp, view: View, places: np.ndarray) -> np.ndarray:
+    """What light (m,) of the lamp triangles of the mirror (m, 3, 3) take."""
+    flux = flux_of(view, places)
+    return flux if lamp.pattern is None else flux * lamp.mean_share(places)
+
+
+def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, receivers: TriangleMesh,
+           lamp: Lamp) -> LitFaces:
     assert seen.map_face is not None  # a lamp's view tells it
     triangles, face = seen.triangles[chosen], seen.map_face[chosen]
     source, points = seen.source_face[chosen], seen.reflected_position.T
@@ -142,7 +149,7 @@ def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, rec
         own = slice(start, start + AT_ONCE)
         corner, owner = triangles[own].T.ravel(), np.tile(face[own], 3)
         uv = ray_map.coordinates(owner, seen.mirror_position[corner].T)
-        parts.append(light_at(ray_map, owner, uv, points[:, corner], np.tile(normal[:, own], 3)))
+        parts.append(light_at(ray_map, owner, uv, points[:, corner], np.tile(normal[:, own], 3), lamp))
     return LitFaces(triangles, points, face, normal, source, chosen, seen.source_sides[chosen] >= 0,
                     np.full((len(chosen), 3), np.nan), Corners.joined(parts, 3))
 
