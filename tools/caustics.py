@@ -1,7 +1,7 @@
 """How near caustics are to rays and to Cycles, and how long they take: the table of docs/caustics.md.
 
     python -m tools.caustics [ring waves bowl cylinder bathroom suzanne dish sunlight pool
-                              goblet spoon front bridge foil or path.blend ...]
+                              goblet spoon front bridge foil can disco stairs sheets or path.blend ...]
                              [--rays 20000000] [--size 96] [--reference 2048] [--runs 3] [--no-pictures]
 
 Rays are traced one by one from all over the mirror, by Embree, in float64 on the triangles that it names. Times are
@@ -23,14 +23,14 @@ from pathlib import Path
 import numpy as np
 
 from tools import extension_zip
-from tools.caustic_scenes import measured, outside
+from tools.caustic_scenes import fresh, measured, outside
 from tools.caustic_scenes.building import lamp, take_part
 from tools.measure import print_table
 from tools.quietly import quietly
 
 ROOT = extension_zip.ROOT
 SAMPLES = ("ring", "dish", "sunlight", "pool")
-SCENES = measured.SCENES | outside.SCENES
+SCENES = measured.SCENES | outside.SCENES | fresh.SCENES
 ROWS = ("scene", "faces", "flux %", "rays' noise", "irradiance %", "rays' noise", "without it", "generate s",
         "4 samples s", "PSNR mesh", "PSNR Cycles", "at samples", "reference's own", "curve px")
 

@@ -62,8 +62,7 @@ def _light(lit: list[tuple[Eye, Tint, CausticMesh]]) -> tuple[np.ndarray, np.nda
     """Irradiance (m, 3) in W/m2, the mean of the colours, and of each colour (m, 3, 3), at the corners."""
     coloured = []
     for eye, tint, mesh in lit:
-        share = mesh.irradiance * eye.share(mesh.mirror_position[mesh.triangles])
-        coloured.append(share[:, :, None] * eye.power * tint.at(mesh.cosine, mesh.bounces))
+        coloured.append(mesh.irradiance[:, :, None] * eye.power * tint.at(mesh.cosine, mesh.bounces))
     light = np.concatenate(coloured)
     return light.mean(axis=2), light
 

@@ -59,7 +59,8 @@ def forget_added_light(materials: list) -> None:
 
 
 def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket | None, share: float) -> None:
-    """Let a tree emit its colour times the light's, times a share, and show what lies behind."""
+    """Let a tree emit its colour times the light's, times a share, and show what lies behind; to the side that is lit
+    alone, or the receiver would be lit by what it sends back."""
     def add(kind: str, place: tuple[float, float]) -> bpy.types.Node:
         node = tree.nodes.new(kind)
         node.location = place
@@ -75,7 +76,10 @@ def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket 
         product.inputs[1].default_value = albedo[:3]
     else:
         tree.links.new(colour, product.inputs[1])
-    emission.inputs["Strength"].default_value = share
+    seen, front = add("ShaderNodeNewGeometry", (0.0, -500.0)), add("ShaderNodeMath", (200.0, -500.0))
+    front.operation, front.inputs[0].default_value, front.inputs[2].default_value = "MULTIPLY_ADD", -share, share
+    tree.links.new(seen.outputs["Backfacing"], front.inputs[1])
+    tree.links.new(front.outputs[0], emission.inputs["Strength"])
     clear.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     tree.links.new(product.outputs["Vector"], emission.inputs["Color"])
     tree.links.new(emission.outputs["Emission"], both.inputs[0])

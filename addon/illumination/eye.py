@@ -1,13 +1,14 @@
 """One place on a lamp, and how much of its light goes where."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...core import Lamp, TriangleMesh
 
 AT_ONCE = 1 << 22
+NARROWEST = 4e-3  # radians: what a lamp's light is split for, as if its cone were no narrower
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,18 @@ class Eye:
     cone: tuple[float, float]
     facets: np.ndarray | None = None
     body: TriangleMesh | None = None
+
+    @property
+    def shining(self) -> Lamp:
+        """The lamp with its pattern."""
+        if self.kind in {"POINT", "SUN"} and self.facets is None:
+            return self.lamp
+        narrow = np.inf
+        if self.kind == "SPOT":
+            narrow = 0.5 * float(np.arccos(np.clip(self.cone[0], -1.0, 1.0)))
+        elif self.facets is None and self.cone[0] > 0.0:
+            narrow = 0.5 * float(np.arctan(1.0 / self.cone[0]))
+        return replace(self.lamp, pattern=self.share, narrow=max(narrow, NARROWEST))
 
     def share(self, places: np.ndarray) -> np.ndarray:
         """How much of the power goes towards `places` (..., 3)."""

@@ -11,6 +11,8 @@ from ..faults import AllOrNothing, keep_data, keep_object
 from ..writing import RAYS, MeshArrays, new_beside, write_mesh
 from .caustic_material import adds_light, forget_added_light
 
+SHOWN_BY = {"visible_glossy", "visible_transmission"}
+
 
 @dataclass(frozen=True)
 class Caustic:
@@ -62,8 +64,9 @@ def caustics_object(context: bpy.types.Context, name: str, pair: tuple, sources:
         keep_data(obj, whole)
     else:
         obj = new_beside(context, name, pair[0], whole)
+        # mirrors and glass show it; diffuse light that left what is lit would have to pass all layers of it
         for rays in RAYS:
-            setattr(obj, rays, False)
+            setattr(obj, rays, rays in SHOWN_BY)
         obj.lineart.usage = "EXCLUDE"
     record = obj.reflection_mesh
     record.role, (record.mirror, record.lamp) = "CAUSTICS", pair

@@ -35,12 +35,12 @@ def _mark(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 
 def _own(scene: bpy.types.Scene) -> set:
-    """Results, and what makes them."""
-    results = {obj for obj in scene.objects if obj.reflection_mesh.role in {"REFLECTION", "CAUSTICS"}}
+    """Reflections, and what makes them; caustics are light that mirrors show."""
+    results = {obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
     materials = {obj.reflection_mesh.light_material for obj in results} - {None}
-    # previews come and go, and so do the materials of caustics, which mirrors do not show
+    # previews come and go
     materials |= {slot.material for obj in results for slot in obj.material_slots if slot.material is not None
-                  and (obj.reflection_mesh.role == "CAUSTICS" or MARK in slot.material)}
+                  and MARK in slot.material}
     meshes = {obj.data for obj in results} | {obj.reflection_mesh.light_map for obj in results}
     return results | materials | meshes | {material.node_tree for material in materials}
 

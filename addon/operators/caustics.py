@@ -155,7 +155,7 @@ def _lit(eyes_of_lamp: Callable, surface: MirrorSurface, receivers: core.Triangl
     lit, told, (others, blockers) = [], None, standing
     eyes, parts = eyes_of_lamp(surface.mesh.positions[surface.mesh.triangles].reshape(-1, 3)), parts_of(surface)
     for number, (eye, own) in enumerate(product(eyes, parts)):
-        steps = core.caustic_steps(eye.lamp, own.mesh, receivers, settings, _joined([*others, own.rest]),
+        steps = core.caustic_steps(eye.shining, own.mesh, receivers, settings, _joined([*others, own.rest]),
                                    _joined([blockers, eye.body]))
         share = 1.0 / (len(eyes) * len(parts))
         try:

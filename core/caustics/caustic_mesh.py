@@ -20,10 +20,12 @@ class CausticMesh:
     triangles : (m, 3) int64
         Turned to the side that is lit.
     irradiance : (m, 3) float64
-        At the corners of the faces, of a perfect mirror: W/m2 for a lamp of 1 W/sr, or for a sun of 1 W/m2.
+        At the corners of the faces, of a perfect mirror: W/m2 for a lamp of 1 W/sr times its pattern, or for a sun
+        of 1 W/m2.
         Interpolated over a face it amounts to the face's flux. Finite everywhere.
     flux : (m,) float64
-        The solid angle of each face in the lamp's picture; of a sun the face's area across the light.
+        The solid angle of each face in the lamp's picture, times the pattern's mean; of a sun the face's area across
+        the light.
     mirror_position : (n, 3) float64
         Where on the mirror the light comes from.
     image_parity : (n,) int8

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..cameras import BouncedMap, ReflectionMap
 from ..geometry import dot, norm, unit
+from .lamps import Lamp
 
 ON_FOLD = 1e-12  # of the growth of a bundle: less is none
 ARRIVED = 1e-6  # of the path: by how much the ray of a corner may miss it
@@ -73,9 +74,9 @@ NAMES = tuple(Corners.__dataclass_fields__)
 
 
 def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: np.ndarray,
-             normals: np.ndarray) -> Corners:
-    """What a lamp of unit intensity sends to `points` (3, n) that it sees at places (u, v) of faces, where flat
-    receivers have the unit `normals` (3, n)."""
+             normals: np.ndarray, lamp: Lamp) -> Corners:
+    """What a lamp of unit intensity, times its pattern, sends to `points` (3, n) that it sees at places (u, v) of
+    faces, where flat receivers have the unit `normals` (3, n)."""
     origin, ray = ray_map.leave(face, uv)
     length = np.maximum(norm(ray), 1e-300)
     s = dot(points - origin, ray) / length**2
@@ -91,6 +92,9 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
     grown = np.abs(turned) * _widened(ray_map, face, ways)
     with np.errstate(divide="ignore"):
         irradiance = np.where(grown > ON_FOLD, falling * np.abs(cosine) / np.maximum(grown, ON_FOLD), np.inf)
+    if lamp.pattern is not None:
+        share = lamp.share(place.T)
+        irradiance = np.where(share > 0.0, irradiance, 0.0) * share
     # a ray is turned by twice the angle that it has to the mirror's plane
     upright = np.sqrt(np.clip(0.5 * (1.0 - dot(ways[0], ways[1])), 0.0, 1.0))
     miss = norm(origin + s * ray - points)

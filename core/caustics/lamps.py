@@ -1,7 +1,8 @@
 """Lamps as eyes: views that see all of a mirror, each its own part where one cannot."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +23,10 @@ class Lamp:
     place : (3,) float64
         World position; of a sun the direction that its light goes in.
     sun : bool
+    pattern : callable, optional
+        How much light goes towards places (..., 3) in world space; 1 everywhere where there is none.
+    narrow : float
+        In radians: what the pattern holds is not narrower.
 
     Examples
     --------
@@ -32,6 +37,8 @@ class Lamp:
 
     place: np.ndarray
     sun: bool = False
+    pattern: Callable[[np.ndarray], np.ndarray] | None = None
+    narrow: float = np.inf
 
     def __post_init__(self) -> None:
         wrong = "The lamp's place must be three finite numbers up to 1e40; move the lamp nearer."
@@ -51,7 +58,22 @@ class Lamp:
 
     def moved(self, offset: np.ndarray) -> Lamp:
         """The same beside something that moves by `offset` (3,)."""
-        return self if self.sun else Lamp(self.place + offset)
+        pattern = self.pattern
+        return replace(self, place=self.place if self.sun else self.place + offset,
+                       pattern=None if pattern is None else lambda places: pattern(places - offset))
+
+    def share(self, places: np.ndarray) -> np.ndarray:
+        """How much of the light goes towards places (..., 3)."""
+        return np.ones(places.shape[:-1]) if self.pattern is None else self.pattern(places)
+
+    def mean_share(self, corners: np.ndarray) -> np.ndarray:
+        """The same for all of triangles (m, 3, 3), by the rule of seven points that is exact for cubics.
+
+        A. Stroud, "Approximate Calculation of Multiple Integrals", 1971.
+        """
+        middles, middle = 0.5 * (corners + np.roll(corners, -1, axis=1)), corners.mean(axis=1)
+        return (self.share(corners).sum(axis=1) / 20.0 + self.share(middles).sum(axis=1) * (2.0 / 15.0)
+                + self.share(middle) * (9.0 / 20.0))
 
     def directions(self, places: np.ndarray) -> np.ndarray:
         """From the lamp to `places` (n, 3), as long as the way; of a sun unit vectors."""

@@ -12,13 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh, cross, dot, following, norm, parent_side, rows, shared_edges, split
+from ..geometry import TriangleMesh, cross, dot, following, norm, parent_side, rows, shared_edges, split, unit
 from ..support import breathe
 from .corners import Corners, light_at
+from .lamps import Lamp
 
 LEVELS = 6
 STRAYING = 0.02  # of the irradiance in the middle of a side: by how much that on its ends may miss it
-AT_ONCE = 1 << 16
+AT_ONCE = 1 << 14
 STEPS = 8  # of Newton's method
 BESIDE = 1e-9  # barycentric: what lies that little beside a triangle lies in it
 
@@ -68,7 +69,7 @@ class LitFaces:
         return self.points[:, self.triangles.T]
 
 
-def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, least: tuple[float, float],
+def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, lamp: Lamp, least: tuple[float, float],
             most: int) -> LitFaces:
     """The faces in parts; for none that carries less than the `least` flux, or on sides of less than the least length,
     and not in more than `most`."""
@@ -78,13 +79,13 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, le
         breathe()
         _, _, edge = shared_edges(faces.triangles)
         asked = np.flatnonzero(new)
-        middles, points, found = _middles(ray_map, faces, asked, within)
+        middles, points, found = _middles(ray_map, faces, asked, within, lamp)
         faces.beside[asked] = _beside(faces, asked, middles, points, found)
         chosen = np.zeros(int(edge.max(initial=-1)) + 1, dtype=bool)
-        chosen[edge[asked][_astray(faces, asked, middles, least) & found]] = True
+        chosen[edge[asked][(_astray(faces, asked, middles, least) | _wide(faces, asked, lamp)) & found]] = True
         chosen[edge[asked][~found]] = False
         beside = np.flatnonzero(~new & chosen[edge].any(axis=1))
-        more, more_points, more_found = _middles(ray_map, faces, beside, within)
+        more, more_points, more_found = _middles(ray_map, faces, beside, within, lamp)
         chosen[edge[beside][~more_found]] = False
         marked = chosen[edge]
         if not marked.any() or len(faces) + marked.sum() > most:
@@ -96,7 +97,7 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, le
         faces, parent = _split(faces, edge, chosen, (place, middles, np.concatenate((points, more_points), axis=2)))
         new = marked.any(axis=1)[parent]
     asked = np.flatnonzero(np.isnan(faces.beside).any(axis=1))
-    faces.beside[asked] = _beside(faces, asked, *_middles(ray_map, faces, asked, within))
+    faces.beside[asked] = _beside(faces, asked, *_middles(ray_map, faces, asked, within, lamp))
     return faces
 
 
@@ -111,6 +112,14 @@ def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[f
     area = 0.5 * norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
     mean = np.where(np.isfinite(lit), lit, 0.0).mean(axis=1)
     return astray & (area * mean > least[0])[:, None]
+
+
+def _wide(faces: LitFaces, asked: np.ndarray, lamp: Lamp) -> np.ndarray:
+    """Which sides (k, 3) of the faces asked span more of the lamp's picture than what its pattern may hold."""
+    if not np.isfinite(lamp.narrow):
+        return np.zeros((len(asked), 3), dtype=bool)
+    ways = unit(faces.light.place.reshape(3, 3, -1)[:, :, asked] - lamp.place[:, None, None])
+    return norm(ways - following(ways)).T > 2.0 * np.sin(0.5 * min(lamp.narrow, np.pi))
 
 
 def _beside(faces: LitFaces, asked: np.ndarray, middles: Corners, points: np.ndarray, found: np.ndarray) -> np.ndarray:
@@ -141,8 +150,8 @@ class _Within:
         return np.minimum(np.minimum(second, third), 1.0 - second - third) >= -BESIDE
 
 
-def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray,
-             within: _Within) -> tuple[Corners, np.ndarray, np.ndarray]:
+def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within: _Within,
+             lamp: Lamp) -> tuple[Corners, np.ndarray, np.ndarray]:
     """The light in the middles of the sides 01, 12, 20 of the faces `asked` (k,), where these are, (3, 3, k) as
     [component, side, face], and whether (k, 3) they were found."""
     parts, points, found = [], [], []
@@ -168,7 +177,7 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray,
         s = dot(point[:, own] - origin[:, own], ray[:, own]) / np.maximum(dot(ray[:, own], ray[:, own]), 1e-300)
         place = start.copy()
         place[:, own], _ = ray_map.locate(face[own], start[:, own], s, point[:, own], STEPS)
-        light = light_at(ray_map, face, place, point, normal)
+        light = light_at(ray_map, face, place, point, normal, lamp)
         # beyond its face Newton's method may have found another image
         size = np.tile(np.ptp(uv, axis=1).max(axis=0), 3)
         good &= light.arrived & (np.abs(place - start).max(axis=0) <= 0.5 * size + 1e-12)

@@ -70,7 +70,9 @@ class Overlaps:
         asked = np.flatnonzero(beside[self.candidates.camera])
         if not len(asked):
             return self.candidates
+        breathe()
         seen = self.select(asked)
+        breathe()
         camera, mirror, (near, far) = seen.candidates.camera, seen.mirror, _depths(seen.candidates)
         kept = near <= seen._covered(far)[camera] * (1.0 + FARTHER)
         if last:

@@ -58,6 +58,7 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
         pairs = _children(camera, column, parent, new, before)
         candidates = Overlaps.of(cameras, frames, pairs, met).in_sight(last)
         camera = np.where(camera >= 0, now[camera], -1)
+    breathe()
     settled = replace(Candidates.joined(parts), cameras=cameras, camera=camera).select(np.flatnonzero(camera >= 0))
     return settled, open_ | (bent.any(axis=1) & ~long.any(axis=1)), int((bent & long).sum())
 

@@ -49,6 +49,11 @@ def material(name: str, kind: str, colour: tuple):
 def metal(obj):
     """The object, smooth and a mirror."""
     obj.data.polygons.foreach_set("use_smooth", [True] * len(obj.data.polygons))
+    return faceted(obj)
+
+
+def faceted(obj):
+    """The object, a mirror whose faces are as smooth as they are."""
     obj.data.materials.append(material("Metal", "ShaderNodeBsdfGlossy", (0.9, 0.9, 0.9)))
     return obj
 

@@ -56,7 +56,7 @@ def test_one_object_per_mirror_and_lamp_updated_in_place_and_cleared(blank):
     record = result.reflection_mesh
     assert (record.mirror, record.lamp, [source.object for source in record.sources]) == (mirror, lamp, [floor])
     assert record.faces == len(result.data.polygons) > 0
-    assert not any(getattr(result, name) for name in ("visible_diffuse", "visible_glossy", "visible_shadow"))
+    assert not any(getattr(result, name) for name in ("visible_diffuse", "visible_volume_scatter", "visible_shadow"))
     assert {"irradiance", "caustic_light", "mirror_position", "image_parity", "source_object", "source_face",
             "UVMap"} <= set(result.data.attributes.keys())
     heights = np.array([(result.matrix_world @ vertex.co).z for vertex in result.data.vertices])

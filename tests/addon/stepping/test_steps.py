@@ -167,7 +167,7 @@ def test_no_step_of_cutting_along_a_caustic_keeps_the_window_waiting(room):
                                                      settings(placement="SURFACE"))) < 0.5
 
 
-@pytest.mark.parametrize("name", ["sphere", "pool"])
+@pytest.mark.parametrize("name", ["sphere", "pool", "suzanne"])
 def test_no_step_of_caustics_keeps_the_window_waiting(room, name):
     module, settings, choose = room("addon.operators.caustics"), room("core").Settings(), room("addon.reading").choose
     assert longest_of(name, lambda: module.throwing(bpy.context, choose(bpy.context), module.chosen_lamps(bpy.context),

@@ -138,7 +138,8 @@ def test_irradiance_is_the_solid_angle_of_a_thin_bundle_over_the_area_that_it_li
         area = 0.5 * np.linalg.norm(np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]))
         a, b, c = ray_map.places(face, uv).T - view.eye
         seen = 0.5 * abs(a @ np.cross(b - a, c - a)) / np.linalg.norm(a)**3
-        found = light_at(ray_map, face[:1], uv[:, :1], points[:, :1], np.array([[0.0], [0.0], [1.0]]))
+        found = light_at(ray_map, face[:1], uv[:, :1], points[:, :1], np.array([[0.0], [0.0], [1.0]]),
+                         Lamp(view.eye))
         assert abs(found.irradiance[0] * area / seen - 1.0) < 1e-3
         assert found.arrived[0] and found.side[0] == 1.0
 
@@ -251,3 +252,30 @@ def test_what_cannot_be_is_told_in_one_sentence():
         caustics((1.0, 0.0, 3.0), mirror, floor)
     with pytest.raises(ValueError, match="must not be zero"):
         Lamp.shining((0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("width", [1e-6, 0.01, 0.05])
+def test_a_cone_of_light_within_one_triangle_has_its_flux(width):
+    """A spot in the middle of a large flat mirror: its solid angle, half of that of its blend."""
+    axis, half = np.array([-1.0, 0.0, -1.0]) / np.sqrt(2.0), np.cos(0.15)
+
+    def pattern(places: np.ndarray) -> np.ndarray:
+        way = places - (2.0, 0.3, 4.0)
+        t = np.clip((way @ axis / np.linalg.norm(way, axis=-1) - half) / width, 0.0, 1.0)
+        return t * t * (3.0 - 2.0 * t)
+    corners = np.array([(0.0, -60.0, -15.0), (0.0, 61.0, -16.0), (0.0, 2.0, 70.0)])
+    mirror = TriangleMesh(corners, np.array([[0, 1, 2]]))
+    floor = TriangleMesh(np.array([(-50.0, -90.0, 0.0), (90.0, -95.0, 0.0), (3.0, 99.0, 0.0)]), np.array([[0, 1, 2]]))
+    mesh = caustics(Lamp((2.0, 0.3, 4.0), pattern=pattern, narrow=0.07), mirror, floor)
+    expected = 2.0 * np.pi * (0.5 * min(width, 1.0 - half) + max(1.0 - half - width, 0.0))
+    if width > 1.0 - half:
+        top = (1.0 - half) / width
+        expected = 2.0 * np.pi * width * (top**3 - 0.5 * top**4)
+    assert abs(mesh.flux.sum() / expected - 1.0) < 2e-3
+    # as from the lamp behind the mirror, where it is brightest
+    places = mesh.positions[mesh.triangles].reshape(-1, 3)
+    way = places - (-2.0, 0.3, 4.0)
+    shown = pattern(places * (-1.0, 1.0, 1.0)) * 4.0 / np.linalg.norm(way, axis=1)**3
+    bright = shown > 0.5 * shown.max()
+    # but for the rim of a cone without a blend
+    assert bright.sum() > 50 and np.median(np.abs(mesh.irradiance.ravel()[bright] / shown[bright] - 1.0)) < 0.01

@@ -24,10 +24,10 @@ def faces_of(lamp: Lamp, mirror: TriangleMesh, receiver: TriangleMesh):
     view, = lamp.views(mirror, None, None, room.DETAIL)
     seen = reflect(view, mirror, receiver, SETTINGS, mirror)
     ray_map, = seen.maps
-    faces = room._faces(ray_map, seen, np.arange(len(seen.triangles)), receiver)
+    faces = room._faces(ray_map, seen, np.arange(len(seen.triangles)), receiver, lamp)
     whole = flux_of(view, seen.mirror_position[seen.triangles]).sum()
     reach = np.ptp(seen.reflected_position, axis=0).max()
-    faces = refined(ray_map, faces, receiver, (room.LEAST * whole, room.FINEST * reach), 10**6)
+    faces = refined(ray_map, faces, receiver, lamp, (room.LEAST * whole, room.FINEST * reach), 10**6)
     return faces, flux_of(view, np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2)), ray_map
 
 
@@ -40,7 +40,7 @@ def asked_all_over(faces, ray_map, inner: np.ndarray) -> tuple[np.ndarray, np.nd
         origin, ray = ray_map.leave(faces.face, start)
         s = dot(point - origin, ray) / dot(ray, ray)
         place, _ = ray_map.locate(faces.face, start, s, point, 30)
-        light.append(light_at(ray_map, faces.face, place, point, faces.normal))
+        light.append(light_at(ray_map, faces.face, place, point, faces.normal, Lamp((0.0, 0.0, 0.0))))
     return np.array([one.irradiance for one in light]), np.array([one.arrived for one in light])
 
 

@@ -1,0 +1,110 @@
+"""What all views of a lamp and all bounces light, as one mesh whose irradiance amounts to its flux."""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..geometry import TriangleMesh, has_area
+from ..result import ReflectionMesh
+from ..support import NothingInView, breathe
+from .caustic_mesh import CausticMesh
+from .energy import amounting, balanced, on_faces, shown_area
+from .refinement import LitFaces
+
+ON_CAUSTIC = 1e-5  # growth of a bundle below which bisection has put a vertex on the caustic
+STRAY = 1e-6  # of the flux: with less, faces with a corner to which no light comes are rounding
+
+
+def joined(parts: list) -> CausticMesh:
+    """The light of all views, of each (faces, flux, reflection, bounce, receivers) for each bounce.
+
+    Raises
+    ------
+    NothingInView
+        Where no face is lit.
+    """
+    reach = _reach([entry[0] for part in parts for entry in part])
+    found = [arrays for arrays in (_arrays(entry, reach) for part in parts for entry in part)
+             if len(arrays["triangles"])]
+    if not found:
+        raise NothingInView("The mirror throws none of the lamp's light on the objects; move the lamp, the mirror or "
+                            "the objects.")
+    counts: dict = {}
+    for part in parts:
+        for name, count in part[0][2].counts.items() if part else ():
+            counts[name] = counts.get(name, 0) + count
+    start = np.cumsum([0] + [len(entry["positions"]) for entry in found])
+    for entry, first in zip(found, start):
+        entry["triangles"] = entry["triangles"] + first
+    mesh = CausticMesh(**{name: np.concatenate([entry[name] for entry in found]) for name in found[0]}, counts=counts)
+    breathe()
+    a, b, c = np.moveaxis(mesh.positions[mesh.triangles], 1, 0)
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return replace(mesh, irradiance=amounting(mesh.irradiance, mesh.flux, area))
+
+
+def _reach(parts: list[LitFaces]) -> float:
+    """How far the faces of all views and bounces reach."""
+    points = np.concatenate([np.zeros((3, 0)), *(faces.points[:, faces.triangles.ravel()] for faces in parts)], axis=1)
+    return float(np.ptp(points, axis=1).max()) if points.size else 0.0
+
+
+def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh], reach: float) -> dict:
+    """What `CausticMesh` holds of one view's light of one bounce, as `_light` tells it."""
+    breathe()
+    faces, flux, seen, number, receivers = lit
+    light, corners = faces.light, np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2)
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area, size = 0.5 * np.linalg.norm(normal, axis=1), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
+    arrived = light.arrived.reshape(3, -1).all(axis=0) | (flux > STRAY * flux.sum())
+    kept = np.flatnonzero(has_area(area, size) & (flux > 0.0) & arrived)
+    irradiance, cosine, side = (value.reshape(3, -1).T[kept] for value in (
+        light.irradiance, light.cosine, light.side))
+    breathe()
+    irradiance = balanced(irradiance, on_faces(flux[kept], faces.beside[kept], faces.triangles[kept]),
+                          faces.triangles[kept], shown_area(corners[kept], area[kept], reach))
+    breathe()
+    # turned to the side that is lit
+    over = (side.sum(axis=1) < 0.0) != ((normal[kept] * faces.normal[:, kept].T).sum(axis=1) < 0.0)
+    order = np.where(over[:, None], (0, 2, 1), (0, 1, 2))
+    triangles, irradiance, cosine = (np.take_along_axis(values, order, axis=1) for values in (
+        faces.triangles[kept], irradiance, cosine))
+    corners = np.take_along_axis(corners[kept], order[:, :, None], axis=1)
+    source = faces.source[kept]
+    breathe()
+    weights = _weights(receivers, source, corners)
+    breathe()
+    used, first = np.unique(faces.triangles[kept], return_index=True)
+    number_of = np.zeros(faces.points.shape[1], dtype=np.int64)
+    number_of[used] = np.arange(len(used))
+    entry = (first % 3) * len(faces) + kept[first // 3]
+    parity = np.where(np.abs(light.turned[entry]) < ON_CAUSTIC, 0, np.sign(light.turned[entry]))
+    return {
+        "positions": faces.points[:, used].T, "triangles": number_of[triangles], "irradiance": irradiance,
+        "flux": flux[kept], "mirror_position": light.place[:, entry].T,
+        "image_parity": parity.astype(np.int8), "cosine": cosine, "source_face": source,
+        "source_weights": weights,
+        "bounces": np.full(len(kept), number, dtype=np.int8)}
+
+
+def _weights(receivers: TriangleMesh, source: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates (m, 3, 3) of corners in their source triangles, none negative."""
+    a, b, c = np.moveaxis(receivers.positions[receivers.triangles[source]], 1, 0)[:, :, None]
+    normal = np.cross(b - a, c - a)
+    squared = np.maximum((normal**2).sum(axis=2), 1e-300)
+    second = (np.cross(corners - a, c - a) * normal).sum(axis=2) / squared
+    third = (np.cross(b - a, corners - a) * normal).sum(axis=2) / squared
+    weights = np.maximum(np.stack((1.0 - second - third, second, third), axis=2), 0.0)
+    weights /= weights.sum(axis=2, keepdims=True)
+    # beside a sliver that tells little of where along it a corner lies
+    places = receivers.positions[receivers.triangles[source]]
+    for first, second in ((0, 1), (1, 2), (2, 0)):
+        breathe()
+        along = (places[:, second] - places[:, first])[:, None]
+        astray = ((corners - np.matmul(weights, places)) * along).sum(axis=2)
+        moved = astray / np.maximum((along**2).sum(axis=2), 1e-300)
+        moved = np.clip(moved, -weights[:, :, second], weights[:, :, first])
+        weights[:, :, first] -= moved
+        weights[:, :, second] += moved
+    return weights
