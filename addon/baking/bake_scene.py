@@ -34,17 +34,34 @@ class BakeScene:
              denoised: bool = False) -> np.ndarray:
         """One participant's picture, (height, width, 4) float32, `UNTOUCHED` where it is not, as seen from a place, or
         without what goes by that; its `size` is width and height."""
+        objects = [obj for number, obj in self.objects if number == owner]
+        scene = self.scene
+        scene.cycles.use_denoising = False
+        if denoised:
+            # what a bake tells of albedo and normals has hardly any noise
+            denoise(scene.cycles, "FAST")
+        scene.render.bake.use_pass_glossy = gloss
+        scene.camera.matrix_world = Matrix.Translation(seen_from)
+        patterned = any(has_pattern(slot.material) for obj in objects for slot in obj.material_slots)
+        places = compat.places_in_texels() if patterned else ((0.0, 0.0),)
+        scene.cycles.samples = max(round(samples / len(places)), 1)
+        seed, found = scene.cycles.seed, []
+        try:
+            for number, place in enumerate(places):
+                scene.cycles.seed = seed + number
+                with _moved(objects, np.array(place) / np.maximum(size, 1)):
+                    found.append(self._baked(objects, size))
+        finally:
+            scene.cycles.seed = seed
+        return _mean_of_what_is_known(found)
+
+    def _baked(self, objects: list, size: tuple[int, int]) -> np.ndarray:
+        """One bake of `objects`."""
         width, height = size
         values = np.full((height, width, 4), UNTOUCHED, dtype=np.float32)
         if not values.size:
             return values
-        objects = [obj for number, obj in self.objects if number == owner]
         scene = self.scene
-        scene.cycles.samples, scene.cycles.use_denoising = samples, False
-        if denoised:
-            denoise(scene.cycles)
-        scene.render.bake.use_pass_glossy = gloss
-        scene.camera.matrix_world = Matrix.Translation(seen_from)
         image = bpy.data.images.new(UV_MAP, width, height, float_buffer=True, is_data=True, alpha=True)
         try:
             image.pixels.foreach_set(values.reshape(-1))
@@ -70,6 +87,39 @@ class BakeScene:
             if as_target:
                 target = self.targets[slot.material]
                 slot.link, slot.material = "OBJECT", target
+
+
+def has_pattern(holder: bpy.types.Material | bpy.types.ShaderNodeTree | None) -> bool:
+    """Whether a material, or a group of nodes, has textures, or anything else that goes by their coordinates."""
+    tree = getattr(holder, "node_tree", holder)
+    return tree is not None and any(node.type == "UVMAP" or node.type.startswith("TEX_")
+                                    or (node.type == "GROUP" and has_pattern(node.node_tree)) for node in tree.nodes)
+
+
+@contextmanager
+def _moved(objects: list, step: np.ndarray) -> Iterator[None]:
+    """Let what is baked of `objects` lie a `step` (2,) beside its place in the picture."""
+    kept = []
+    for obj in objects:
+        uv = np.empty((len(obj.data.loops), 2), dtype=np.float32)
+        layer = obj.data.uv_layers[UV_MAP].uv
+        layer.foreach_get("vector", uv.reshape(-1))
+        # what a texel shows more to the right lies there when all is moved to the left
+        layer.foreach_set("vector", (uv - step).astype(np.float32).reshape(-1))
+        kept.append((obj, uv))
+    try:
+        yield
+    finally:
+        for obj, uv in kept:
+            obj.data.uv_layers[UV_MAP].uv.foreach_set("vector", uv.reshape(-1))
+
+
+def _mean_of_what_is_known(pictures: list) -> np.ndarray:
+    """The mean of pictures (height, width, 4), texel by texel, of those that know it."""
+    known = np.stack([picture[..., 3] != UNTOUCHED for picture in pictures])[..., None]
+    count = known.sum(axis=0)
+    summed = np.where(known, pictures, 0.0).sum(axis=0)
+    return np.where(count > 0, summed / np.maximum(count, 1), UNTOUCHED).astype(np.float32)
 
 
 @contextmanager

@@ -20,7 +20,6 @@ FINER = 1.5     # texels a pixel along a line: interpolation and the picture's f
 LARGE = 256     # texels along a side of a picture from which on more than one are made: each bake has its price
 BORDER = 1      # texels around what is baked
 RINGS = 2       # of texels around what is known, that are told by it
-AROUND = 9      # a texel and its neighbours
 OUTSIDE = -1.0  # of a picture: where what is not baked has its place
 
 
@@ -75,13 +74,14 @@ class ObjectLevels:
         found = np.full((side, side, 4), UNTOUCHED, dtype=np.float32)
         found[row:row + len(baked), column:column + baked.shape[1]] = baked
         known = found[..., 3] != UNTOUCHED
+        # the denoiser takes what lies beside for black, and darkens two texels for that
+        solid = ~_grown(~known) if self.wide else known
+        found = np.where((known & ~_grown(solid))[..., None], found, spread(found, solid))
         if coarser is not None:
             rest = ~self.needed[level][back]
             before, own = self.atlases[level - 1], self.atlases[level]
             enlarged(coarser, found, known, before.spots[rest], own.spots[rest])
-        # the denoiser takes what lies beside for black: where a texel is large, that would be seen
-        solid = known & (_sum_around(known.astype(np.uint8)) == AROUND) if self.wide and level < -1 else known
-        return np.where((known & ~_grown(solid))[..., None], found, spread(found, solid))
+        return spread(found, known)
 
 
 def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, density: np.ndarray, atlases: dict) -> dict:
@@ -137,7 +137,7 @@ def spread(picture: np.ndarray, known: np.ndarray) -> np.ndarray:
 
 
 def _grown(known: np.ndarray) -> np.ndarray:
-    """What is known, and two rings around it."""
+    """A mask, and two rings around it."""
     for _ in range(RINGS):
         known = _sum_around(known.astype(np.uint8)) > 0
     return known
