@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from lamp_scenes import link, picture, principled, scene_of
+from lamp_scenes import link, picture, principled, psnr, scene_of
 
 
 def light(samples: int = 64) -> None:
@@ -71,6 +71,23 @@ def test_all_that_lies_in_a_texel_counts_the_same(blank, output):
     rows, columns = (points.mean(axis=1) * image.size[0]).astype(int).T[::-1]
     found = [pixels[row - 3:row + 4, column - 3:column + 4] for row, column in zip(rows, columns)]
     assert np.abs(np.array(found) - 0.5).max() < 0.1
+
+
+@pytest.mark.parametrize("shining", [False, True])
+def test_a_pattern_goes_on_where_triangles_meet(blank, room, shining):
+    """Stripes that end at a diagonal of texels, and begin again beyond it."""
+    made, number = striped("X")
+    number.default_value = 9.0
+    tree = made.node_tree
+    wave = next(node for node in tree.nodes if node.type == "MATH" and node.operation == "PINGPONG").outputs[0]
+    shader = tree.nodes.new("ShaderNodeEmission" if shining else "ShaderNodeBsdfDiffuse")
+    link(tree, wave, shader.inputs["Color"])
+    link(tree, shader.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
+    card_scene(blank, made)
+    reference = picture(room)
+    parts.generate()
+    light()
+    assert psnr(picture(room), reference) > 36.0
 
 
 def test_no_seam_is_seen_where_triangles_meet(blank, room):
