@@ -27,6 +27,8 @@ from .polygons import (
 from .support import FACE_SHARE, MIRROR_SHARE, OUTLINE_SHARE, Progress, Settings
 from .visibility import cut_behind_mirrors, drop_behind_contacts, plainly_seen
 
+LOOK = 1.0 / 8.0  # of the work for a candidate: that of looking at a pair that may become one
+
 
 @dataclass(frozen=True)
 class Task:
@@ -115,7 +117,7 @@ def _culled(cameras: Cameras, task: Task, showing: np.ndarray, crowds: Crowds) -
     """Pairs of cameras and triangles that may be seen in them, the cameras cut until outlines in them are straight."""
     task.progress.next(0.1, "cones through the tree")
     met, limits = task.met, task.limits
-    candidates, crowd, pairs, visited = _met(cameras, task, showing)
+    candidates, crowd, pairs, visited = _met(cameras, task, showing, crowds)
     candidates, contacts, pierced = crowds.thinned(candidates, crowd), 0, 0
     if cameras.mirror_map.bounce == 1:
         candidates, crowd, contacts, pierced = drop_behind_contacts(
@@ -129,16 +131,22 @@ def _culled(cameras: Cameras, task: Task, showing: np.ndarray, crowds: Crowds) -
     still_open, count = int(still_bent.sum()), len(candidates)
     task.progress.done("cones", nodes_visited=visited, pairs=pairs, contacts=contacts, pierced=pierced,
                        limited=limited, cameras=len(candidates.cameras), candidates=count, open=still_open,
-                       crowded=len(crowds) - still_open, bounded=count > limits.candidates)
+                       crowded=len(crowds) - still_open - crowds.dense, dense=crowds.dense,
+                       bounded=count > limits.candidates)
     return candidates
 
 
-def _met(cameras: Cameras, task: Task, showing: np.ndarray) -> tuple[Candidates, np.ndarray, int, int]:
+def _met(cameras: Cameras, task: Task, showing: np.ndarray,
+         crowds: Crowds) -> tuple[Candidates, np.ndarray, int, int]:
     """Pairs of cameras and triangles that may overlap; which cameras (n,) meet too much, how many pairs were looked at,
     and how many tree nodes visited. Mirrors are looked for on the faces `showing` one, at the last bounce where they
     may hide something."""
     met, most, worth = task.met, task.limits.pairs, picture_areas(cameras)
     camera, triangle, visited, crowd = met.diffuse_in(cameras, most, worth)
+    count = len(camera)
+    crowd |= crowds.dense_in(cameras, LOOK * np.bincount(camera, minlength=len(cameras)))
+    left = ~crowd[camera]
+    camera, triangle = camera[left], triangle[left]
     seen, column = distinct(triangle)
     diffuse = Overlaps.of(cameras, SceneFrames.of(met, seen), (camera, column), met)
     looking = showing[cameras.face] & ~crowd
@@ -152,7 +160,7 @@ def _met(cameras: Cameras, task: Task, showing: np.ndarray) -> tuple[Candidates,
     mirror = Overlaps.of(cameras, frames, (looking[mirror_camera], len(seen) + column), met)
     mirror = mirror.select(plainly_seen(met, mirror.candidates))
     diffuse = replace(diffuse, candidates=replace(diffuse.candidates, frames=frames))
-    return (Overlaps.joined((diffuse, mirror)).in_sight(task.last), crowd, len(camera) + len(mirror_camera),
+    return (Overlaps.joined((diffuse, mirror)).in_sight(task.last), crowd, count + len(mirror_camera),
             visited + more)
 
 

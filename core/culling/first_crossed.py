@@ -8,18 +8,30 @@ import numpy as np
 from ..geometry import cross, dot, rows
 from ..support import breathe
 from .cones import Cones
+from .first_hits import first_hits
 from .point_tree import PointTree
 from .scene_tree import SceneTree
 
+WORTH_BOXES = 5  # triangles for each ray, up to which boxes round them pay: a ray through these takes a fifth
 
 def first_crossed(tree: SceneTree | PointTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,
                   asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None) -> tuple[np.ndarray, np.ndarray]:
     """The triangle (n,) of a tree that each ray (3, n), a unit vector, meets first farther than `beyond`, -1 where it
     meets none, and how far away, infinite there; of pairs (ray, triangle) only those that are `asked` for."""
     count = ray.shape[1]
-    zero, first, best = np.zeros(count), np.full(count, -1), np.full(count, np.inf)
     if isinstance(tree, PointTree):
-        return first, best
+        return np.full(count, -1), np.full(count, np.inf)
+    if count * WORTH_BOXES > len(tree):  # by counts alone, so that what is kept from before changes nothing
+        hits = first_hits(tree.boxes, origin, ray, least=beyond, asked=asked)
+        return hits.triangle, hits.distance
+    return _by_cones(tree, origin, ray, beyond, asked)
+
+
+def _by_cones(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: float,
+              asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None) -> tuple[np.ndarray, np.ndarray]:
+    """Few rays, for which building boxes would take longer than they do as cones without width."""
+    count = ray.shape[1]
+    zero, first, best = np.zeros(count), np.full(count, -1), np.full(count, np.inf)
     for own, triangle, _ in tree.traced(Cones(origin, zero, ray, zero, zero + 1.0), np.ones(count, dtype=bool)):
         breathe()
         if asked is not None and len(own):

@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..geometry import Order, TriangleMesh, columns, dot, in_order, ordered, ranges, rows, shares
+from .box_tree import BoxTree
 from .cones import Balls, Cones
 from .node_tree import NODES_AT_ONCE, NodeTree, curve_leaves, depth_for, node_spheres
 
@@ -74,6 +76,11 @@ class SceneTree(NodeTree):
         spheres = node_spheres(low[:, order], high[:, order], leaf_start, depth)
         return cls(mesh, Order.unchanged(mesh) if given is None else given, depth, spheres, leaf_start, order,
                    np.concatenate((centre, radius[None])))
+
+    @cached_property
+    def boxes(self) -> BoxTree:
+        """For rays."""
+        return BoxTree.build(self.mesh)
 
     def trace(self, cones: Cones) -> tuple[np.ndarray, np.ndarray, int]:
         """Pairs of cones and triangles that may touch.

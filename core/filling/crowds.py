@@ -14,14 +14,13 @@ import numpy as np
 
 from ..cameras import Cameras, covered_pixels, picture_areas, pixels_around_faces, pixels_of, with_pieces
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, distinct, groups
+from ..geometry import SceneFrames, distinct, edge_lengths, groups
 from ..support import crowded
 from .limits import Limits
 from .picture_squares import first_side, in_squares
 
 HIDING = 1.0 / 4.0  # of the work for a candidate: that of asking whether a mirror hides it
 OVERLAPPING = 24  # of the mirrors in a camera: more hardly lie over one and the same polygon
-SQUARE = 0.5  # pixels: the side of the squares in which cameras are shown, where the number of rays allows it
 CROSSED = 2.0 / np.pi  # half as many lines of a square grid as a line of any direction crosses in its side's length
 CELLS = 4  # for each ray, where faces of the mirror may share one
 SMALLEST = 1e-9  # square pixels: smaller cells are nothing
@@ -39,6 +38,7 @@ class Crowds:
     def __init__(self, met: SceneAndMirrors, limits: Limits) -> None:
         self.met, self.limits = met, limits
         self._cameras: list[Cameras] = []
+        self.dense = 0
 
     def __len__(self) -> int:
         return sum(map(len, self._cameras))
@@ -57,10 +57,23 @@ class Crowds:
                          for weights in (None, self.met.are_mirrors(candidates)))
         load, worth = count * (1.0 + HIDING * np.minimum(hiding, OVERLAPPING)), picture_areas(cameras)
         crowd = crowd | crowded(count, worth, self.limits.candidates) | crowded(load, worth, self.limits.work)
+        crowd |= self.dense_in(cameras, np.where(crowd, 0.0, load))
         self._cameras.append(cameras.select(crowd))
         if crowd.any():
             candidates = candidates.on(cameras.select(~crowd), np.where(crowd, -1, np.cumsum(~crowd) - 1))
         return candidates
+
+    def dense_in(self, cameras: Cameras, load: np.ndarray) -> np.ndarray:
+        """Which cameras (n,), of so much work each, lie in pixels in which that is more than rays would be."""
+        view = cameras.view
+        corners = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
+        x, y = corners.mean(axis=1).astype(np.int64).T
+        _, pixel = distinct(x + y * (view.resolution[0] + 1))
+        # what lies over several pixels is spread over them, and a sliver over those that it crosses
+        work = np.bincount(pixel, load / np.maximum(pixels_of(cameras) + edge_lengths(corners).max(axis=1), 1.0))
+        dense = (load > 1.0) & (work[pixel] * self.limits.square**2 > self.limits.dense)
+        self.dense += int(dense.sum())
+        return dense
 
     def filled(self, candidates: Candidates) -> tuple[Candidates, int, int]:
         """The candidates, and behind their cameras the cells of the crowds, each with the one triangle that it shows as
@@ -72,7 +85,7 @@ class Crowds:
         corners, face = (np.concatenate([getattr(crowd, name) for crowd in self._cameras])
                          for name in ("corners", "face"))
         cells, triangle, rays = _cells_and_triangles(replace(cameras, corners=corners, face=face), self.met,
-                                                     self.limits.rays)
+                                                     self.limits)
         seen = np.union1d(frames.triangle, triangle)
         frames, column = SceneFrames.of(self.met, seen), np.searchsorted(seen, frames.triangle)
         whole = replace(cells, corners=np.concatenate((cameras.corners, cells.corners)),
@@ -83,21 +96,20 @@ class Crowds:
         return Candidates.joined((exact, pairs)), rays, pixels
 
 
-def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, most: int) -> tuple[Cameras, np.ndarray, int]:
-    """Cells of crowded cameras that show something, the triangle (m,) that each shows, and how many rays, about `most`
-    at most, were traced for it."""
+def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, limits: Limits) -> tuple[Cameras, np.ndarray, int]:
+    """Cells of crowded cameras that show something, the triangle (m,) that each shows, and how many rays, about as
+    many as the limits allow, were traced for it."""
+    most = limits.rays
     # a face of the mirror lies in about as many squares as its area holds, its edges cross more, and one
     area, crossed = pixels_of(cameras).sum(), CROSSED * pixels_around_faces(cameras)
     faces = len(distinct(cameras.face)[0])
-    size = SQUARE
+    size = limits.square
     if area / size**2 + crossed / size + faces > most:
         # whole pixels, so that the rays through their middles are traced; faces may share them
         room = max(CELLS * most - faces, most / 2)
         size = max(1.0, np.ceil(2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300)))
     cells, square, places = _cells(cameras, size)
-    first, group = groups(cells.face, *square)
-    if len(first) > most:
-        first, group = groups(*square)
+    first, group = groups(*square)
     triangle = met.shown_at(cells.select(first), places[:, first])[group]
     shown = np.flatnonzero(triangle >= 0)
     return cells.select(shown), triangle[shown], len(first)

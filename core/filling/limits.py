@@ -3,11 +3,13 @@
 All limits are counts, so that the same input gives the same result on any machine. They grow with the picture of the
 mirror and with the meshes; no sample meets one, and Suzanne comes to a quarter of the limit on work. They are met
 where much lies over one another in few pixels, as in crowds of mirrors. There what is most crowded is shown by rays
-(`crowds`), and the result says so.
+(`crowds`), and the result says so. Without a word rays show pixels in which they are less work than what they show.
 """
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass, replace
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from ..support import Settings
 
@@ -15,6 +17,8 @@ from ..support import Settings
 CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES, PIECE_BYTES, TRIANGLE_BYTES = 1400, 160, 1100, 400, 140
 LEAST = 1.0 / 4.0  # of the memory, whatever else takes it
 LATER = 1.0 / 2.0  # of the limits of a bounce: those of the next
+SQUARE = 0.5  # pixels, where the tolerance is no less: there the ray through a pixel's middle is one of them
+DENSE = 8.0  # candidates that take about as long as a ray
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,11 @@ class Limits:
     faces : int
     rays : int
         Through crowded cameras.
+    square : float
+        Pixels: the side of the squares through which these rays go, where their number allows it.
+    dense : float
+        Work in such a square, from which on a ray through it shows all that is to be seen there; infinite where all of
+        the geometry is asked for.
     bounced : int
         Cameras that a bounce hands on to the next.
     pieces : int
@@ -51,6 +60,8 @@ class Limits:
     bounced: int
     pieces: int
     memory: int
+    square: float
+    dense: float
 
     @classmethod
     def of(cls, settings: Settings, pixels: int, triangles: int) -> Limits:
@@ -63,7 +74,8 @@ class Limits:
                    int(50_000 + 10 * pixels + 8 * triangles),
                    int(min(200_000 + 32 * pixels + 16 * triangles, memory / FACE_BYTES, faces)),
                    int(min(8000 + pixels, 250_000, faces)), int(min(8000 + pixels // 2, faces // 16)),
-                   int(min(200_000 + 32 * pixels + triangles, memory / PIECE_BYTES)), int(min(memory, 2.0**62)))
+                   int(min(200_000 + 32 * pixels + triangles, memory / PIECE_BYTES)), int(min(memory, 2.0**62)),
+                   min(SQUARE, settings.tolerance), np.inf if settings.hidden_faces else DENSE)
 
     def beside(self, held: int) -> Limits:
         """The limits where so many bytes are held by what has been done."""
@@ -73,4 +85,4 @@ class Limits:
 
     def of_next_bounce(self) -> Limits:
         """Light that has met one mirror more shows less, each part of it smaller."""
-        return Limits(*(int(LATER * most) for most in astuple(self)))
+        return replace(self, **{name: int(LATER * most) for name, most in vars(self).items() if isinstance(most, int)})

@@ -12,6 +12,7 @@ from ..geometry import ranges
 from ..solver import project
 
 SAME_IMAGE = 1e-3  # pixels: closer images of one vertex are one image, found from both sides of a shared edge
+ROWS = 2.0**20  # of the picture and beyond, as high as that; what lies farther out is taken together
 NEAR_IMAGE = 3.0  # pixels: how far the straight outlines of the clip may put a vertex from its image
 
 
@@ -45,13 +46,19 @@ class VertexImages:
     def nearest(self, vertex: np.ndarray, camera: np.ndarray, pixel: np.ndarray) -> np.ndarray:
         """Index of the image within `NEAR_IMAGE` pixels that a guess (vertex, camera, pixel), n of each, means: one in
         the same camera before one in a neighbouring camera, else -1."""
-        start, stop = np.searchsorted(self.vertex, vertex), np.searchsorted(self.vertex, vertex, side="right")
+        # a crumpled mirror shows a vertex thousands of times: only rows of the picture that come near are looked at
+        rows_of, asked = (np.floor(np.clip(spots[:, 1] / NEAR_IMAGE, -ROWS, ROWS)) for spots in (self.pixel, pixel))
+        key, wanted = (of * 4.0 * ROWS + row for of, row in ((self.vertex, rows_of), (vertex, asked)))
+        order = np.argsort(key, kind="stable")
+        key = key[order]
+        start, stop = np.searchsorted(key, wanted - 1.0), np.searchsorted(key, wanted + 1.0, side="right")
         image, guess = ranges(start, stop - start)
+        image = order[image]
         away = np.linalg.norm(self.pixel[image] - pixel[guess], axis=1)
         own = self.camera[image] == camera[guess]
         meant = away < NEAR_IMAGE
         guess, image, away, own = guess[meant], image[meant], away[meant], own[meant]
-        order = np.lexsort((away, ~own, guess))
+        order = np.lexsort((image, away, ~own, guess))
         found, first = np.unique(guess[order], return_index=True)
         result = np.full(len(vertex), -1)
         result[found] = image[order[first]]

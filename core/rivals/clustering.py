@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..culling import SceneTree
+from ..culling import BoxTree, SceneTree, meet
 from ..geometry import TriangleMesh, View, groups, ranges
 from .primary_hits import TOUCHING, PrimaryHits
 from .rival_picture import ITSELF, RivalPicture, Work
-from .tracing import BoxTree, cones_around, meet
+from .tracing import cones_around
 
 PAIRS_AT_ONCE = 500_000
 

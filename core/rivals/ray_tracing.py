@@ -3,11 +3,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..culling import BoxTree, first_hits
 from ..geometry import TriangleMesh, View
 from .pixel_blocks import cast_by_blocks
 from .primary_hits import TOUCHING, PrimaryHits
 from .rival_picture import ITSELF, RivalPicture, Work
-from .tracing import BoxTree, first_hits
 
 
 def traced(view: View, mirror: TriangleMesh, scene: TriangleMesh, block: int, hits: PrimaryHits) -> RivalPicture:
@@ -38,7 +38,7 @@ def behind_mirror(tree: BoxTree | None, hits: PrimaryHits, ray: np.ndarray, dist
     if tree is not None and len(asked):
         part = ray[asked]
         found = first_hits(tree, hits.place[:, part], hits.ray[:, part], least=TOUCHING * tree.size,
-                           limit=distance[asked], own=hits.face[part])
+                           limit=distance[asked], asked=lambda of, triangle: triangle != hits.face[part[of]])
         work.count(rays=len(part), traversals=len(part), intersections=found.intersections, nodes=found.nodes)
         hidden[asked] = found.triangle >= 0
     return hidden

@@ -27,7 +27,7 @@ TILE, GAP, LABEL = 396, 6, 26
 CLOSE = 28  # pixels across the place where filling helps most
 BOXES = {"bowl": (140, 250, 380, 490), "water": (770, 520, 1010, 760), "suzanne": (430, 650, 670, 890),
          "filling": (470, 420, 710, 660)}
-SCARCE = "sphere", 0.012  # the sample for filling, which no sample needs, and the gigabytes that it is allowed
+SCARCE = "sphere", 0.012  # the sample for filling, which samples hardly need, and the gigabytes that it is allowed
 
 
 def main(folder: Path) -> None:

@@ -1,9 +1,7 @@
-"""Rays one by one: boxes round triangles, rays and cones through them, pyramids of rays, light by rays."""
-from .box_tree import BoxTree
+"""Rays one by one: cones round clusters of them, pyramids of rays, light by rays."""
 from .cluster_cones import cones_around
 from .light_rays import Landed, LightRays, by_boxes
+from .planes import plane_distance
 from .ray_pyramid import RayPyramid
-from .tree_rays import first_hits, meet, plane_distance
 
-__all__ = ["BoxTree", "Landed", "LightRays", "RayPyramid", "by_boxes", "cones_around", "first_hits", "meet",
-           "plane_distance"]
+__all__ = ["Landed", "LightRays", "RayPyramid", "by_boxes", "cones_around", "plane_distance"]

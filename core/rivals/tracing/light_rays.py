@@ -14,9 +14,8 @@ import numpy as np
 
 from ...cameras import MirrorSurface
 from ...caustics import Lamp
+from ...culling import BoxTree, first_hits
 from ...geometry import TriangleMesh, dot, norm
-from .box_tree import BoxTree
-from .tree_rays import first_hits
 
 TOUCHING = 1e-9  # of a way: a hit that much before its end is the end
 GOLDEN = 0.6180339887498949
@@ -130,7 +129,7 @@ def by_boxes(mesh: TriangleMesh) -> Tracer:
     tree = BoxTree.build(mesh)
 
     def trace(origins: np.ndarray, directions: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        hits = first_hits(tree, origins, directions, own=own)
+        hits = first_hits(tree, origins, directions, asked=lambda ray, triangle: triangle != own[ray])
         return hits.triangle, hits.distance
     return trace
 

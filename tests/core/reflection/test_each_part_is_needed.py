@@ -35,6 +35,7 @@ BOXES = shapes.combine(*(shapes.box((x, y, 0.3), (0.4, 0.4, 1.0), 0.3) for x in 
 ROOM = shapes.combine(shapes.box((0.0, 4.0, 2.0), (9.0, 1.0, 6.0)), shapes.box((0.0, -8.0, 2.0), (9.0, 1.0, 6.0)),
                       shapes.box((-4.0, 0.0, 2.0), (1.0, 9.0, 6.0)), shapes.box((4.0, 0.0, 2.0), (1.0, 9.0, 6.0)))
 WIDE_FLOOR = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (30.0, 0.0, 0.0), (0.0, 30.0, 0.0)))
+ALL = {"hidden_faces": True}  # so that no ray shows what would be cut
 VIEW = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (256, 256), field_of_view=0.5)
 LOW = View.looking_at((0.0, -2.0, 1.6), (0.0, 2.0, 0.4), (256, 256), field_of_view=0.9)
 
@@ -84,11 +85,11 @@ PARTS = {
     "contacts": Part(BOUNCE, "drop_behind_contacts", lambda candidates, *_: (
         candidates, np.zeros(len(candidates.cameras), dtype=bool), 0, 0), (VIEW, FLOOR, BOXES), "uncovered", above=0.1),
     "mirrors before the scene": Part(BOUNCE, "cut_behind_mirrors", lambda met, polygons: (polygons, 0, 0),
-                                     (VIEW, BALLS, ROOM), "spill", 10.0),
+                                     (VIEW, BALLS, ROOM), "spill", 10.0, settings=ALL),
     "neighbours that only touch": Part(BOUNCE, "plainly_seen", lambda met, candidates: np.ones(
-        len(candidates), dtype=bool), "torus", "candidates", 1.05),
+        len(candidates), dtype=bool), "torus", "candidates", 1.05, settings=ALL),
     "what mirrors hide from whole cameras": Part(Overlaps, "in_sight", lambda self, last: self.candidates, "torus",
-                                                 "candidates", 1.05),
+                                                 "candidates", 1.05, settings=ALL),
     "the eye's plane": Part(REFLECTION, "cut_before_eye", lambda cameras: cameras, (LOW, WIDE_FLOOR, ROOM), "faces"),
     "filling by rays": Part(Crowds, "filled", lambda self, candidates: (candidates, 0, 0), "sphere", "uncovered", 10.0,
                             settings={"maximum_memory": 1e-4}),

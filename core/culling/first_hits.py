@@ -6,11 +6,14 @@ undivided: there a call of NumPy costs more than what is saved.
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
-from ...geometry import dot, ranges
+from ..geometry import ranges
+from ..support import breathe
 from .box_tree import BoxTree
 
 RAYS_AT_ONCE = 65536
@@ -39,7 +42,8 @@ class Hits:
 
 
 def first_hits(tree: BoxTree, origins: np.ndarray, directions: np.ndarray, *, least: float = 0.0,
-               limit: np.ndarray | None = None, own: np.ndarray | None = None) -> Hits:
+               limit: np.ndarray | None = None,
+               asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None) -> Hits:
     """The first triangle that each ray meets, from either side.
 
     Parameters
@@ -49,8 +53,8 @@ def first_hits(tree: BoxTree, origins: np.ndarray, directions: np.ndarray, *, le
         Hits nearer than this are the surface that the ray starts on.
     limit : (n,) float64, optional
         Hits from this distance on do not count.
-    own : (n,) int64, optional
-        The triangle that the ray starts on and cannot meet.
+    asked : callable, optional
+        Which pairs (p,) of a ray and a triangle count; not, for one, those of a ray and what it starts on.
     """
     count = origins.shape[1]
     triangle, distance = np.full(count, -1), np.full(count, np.inf)
@@ -58,7 +62,7 @@ def first_hits(tree: BoxTree, origins: np.ndarray, directions: np.ndarray, *, le
     for start in range(0, count if len(tree) else 0, RAYS_AT_ONCE):
         part = slice(start, start + RAYS_AT_ONCE)
         trace = _Trace(tree, origins[:, part], directions[:, part], least,
-                       None if limit is None else limit[part], None if own is None else own[part])
+                       None if limit is None else limit[part], None if asked is None else partial(_later, asked, start))
         trace.run()
         triangle[part], distance[part] = trace.triangle, np.where(trace.triangle >= 0, trace.nearest, np.inf)
         intersections += trace.intersections
@@ -66,11 +70,16 @@ def first_hits(tree: BoxTree, origins: np.ndarray, directions: np.ndarray, *, le
     return Hits(triangle, distance, intersections, nodes)
 
 
+def _later(asked: Callable[[np.ndarray, np.ndarray], np.ndarray], start: int, ray: np.ndarray,
+           triangle: np.ndarray) -> np.ndarray:
+    return asked(start + ray, triangle)
+
+
 class _Trace:
     """One part of the rays on its way through the tree."""
 
-    def __init__(self, tree: BoxTree, origins, directions, least, limit, own) -> None:
-        self.tree, self.least, self.own = tree, least, own
+    def __init__(self, tree: BoxTree, origins, directions, least, limit, asked) -> None:
+        self.tree, self.least, self.asked = tree, least, asked
         self.origin = origins - tree.middle[:, None]
         self.direction = directions
         with np.errstate(divide="ignore"):
@@ -87,6 +96,7 @@ class _Trace:
         node = np.zeros(len(ray), dtype=np.int64)
         stack = [self._entered(ray, node)]
         while stack:
+            breathe()
             ray, node, entry = stack.pop()
             ahead = entry < self.nearest[ray]
             ray, node = ray[ahead], node[ahead]
@@ -129,9 +139,9 @@ class _Trace:
         self.intersections += len(ray)
         distance, inside = meet(self.tree, entry, self.origin, self.direction, ray)
         good = inside & (distance > self.least) & (distance < self.nearest[ray])
-        if self.own is not None:
-            good &= self.tree.order[entry] != self.own[ray]
         good = np.flatnonzero(good)
+        if self.asked is not None and len(good):
+            good = good[self.asked(ray[good], self.tree.order[entry[good]])]
         # farthest first: of the hits of one ray the nearest is written last
         good = good[np.argsort(-distance[good], kind="stable")]
         self.nearest[ray[good]] = distance[good]
@@ -157,13 +167,3 @@ def meet(tree: BoxTree, entry: np.ndarray, origins: np.ndarray, directions: np.n
         here, there = row(1)
         third = here + distance * there
         return distance, (second >= -EDGE) & (third >= -EDGE) & (second + third <= 1.0 + EDGE)
-
-
-def plane_distance(corners: np.ndarray, origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
-    """Distances (n,) at which rays (3, n) meet the planes of triangles with `corners` (3, n, 3)."""
-    a, b, c = np.moveaxis(corners, 2, 0)
-    normal = np.stack(((b - a)[1] * (c - a)[2] - (b - a)[2] * (c - a)[1],
-                       (b - a)[2] * (c - a)[0] - (b - a)[0] * (c - a)[2],
-                       (b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return dot(a - origins, normal) / dot(directions, normal)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import TriangleMesh, cross, dot, ranges, rows
+from ..geometry import TriangleMesh, cross, dot, ranges, rows
 
 BINS = 12
 LEAF = 8  # triangles that a leaf holds at most
