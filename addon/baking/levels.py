@@ -21,6 +21,7 @@ LARGE = 256     # texels along a side of a picture from which on more than one a
 BORDER = 1      # texels around what is baked
 RINGS = 2       # of texels around what is known, that are told by it
 DARK = 0.02     # what is darker tells nothing of the light that falls on it
+DARKENED = 1.5  # times a texel at the rim of what is denoised: it has lost no more
 OUTSIDE = -1.0  # of a picture: where what is not baked has its place
 
 
@@ -146,9 +147,10 @@ def _with_its_rim(baked: np.ndarray, colours: np.ndarray | None) -> np.ndarray:
     rim = known & ~solid & _grown(solid)
     if colours is None:
         return np.where(rim[..., None], spread(baked, solid), baked)
-    # the light itself has no pattern
+    # the light itself has no pattern, but for gloss
     colours = np.maximum(colours, DARK)
-    return np.where(rim[..., None], spread(baked / colours, solid) * colours, baked)
+    told = np.clip(spread(baked / colours, solid) * colours, baked, DARKENED * baked)
+    return np.where(rim[..., None], told, baked)
 
 
 def _grown(known: np.ndarray) -> np.ndarray:
