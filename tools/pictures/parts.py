@@ -11,6 +11,7 @@ import importlib
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
@@ -22,6 +23,7 @@ from scipy.sparse.csgraph import connected_components
 
 from tools import extension_zip
 
+WRITING = "addon.writing.mesh_arrays"
 WHOLE = 1e-6  # by how much the areas of a triangle's faces may miss the triangle's
 TILE, GAP, LABEL = 396, 6, 26
 CLOSE = 28  # pixels across the place where filling helps most
@@ -55,7 +57,8 @@ def _pictures(sample: str, memory: float, scratch: Path) -> list[tuple[str, Imag
 
 
 def _generated(sample: str, memory: float) -> tuple:
-    """Open the sample and reflect it: the object and core's mesh, whose faces it has in the same order."""
+    """Open the sample and reflect it: the object, and core's mesh as it was written, whose faces it has in the same
+    order."""
     import bpy
     bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{sample}.blend"))
     for modifier in (modifier for obj in bpy.context.scene.objects for modifier in obj.modifiers):
@@ -64,13 +67,20 @@ def _generated(sample: str, memory: float) -> tuple:
             modifier.render_levels = modifier.levels
     chosen = _room("addon.reading.roles").choose(bpy.context)
     settings = _room("core").Settings(maximum_memory=memory)
-    steps = _room("addon.operators.generate").generation(bpy.context, chosen, settings)
-    while True:
-        try:
-            next(steps)
-        except StopIteration as stop:
-            bpy.context.view_layer.update()
-            return stop.value.results[0]
+    steps, writing = _room("addon.operators.generate").generation(bpy.context, chosen, settings), _room(WRITING)
+    written, rounded = [], writing.in_single_precision
+
+    def writes(*given):
+        written.append(rounded(*given))
+        return written[-1]
+    with mock.patch.object(writing, "in_single_precision", writes):
+        while True:
+            try:
+                next(steps)
+            except StopIteration as stop:
+                bpy.context.view_layer.update()
+                obj, mesh = stop.value.results[0]
+                return obj, replace(written[-1], counts=mesh.counts)
 
 
 def _room(name: str):
