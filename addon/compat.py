@@ -52,6 +52,12 @@ def has_free_normals() -> bool:
     return bpy.app.version >= (4, 5, 0)
 
 
+def places_in_texels() -> tuple[tuple[float, float], ...]:
+    """Where in a texel the middle of what one bake sees of it has to lie, so that all bakes together see the texel from
+    side to side, along either axis: before Blender 5.0 each sees half of it."""
+    return ((0.0, 0.0),) if bpy.app.version >= (5, 0, 0) else ((-0.25, -0.25), (0.25, 0.25))
+
+
 def values_stored(attribute: bpy.types.Attribute) -> int:
     """How many values a mesh's attribute takes room for; from 5.0 on equal ones may be stored once."""
     return 1 if getattr(attribute, "storage_type", "ARRAY") == "SINGLE" else len(attribute.data)

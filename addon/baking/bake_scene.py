@@ -1,7 +1,7 @@
 """A temporary scene in which Cycles bakes the light on objects, by stand-ins whose triangles have room of their own."""
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -17,8 +17,7 @@ from ..writing import UV_MAP
 from .opacity import as_mirrors_see, show_opacity, turn_over, without_openings
 from .stand_ins import StandIn, new_mesh, new_object, swap_names
 from .swift_world import swiftly_sampled
-
-UNTOUCHED = -1.0  # of a texel that nothing was baked into; light is never below zero
+from .whole_texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved, shines
 
 
 @dataclass(frozen=True)
@@ -34,17 +33,50 @@ class BakeScene:
              denoised: bool = False) -> np.ndarray:
         """One participant's picture, (height, width, 4) float32, `UNTOUCHED` where it is not, as seen from a place, or
         without what goes by that; its `size` is width and height."""
+        scene = self.scene
+        scene.cycles.use_denoising = False
+        if denoised:
+            # what a bake tells of albedo and normals has hardly any noise
+            denoise(scene.cycles, "FAST")
+        scene.render.bake.use_pass_glossy = gloss
+        scene.camera.matrix_world = Matrix.Translation(seen_from)
+        return self._baked_all_over(owner, size, samples)
+
+    def colours(self, owner: int, size: tuple[int, int], samples: int) -> np.ndarray | None:
+        """The colours of what is matte or shines, as `bake` has light; None where they have no pattern."""
+        if not self._any(owner, has_pattern):
+            return None
+        self.scene.cycles.use_denoising = False
+        found = self._baked_all_over(owner, size, samples, type="DIFFUSE", pass_filter={"COLOR"})
+        return found + self._baked_all_over(owner, size, samples, type="EMIT") if self._any(owner, shines) else found
+
+    def _any(self, owner: int, kind: Callable) -> bool:
+        """Whether any of a participant's materials is of a kind."""
+        return any(kind(slot.material) for number, obj in self.objects if number == owner
+                   for slot in obj.material_slots)
+
+    def _baked_all_over(self, owner: int, size: tuple[int, int], samples: int, **what) -> np.ndarray:
+        """What bakes tell that together look at texels from side to side, where that matters."""
+        scene, objects = self.scene, [obj for number, obj in self.objects if number == owner]
+        places = compat.places_in_texels() if self._any(owner, has_pattern) else ((0.0, 0.0),)
+        scene.cycles.samples = max(round(samples / len(places)), 1)
+        seed, found = scene.cycles.seed, []
+        try:
+            for number, place in enumerate(places):
+                scene.cycles.seed = seed + number
+                with moved(objects, np.array(place) / np.maximum(size, 1)):
+                    found.append(self._baked(objects, size, **what))
+        finally:
+            scene.cycles.seed = seed
+        return mean_of_what_is_known(found)
+
+    def _baked(self, objects: list, size: tuple[int, int], **what) -> np.ndarray:
+        """One bake of `objects`, of all light where `what` names nothing else."""
         width, height = size
         values = np.full((height, width, 4), UNTOUCHED, dtype=np.float32)
         if not values.size:
             return values
-        objects = [obj for number, obj in self.objects if number == owner]
         scene = self.scene
-        scene.cycles.samples, scene.cycles.use_denoising = samples, False
-        if denoised:
-            denoise(scene.cycles)
-        scene.render.bake.use_pass_glossy = gloss
-        scene.camera.matrix_world = Matrix.Translation(seen_from)
         image = bpy.data.images.new(UV_MAP, width, height, float_buffer=True, is_data=True, alpha=True)
         try:
             image.pixels.foreach_set(values.reshape(-1))
@@ -53,8 +85,9 @@ class BakeScene:
             self._show(objects, as_target=True)
             with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0], selected_objects=objects,
                                            active_object=objects[0], object=objects[0]), interrupt_held():
-                done = bpy.ops.object.bake(type="COMBINED", use_clear=False, margin=0, save_mode="INTERNAL",
-                                           target="IMAGE_TEXTURES", use_selected_to_active=False, uv_layer=UV_MAP)
+                done = bpy.ops.object.bake(**({"type": "COMBINED"} | what), use_clear=False, margin=0,
+                                           save_mode="INTERNAL", target="IMAGE_TEXTURES",
+                                           use_selected_to_active=False, uv_layer=UV_MAP)
             if done != {"FINISHED"}:
                 raise ReflectionError("Baking was cancelled: nothing has changed.")
             image.pixels.foreach_get(values.reshape(-1))

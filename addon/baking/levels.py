@@ -9,8 +9,8 @@ from ...core import View, breathe
 from ..reading import DiffuseScene
 from .asked_parts import asked_densities, sides_before_mirrors
 from .atlas import Atlas, packed
-from .bake_scene import UNTOUCHED
 from .division import Division, divided, enlarged, parts_along
+from .whole_texels import UNTOUCHED
 
 COARSER = (4, 2, 1)  # times, of the pictures in which an object is baked that is worth it
 WIDE = 32.0     # texels across triangles from which on what lies side by side in a picture does in the scene too
@@ -20,7 +20,8 @@ FINER = 1.5     # texels a pixel along a line: interpolation and the picture's f
 LARGE = 256     # texels along a side of a picture from which on more than one are made: each bake has its price
 BORDER = 1      # texels around what is baked
 RINGS = 2       # of texels around what is known, that are told by it
-AROUND = 9      # a texel and its neighbours
+DARK = 0.02     # what is darker tells nothing of the light that falls on it
+DARKENED = 1.5  # times a texel at the rim of what is denoised: it has lost no more
 OUTSIDE = -1.0  # of a picture: where what is not baked has its place
 
 
@@ -69,19 +70,20 @@ class ObjectLevels:
         """About how many texels of a level are baked."""
         return float(self.atlases[level].size**2 * max(self.needed[level][back].mean(), 1e-3))
 
-    def picture(self, level: int, back: bool | None, found: np.ndarray, coarser: np.ndarray | None) -> np.ndarray:
-        """A level's picture from what was baked of its window and the picture before, with all texels known."""
-        baked, (column, row), side = found, self.window(level, back)[0], self.atlases[level].size
+    def picture(self, level: int, back: bool | None, baked: np.ndarray, coarser: np.ndarray | None,
+                colours: np.ndarray | None = None) -> np.ndarray:
+        """A level's picture from what was baked of its window, light and `colours` that have a pattern, and the picture
+        before, with all texels known."""
+        (column, row), side = self.window(level, back)[0], self.atlases[level].size
         found = np.full((side, side, 4), UNTOUCHED, dtype=np.float32)
-        found[row:row + len(baked), column:column + baked.shape[1]] = baked
+        found[row:row + len(baked), column:column + baked.shape[1]] = _with_its_rim(baked, colours) if self.wide \
+            else baked
         known = found[..., 3] != UNTOUCHED
         if coarser is not None:
             rest = ~self.needed[level][back]
             before, own = self.atlases[level - 1], self.atlases[level]
             enlarged(coarser, found, known, before.spots[rest], own.spots[rest])
-        # the denoiser takes what lies beside for black: where a texel is large, that would be seen
-        solid = known & (_sum_around(known.astype(np.uint8)) == AROUND) if self.wide and level < -1 else known
-        return np.where((known & ~_grown(solid))[..., None], found, spread(found, solid))
+        return spread(found, known)
 
 
 def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, density: np.ndarray, atlases: dict) -> dict:
@@ -139,8 +141,23 @@ def spread(picture: np.ndarray, known: np.ndarray) -> np.ndarray:
     return values
 
 
+def _with_its_rim(baked: np.ndarray, colours: np.ndarray | None) -> np.ndarray:
+    """What was baked (height, width, 4), with the light at its rim as within: the denoiser takes what lies beside for
+    black, and darkens two texels for that."""
+    known = baked[..., 3] != UNTOUCHED
+    # beyond the picture there is nothing either
+    solid = ~_grown(np.pad(~known, RINGS, constant_values=True))[RINGS:-RINGS, RINGS:-RINGS]
+    rim = known & ~solid & _grown(solid)
+    if colours is None:
+        return np.where(rim[..., None], spread(baked, solid), baked)
+    # the light itself has no pattern, but for gloss
+    colours = np.maximum(colours, DARK)
+    told = np.clip(spread(baked / colours, solid) * colours, baked, DARKENED * baked)
+    return np.where(rim[..., None], told, baked)
+
+
 def _grown(known: np.ndarray) -> np.ndarray:
-    """What is known, and two rings around it."""
+    """A mask, and two rings around it."""
     for _ in range(RINGS):
         known = _sum_around(known.astype(np.uint8)) > 0
     return known

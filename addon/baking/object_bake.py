@@ -106,9 +106,11 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
                 # as many samples for each pixel, not for each texel
                 share = (FEWER if denoised else 1.0) / FINER ** 2
                 width, height = own.window(level, back)[1].tolist()
-                picture = stage.bake(number, (width, height), seen.seen_from[number], bool(seen.one_eye[number]),
-                                     max(round(samples * share), 1), denoised)
-                found[number, back] = own.picture(level, back, picture, found.get((number, back)))
+                few = max(round(samples * share), 1)
+                picture = stage.bake(number, (width, height), seen.seen_from[number], bool(seen.one_eye[number]), few,
+                                     denoised)
+                colours = stage.colours(number, (width, height), few) if denoised else None
+                found[number, back] = own.picture(level, back, picture, found.get((number, back)), colours)
                 done += own.texels(level, None)
     return found
 

@@ -14,6 +14,7 @@ ONE_EYE = 0.2   # radians between how an object is seen and how from one place, 
 SHARPEST = 0.9  # quantile of the pixels of an object that have no more than one texel
 SOLID = 0.1     # of a closed object's picture: where fronts are more of it they hide the backs
 HAIR = 0.01     # of an object's picture: what outlines show of a side that is hidden
+OUTSIDE = 1e-6  # of a pixel that the camera sees: what one beside the picture tells
 UNSEEN = 0.5    # of the others' middle density, where nothing of an object is seen
 
 
@@ -26,7 +27,8 @@ class SeenSources:
     density : (k,) float64
         Pixels per unit of length at which a source is seen.
     seen_from : (k, 3) float64
-        The place nearest to the lines along which mirrors see it; the eye itself for what is not seen.
+        The place nearest to the lines along which the mirror sees it that shows most of it; the eye itself for what is
+        not seen.
     one_eye : (k,) bool
         Whether all of it is seen nearly as from there: by flat mirrors exactly, by small or far ones as by holes.
     backs : (k,) bool
@@ -46,18 +48,35 @@ class SeenSources:
 def seen_sources(results: list, view: View, scene: DiffuseScene) -> SeenSources:
     """What `results`, which show `scene` to `view`, tell of its sources."""
     faces = [_faces(result, view, scene) for result in results]
-    triangle, area, density, eye, shown, facing = (np.concatenate(part) for part in zip(*faces, strict=True))
+    triangle, area, density, _, _, facing, _ = (np.concatenate(part) for part in zip(*faces, strict=True))
     breathe()
     count = len(scene.sources)
     owner = scene.source_object[triangle]
     fronts = np.bincount(owner, weights=area * facing, minlength=count)
     whole = np.bincount(owner, weights=area, minlength=count)
-    seen = whole > 0.0
-    middle = np.stack([np.bincount(owner, weights=area * eye[:, axis], minlength=count) for axis in range(3)], axis=1)
-    start = np.where(seen[:, None], middle / np.where(seen, whole, 1.0)[:, None], view.eye)
-    seen_from, angle = places_of_sight(owner, area, shown, eye, start)
+    seen_from, angle = _sight(faces, view, scene)
     return SeenSources(_densities(owner, density, area, count), seen_from, angle <= ONE_EYE,
                        fronts < SOLID * whole, (fronts > HAIR * whole) & (fronts < (1.0 - HAIR) * whole))
+
+
+def _sight(faces: list, view: View, scene: DiffuseScene) -> tuple[np.ndarray, np.ndarray]:
+    """The place (k, 3) from which each source looks most nearly as it is seen, and how far that is (k,) from how it is,
+    in the mirror that shows most of it: two mirrors see it from two places, and hardly as from one between."""
+    count = len(scene.sources)
+    places, angles, most = np.tile(np.asarray(view.eye, dtype=np.float64), (count, 1)), np.zeros(count), np.zeros(count)
+    for triangle, area, _, eye, shown, _, inside in faces:
+        owner = scene.source_object[triangle]
+        # what the picture shows counts, and what may come into it where it shows nothing
+        weight = area * np.where(inside, 1.0, OUTSIDE)
+        whole = np.bincount(owner, weights=weight, minlength=count)
+        middle = np.stack([np.bincount(owner, weights=weight * eye[:, axis], minlength=count) for axis in range(3)],
+                          axis=1)
+        start = np.where((whole > 0.0)[:, None], middle / np.where(whole > 0.0, whole, 1.0)[:, None], places)
+        found, off = places_of_sight(owner, weight, shown, eye, start)
+        more = whole > most
+        places, angles = np.where(more[:, None], found, places), np.where(more, off, angles)
+        most = np.maximum(whole, most)
+    return places, angles
 
 
 def fronts_seen(scene: DiffuseScene, triangle: np.ndarray, towards: np.ndarray) -> np.ndarray:
@@ -138,7 +157,7 @@ def weights_of(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple:
     """Triangle of the scene, area in pixels, pixels per unit, mirrored eye, middle and side of each face of a result
-    that one mirror shows."""
+    that one mirror shows, and whether it is in the picture."""
     mesh = result.data
     once = face_values(mesh, "bounces") == 1
     corners, triangle = corner_vertices(mesh)[once], triangle_of(result, scene)[once]
@@ -158,7 +177,8 @@ def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple:
     eye = middle + towards * (far / np.maximum(path, 1e-12))
     facing = fronts_seen(scene, triangle, towards)
     usable = np.isfinite(area) & np.isfinite(density)
-    return triangle, np.where(usable, area, 0.0), density, eye, middle, facing
+    inside = ((spots.mean(axis=1) > 0.0) & (spots.mean(axis=1) < view.resolution)).all(axis=1)
+    return triangle, np.where(usable, area, 0.0), density, eye, middle, facing, inside
 
 
 def _densities(owner: np.ndarray, density: np.ndarray, area: np.ndarray, count: int) -> np.ndarray:

@@ -71,6 +71,8 @@ def new_object(source: bpy.types.Object, stand: StandIn, mesh: bpy.types.Mesh) -
             slot.link = "DATA"
         obj.instance_type = "NONE"
         obj.hide_render = False
+        # in mirrors it is an object as any other
+        obj.is_shadow_catcher = False
     else:
         obj = bpy.data.objects.new(UV_MAP, mesh)
         obj.pass_index, obj.color = source.pass_index, source.color

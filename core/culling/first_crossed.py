@@ -12,7 +12,7 @@ from .first_hits import first_hits
 from .point_tree import PointTree
 from .scene_tree import SceneTree
 
-WORTH_BOXES = 5  # triangles for each ray, up to which boxes round them pay: a ray through these takes a fifth
+WORTH_BOXES = 10  # triangles for each ray, up to which boxes round them pay: a ray through these takes a fifth, or less
 
 def first_crossed(tree: SceneTree | PointTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,
                   asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None) -> tuple[np.ndarray, np.ndarray]:

@@ -78,6 +78,25 @@ def test_gloss_is_seen_as_a_ball_shows_it(blank, room):
     assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+def test_what_two_mirrors_show_is_seen_from_where_the_one_sees_it_that_shows_most_of_it(blank, room):
+    """In closed form: the mirror image of the eye in that mirror, and no place between both."""
+    wall = scene_of(blank)
+    other = parts.add("plane", "Other Mirror", size=3.0, location=(-2.4, -1.5, 1.0), rotation=(np.pi / 2, 0.0, 1.2))
+    other.data.materials.append(wall.data.materials[0])
+    sources = [bpy.data.objects[name] for name in ("Box", "Floor")]
+    parts.select(*sources, wall, other)
+    parts.generate(tolerance=4.0)
+    results = [obj for obj in blank.scene.objects if obj.reflection_mesh.role == "REFLECTION"]
+    assert len(results) == 2
+    reading = room("addon.reading")
+    view = reading.read_view(blank)
+    scene = reading.read_scene(blank.evaluated_depsgraph_get(), sources)
+    seen = room("addon.baking.seen_sources").seen_sources(results, view, scene)
+    # the wall mirror stands at y = 1
+    assert np.allclose(seen.seen_from, np.array(view.eye) * (1.0, -1.0, 1.0) + (0.0, 2.0, 0.0), atol=0.3)
+    assert seen.one_eye.all()
+
+
 def test_light_takes_the_bounces_that_are_left(blank, room):
     """The mirror is one of them: where no more are followed, what it shows has no light of its surroundings."""
     scene_of(blank)

@@ -30,6 +30,15 @@ def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
     assert lit > before + 6.0
 
 
+def test_what_catches_shadows_is_what_mirrors_show_of_it(blank, room):
+    scene_of(blank)
+    bpy.data.objects["Floor"].is_shadow_catcher = True
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    light(64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
 def test_it_is_exposed_once(blank, room):
     scene_of(blank)
     blank.scene.cycles.film_exposure = 0.4

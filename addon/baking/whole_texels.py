@@ -1,0 +1,57 @@
+"""What a texel holds from side to side, from bakes that each look at a part of it."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+
+from ..writing import UV_MAP
+
+UNTOUCHED = -1.0  # of a texel that nothing was baked into; light is never below zero
+
+
+def has_pattern(material: bpy.types.Material | None) -> bool:
+    """Whether a material has textures, or anything else that goes by their coordinates."""
+    return any(node.type == "UVMAP" or node.type.startswith("TEX_") for node in _nodes(material))
+
+
+def shines(material: bpy.types.Material | None) -> bool:
+    """Whether a material may have a light of its own."""
+    strengths = [node.inputs["Emission Strength"] for node in _nodes(material) if node.type == "BSDF_PRINCIPLED"]
+    return (any(node.type == "EMISSION" for node in _nodes(material))
+            or any(strength.is_linked or strength.default_value > 0.0 for strength in strengths))
+
+
+def _nodes(holder: bpy.types.Material | bpy.types.ShaderNodeTree | None) -> list[bpy.types.Node]:
+    """The nodes of a material, those in groups of nodes among them."""
+    tree = getattr(holder, "node_tree", holder)
+    own = [] if tree is None else list(tree.nodes)
+    return own + [inner for node in own if node.type == "GROUP" for inner in _nodes(node.node_tree)]
+
+
+@contextmanager
+def moved(objects: list, step: np.ndarray) -> Iterator[None]:
+    """Let what is baked of `objects` lie a `step` (2,) beside its place in the picture."""
+    kept = []
+    for obj in objects:
+        uv = np.empty((len(obj.data.loops), 2), dtype=np.float32)
+        layer = obj.data.uv_layers[UV_MAP].uv
+        layer.foreach_get("vector", uv.reshape(-1))
+        # what a texel shows more to the right lies there when all is moved to the left
+        layer.foreach_set("vector", (uv - step).astype(np.float32).reshape(-1))
+        kept.append((obj, uv))
+    try:
+        yield
+    finally:
+        for obj, uv in kept:
+            obj.data.uv_layers[UV_MAP].uv.foreach_set("vector", uv.reshape(-1))
+
+
+def mean_of_what_is_known(pictures: list) -> np.ndarray:
+    """The mean of pictures (height, width, 4), texel by texel, of those that know it."""
+    known = np.stack([picture[..., 3] != UNTOUCHED for picture in pictures])[..., None]
+    count = known.sum(axis=0)
+    summed = np.where(known, pictures, 0.0).sum(axis=0)
+    return np.where(count > 0, summed / np.maximum(count, 1), UNTOUCHED).astype(np.float32)
