@@ -22,6 +22,7 @@ BORDER = 1      # texels around what is baked
 RINGS = 2       # of texels around what is known, that are told by it
 DARK = 0.02     # what is darker tells nothing of the light that falls on it
 DARKENED = 1.5  # times a texel at the rim of what is denoised: it has lost no more
+BLACKENED = 3.0  # the same, where no pattern could be lost by it
 OUTSIDE = -1.0  # of a picture: where what is not baked has its place
 
 
@@ -149,7 +150,8 @@ def _with_its_rim(baked: np.ndarray, colours: np.ndarray | None) -> np.ndarray:
     solid = ~_grown(np.pad(~known, RINGS, constant_values=True))[RINGS:-RINGS, RINGS:-RINGS]
     rim = known & ~solid & _grown(solid)
     if colours is None:
-        return np.where(rim[..., None], spread(baked, solid), baked)
+        # nothing is darker than it was baked: within may be the shadow of what touches
+        return np.where(rim[..., None], np.clip(spread(baked, solid), baked, BLACKENED * baked), baked)
     # the light itself has no pattern, but for gloss
     colours = np.maximum(colours, DARK)
     told = np.clip(spread(baked / colours, solid) * colours, baked, DARKENED * baked)
