@@ -63,12 +63,16 @@ def motion_per_pixel(truth: CodedPicture) -> np.ndarray:
     axes = []
     for axis in (0, 1):
         breathe()
-        step = np.linalg.norm(np.diff(truth.position, axis=axis), axis=2)
+        step = np.diff(truth.position, axis=axis)
+        breathe()
+        step = np.linalg.norm(step, axis=2)
+        breathe()
         same = np.diff(truth.source, axis=axis) == 0
         step = np.where(same, step, np.inf)
         pad = [(0, 0), (0, 0)]
         sides = []
         for side in ((1, 0), (0, 1)):
+            breathe()
             pad[axis] = side
             sides.append(np.pad(step, pad, constant_values=np.inf))
         axes.append(np.minimum(*sides))
@@ -101,13 +105,18 @@ def measure(mirror: np.ndarray, bent: np.ndarray, truth: CodedPicture, shown: Co
     breathe()
     displacement = np.full(mirror.shape, np.nan)
     both = true & drawn
-    displacement[both] = np.linalg.norm(shown.position[both] - truth.position[both], axis=1) / motion[both]
+    away = shown.position[both]
+    breathe()
+    away -= truth.position[both]
+    breathe()
+    displacement[both] = np.linalg.norm(away, axis=1) / motion[both]
     breathe()
     unknown = (shown.face < 0) | (truth.face < 0)
     elsewhere = (shown.source != truth.source) | ((shown.face != truth.face) & ~unknown)
     # without a neighbour there is no scale: another face is then taken for another surface
     wrong = both & elsewhere & ~(displacement <= OTHER_SURFACE)
     displacement[wrong] = np.nan
+    breathe()
     measured = displacement[np.isfinite(displacement)]
     count = int(judged.sum())
     share = {name: 100.0 * int(mask.sum()) / max(count, 1)
