@@ -23,6 +23,7 @@ RINGS = 2       # of texels around what is known, that are told by it
 DARK = 0.02     # what is darker tells nothing of the light that falls on it
 DARKENED = 1.5  # times a texel at the rim of what is denoised: it has lost no more
 BLACKENED = 3.0  # the same, where no pattern could be lost by it
+BRIGHTENED = 1.15  # times such a texel: it has won no more
 OUTSIDE = -1.0  # of a picture: where what is not baked has its place
 
 
@@ -150,8 +151,9 @@ def _with_its_rim(baked: np.ndarray, colours: np.ndarray | None) -> np.ndarray:
     solid = ~_grown(np.pad(~known, RINGS, constant_values=True))[RINGS:-RINGS, RINGS:-RINGS]
     rim = known & ~solid & _grown(solid)
     if colours is None:
-        # nothing is darker than it was baked: within may be the shadow of what touches
-        return np.where(rim[..., None], np.clip(spread(baked, solid), baked, BLACKENED * baked), baked)
+        # hardly anything is darker than it was baked: within may be the shadow of what touches
+        told = np.clip(spread(baked, solid), baked / BRIGHTENED, BLACKENED * baked)
+        return np.where(rim[..., None], told, baked)
     # the light itself has no pattern, but for gloss
     colours = np.maximum(colours, DARK)
     told = np.clip(spread(baked / colours, solid) * colours, baked, DARKENED * baked)
