@@ -7,6 +7,7 @@ import numpy as np
 
 from ...core import View, breathe
 from ..reading import DiffuseScene
+from ..rendering import grown, sum_around
 from .asked_parts import asked_densities, sides_before_mirrors
 from .atlas import Atlas, packed
 from .division import Division, divided, enlarged, parts_along
@@ -135,9 +136,9 @@ def spread(picture: np.ndarray, known: np.ndarray) -> np.ndarray:
     others as the mean of what is known."""
     values = np.where(known[..., None], picture, 0.0)
     for _ in range(RINGS):
-        weight = _sum_around(known.astype(np.float32))
+        weight = sum_around(known.astype(np.float32))
         ring = ~known & (weight > 0.0)
-        values[ring] = (_sum_around(values) / np.maximum(weight, 1.0)[..., None])[ring]
+        values[ring] = (sum_around(values) / np.maximum(weight, 1.0)[..., None])[ring]
         known = known | ring
     values[~known] = values[known].mean(axis=0) if known.any() else 0.0
     return values
@@ -148,8 +149,8 @@ def _with_its_rim(baked: np.ndarray, colours: np.ndarray | None) -> np.ndarray:
     black, and darkens two texels for that."""
     known = baked[..., 3] != UNTOUCHED
     # beyond the picture there is nothing either
-    solid = ~_grown(np.pad(~known, RINGS, constant_values=True))[RINGS:-RINGS, RINGS:-RINGS]
-    rim = known & ~solid & _grown(solid)
+    solid = ~grown(np.pad(~known, RINGS, constant_values=True), RINGS)[RINGS:-RINGS, RINGS:-RINGS]
+    rim = known & ~solid & grown(solid, RINGS)
     if colours is None:
         # hardly anything is darker than it was baked: within may be the shadow of what touches
         told = np.clip(spread(baked, solid), baked / BRIGHTENED, BLACKENED * baked)
@@ -158,17 +159,3 @@ def _with_its_rim(baked: np.ndarray, colours: np.ndarray | None) -> np.ndarray:
     colours = np.maximum(colours, DARK)
     told = np.clip(spread(baked / colours, solid) * colours, baked, DARKENED * baked)
     return np.where(rim[..., None], told, baked)
-
-
-def _grown(known: np.ndarray) -> np.ndarray:
-    """A mask, and two rings around it."""
-    for _ in range(RINGS):
-        known = _sum_around(known.astype(np.uint8)) > 0
-    return known
-
-
-def _sum_around(values: np.ndarray) -> np.ndarray:
-    """The sum of each texel and its eight neighbours."""
-    padded = np.pad(values, ((1, 1), (1, 1)) + ((0, 0),) * (values.ndim - 2))
-    across = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
-    return across[:-2] + across[1:-1] + across[2:]

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...core import breathe, in_steps
 from ..faults import Steps, part
+from ..rendering import grown, sum_around
 
 SEEN_WHOLE = 0.995  # of a pixel: coverage from which it shows nothing else
 SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
@@ -55,13 +56,13 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white
 
 def _texels(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float,
             opacity: np.ndarray | None) -> np.ndarray:
-    needed = _grown(coverage > 0.0, REACH)
+    needed = grown(coverage > 0.0, REACH)
     whole = np.ones(coverage.shape) if opacity is None else opacity.astype(np.float64)
     filled = _filled(*_without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64), whole), needed)
     sharp = _sharpened(filled, kernel, white)
     breathe()
     # inside a lamp, from where it does not reach what is beside, it is as bright as it is
-    lamp = ~_grown((filled < white).any(axis=2), LAMP_RIM)
+    lamp = ~grown((filled < white).any(axis=2), LAMP_RIM)
     sharp = np.where(lamp[..., None], filled, sharp)
     breathe()
     return np.where(needed[..., None], sharp, 0.0).astype(np.float32)
@@ -135,7 +136,7 @@ def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndar
     row, column = np.divmod(doubtful, picture.shape[1])
     around = tuple(slice(max(side.min() - AROUND, 0), side.max() + AROUND + 1) for side in (row, column))
     # what is brighter inside lets lamps' borders be darker, and fall off as fast as they should
-    inside = ~_grown(~bright.all(axis=2), 1)[..., None]
+    inside = ~grown(~bright.all(axis=2), 1)[..., None]
     first = np.where(bright, np.where(inside, np.minimum(picture, INSIDE_LAMPS * white), np.maximum(first, white)),
                      first)
     first[around] = _brightened(first[around], capped[around], kernel, white)
@@ -189,25 +190,10 @@ def _filled(picture: np.ndarray, known: np.ndarray, needed: np.ndarray) -> np.nd
         open_ = needed & ~known
         if not open_.any():
             break
-        weight = _sum_around(known.astype(np.float64))
+        weight = sum_around(known.astype(np.float64))
         ring = open_ & (weight > 0.0)
         if not ring.any():
             break
-        filled[ring] = _sum_around(filled)[ring] / weight[ring, None]
+        filled[ring] = sum_around(filled)[ring] / weight[ring, None]
         known |= ring
     return np.where(known[..., None], filled, picture)
-
-
-def _sum_around(values: np.ndarray) -> np.ndarray:
-    """The sum of each pixel and its eight neighbours."""
-    padded = np.pad(values, ((1, 1), (1, 1)) + ((0, 0),) * (values.ndim - 2))
-    breathe()
-    across = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
-    breathe()
-    return across[:-2] + across[1:-1] + across[2:]
-
-
-def _grown(mask: np.ndarray, reach: int) -> np.ndarray:
-    for _ in range(reach):
-        mask = _sum_around(mask.astype(np.uint8)) > 0
-    return mask

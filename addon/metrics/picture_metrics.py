@@ -64,11 +64,6 @@ def _decibels(squared: float) -> float | None:
     return float(-10.0 * np.log10(squared)) if squared > 0.0 else None
 
 
-def picture_error(reference: np.ndarray, result: np.ndarray, pixels: np.ndarray) -> dict:
-    """The same over one set of pixels (height, width) bool."""
-    return picture_errors(reference, result, {"pixels": pixels})["pixels"]
-
-
 def displayed_maps(reference: np.ndarray, result: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """SSIM and FLIP (height, width) of two linear pictures as displayed.
 

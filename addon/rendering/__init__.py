@@ -1,5 +1,6 @@
-"""Cycles at work on temporary scenes; what it renders comes back as arrays."""
+"""Cycles at work on temporary scenes; what it renders comes back as arrays, pictures of pixels with neighbours."""
 from .cycles_pictures import denoise, rendered, with_cycles
+from .neighbours import grown, sum_around
 from .scene_copies import copied_scene, look_through
 
-__all__ = ["copied_scene", "denoise", "look_through", "rendered", "with_cycles"]
+__all__ = ["copied_scene", "denoise", "grown", "look_through", "rendered", "sum_around", "with_cycles"]

@@ -46,7 +46,7 @@ def test_the_names_are_the_known_ones(rooms):
 def test_one_grey_before_another_has_closed_forms(rooms):
     """In linear light 0.4 and 0.5; with both pictures even, SSIM is its luminance term alone."""
     reference, result = np.full((*SIZE, 3), 0.4), np.full((*SIZE, 3), 0.5)
-    found = rooms.picture_metrics.picture_error(reference, result, EVERYWHERE)
+    found = rooms.picture_metrics.picture_errors(reference, result, {"all": EVERYWHERE})["all"]
     shown = [1.055 * grey ** (1 / 2.4) - 0.055 for grey in (0.4, 0.5)]
     assert found["rmse"] == pytest.approx(0.1)
     assert found["psnr"] == pytest.approx(20.0)
@@ -68,7 +68,7 @@ def test_flip_of_two_greys_follows_the_lightness(rooms):
 
 
 def test_equal_pictures_have_no_error(rooms):
-    found = rooms.picture_metrics.picture_error(painted(), painted(), EVERYWHERE)
+    found = rooms.picture_metrics.picture_errors(painted(), painted(), {"all": EVERYWHERE})["all"]
     assert found == {"rmse": 0.0, "psnr": None, "psnr_displayed": None, "relative_mse": 0.0,
                      "ssim": pytest.approx(1.0, abs=1e-12), "flip": 0.0}
 
@@ -98,7 +98,7 @@ def test_only_the_surroundings_of_differences_are_filtered(rooms, place):
 
 def test_bright_light_counts_in_linear_light_and_is_clipped_on_the_display(rooms):
     reference, result = np.full((*SIZE, 3), 3.0), np.full((*SIZE, 3), 5.0)
-    found = rooms.picture_metrics.picture_error(reference, result, EVERYWHERE)
+    found = rooms.picture_metrics.picture_errors(reference, result, {"all": EVERYWHERE})["all"]
     assert found["rmse"] == pytest.approx(2.0)
     assert found["psnr"] == pytest.approx(-20.0 * np.log10(2.0))
     assert found["flip"] == 0.0 and found["ssim"] == pytest.approx(1.0)
@@ -116,7 +116,7 @@ def test_a_filter_is_the_sum_over_its_window(rooms):
 def test_rmse_and_psnr_agree_with_scikit_image(rooms):
     metrics = pytest.importorskip("skimage.metrics")
     for result in changed()[:-1]:
-        found = rooms.picture_metrics.picture_error(painted(), result, EVERYWHERE)
+        found = rooms.picture_metrics.picture_errors(painted(), result, {"all": EVERYWHERE})["all"]
         assert found["rmse"] ** 2 == pytest.approx(metrics.mean_squared_error(painted(), result), rel=1e-12)
         assert found["psnr"] == pytest.approx(metrics.peak_signal_noise_ratio(painted(), result, data_range=1.0),
                                               rel=1e-12)

@@ -88,11 +88,7 @@ def test_few_rays_and_many_meet_the_same(count):
     for chosen, given in ((np.arange(len(mesh.triangles)), None),
                           (np.flatnonzero(asked), lambda ray, triangle: asked[triangle] & (ray >= 0) & (ray < count))):
         triangle, distance = first_crossed(tree, origins.T, directions.T, 0.5, given)
-        expected, far = np.full(count, -1), np.full(count, np.inf)
-        if given is None:
-            expected, far = brute_first_hits(mesh, origins, directions, embree=False)
-        else:
-            expected, far = brute_first_hits(half, origins, directions, embree=False)
+        expected, far = brute_first_hits(mesh if given is None else half, origins, directions, embree=False)
         sure = far > 0.5
         assert np.array_equal(triangle[sure], np.where(expected >= 0, chosen[expected], -1)[sure])
         assert (triangle >= 0).sum() > count // 3 and (distance > 0.5).all()
