@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import TriangleMesh, cross, dot, ranges, rows
+from ..support import breathe
 
 BINS = 12
 LEAF = 8  # triangles that a leaf holds at most
@@ -98,6 +99,7 @@ def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
         nothing = np.full((3, 1), np.inf), np.full((3, 1), -np.inf)
         return [(*nothing, np.full(1, -1), start, count)], order
     for depth in range(DEEPEST):
+        breathe()
         # triangles of the leaves above are not looked at any more: the nodes here hold the others
         entry, _ = ranges(start, count)
         first = np.cumsum(count) - count
