@@ -63,6 +63,7 @@ def _texels(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: 
     breathe()
     # inside a lamp, from where it does not reach what is beside, it is as bright as it is
     lamp = ~grown((filled < white).any(axis=2), LAMP_RIM)
+    breathe()
     sharp = np.where(lamp[..., None], filled, sharp)
     breathe()
     return np.where(needed[..., None], sharp, 0.0).astype(np.float32)
@@ -99,11 +100,20 @@ def _without_what_lies_beside(light: np.ndarray, coverage: np.ndarray,
     pixels (height, width) are known so."""
     border = (coverage > UNSEEN) & (coverage < SEEN_WHOLE)
     apart = (coverage <= UNSEEN) & (opacity > UNSEEN)
-    beside = _filled(np.concatenate((light, opacity[..., None]), axis=2), apart, border)
-    share = np.maximum(coverage, SEEN_PARTLY)[..., None]
-    rest = np.maximum(opacity[..., None] - share, 0.0)
-    alone = np.maximum((light - rest * beside[..., :3] / np.maximum(beside[..., 3:], UNSEEN)) / share, 0.0)
-    return np.where(border[..., None], alone, light), coverage > SEEN_PARTLY
+    breathe()
+    both = np.concatenate((light, opacity[..., None]), axis=2)
+    breathe()
+    beside = _filled(both, apart, border)
+    breathe()
+    alone = light.copy()
+    # row after row: few have a border, and a row stays in the cache
+    for row in np.flatnonzero(border.any(axis=1)):
+        breathe()
+        share = np.maximum(coverage[row], SEEN_PARTLY)[:, None]
+        rest = np.maximum(opacity[row, :, None] - share, 0.0) * beside[row, :, :3]
+        shown = np.maximum((light[row] - rest / np.maximum(beside[row, :, 3:], UNSEEN)) / share, 0.0)
+        alone[row, border[row]] = shown[border[row]]
+    return alone, coverage > SEEN_PARTLY
 
 
 def _unfiltered(picture: np.ndarray, kernel: np.ndarray) -> np.ndarray:
@@ -127,8 +137,12 @@ def _unfiltered(picture: np.ndarray, kernel: np.ndarray) -> np.ndarray:
 def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndarray:
     """Texels, none below zero, that show the picture, and something white where that is brighter than white."""
     capped = np.minimum(picture, white)
+    breathe()
     exact = _unfiltered(capped, kernel)
-    first, bright = np.maximum(exact, DARKEST * capped), picture >= white
+    breathe()
+    first = np.maximum(exact, DARKEST * capped)
+    breathe()
+    bright = picture >= white
     doubtful = np.flatnonzero((bright | (exact < first)).any(axis=2))
     breathe()
     if not len(doubtful):
@@ -137,8 +151,11 @@ def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndar
     around = tuple(slice(max(side.min() - AROUND, 0), side.max() + AROUND + 1) for side in (row, column))
     # what is brighter inside lets lamps' borders be darker, and fall off as fast as they should
     inside = ~grown(~bright.all(axis=2), 1)[..., None]
-    first = np.where(bright, np.where(inside, np.minimum(picture, INSIDE_LAMPS * white), np.maximum(first, white)),
-                     first)
+    breathe()
+    for row in np.flatnonzero(bright.any(axis=(1, 2))):
+        breathe()
+        lit = np.where(inside[row], np.minimum(picture[row], INSIDE_LAMPS * white), np.maximum(first[row], white))
+        first[row, bright[row]] = lit[bright[row]]
     first[around] = _brightened(first[around], capped[around], kernel, white)
     return first
 
@@ -183,17 +200,20 @@ def _response(kernel: np.ndarray, count: int) -> np.ndarray:
 
 def _filled(picture: np.ndarray, known: np.ndarray, needed: np.ndarray) -> np.ndarray:
     """The picture with its unknown pixels, where needed, as the known ones around them, ring by ring."""
-    filled, known = np.where(known[..., None], picture, 0.0), known.copy()
     if not known.any():
         return picture
+    filled, known = np.where(known[..., None], picture, 0.0), known.copy()
+    breathe()
     for _ in range(max(known.shape)):
         open_ = needed & ~known
         if not open_.any():
             break
         weight = sum_around(known.astype(np.float64))
+        breathe()
         ring = open_ & (weight > 0.0)
         if not ring.any():
             break
         filled[ring] = sum_around(filled)[ring] / weight[ring, None]
         known |= ring
+        breathe()
     return np.where(known[..., None], filled, picture)
