@@ -58,3 +58,17 @@ def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):
     found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
                                       texels.pixel_kernel("BOX", 1.0)))
     assert np.abs(found[:, 8:] - own).max() < 0.02 and (found[:, :5] == 0.0).all()
+
+
+def test_a_gap_between_results_shows_nothing_of_what_lies_farther_away(room):
+    """Two pieces of a result with a dark gap between them, thinner than a pixel; what is bright lies behind the second,
+    and every pixel up to there holds a little that is no result."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    coverage = np.ones((12, 20))
+    coverage[:, 9], coverage[:, 10:14], coverage[:, 14:] = 0.6, 0.98, 0.0
+    own, beside = np.array((0.8, 0.5, 0.1)), np.array((0.1, 0.4, 0.9))
+    light = coverage[..., None] * own
+    light[:, 14:] = beside
+    found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
+                                      texels.pixel_kernel("BOX", 1.0)))
+    assert np.abs(found[:, :11] - own).max() < 0.02
