@@ -17,8 +17,9 @@ from .borders import filled, without_what_lies_beside
 
 REACH = 3           # texels around the covered ones that filters and interpolation may ask for
 FINE = 512          # places across a pixel at which its filter is summed
-DARKEST = 0.1       # of a pixel, its texel at first, where the exact one would be below zero
+DARKEST = 0.1       # of a pixel, its texel at first, where the exact one would be below zero; and of one round earlier
 ROUNDS = 24         # of bringing texels nearer
+FASTEST = 0.99      # of the last step, by which a round begins farther along
 LEAST_WEIGHT = 1e-5
 AROUND = 8          # texels that one that is brought nearer reaches
 LAMP_RIM = 3        # texels from which on the inside of a lamp is as bright as it is
@@ -62,9 +63,9 @@ def _texels(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: 
     sharp = _sharpened(filtered, kernel, white)
     breathe()
     # inside a lamp, from where it does not reach what is beside, it is as bright as it is
-    lamp = ~grown((filtered < white).any(axis=2), LAMP_RIM)
+    lamp = ~grown(filtered < white, LAMP_RIM)
     breathe()
-    sharp = np.where(lamp[..., None], filtered, sharp)
+    sharp = np.where(lamp, filtered, sharp)
     breathe()
     return np.where(needed[..., None], sharp, 0.0).astype(np.float32)
 
@@ -128,7 +129,7 @@ def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndar
     row, column = np.divmod(doubtful, picture.shape[1])
     around = tuple(slice(max(side.min() - AROUND, 0), side.max() + AROUND + 1) for side in (row, column))
     # what is brighter inside lets lamps' borders be darker, and fall off as fast as they should
-    inside = ~grown(~bright.all(axis=2), 1)[..., None]
+    inside = ~grown(~bright, 1)
     breathe()
     for row in np.flatnonzero(bright.any(axis=(1, 2))):
         breathe()
@@ -143,13 +144,28 @@ def _brightened(texels: np.ndarray, picture: np.ndarray, kernel: np.ndarray, whi
     to be white may be whiter.
 
     W. H. Richardson, "Bayesian-Based Iterative Method of Image Restoration", JOSA 1972; L. B. Lucy, "An iterative
-    technique for the rectification of observed distributions", AJ 1974.
+    technique for the rectification of observed distributions", AJ 1974. Each round begins farther along the way that
+    the last ones went, which makes as much of 24 as of 150: D. S. C. Biggs, M. Andrews, "Acceleration of iterative
+    image restoration algorithms", Applied Optics 1997.
     """
+    earlier, way, way_before = texels, None, None
     for _ in range(ROUNDS):
-        shown = np.maximum(_filtered(texels, kernel), 1e-30)
+        guess = texels
+        if way is not None and way_before is not None:
+            pace = np.clip(np.vdot(way, way_before) / max(np.vdot(way_before, way_before), 1e-30), 0.0, FASTEST)
+            breathe()
+            guess = texels + pace * (texels - earlier)
+            breathe()
+            # what is zero once stays so
+            guess = np.maximum(guess, DARKEST * texels)
+            breathe()
+        shown = np.maximum(_filtered(guess, kernel), 1e-30)
         wanted = np.where(picture < white, picture, np.maximum(shown, white)) / shown
         breathe()
-        texels = texels * _filtered(wanted, kernel)
+        earlier, texels = texels, guess * _filtered(wanted, kernel)
+        breathe()
+        way, way_before = texels - guess, way
+        breathe()
     return texels
 
 
