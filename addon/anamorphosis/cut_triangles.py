@@ -70,7 +70,12 @@ def cut_triangles(pieces: PicturePieces, count: int) -> Steps[Parts]:
             yield along / total, "Cutting faces"
         own = pieces.select(order[first[face]:first[face] + number[face]])
         done.append((yield from part(_cut(face, own), along / total, 0.0, "Cutting faces")))
-    return Parts(*(np.concatenate([getattr(part, name) for part in done]) for name in ("face", "weights", "pixels")))
+    joined = []
+    for name in ("face", "weights", "pixels"):
+        yield 1.0, "Cutting faces"
+        joined.append(np.concatenate([getattr(part, name) for part in done]))
+    yield 1.0, "Cutting faces"
+    return Parts(*joined)
 
 
 def _tiled(pieces: PicturePieces, count: int) -> np.ndarray:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View, connected, doubled_areas, following, split
+from ..geometry import View, connected, distinct, doubled_areas, following, split
 from ..support import breathe
 from .hidden_images import FrontImages
 from .piece_location import holders
@@ -23,6 +23,7 @@ FINEST = 2.0
 """Pixels: shorter edges are not halved where something nearer hides a piece in part."""
 ROUNDS = 12
 """Of halving edges: what a map is wrong by falls to a quarter by each."""
+AT_ONCE = 1 << 15  # pieces whose edges are judged
 
 
 @dataclass(frozen=True)
@@ -130,9 +131,12 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
         hidden = front.hidden(kept, _pixels(clip, view))
         breathe()
         partly = hidden.any(axis=1) & ~hidden.all(axis=1)
-        marked = _straying(clip, view) > straying
-        breathe()
-        marked |= partly[:, None] & (_lengths(clip, view) > FINEST)
+        marked = np.zeros((len(clip), 3), dtype=bool)
+        for start in range(0, len(clip), AT_ONCE):
+            breathe()
+            own = slice(start, start + AT_ONCE)
+            marked[own] = _straying(clip[own], view) > straying
+            marked[own] |= partly[own, None] & (_lengths(clip[own], view) > FINEST)
         if not marked.any():
             break
         breathe()
@@ -152,10 +156,12 @@ def _images(view: View, mesh: ReflectionMesh) -> np.ndarray:
     """The image (m,) that each face belongs to, the largest first."""
     parity = np.sign(mesh.image_parity[mesh.triangles].sum(axis=1, dtype=np.int64))
     # images that are turned over against each other meet in vertices on their caustic
-    _, vertex = np.unique(mesh.triangles * 3 + (parity[:, None] + 1), return_inverse=True)
+    breathe()
+    _, vertex = distinct((mesh.triangles * 3 + (parity[:, None] + 1)).ravel())
     part = connected(vertex.reshape(-1, 3))
     breathe()
     area = np.abs(doubled_areas(view.pixels(mesh.positions)[mesh.triangles]))
+    breathe()
     of_parts = np.bincount(part, np.where(np.isfinite(area), area, 0.0))
     rank = np.empty(len(of_parts), dtype=np.int64)
     rank[np.argsort(-of_parts, kind="stable")] = np.arange(len(of_parts))
@@ -189,5 +195,6 @@ def _lengths(clip: np.ndarray, view: View) -> np.ndarray:
 
 def _children(corners: np.ndarray, parent: np.ndarray, local: np.ndarray) -> np.ndarray:
     """What the corners of the parts of triangles have, from what (k, 3, c) those of the triangles have."""
-    middles = 0.5 * (corners + following(corners))
-    return np.take_along_axis(np.concatenate((corners, middles), axis=1)[parent], local[:, :, None], axis=1)
+    six = np.concatenate((corners, 0.5 * (corners + following(corners))), axis=1)
+    breathe()
+    return six[parent[:, None], local]
