@@ -23,7 +23,7 @@ FINEST = 2.0
 """Pixels: shorter edges are not halved where something nearer hides a piece in part."""
 ROUNDS = 12
 """Of halving edges: what a map is wrong by falls to a quarter by each."""
-AT_ONCE = 1 << 15  # pieces whose edges are judged
+AT_ONCE = 1 << 15  # pieces
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,9 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
     front = FrontImages.of(view, mesh, image)
     for _ in range(ROUNDS):
         breathe()
-        hidden = front.hidden(kept, _pixels(clip, view))
+        pixels = _pixels(clip, view)
+        breathe()
+        hidden = front.hidden(kept, pixels)
         breathe()
         partly = hidden.any(axis=1) & ~hidden.all(axis=1)
         marked = np.zeros((len(clip), 3), dtype=bool)
@@ -143,11 +145,11 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
         parent, local = split(marked)
         breathe()
         clip, kept = _children(clip, parent, local), kept[parent]
-        breathe()
         weights = _children(weights, parent, local)
-    breathe()
     pixels = _pixels(clip, view)
+    breathe()
     behind = front.hidden(kept, pixels)[:, 0]
+    breathe()
     rank = image[kept] + behind * (int(image.max(initial=0)) + 1)
     return PicturePieces(mesh.source_face[kept], weights, pixels, rank)
 
@@ -176,8 +178,13 @@ def _in_picture(pixels: np.ndarray, view: View) -> np.ndarray:
 
 def _pixels(clip: np.ndarray, view: View) -> np.ndarray:
     """Places (..., 2) in the picture of homogeneous ones (..., 4), none of what is not before the eye."""
-    depth = np.where(clip[..., 3:] > 0.0, clip[..., 3:], np.nan)
-    return (clip[..., :2] / depth * 0.5 + 0.5) * view.resolution
+    found = np.empty((*clip.shape[:-1], 2))
+    for start in range(0, len(clip), AT_ONCE):
+        breathe()
+        part = slice(start, start + AT_ONCE)
+        depth = np.where(clip[part, ..., 3:] > 0.0, clip[part, ..., 3:], np.nan)
+        found[part] = (clip[part, ..., :2] / depth * 0.5 + 0.5) * view.resolution
+    return found
 
 
 def _straying(clip: np.ndarray, view: View) -> np.ndarray:
@@ -195,6 +202,11 @@ def _lengths(clip: np.ndarray, view: View) -> np.ndarray:
 
 def _children(corners: np.ndarray, parent: np.ndarray, local: np.ndarray) -> np.ndarray:
     """What the corners of the parts of triangles have, from what (k, 3, c) those of the triangles have."""
-    six = np.concatenate((corners, 0.5 * (corners + following(corners))), axis=1)
-    breathe()
-    return six[parent[:, None], local]
+    found = np.empty((*local.shape, corners.shape[2]))
+    for start in range(0, len(parent), AT_ONCE):
+        breathe()
+        part = slice(start, start + AT_ONCE)
+        own = corners[parent[part]]
+        six = np.concatenate((own, 0.5 * (own + following(own))), axis=1)
+        found[part] = np.take_along_axis(six, local[part, :, None], axis=1)
+    return found
