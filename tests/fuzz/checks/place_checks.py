@@ -45,7 +45,7 @@ def on_mirror(configuration: Configuration, mesh: ReflectionMesh) -> Iterator[st
     place = mesh.mirror_position[point]
     on_triangle = nearest_points(corners[named], place)
     off = np.linalg.norm(on_triangle - place, axis=1) > ON_MIRROR * size
-    beside = _pixels_beside(configuration.view, corners[named], place)
+    beside = _pixels_beside(configuration.view, corners[named], place, on_triangle)
     far = off & ~(beside <= ON_TRIANGLE + MORE * configuration.settings.tolerance)
     if far.any():
         yield (f"named: {np.count_nonzero(far)} of {len(far)} corners lie up to {beside[far].max():.3g} px beside the "
@@ -60,10 +60,15 @@ def on_mirror(configuration: Configuration, mesh: ReflectionMesh) -> Iterator[st
                    f"{away.max():.3g} of the scene off the mirror")
 
 
-def _pixels_beside(view: View, corners: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """How far in the picture (n,) places (n, 3) are from triangles (n, 3, 3)."""
-    flat, spots = (np.pad(view.pixels(points.reshape(-1, 3)), ((0, 0), (0, 1))) for points in (corners, places))
-    return np.linalg.norm(nearest_points(flat.reshape(-1, 3, 3), spots) - spots, axis=1)
+def _pixels_beside(view: View, corners: np.ndarray, places: np.ndarray, nearest: np.ndarray) -> np.ndarray:
+    """How far in the picture (n,) places (n, 3) are from triangles (n, 3, 3), of which `nearest` (n, 3) are the points
+    nearest to them in space: the picture of a triangle that reaches behind the eye has no inside."""
+    flat, spots, near = (np.pad(view.pixels(points.reshape(-1, 3)), ((0, 0), (0, 1)))
+                         for points in (corners, places, nearest))
+    away = np.linalg.norm(near - spots, axis=1)
+    ahead = (view.depths(corners.reshape(-1, 3)).reshape(-1, 3) > 0.0).all(axis=1)
+    seen = np.linalg.norm(nearest_points(flat.reshape(-1, 3, 3), spots) - spots, axis=1)
+    return np.where(ahead, np.fmin(seen, away), away)
 
 
 def nearest_points(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
