@@ -62,8 +62,8 @@ def on_mirror(configuration: Configuration, mesh: ReflectionMesh) -> Iterator[st
 
 
 def _pixels_beside(view: View, corners: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """How far in the picture (n,) places (n, 3) are from triangles (n, 3, 3), of which only what lies before the eye has
-    a picture; NaN where that is nothing."""
+    """How far in the picture (n,) places (n, 3) are from triangles (n, 3, 3), whose picture is that of what lies before
+    the eye; NaN where that is nothing."""
     before = _before_eye(view, corners)
     flat, spots = (np.pad(view.pixels(points.reshape(-1, 3)), ((0, 0), (0, 1))) for points in (before, places))
     pictures = flat.reshape(len(places), 2, 3, 3)
@@ -71,7 +71,7 @@ def _pixels_beside(view: View, corners: np.ndarray, places: np.ndarray) -> np.nd
 
 
 def _before_eye(view: View, corners: np.ndarray) -> np.ndarray:
-    """Two triangles (n, 2, 3, 3) that make up what of each triangle (n, 3, 3) lies before the eye; NaN if nothing does."""
+    """Two triangles (n, 2, 3, 3) that make up what of each one (n, 3, 3) lies before the eye; NaN if nothing does."""
     depth = view.depths(corners.reshape(-1, 3)).reshape(-1, 3)
     nearest = NEAREST * np.abs(depth).max(axis=1, initial=0.0, keepdims=True)
     ahead = depth > nearest
