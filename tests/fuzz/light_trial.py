@@ -124,8 +124,9 @@ def _as_rays(configuration: LightConfiguration, flux: np.ndarray, told: int, cou
     one = configuration
     rays = LightRays(one.mirror, one.receivers, one.others, one.blockers)
     thrown = [rays.thrown(one.lamp, count, seed, one.settings.depth) for seed in range(THROWS)]
-    landed = np.array([np.bincount(light.source_face, light.flux, minlength=len(flux)) for light in thrown])
-    bent = np.mean([light.flux[light.bent].sum() for light in thrown])
+    watts = [light.flux * one.lamp.share(light.start) for light in thrown]
+    landed = np.array([np.bincount(light.source_face, each, minlength=len(flux)) for light, each in zip(thrown, watts)])
+    bent = np.mean([each[light.bent].sum() for light, each in zip(thrown, watts)])
     mean, noise = landed.mean(axis=0), landed.std(axis=0, ddof=1) / np.sqrt(THROWS)
     whole, least = landed.sum(axis=1), LEAST * _sent(one) + bent
     # what a mesh tells of may be missing
