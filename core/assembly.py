@@ -26,6 +26,7 @@ from .geometry import (
 )
 from .polygons import Faces
 from .result import ReflectionMesh, halfway, place
+from .support import breathe
 from .whole_faces import Seamed
 
 BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
@@ -43,6 +44,7 @@ def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors,
         part["triangles"] = part["triangles"] + start
         start += len(part["path_length"])
         parts.append(part)
+        breathe()
         if whole is not None and number == 1:
             parts.append(_whole_arrays(mirror_map, whole, bounce, node, met))
             start += len(parts[-1]["path_length"])
@@ -50,7 +52,9 @@ def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors,
     for part in parts:
         normals = part["mirror_normals"]
         part["mirror_normals"] = np.pad(normals, ((0, 0), (0, most - normals.shape[1]), (0, 0)))
+    breathe()
     arrays = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    breathe()
     faces = {"map_face": arrays.pop("map_face")}
     if isinstance(mirror_map.view, LampView):
         arrays |= faces
@@ -106,30 +110,41 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     # doubled triangles of the scene, and polygons that fold flat, give the same face twice
     once, _ = groups(*np.sort(faces.nodes, axis=1).T)
     faces = faces.select(np.sort(once))
+    breathe()
     used, corner = distinct(faces.nodes.ravel())
     triangles = corner.reshape(-1, 3)
     seen, point = nodes.place[:, used], nodes.point[:, used]
     column = np.repeat(faces.column, 3)
+    breathe()
     weights = frames.weights(column, np.take(point, triangles.ravel(), axis=1))
+    breathe()
     weights = np.maximum(weights, 0.0)
     weights /= weights.sum(axis=0)
     triangles, vertex, point = _on_sources(triangles, column, weights, point, frames, met)
     used, seen = used[vertex], seen[:, vertex]
+    breathe()
 
     face = bounce.cameras.face[faces.camera]
     owner = np.zeros(len(used), dtype=np.int64)
     owner[triangles.ravel()] = np.repeat(face, 3)
+    breathe()
     seen = _on_mirror(first_map, mirror_map.first(face), triangles, seen)
+    breathe()
     uv = mirror_map.coordinates(owner, seen)
+    breathe()
     turned = mirror_map.turned(owner, uv, nodes.distance[used])
+    breathe()
     # a corner that was brought back to its triangle or to the mirror has left its ray by a little
     mirrors = [seen, *mirror_map.met_later(owner, uv)]
     stops = [*mirrors, point]
     corners = rows(met.positions[frames.vertices[:, faces.column]])
+    breathe()
     swapped = _turned(first_map, triangles, seen, mirrors[-1], corners)
+    breathe()
     order = np.where(swapped[:, None], (0, 2, 1), (0, 1, 2))
     triangles = np.take_along_axis(triangles, order, axis=1)
     weights = np.take_along_axis(weights.T.reshape(-1, 3, 3), order[:, :, None], axis=1)
+    breathe()
     path = np.maximum(sum(norm(end - start) for start, end in zip(stops, stops[1:])), norm(point - seen))
     return {
         "triangles": triangles, "reflected_position": point.T, "mirror_position": seen.T, "path_length": path,
@@ -181,15 +196,19 @@ def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, 
     """
     corner = triangles.ravel()
     rim = rows(met.positions[frames.vertices[:, column]])
+    breathe()
     own = (rim * weights).sum(axis=1)
+    breathe()
     size = np.ptp(met.positions[frames.vertices.ravel()], axis=0).max() if len(corner) else 0.0
     beside = np.flatnonzero(norm(own - point[:, corner]) > BESIDE * size)
+    breathe()
     first, group = groups(corner[beside], column[beside])
     count, corner = point.shape[1], corner.copy()
     vertex = np.concatenate((np.arange(count), corner[beside[first]]))
     point = np.concatenate((point, own[:, beside[first]]), axis=1)
     corner[beside] = count + group
     # a vertex that no face is left of goes; new ones stand where they come from
+    breathe()
     kept, _ = distinct(corner)
     kept = kept[in_order(vertex[kept])]
     number = np.empty(len(vertex), dtype=np.int64)

@@ -129,9 +129,9 @@ def _culled(cameras: Cameras, task: Task, showing: np.ndarray, crowds: Crowds) -
     # cameras of a pixel in which outlines are bent still, as where rays cross: there is nothing left to cut
     candidates = crowds.thinned(candidates, still_bent)
     still_open, count = int(still_bent.sum()), len(candidates)
+    crowds.given_up = len(crowds) - still_open - crowds.dense
     task.progress.done("cones", nodes_visited=visited, pairs=pairs, contacts=contacts, pierced=pierced,
                        limited=limited, cameras=len(candidates.cameras), candidates=count, open=still_open,
-                       crowded=len(crowds) - still_open - crowds.dense, dense=crowds.dense,
                        bounded=count > limits.candidates)
     return candidates
 
@@ -174,9 +174,11 @@ def _projected(candidates: Candidates, task: Task) -> VertexImages:
 def _filled(candidates: Candidates, task: Task, crowds: Crowds) -> tuple[Candidates, np.ndarray]:
     """The candidates, and behind them the cells that rays have filled; which cameras (n,) are such cells."""
     exact = len(candidates.cameras)
-    candidates, rays, pixels = crowds.filled(candidates)
+    candidates, rays, pixels, less = crowds.filled(candidates)
+    crowded = crowds.given_up if less else 0
     by_rays = np.arange(len(candidates.cameras)) >= exact
-    task.progress.done("filling", filled=by_rays.sum(), rays=rays, filled_pixels=pixels)
+    task.progress.done("filling", filled=by_rays.sum(), rays=rays, filled_pixels=pixels,
+                       crowded=crowded, dense=crowds.dense + crowds.given_up - crowded)
     return candidates, by_rays
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import bpy
 from mathutils import Matrix
 
-from ..faults import AllOrNothing, keep_data, keep_object
+from ..faults import AllOrNothing, Steps, keep_data, keep_object
 from ..writing import MeshArrays, new_beside, write_mesh
 from .sheet_arrays import Sheet
 
@@ -39,8 +39,9 @@ def shown(context: bpy.types.Context, sources: list) -> Iterator[None]:
 
 
 def write_copy(context: bpy.types.Context, sheet: Sheet, paper: bpy.types.Material | None,
-               whole: AllOrNothing) -> bpy.types.Object:
+               whole: AllOrNothing) -> Steps[bpy.types.Object]:
     """The copy of a source object: a new one beside it, or the one that it has, written anew; the source is hidden.
+    Yields (fraction, "").
 
     Parameters
     ----------
@@ -59,6 +60,7 @@ def write_copy(context: bpy.types.Context, sheet: Sheet, paper: bpy.types.Materi
         obj = _new_copy(context, source, whole)
     render_map = _render_map(obj.data, sheet)
     write_mesh(obj.data, sheet.arrays if paper is None else _on_paper(sheet.arrays, paper))
+    yield 0.5, ""
     obj.data.normals_split_custom_set(sheet.normals.reshape(-1, 3))
     if render_map:
         obj.data.uv_layers[render_map].active_render = True

@@ -15,6 +15,7 @@ from mathutils import Vector
 from mathutils.geometry import delaunay_2d_cdt
 
 from ...core import PicturePieces, in_steps
+from ...core.geometry import solve
 from ..faults import Steps, part
 
 NEAR = 1e-6         # of a triangle's side: what is nearer is one place
@@ -70,7 +71,12 @@ def cut_triangles(pieces: PicturePieces, count: int) -> Steps[Parts]:
             yield along / total, "Cutting faces"
         own = pieces.select(order[first[face]:first[face] + number[face]])
         done.append((yield from part(_cut(face, own), along / total, 0.0, "Cutting faces")))
-    return Parts(*(np.concatenate([getattr(part, name) for part in done]) for name in ("face", "weights", "pixels")))
+    joined = []
+    for name in ("face", "weights", "pixels"):
+        yield 1.0, "Cutting faces"
+        joined.append(np.concatenate([getattr(part, name) for part in done]))
+    yield 1.0, "Cutting faces"
+    return Parts(*joined)
 
 
 def _tiled(pieces: PicturePieces, count: int) -> np.ndarray:
@@ -106,9 +112,20 @@ def _cut(face: int, pieces: PicturePieces) -> Steps[Parts]:
     piece = yield from in_steps(partial(pieces.holding, faces, weights.mean(axis=1)))
     pixels = np.full((len(found), 3, 2), np.nan)
     seen = np.flatnonzero(piece >= 0)
-    shares = np.maximum(weights[seen] @ np.linalg.inv(pieces.weights[piece[seen]]), 0.0)
+    yield 0.0, ""
+    shares = np.maximum(_within(weights[seen], pieces.weights[piece[seen]]), 0.0)
     pixels[seen] = shares / shares.sum(axis=2, keepdims=True) @ pieces.pixels[piece[seen]]
     return Parts(faces, weights, pixels)
+
+
+def _within(spots: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates (n, m, 3) of `spots` (n, m, 3) in triangles with `corners` (n, 3, 3).
+
+    By Cramer's rule: OpenBLAS divides each inverse of a small matrix between threads, and where other work keeps the
+    processors busy, as a render does, these wait for each other thousands of times as long as they work.
+    """
+    one, other, third = corners.transpose(1, 2, 0)
+    return np.stack([solve(one, other, third, spot) for spot in spots.transpose(1, 2, 0)]).transpose(2, 0, 1)
 
 
 def _covered(pieces: PicturePieces) -> np.ndarray:

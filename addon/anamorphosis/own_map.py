@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...core import PicturePieces, ReflectionError
-from ..faults import AllOrNothing, keep_data
+from ...core import PicturePieces, ReflectionError, breathe
+from ...core.geometry import first_of, groups
+from ..faults import AllOrNothing, Steps, keep_data
 from ..reading import DiffuseScene
 from ..writing import MOST_UV_MAPS
 from .frame import Frame
@@ -44,30 +45,39 @@ def own_map(index: int, scene: DiffuseScene, pieces: PicturePieces) -> OwnMap:
     # of each triangle the image that shows the most of it
     face = scene.source_face[pieces.face[in_source]]
     image = pieces.image[in_source]
-    _, group = np.unique(np.stack((face, image)), axis=1, return_inverse=True)
+    breathe()
+    _, group = groups(face, image)
+    breathe()
     area = np.abs(np.linalg.det(pieces.weights[in_source]))
-    shown = np.bincount(group.reshape(-1), area)[group.reshape(-1)]
+    breathe()
+    shown = np.bincount(group, area)[group]
+    breathe()
     order = np.lexsort((image, -shown, face))
-    first = order[np.unique(face[order], return_index=True)[1]]
+    breathe()
+    first = order[first_of(face[order])[1]]
     best = np.full(len(triangles), -1)
     best[face[first]] = image[first]
     kept = in_source[best[face] == image]
     face = scene.source_face[pieces.face[kept]]
     weights, places = pieces.weights[kept], pieces.pixels[kept]
+    breathe()
     fitted = _fitted(face, weights, places, len(triangles))
     pixels = np.full((len(source.data.loops), 2), np.nan)
     pixels[corners] = fitted
+    breathe()
     piece, corner, which = np.nonzero(weights > CORNER)
     pixels[corners[face[piece], which]] = places[piece, corner]
+    breathe()
     straying = np.linalg.norm(weights @ pixels[corners[face]] - places, axis=2).max(initial=0.0)
     seen = np.zeros(len(source.data.polygons), dtype=bool)
     seen[polygon[face]] = True
     return OwnMap(source, pixels, seen, float(straying))
 
 
-def write_own_map(found: OwnMap, frame: Frame, whole: AllOrNothing) -> bpy.types.Object:
-    """Write the map, and a mark on the polygons that are seen, into the object's mesh."""
+def write_own_map(found: OwnMap, frame: Frame, whole: AllOrNothing) -> Steps[bpy.types.Object]:
+    """Write the map, and a mark on the polygons that are seen, into the object's mesh; yields (fraction, "")."""
     keep_data(found.source, whole)
+    yield 0.5, ""
     mesh = found.source.data
     layer = mesh.uv_layers.get(UV_MAP) or mesh.uv_layers.new(name=UV_MAP, do_init=False)
     layer.uv.foreach_set("vector", frame.uv(found.pixels).reshape(-1))
@@ -102,8 +112,11 @@ def _fitted(face: np.ndarray, weights: np.ndarray, pixels: np.ndarray, count: in
     share = np.repeat(np.abs(np.linalg.det(weights)) + 1e-12, 3)
     corners, places, owner = weights.reshape(-1, 3), pixels.reshape(-1, 2), np.repeat(face, 3)
     square, right = np.zeros((count, 3, 3)), np.zeros((count, 3, 2))
+    breathe()
     np.add.at(square, owner, share[:, None, None] * corners[:, :, None] * corners[:, None])
+    breathe()
     np.add.at(right, owner, share[:, None, None] * corners[:, :, None] * places[:, None])
+    breathe()
     scale = np.trace(square, axis1=1, axis2=2)[:, None, None]
     has = np.flatnonzero(scale[:, 0, 0] > 0.0)
     fitted = np.full((count, 3, 2), np.nan)

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import breathe
-from ...core.geometry import first_of
+from ...core.geometry import distinct, first_of
 from ..reading import DiffuseScene
 from ..writing import MOST_UV_MAPS, Attribute, MeshArrays, shown_layers
 from .cut_triangles import Parts
@@ -38,14 +38,17 @@ def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
     if not np.linalg.cond(matrix[:3, :3]) < 1e6:    # a space as flat as that tells no places
         matrix = np.eye(4)
     inverse = np.linalg.inv(matrix)
+    breathe()
     places = (weights @ scene.mesh.positions[scene.mesh.triangles[face]]) @ inverse[:3, :3].T + inverse[:3, 3]
     breathe()
     positions, triangles = _welded(places)
+    breathe()
     kept = np.flatnonzero((triangles != np.roll(triangles, 1, axis=1)).all(axis=1))
     triangles, face, weights, pixels, seen = (values[kept] for values in (triangles, face, weights, pixels, seen))
-    used, material = np.unique(scene.material[face], return_inverse=True)
+    breathe()
+    used, material = distinct(scene.material[face])
     own_attributes = (
-        Attribute("material_index", "INT", "FACE", material.reshape(-1).astype(np.int32)),
+        Attribute("material_index", "INT", "FACE", material.astype(np.int32)),
         Attribute(SEEN, "BOOLEAN", "FACE", seen),
         Attribute(UV_MAP, "FLOAT2", "CORNER", frame.uv(pixels)))
     breathe()
@@ -58,6 +61,7 @@ def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
     breathe()
     # normals turn as the inverse's transpose does: back to the object's space as the matrix's transpose
     turned = weights @ scene.normals[face] @ matrix[:3, :3]
+    breathe()
     length = np.linalg.norm(turned, axis=2, keepdims=True)
     return Sheet(source, matrix, arrays, (turned / np.where(length > 0.0, length, 1.0)).astype(np.float32))
 

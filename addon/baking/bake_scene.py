@@ -23,11 +23,13 @@ from .whole_texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved, 
 @dataclass(frozen=True)
 class BakeScene:
     """The scene, the stand-ins of each participant, and what their materials (None where there is none) become while
-    they are baked."""
+    they are baked; `clamped` is how bright a light of their own is at most, 0 where it may be as bright as it likes,
+    and None where it is clamped as all light is."""
 
     scene: bpy.types.Scene
     objects: list
     targets: dict
+    clamped: float | None
 
     def bake(self, owner: int, size: tuple[int, int], seen_from: np.ndarray, gloss: bool, samples: int,
              denoised: bool = False) -> np.ndarray:
@@ -40,7 +42,13 @@ class BakeScene:
             denoise(scene.cycles, "FAST")
         scene.render.bake.use_pass_glossy = gloss
         scene.camera.matrix_world = Matrix.Translation(seen_from)
-        return self._baked_all_over(owner, size, samples)
+        apart = self.clamped is not None and self._any(owner, shines)
+        scene.render.bake.use_pass_emit = not apart
+        found = self._baked_all_over(owner, size, samples)
+        if apart:
+            own = self._own_light(owner, size, samples)
+            found[..., :3] += np.where(found[..., 3:] == UNTOUCHED, 0.0, own[..., :3])
+        return found
 
     def colours(self, owner: int, size: tuple[int, int], samples: int) -> np.ndarray | None:
         """The colours of what is matte or shines, as `bake` has light; None where they have no pattern."""
@@ -48,7 +56,18 @@ class BakeScene:
             return None
         self.scene.cycles.use_denoising = False
         found = self._baked_all_over(owner, size, samples, type="DIFFUSE", pass_filter={"COLOR"})
-        return found + self._baked_all_over(owner, size, samples, type="EMIT") if self._any(owner, shines) else found
+        return found + self._own_light(owner, size, samples) if self._any(owner, shines) else found
+
+    def _own_light(self, owner: int, size: tuple[int, int], samples: int) -> np.ndarray:
+        """What a participant shines by itself: a mirror shows that as bright as the camera would see it."""
+        cycles = self.scene.cycles
+        of_all, cycles.use_denoising = cycles.sample_clamp_direct, False
+        if self.clamped is not None:
+            cycles.sample_clamp_direct = self.clamped
+        try:
+            return self._baked_all_over(owner, size, samples, type="EMIT")
+        finally:
+            cycles.sample_clamp_direct = of_all
 
     def _any(self, owner: int, kind: Callable) -> bool:
         """Whether any of a participant's materials is of a kind."""
@@ -139,7 +158,9 @@ def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn],
             if stand.own and sources[stand.owner].library is None:
                 swap_names(sources[stand.owner], obj)
                 back.callback(swap_names, sources[stand.owner], obj)
-        yield BakeScene(scene, objects, targets)
+        # Cycles clamps a lamp's body one bounce later than what lamps light
+        own, of_all = context.scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_direct
+        yield BakeScene(scene, objects, targets, None if opacity or own == of_all else own)
 
 
 def _prepare(scene: bpy.types.Scene) -> None:

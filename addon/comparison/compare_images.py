@@ -4,11 +4,13 @@ from __future__ import annotations
 import errno
 import os
 from contextlib import suppress
+from functools import partial
 
 import bpy
 import numpy as np
 
-from ..faults import Steps
+from ...core import breathe, in_steps
+from ..faults import Steps, part
 from ..files import is_whole
 from ..metrics import Measurement
 from ..report import Picture, heat_map, png_bytes
@@ -31,16 +33,20 @@ def comparison_pictures(folder: str, scene: bpy.types.Scene, pictures: Pictures,
     scene : bpy.types.Scene
         A temporary scene whose view settings are those of the user; its image settings are changed.
     """
-    yield 0.0, "Drawing the maps"
+    stage = "Drawing the maps"
+    yield 0.0, stage
     difference = np.abs(pictures.reference.astype(np.float64) - pictures.result).mean(axis=2)
     coverage = coverage_picture(measurement)
-    for name, data in _maps(difference, measurement.displacement, coverage).items():
+    maps = yield from part(in_steps(partial(_maps, difference, measurement.displacement, coverage)), 0.0, 0.0, stage)
+    for name, data in maps.items():
         with open(os.path.join(folder, f"{name}.png"), "wb") as file:
             file.write(data)
-    yield 0.3, "Drawing what is round the mirror"
+    stage = "Drawing what is round the mirror"
+    yield 0.3, stage
     # the page shows of the maps what is round the mirrors alone, and so larger
     box = surroundings(measurement.mirror)
-    maps = _maps(difference[box], measurement.displacement[box], coverage[box])
+    maps = yield from part(in_steps(partial(_maps, difference[box], measurement.displacement[box], coverage[box])), 0.3,
+                           0.0, stage)
     small = {}
     for name, linear in (("reference", pictures.reference), ("result", pictures.result)):
         yield 0.6 if name == "reference" else 0.8, f"Writing {name}.png"
@@ -89,6 +95,7 @@ def coverage_picture(measurement: Measurement) -> np.ndarray:
     picture[measurement.judged] = names.index("right")
     for name, mask in (("spill", measurement.spill), ("wrong layer", measurement.wrong_layer),
                        ("hole", measurement.hole)):
+        breathe()
         picture[enlarged(mask, mirror.shape[1] // 400)] = names.index(name)
     return picture
 

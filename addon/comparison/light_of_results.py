@@ -1,14 +1,16 @@
 """The light that meshes of caustics bring, and what rays traced one by one bring to the same places, in watts."""
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import bpy
 import numpy as np
 
-from ...core import TriangleMesh
+from ...core import TriangleMesh, breathe, in_steps
 from ...core.rivals.tracing import Landed, LightRays, by_boxes
+from ..faults import Steps, part
 from ..illumination import Eye, Tint, eyes_of
 from ..metrics import Squares, added, light_errors, light_in_squares
 from ..reading import DiffuseScene, read_mirror, read_scene
@@ -112,6 +114,7 @@ class Surroundings:
         for met, cosine in zip(landed.met, landed.cosine):
             tint = np.where(met >= 0, self.tint_of[met], -1)
             for index, one in enumerate(self.tints):
+                breathe()
                 own = np.flatnonzero(tint == index)
                 colour[own] *= one.at(cosine[own, None], np.ones(len(own), dtype=np.int64))[:, 0]
         return colour.mean(axis=1)
@@ -123,39 +126,51 @@ class Surroundings:
         key, asked = (one.astype(np.int64) * (1 << 32) + face for one, face in (
             (scene.source_object, scene.source_face), (lit.source_object, lit.source_face)))
         order = np.argsort(key)
+        breathe()
         place = order[np.minimum(np.searchsorted(key[order], asked), len(key) - 1)]
         known = (key[place] == asked)[:, None]
         normal = np.where(known, scene.mesh.face_normals()[place], (0.0, 0.0, 1.0))
         corners = lit.positions[lit.triangles]
+        breathe()
         start = np.where(known, scene.mesh.positions[scene.mesh.triangles[place, 0]], corners[:, 0])
         height = np.einsum("nkc,nc->nk", corners - start[:, None], normal)
         return corners - height[:, :, None] * normal[:, None], normal
 
 
 def against_rays(depsgraph: bpy.types.Depsgraph, result: bpy.types.Object, lit: Lit, around: Surroundings,
-                 count: int, tracer: Callable = by_boxes) -> Generator[float, None, dict]:
-    """As `light_errors`, of one result and about `count` rays by a tracer as `LightRays` takes them; yields how much is
-    done before each throw."""
-    corners, facing = around.on_surfaces(lit)
-    squares = Squares(corners.min(axis=(0, 1)), corners.max(axis=(0, 1)))
-    light = light_in_squares(corners, lit.irradiance, facing, squares)
+                 count: int, tracer: Callable = by_boxes) -> Steps[dict]:
+    """As `light_errors`, of one result and about `count` rays by a tracer as `LightRays` takes them; yields (fraction,
+    "")."""
+    squares, light = yield from part(in_steps(partial(_in_squares, lit, around)), 0.0, 0.0)
     surface = around.surfaces[0]
     eyes = eyes_of(depsgraph, result.reflection_mesh.lamp, places_of(result),
                    surface.positions[surface.triangles].reshape(-1, 3))
-    rays = [around.rays(tracer)] if not any(eye.body for eye in eyes) else [around.rays(tracer, eye.body)
-                                                                           for eye in eyes]
-    normals, thrown = around.scene.mesh.face_normals(), []
-    throws = max(THROWS, -(-count // RAYS_AT_ONCE))
-    for number in range(throws):
+    bodies = [eye.body for eye in eyes] if any(eye.body for eye in eyes) else [None]
+    rays = yield from part(in_steps(lambda: [around.rays(tracer, body) for body in bodies]), 0.0, 0.0)
+    normals, throws = around.scene.mesh.face_normals(), max(THROWS, -(-count // RAYS_AT_ONCE))
+
+    def throw(number: int) -> tuple[np.ndarray, np.ndarray]:
         names, flux = [], []
         for index, eye in enumerate(eyes):
-            yield (number + index / len(eyes)) / throws
+            breathe()
             landed = rays[index % len(rays)].thrown(eye.lamp, max(count // (throws * len(eyes)), 1),
                                                     number * len(eyes) + index, lit.bounces)
+            breathe()
             names.append(squares.names(landed.points, normals[landed.source_face]))
+            breathe()
             flux.append(around.watts(eye, landed))
-        thrown.append(added(np.concatenate(names), np.concatenate(flux)))
-    return light_errors(light, thrown)
+        return added(np.concatenate(names), np.concatenate(flux))
+    thrown = []
+    for number in range(throws):
+        thrown.append((yield from part(in_steps(partial(throw, number)), number / throws, 1.0 / throws)))
+    return (yield from part(in_steps(partial(light_errors, light, thrown)), 1.0, 0.0))
+
+
+def _in_squares(lit: Lit, around: Surroundings) -> tuple[Squares, tuple]:
+    """Squares round the faces of a result, and the light of the faces in them."""
+    corners, facing = around.on_surfaces(lit)
+    squares = Squares(corners.min(axis=(0, 1)), corners.max(axis=(0, 1)))
+    return squares, light_in_squares(corners, lit.irradiance, facing, squares)
 
 
 def places_of(result: bpy.types.Object) -> int:

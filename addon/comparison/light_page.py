@@ -3,16 +3,19 @@ from __future__ import annotations
 
 import json
 import os
+from functools import partial
 
 import bpy
 import numpy as np
 
-from ..faults import Steps
+from ...core import in_steps
+from ..faults import Steps, part
 from ..report import Picture, Report, Run, Scene, csv_text, heat_map, page, run_rows
 from .compare_images import DIFFERENCE, save_picture, surroundings
 from .light_pictures import LightPictures, Shot
 
 OWN, MESH = "CYCLES", "MESH"
+MAPS = "Drawing the maps"
 TITLES = {OWN: "Cycles' own caustics", MESH: "Meshes of light"}
 FILES = ("reference", "cycles", "difference_cycles", "difference", "result")
 """The pictures, the result last."""
@@ -113,15 +116,16 @@ def write_light_report(folder: str, scene: bpy.types.Scene, pictures: LightPictu
         path = os.path.join(folder, f"{name}.png")
         save_picture(path, scene, linear, "PNG")
         shown.append(Picture(name, title, caption, _jpeg(folder, name, scene, linear), "image/jpeg"))
-    yield 0.8, "Drawing the maps"
     for name, shot, title in (("difference", mesh, "Difference of the meshes"),
                               ("difference_cycles", own, "Difference of Cycles' own")):
+        yield 0.8, MAPS
         difference = np.abs(pictures.reference - shot.picture).mean(axis=2)
-        data = heat_map(difference, *DIFFERENCE)
+        data = yield from part(in_steps(partial(heat_map, difference, *DIFFERENCE)), 0.8, 0.0, MAPS)
+        small = yield from part(in_steps(partial(heat_map, difference[box], *DIFFERENCE)), 0.8, 0.0, MAPS)
         with open(os.path.join(folder, f"{name}.png"), "wb") as file:
             file.write(data)
         shown.append(Picture(name, title, "From the converged picture; mean over the channels, in linear light (white "
-                             "is 1).", heat_map(difference[box], *DIFFERENCE)))
+                             "is 1).", small))
     yield 0.9, "Writing the report"
     whole = Report("Do the meshes show the light that mirrors throw?",
                    (light_scene(report, tuple(shown), runs),), environment=environment(report), notes=NOTES)

@@ -12,15 +12,14 @@ import numpy as np
 
 from ...core import breathe, in_steps
 from ..faults import Steps, part
-from ..rendering import grown, sum_around
+from ..rendering import grown
+from .borders import filled, without_what_lies_beside
 
-SEEN_WHOLE = 0.995  # of a pixel: coverage from which it shows nothing else
-SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
-UNSEEN = 0.002
 REACH = 3           # texels around the covered ones that filters and interpolation may ask for
 FINE = 512          # places across a pixel at which its filter is summed
-DARKEST = 0.1       # of a pixel, its texel at first, where the exact one would be below zero
+DARKEST = 0.1       # of a pixel, its texel at first, where the exact one would be below zero; and of one round earlier
 ROUNDS = 24         # of bringing texels nearer
+FASTEST = 0.99      # of the last step, by which a round begins farther along
 LEAST_WEIGHT = 1e-5
 AROUND = 8          # texels that one that is brought nearer reaches
 LAMP_RIM = 3        # texels from which on the inside of a lamp is as bright as it is
@@ -58,13 +57,15 @@ def _texels(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: 
             opacity: np.ndarray | None) -> np.ndarray:
     needed = grown(coverage > 0.0, REACH)
     whole = np.ones(coverage.shape) if opacity is None else opacity.astype(np.float64)
-    filled = _filled(*_without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64), whole), needed)
-    sharp = _sharpened(filled, kernel, white)
+    alone, known = without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64), whole,
+                                            len(kernel) // 2)
+    filtered = filled(alone, known, needed)
+    sharp = _sharpened(filtered, kernel, white)
     breathe()
     # inside a lamp, from where it does not reach what is beside, it is as bright as it is
-    lamp = ~grown((filled < white).any(axis=2), LAMP_RIM)
+    lamp = ~grown(filtered < white, LAMP_RIM)
     breathe()
-    sharp = np.where(lamp[..., None], filled, sharp)
+    sharp = np.where(lamp, filtered, sharp)
     breathe()
     return np.where(needed[..., None], sharp, 0.0).astype(np.float32)
 
@@ -92,28 +93,6 @@ def pixel_kernel(kind: str, width: float) -> np.ndarray:
     half = int(np.ceil(0.5 * width + 1.0))
     tents = np.maximum(1.0 - np.abs(width * at - np.arange(-half, half + 1)[:, None]), 0.0)
     return tents @ (weight / weight.sum())
-
-
-def _without_what_lies_beside(light: np.ndarray, coverage: np.ndarray,
-                              opacity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """What results show in pixels that they cover in part, where the light beside them, continued, tells; and which
-    pixels (height, width) are known so."""
-    border = (coverage > UNSEEN) & (coverage < SEEN_WHOLE)
-    apart = (coverage <= UNSEEN) & (opacity > UNSEEN)
-    breathe()
-    both = np.concatenate((light, opacity[..., None]), axis=2)
-    breathe()
-    beside = _filled(both, apart, border)
-    breathe()
-    alone = light.copy()
-    # row after row: few have a border, and a row stays in the cache
-    for row in np.flatnonzero(border.any(axis=1)):
-        breathe()
-        share = np.maximum(coverage[row], SEEN_PARTLY)[:, None]
-        rest = np.maximum(opacity[row, :, None] - share, 0.0) * beside[row, :, :3]
-        shown = np.maximum((light[row] - rest / np.maximum(beside[row, :, 3:], UNSEEN)) / share, 0.0)
-        alone[row, border[row]] = shown[border[row]]
-    return alone, coverage > SEEN_PARTLY
 
 
 def _unfiltered(picture: np.ndarray, kernel: np.ndarray) -> np.ndarray:
@@ -150,7 +129,7 @@ def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndar
     row, column = np.divmod(doubtful, picture.shape[1])
     around = tuple(slice(max(side.min() - AROUND, 0), side.max() + AROUND + 1) for side in (row, column))
     # what is brighter inside lets lamps' borders be darker, and fall off as fast as they should
-    inside = ~grown(~bright.all(axis=2), 1)[..., None]
+    inside = ~grown(~bright, 1)
     breathe()
     for row in np.flatnonzero(bright.any(axis=(1, 2))):
         breathe()
@@ -165,13 +144,28 @@ def _brightened(texels: np.ndarray, picture: np.ndarray, kernel: np.ndarray, whi
     to be white may be whiter.
 
     W. H. Richardson, "Bayesian-Based Iterative Method of Image Restoration", JOSA 1972; L. B. Lucy, "An iterative
-    technique for the rectification of observed distributions", AJ 1974.
+    technique for the rectification of observed distributions", AJ 1974. Each round begins farther along the way that
+    the last ones went, which makes as much of 24 as of 150: D. S. C. Biggs, M. Andrews, "Acceleration of iterative
+    image restoration algorithms", Applied Optics 1997.
     """
+    earlier, way, way_before = texels, None, None
     for _ in range(ROUNDS):
-        shown = np.maximum(_filtered(texels, kernel), 1e-30)
+        guess = texels
+        if way is not None and way_before is not None:
+            pace = np.clip(np.vdot(way, way_before) / max(np.vdot(way_before, way_before), 1e-30), 0.0, FASTEST)
+            breathe()
+            guess = texels + pace * (texels - earlier)
+            breathe()
+            # what is zero once stays so
+            guess = np.maximum(guess, DARKEST * texels)
+            breathe()
+        shown = np.maximum(_filtered(guess, kernel), 1e-30)
         wanted = np.where(picture < white, picture, np.maximum(shown, white)) / shown
         breathe()
-        texels = texels * _filtered(wanted, kernel)
+        earlier, texels = texels, guess * _filtered(wanted, kernel)
+        breathe()
+        way, way_before = texels - guess, way
+        breathe()
     return texels
 
 
@@ -196,24 +190,3 @@ def _response(kernel: np.ndarray, count: int) -> np.ndarray:
     step = np.arange(len(kernel)) - len(kernel) // 2
     response = np.cos(2.0 * np.pi * np.outer(np.arange(count) / count, step)) @ kernel
     return np.maximum(response, LEAST_RESPONSE)
-
-
-def _filled(picture: np.ndarray, known: np.ndarray, needed: np.ndarray) -> np.ndarray:
-    """The picture with its unknown pixels, where needed, as the known ones around them, ring by ring."""
-    if not known.any():
-        return picture
-    filled, known = np.where(known[..., None], picture, 0.0), known.copy()
-    breathe()
-    for _ in range(max(known.shape)):
-        open_ = needed & ~known
-        if not open_.any():
-            break
-        weight = sum_around(known.astype(np.float64))
-        breathe()
-        ring = open_ & (weight > 0.0)
-        if not ring.any():
-            break
-        filled[ring] = sum_around(filled)[ring] / weight[ring, None]
-        known |= ring
-        breathe()
-    return np.where(known[..., None], filled, picture)

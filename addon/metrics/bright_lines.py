@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...core import breathe
+
 BEFORE, BEHIND, STEP = 4.0, 8.0, 0.25  # pixels that a profile reaches to the dark side and to the lit one; its step
 PIXEL = round(1.0 / STEP)
 REGIONS = 12  # along the longest side of the box round the curve
@@ -36,8 +38,11 @@ def line_offsets(pictures: dict, middle: np.ndarray, inward: np.ndarray, length:
     _, region, count = np.unique(np.column_stack((cell, turn)), axis=0, return_inverse=True, return_counts=True)
     region, found = region.reshape(-1), {}
     for name, picture in pictures.items():
+        breathe()
         profile = np.zeros((len(count), len(at)))
-        np.add.at(profile, region, length[:, None] * _values(picture, places))
+        values = length[:, None] * _values(picture, places)
+        breathe()
+        np.add.at(profile, region, values)
         found[name] = _peaks(profile, at)
     good = count >= FEWEST
     for offset in found.values():

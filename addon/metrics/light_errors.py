@@ -50,15 +50,19 @@ def light_in_squares(corners: np.ndarray, irradiance: np.ndarray, normals: np.nd
     """
     across = _across(corners, normals, squares)
     reach = np.ptp(across, axis=1) + 1.0
+    breathe()
     area, found = _areas(corners), []
     for part in _runs(reach.prod(axis=1)):
         breathe()
         face, weights = _cut(across[part])
+        breathe()
         face += part.start
         middle = weights.mean(axis=1)
         share = np.abs(dot(weights[:, 0], cross(weights[:, 1], weights[:, 2])))
         light = share * area[face] * (middle.T * irradiance[face]).sum(axis=1)
+        breathe()
         names = squares.names(np.einsum("kn,nkc->nc", middle, corners[face]), normals[face])
+        breathe()
         found.append(added(names, light))
     return added(*(np.concatenate(one) for one in zip(*found)))
 
@@ -74,6 +78,7 @@ def _cut(across: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     fall into, and the weights of its corners (3, 3, n), entry [i, k]: weight i of corner k."""
     parts, whole = ConvexPolygons.whole(len(across)), []
     while len(parts):
+        breathe()
         corner = across.transpose(2, 1, 0)[:, :, parts.owner[parts.polygon]]
         place = (parts.weights * corner).sum(axis=1)
         low, high = (bound.reduceat(place, parts.start[:-1], axis=1) for bound in (np.minimum, np.maximum))
@@ -81,12 +86,17 @@ def _cut(across: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         axis = np.argmax(last - first, axis=0)
         every = np.arange(len(parts))
         cut = (last - first)[axis, every] >= 0.0
+        breathe()
         whole.append(parts.select(~cut))
         chosen = np.flatnonzero(cut)
         parts, axis = parts.select(chosen), axis[chosen]
         side = np.floor(0.5 * (first + last))[axis, chosen]
+        breathe()
         values = across[parts.owner, :, axis].T - side
-        parts = ConvexPolygons.joined([parts.cut(values, Line.HIDDEN), parts.cut(-values, Line.HIDDEN)])
+        one = parts.cut(values, Line.HIDDEN)
+        breathe()
+        parts = ConvexPolygons.joined([one, parts.cut(-values, Line.HIDDEN)])
+        breathe()
         parts = parts.select(parts.size >= 3)
     return ConvexPolygons.joined(whole).triangles(0.0)
 
@@ -94,6 +104,7 @@ def _cut(across: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def added(names: np.ndarray, flux: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Each square once, with all its flux."""
     found = np.flatnonzero(np.bincount(names))
+    breathe()
     return found, np.bincount(names, flux)[found]
 
 

@@ -89,6 +89,7 @@ def _seen(opponent: np.ndarray, pixels_per_degree: float) -> np.ndarray:
 
 
 def _linear(srgb: np.ndarray) -> np.ndarray:
+    breathe()
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
 
 
@@ -100,8 +101,10 @@ def _opponent(linear: np.ndarray) -> np.ndarray:
 
 
 def _from_opponent(opponent: np.ndarray) -> np.ndarray:
+    breathe()
     y = (opponent[..., 0] + 16.0) / 116.0
     xyz = np.stack([y + opponent[..., 1] / 500.0, y, y - opponent[..., 2] / 200.0], axis=-1)
+    breathe()
     return (xyz * WHITE) @ np.linalg.inv(TO_XYZ).T
 
 
@@ -118,5 +121,6 @@ def _hunt_lab(linear: np.ndarray) -> np.ndarray:
 
 
 def _hyab(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    breathe()
     difference = first - second
     return np.abs(difference[..., 0]) + np.hypot(difference[..., 1], difference[..., 2])

@@ -18,6 +18,7 @@ NAMES = ("rmse", "psnr", "psnr_displayed", "relative_mse", "ssim", "flip")
 def srgb(linear: np.ndarray) -> np.ndarray:
     """Linear light -> values as an sRGB display takes them (IEC 61966-2-1), at exposure 0, clipped to 0..1."""
     clipped = np.clip(np.asarray(linear, dtype=np.float64), 0.0, 1.0)
+    breathe()
     return np.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1.0 / 2.4) - 0.055)
 
 
@@ -43,7 +44,10 @@ def picture_errors(reference: np.ndarray, result: np.ndarray, masks: dict) -> di
     squared = (reference - result) ** 2
     breathe()
     relative = squared / (reference ** 2 + RELATIVE_EPSILON)
-    displayed = (srgb(reference) - srgb(result)) ** 2
+    breathe()
+    displayed = srgb(reference)
+    breathe()
+    displayed = (displayed - srgb(result)) ** 2
     breathe()
     structure, perceived = displayed_maps(reference, result)
     errors = {}
@@ -51,6 +55,7 @@ def picture_errors(reference: np.ndarray, result: np.ndarray, masks: dict) -> di
         if not pixels.any():
             errors[name] = dict.fromkeys(NAMES)
             continue
+        breathe()
         rmse = float(np.sqrt(squared[pixels].mean()))
         errors[name] = {"rmse": rmse, "psnr": _decibels(rmse ** 2),
                         "psnr_displayed": _decibels(float(displayed[pixels].mean())),

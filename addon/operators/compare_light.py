@@ -84,7 +84,7 @@ def light_comparison(context: bpy.types.Context, folder: str, effort: Effort) ->
     for result, lit, surroundings in zip(results, faces, around):
         share = TRACING / len(results)
         steps = against_rays(depsgraph, result, lit, surroundings, effort.rays)
-        light[result.name] = yield from part(_named(steps, f"Tracing rays for '{result.name}'"), done, share)
+        light[result.name] = yield from part(steps, done, share, f"Tracing rays for '{result.name}'")
         done += share
     counts = (effort.samples, STEPS_UP * effort.samples)
     with staged(folder) as scratch:
@@ -128,14 +128,6 @@ def light_summary(report: dict, folder: str) -> str:
                 f"are {own:.1f} dB; pictures in {folder}")
     return (f"{mesh:.1f} dB from Cycles' own converged caustics, where its own at {last[OWN]['samples']} samples are "
             f"{own:.1f} dB; flux {max(flux, key=abs):+.3f} % from rays; pictures in {folder}")
-
-
-def _named(steps, stage: str) -> Steps[dict]:
-    try:
-        while True:
-            yield next(steps), stage
-    except StopIteration as stop:
-        return stop.value
 
 
 def _names(objects) -> list:
@@ -191,6 +183,7 @@ def _curve(view: View, faces: list, around: list, pictures: LightPictures, mask:
         return known
     shown = {"reference": pictures.reference.mean(axis=2), "mesh": pictures.mesh[-1].picture.mean(axis=2)}
     shown = {name: np.where(mask, picture, 0.0) for name, picture in shown.items()}
+    breathe()
     offsets = line_offsets(shown, middle, inward, length)
     regions = len(offsets["mesh"])
     if not regions:
@@ -224,6 +217,7 @@ def _folds(view: View, lit: Lit, around: Surroundings) -> tuple[np.ndarray, np.n
     nearest = np.minimum(*(draw(view, mesh.positions, mesh.triangles).depth for mesh in (
         around.scene.mesh, TriangleMesh.joined([*around.surfaces, *([] if around.blockers is None else [
             around.blockers])]))))
+    breathe()
     inside[inside] = depth[inside] <= nearest[pixel] * (1.0 + ON_SURFACE)
     chosen = np.flatnonzero(inside)
     chosen = chosen[np.linspace(0, len(chosen) - 1, min(len(chosen), MOST_PIECES)).astype(np.int64)]

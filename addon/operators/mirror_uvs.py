@@ -137,12 +137,12 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
     return Outcome(objects, remarks)
 
 
-def _written(write: Callable, entries: list) -> Steps[list]:
-    """The objects that `write` makes of entries, a step for each."""
+def _written(write: Callable[..., Steps[bpy.types.Object]], entries: list) -> Steps[list]:
+    """The objects that the steps `write` make of entries."""
     objects = []
     for entry in entries:
         yield 1.0, "Writing"
-        objects.append(write(entry))
+        objects.append((yield from part(write(entry), 1.0, 0.0, "Writing")))
     return objects
 
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...core import breathe
 from .png_file import png_bytes
 
 # 33 of the 256 colours of viridis, by S. van der Walt, N. Smith and E. Firing (matplotlib, 2015), which is dedicated to
@@ -42,7 +43,9 @@ def heat_map(values: np.ndarray, low: float, high: float, unit: str = "") -> byt
     """
     indices = np.full(values.shape, NO_VALUE, dtype=np.uint8)
     known = np.isfinite(values)
+    breathe()
     share = np.log(np.clip(values[known], low, high) / low) / np.log(high / low)
+    breathe()
     indices[known] = np.minimum(share * STEPS, STEPS - 1).astype(np.uint8)
     return png_bytes(np.concatenate([indices[::-1], scale(values.shape[1], low, high, unit)]), palette())
 

@@ -6,6 +6,10 @@ import zlib
 
 import numpy as np
 
+from ...core import breathe
+
+AT_ONCE = 1 << 16  # bytes that are packed between two breaths
+
 
 def png_bytes(indices: np.ndarray, palette: np.ndarray) -> bytes:
     """Encode a picture.
@@ -37,8 +41,16 @@ def _file(pixels: np.ndarray, kind: int, told: tuple[bytes, bytes]) -> bytes:
     # each row starts with its filter: none
     rows = np.concatenate((np.zeros((height, 1), np.uint8), pixels.reshape(height, -1)), axis=1)
     header = struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)
-    parts = (b"IHDR", header), told, (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b"")
+    parts = (b"IHDR", header), told, (b"IDAT", _packed(rows.tobytes())), (b"IEND", b"")
     return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*part) for part in parts)
+
+
+def _packed(data: bytes) -> bytes:
+    packer, packed = zlib.compressobj(9), []
+    for start in range(0, len(data), AT_ONCE):
+        breathe()
+        packed.append(packer.compress(data[start:start + AT_ONCE]))
+    return b"".join((*packed, packer.flush()))
 
 
 def _chunk(kind: bytes, data: bytes) -> bytes:

@@ -104,6 +104,7 @@ def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
         entry, _ = ranges(start, count)
         first = np.cumsum(count) - count
         item = order[entry]
+        breathe()
         item_low, item_high = np.take(low, item, axis=1), np.take(high, item, axis=1)
         node_low = np.minimum.reduceat(item_low, first, axis=1)
         node_high = np.maximum.reduceat(item_high, first, axis=1)

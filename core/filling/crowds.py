@@ -33,12 +33,19 @@ class Crowds:
     ----------
     met : SceneAndMirrors
     limits : Limits
+
+    Attributes
+    ----------
+    dense : int
+        Cameras in pixels in which rays are less work.
+    given_up : int
+        Cameras beyond the limits.
     """
 
     def __init__(self, met: SceneAndMirrors, limits: Limits) -> None:
         self.met, self.limits = met, limits
         self._cameras: list[Cameras] = []
-        self.dense = 0
+        self.dense = self.given_up = 0
 
     def __len__(self) -> int:
         return sum(map(len, self._cameras))
@@ -75,17 +82,19 @@ class Crowds:
         self.dense += int(dense.sum())
         return dense
 
-    def filled(self, candidates: Candidates) -> tuple[Candidates, int, int]:
+    def filled(self, candidates: Candidates) -> tuple[Candidates, int, int, bool]:
         """The candidates, and behind their cameras the cells of the crowds, each with the one triangle that it shows as
-        its candidate; how many rays were traced, and how many pixels they have filled with the diffuse scene."""
+        its candidate; how many rays were traced, how many pixels they have filled with the diffuse scene, and whether
+        that is less than was asked for: more coarsely than the tolerance, or instead of all of the geometry."""
         if not len(self):
-            return candidates, 0, 0
+            return candidates, 0, 0, False
         # all lie on corners that the cameras have too: whoever splits cameras adds corners behind those there are
         cameras, frames = candidates.cameras, candidates.frames
         corners, face = (np.concatenate([getattr(crowd, name) for crowd in self._cameras])
                          for name in ("corners", "face"))
-        cells, triangle, rays = _cells_and_triangles(replace(cameras, corners=corners, face=face), self.met,
-                                                     self.limits)
+        crowds = replace(cameras, corners=corners, face=face)
+        size = _side(crowds, self.limits)
+        cells, triangle, rays = _cells_and_triangles(crowds, self.met, size)
         seen = np.union1d(frames.triangle, triangle)
         frames, column = SceneFrames.of(self.met, seen), np.searchsorted(seen, frames.triangle)
         whole = replace(cells, corners=np.concatenate((cameras.corners, cells.corners)),
@@ -93,21 +102,26 @@ class Crowds:
         pairs = Candidates.unknown(whole, frames, np.arange(len(cells)) + len(cameras), np.searchsorted(seen, triangle))
         exact = replace(candidates, cameras=whole, frames=frames, column=column[candidates.column])
         pixels = covered_pixels(cells.select(~self.met.are_mirrors(pairs)))
-        return Candidates.joined((exact, pairs)), rays, pixels
+        less = size > self.limits.square or bool(np.isinf(self.limits.dense))
+        return Candidates.joined((exact, pairs)), rays, pixels, less
 
 
-def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, limits: Limits) -> tuple[Cameras, np.ndarray, int]:
-    """Cells of crowded cameras that show something, the triangle (m,) that each shows, and how many rays, about as
-    many as the limits allow, were traced for it."""
-    most = limits.rays
+def _side(cameras: Cameras, limits: Limits) -> float:
+    """Of the squares through which rays fill the cameras, about as many as the limits allow, in pixels."""
+    most, size = limits.rays, limits.square
     # a face of the mirror lies in about as many squares as its area holds, its edges cross more, and one
     area, crossed = pixels_of(cameras).sum(), CROSSED * pixels_around_faces(cameras)
     faces = len(distinct(cameras.face)[0])
-    size = limits.square
-    if area / size**2 + crossed / size + faces > most:
-        # whole pixels, so that the rays through their middles are traced; faces may share them
-        room = max(CELLS * most - faces, most / 2)
-        size = max(1.0, np.ceil(2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300)))
+    if area / size**2 + crossed / size + faces <= most:
+        return size
+    # whole pixels, so that the rays through their middles are traced; faces may share them
+    room = max(CELLS * most - faces, most / 2)
+    return max(1.0, np.ceil(2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300)))
+
+
+def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, size: float) -> tuple[Cameras, np.ndarray, int]:
+    """Cells of crowded cameras, in squares of `size` pixels, that show something, the triangle (m,) that each shows,
+    and how many rays were traced for it."""
     cells, square, places = _cells(cameras, size)
     first, group = groups(*square)
     triangle = met.shown_at(cells.select(first), places[:, first])[group]

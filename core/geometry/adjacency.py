@@ -3,7 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .distinct import in_order
+from ..support import breathe
+from .distinct import distinct, in_order
 from .subdivision import following, shared_edges
 
 
@@ -26,11 +27,14 @@ def connected(triangles: np.ndarray) -> np.ndarray:
     part, width = np.arange(int(triangles.max(initial=-1)) + 1), triangles.shape[1]
     while True:
         # the lowest number of a triangle's corners spreads to all three, then each number's own number is followed
+        breathe()
         low = part[triangles].min(axis=1)
         lower = part.copy()
+        breathe()
         np.minimum.at(lower, triangles.ravel(), np.repeat(low, width))
+        breathe()
         np.minimum.at(lower, part[triangles].ravel(), np.repeat(low, width))
         lower = lower[lower]
         if (lower == part).all():
-            return np.unique(part[triangles[:, 0]], return_inverse=True)[1].reshape(-1)
+            return distinct(part[triangles[:, 0]])[1]
         part = lower

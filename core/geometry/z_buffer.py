@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..support import breathe
 from .vectors import cross, dot, ranges
 from .view import View
 
@@ -61,8 +62,11 @@ def draw(view: View, positions: np.ndarray, triangles: np.ndarray) -> Drawn:
     # pixels times w: divided only where a picture is certain to exist
     pixel = np.stack((0.5 * (clip[:, 0] + w) * width, 0.5 * (clip[:, 1] + w) * height, w))
     depth = view.depths(positions)
+    breathe()
     edges = _edge_functions(pixel[:, triangles])
+    breathe()
     low, high = _bounds(pixel, triangles, view.resolution)
+    breathe()
     lines = np.maximum(high[1] - low[1] + 1, 0)
     lines[~np.isfinite(edges).all(axis=(0, 1))] = 0
     kept = np.flatnonzero(lines)
@@ -105,12 +109,14 @@ def _draw(drawn: Drawn, part, edges, depth, extent, width) -> None:
     y = row + 0.5
     first, last = low[0, owner] + 0.5, rightmost[owner] + 0.5
     for x_, y_, one in edges:
+        breathe()
         slope, rest = x_[owner], y_[owner] * y + one[owner]
         with np.errstate(divide="ignore", invalid="ignore"):
             crossing = -rest / slope
         first = np.where(slope > 0.0, np.maximum(first, crossing), first)
         last = np.where(slope < 0.0, np.minimum(last, crossing), last)
         last = np.where((slope == 0.0) & (rest < 0.0), -np.inf, last)
+    breathe()
     # a line that is nowhere within its edges may begin at infinity
     inside = last >= first
     column = np.ceil(np.where(inside, first, 0.5) - 0.5).astype(np.int64)
@@ -118,14 +124,18 @@ def _draw(drawn: Drawn, part, edges, depth, extent, width) -> None:
     length = np.maximum(length, 0)
     # parts of whole lines that hold about as many fragments
     for chosen in np.split(np.arange(len(row)), np.flatnonzero(np.diff(np.cumsum(length) // FRAGMENTS_AT_ONCE)) + 1):
+        breathe()
         x, line = ranges(column[chosen], length[chosen])
         line = chosen[line]
         triangle, pixel = owner[line], row[line] * width + x
+        breathe()
         values = [one[0, triangle] * (x + 0.5) + one[1, triangle] * y[line] + one[2, triangle] for one in edges]
+        breathe()
         shares = np.maximum(values, 0.0)
         with np.errstate(divide="ignore", invalid="ignore"):
             shares /= shares.sum(axis=0)
             z = sum(share * corner[triangle] for share, corner in zip(shares, depth))
+        breathe()
         nearer = np.flatnonzero(z < drawn.depth[pixel])
         # farthest first: of the fragments of one pixel the nearest is written last
         nearer = nearer[np.argsort(-z[nearer], kind="stable")]

@@ -14,6 +14,7 @@ from ..support import breathe
 from .placement import place
 from .reflection_mesh import ReflectionMesh
 
+AT_ONCE = 1 << 15   # pieces
 NEARER = 1e-3   # share of a distance: what touches hides nothing
 INWARDS = 0.8   # of the way from a piece's middle to its corners: on its border neighbours begin
 
@@ -77,25 +78,28 @@ class FrontImages:
         """
         hidden = np.zeros((len(face), 4), dtype=bool)
         asked = np.flatnonzero(self.several[face])
-        middle = pixels[asked].mean(axis=1, keepdims=True)
-        spots = np.concatenate((middle, middle + INWARDS * (pixels[asked] - middle)), axis=1)
-        breathe()
+        for start in range(0, len(asked), AT_ONCE):
+            breathe()
+            part = asked[start:start + AT_ONCE]
+            hidden[part] = self._hidden(face[part], pixels[part])
+        return hidden
+
+    def _hidden(self, face: np.ndarray, pixels: np.ndarray) -> np.ndarray:
+        """The same of pieces all of which are asked."""
+        middle = pixels.mean(axis=1, keepdims=True)
+        spots = np.concatenate((middle, middle + INWARDS * (pixels - middle)), axis=1)
         column, row = np.moveaxis(np.floor(spots).astype(np.int64), 2, 0)
         inside = (column >= 0) & (column < self.width) & (row >= 0) & (row < self.height)
         front = np.where(inside, self.face[np.where(inside, row * self.width + column, 0)], -1)
-        own = np.broadcast_to(face[asked][:, None], front.shape)
+        own = np.broadcast_to(face[:, None], front.shape)
         nearness = self._nearness(own, spots)
-        breathe()
         behind = (front >= 0) & (front != own) & (self._nearness(front, spots) > nearness + NEARER * np.abs(nearness))
-        hidden[asked] = np.where(inside, behind, behind[:, :1])
-        return hidden
+        return np.where(inside, behind, behind[:, :1])
 
     def _nearness(self, face: np.ndarray, spots: np.ndarray) -> np.ndarray:
         """How near faces (k, n) are at `spots` (k, n, 2), no nearer and no farther than their corners; no number where
         a face is seen edge on."""
-        breathe()
         plane, corners = self.plane[face], self.nearness[face]
-        breathe()
         with np.errstate(invalid="ignore"):
             found = (plane[..., :2] * spots).sum(axis=2) + plane[..., 2]
         return np.clip(found, corners.min(axis=2), corners.max(axis=2))

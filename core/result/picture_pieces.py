@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View, connected, doubled_areas, following, split
+from ..geometry import View, connected, distinct, doubled_areas, following, split
 from ..support import breathe
 from .hidden_images import FrontImages
 from .piece_location import holders
@@ -23,6 +23,7 @@ FINEST = 2.0
 """Pixels: shorter edges are not halved where something nearer hides a piece in part."""
 ROUNDS = 12
 """Of halving edges: what a map is wrong by falls to a quarter by each."""
+AT_ONCE = 1 << 15  # pieces
 
 
 @dataclass(frozen=True)
@@ -127,23 +128,28 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
     front = FrontImages.of(view, mesh, image)
     for _ in range(ROUNDS):
         breathe()
-        hidden = front.hidden(kept, _pixels(clip, view))
+        pixels = _pixels(clip, view)
+        breathe()
+        hidden = front.hidden(kept, pixels)
         breathe()
         partly = hidden.any(axis=1) & ~hidden.all(axis=1)
-        marked = _straying(clip, view) > straying
-        breathe()
-        marked |= partly[:, None] & (_lengths(clip, view) > FINEST)
+        marked = np.zeros((len(clip), 3), dtype=bool)
+        for start in range(0, len(clip), AT_ONCE):
+            breathe()
+            own = slice(start, start + AT_ONCE)
+            marked[own] = _straying(clip[own], view) > straying
+            marked[own] |= partly[own, None] & (_lengths(clip[own], view) > FINEST)
         if not marked.any():
             break
         breathe()
         parent, local = split(marked)
         breathe()
         clip, kept = _children(clip, parent, local), kept[parent]
-        breathe()
         weights = _children(weights, parent, local)
-    breathe()
     pixels = _pixels(clip, view)
+    breathe()
     behind = front.hidden(kept, pixels)[:, 0]
+    breathe()
     rank = image[kept] + behind * (int(image.max(initial=0)) + 1)
     return PicturePieces(mesh.source_face[kept], weights, pixels, rank)
 
@@ -152,10 +158,12 @@ def _images(view: View, mesh: ReflectionMesh) -> np.ndarray:
     """The image (m,) that each face belongs to, the largest first."""
     parity = np.sign(mesh.image_parity[mesh.triangles].sum(axis=1, dtype=np.int64))
     # images that are turned over against each other meet in vertices on their caustic
-    _, vertex = np.unique(mesh.triangles * 3 + (parity[:, None] + 1), return_inverse=True)
+    breathe()
+    _, vertex = distinct((mesh.triangles * 3 + (parity[:, None] + 1)).ravel())
     part = connected(vertex.reshape(-1, 3))
     breathe()
     area = np.abs(doubled_areas(view.pixels(mesh.positions)[mesh.triangles]))
+    breathe()
     of_parts = np.bincount(part, np.where(np.isfinite(area), area, 0.0))
     rank = np.empty(len(of_parts), dtype=np.int64)
     rank[np.argsort(-of_parts, kind="stable")] = np.arange(len(of_parts))
@@ -170,8 +178,13 @@ def _in_picture(pixels: np.ndarray, view: View) -> np.ndarray:
 
 def _pixels(clip: np.ndarray, view: View) -> np.ndarray:
     """Places (..., 2) in the picture of homogeneous ones (..., 4), none of what is not before the eye."""
-    depth = np.where(clip[..., 3:] > 0.0, clip[..., 3:], np.nan)
-    return (clip[..., :2] / depth * 0.5 + 0.5) * view.resolution
+    found = np.empty((*clip.shape[:-1], 2))
+    for start in range(0, len(clip), AT_ONCE):
+        breathe()
+        part = slice(start, start + AT_ONCE)
+        depth = np.where(clip[part, ..., 3:] > 0.0, clip[part, ..., 3:], np.nan)
+        found[part] = (clip[part, ..., :2] / depth * 0.5 + 0.5) * view.resolution
+    return found
 
 
 def _straying(clip: np.ndarray, view: View) -> np.ndarray:
@@ -189,5 +202,11 @@ def _lengths(clip: np.ndarray, view: View) -> np.ndarray:
 
 def _children(corners: np.ndarray, parent: np.ndarray, local: np.ndarray) -> np.ndarray:
     """What the corners of the parts of triangles have, from what (k, 3, c) those of the triangles have."""
-    middles = 0.5 * (corners + following(corners))
-    return np.take_along_axis(np.concatenate((corners, middles), axis=1)[parent], local[:, :, None], axis=1)
+    found = np.empty((*local.shape, corners.shape[2]))
+    for start in range(0, len(parent), AT_ONCE):
+        breathe()
+        part = slice(start, start + AT_ONCE)
+        own = corners[parent[part]]
+        six = np.concatenate((own, 0.5 * (own + following(own))), axis=1)
+        found[part] = np.take_along_axis(six, local[part, :, None], axis=1)
+    return found

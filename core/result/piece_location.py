@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import ranges
+from ..geometry import distinct, in_order, ranges
 from ..support import breathe
 
 TOUCHING = 1e-9     # of a barycentric coordinate: what a point on an edge may be off by
@@ -28,6 +28,7 @@ def holders(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np
     point, piece = _near(owner, corners[:, :, 1:], face, points[:, 1:])
     breathe()
     area = np.linalg.det(corners)
+    breathe()
     area[np.abs(area) < FLAT] = np.nan
     held = _held(corners[:, :, 1:], area, piece, points[point, 1:].T)
     return point[held], piece[held]
@@ -36,8 +37,11 @@ def holders(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np
 def _held(corners: np.ndarray, area: np.ndarray, piece: np.ndarray, spot: np.ndarray) -> np.ndarray:
     """Which spots (2, n) lie in the pieces (n,) of `corners` (k, 3, 2), whose doubled areas are `area` (k,)."""
     (x0, y0), (x1, y1), (x2, y2) = (corners[:, corner].T for corner in range(3))
+    breathe()
     x, y = spot[0] - x0[piece], spot[1] - y0[piece]
+    breathe()
     second = (x * ((y2 - y0) / area)[piece] - y * ((x2 - x0) / area)[piece])
+    breathe()
     third = (y * ((x1 - x0) / area)[piece] - x * ((y1 - y0) / area)[piece])
     return (second >= -TOUCHING) & (third >= -TOUCHING) & (second + third <= 1.0 + TOUCHING)
 
@@ -46,7 +50,7 @@ def _near(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.n
     """Pairs of points (n, 2) and pieces with `corners` (k, 3, 2) of the same triangle, `face` and `owner`, among them
     all in which the piece holds the point: each triangle has a grid of about as many cells as it has pieces, whose rows
     and columns have as many corners each, since pieces crowd where the mirror shows a place large."""
-    _, both = np.unique(np.concatenate((owner, face)), return_inverse=True)
+    _, both = distinct(np.concatenate((owner, face)))
     owner, face = both[:len(owner)], both[len(owner):]
     number = np.bincount(owner, minlength=int(both.max()) + 1)
     across = np.ceil(np.sqrt(number)).astype(np.int64)
@@ -61,21 +65,29 @@ def _near(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.n
         rank = np.stack([np.searchsorted(lines[:, k], key) for k, key in enumerate(keys(of, place).T)], axis=1)
         return np.clip((rank - before[of, None]) * across[of, None] // np.maximum(3 * number[of, None], 1), 0,
                        np.maximum(across[of, None] - 1, 0))
-    low, high = cell(owner, corners.min(axis=1)), cell(owner, corners.max(axis=1))
+    breathe()
+    low = cell(owner, corners.min(axis=1))
+    breathe()
+    high = cell(owner, corners.max(axis=1))
     breathe()
     size = high - low + 1
     step, piece = ranges(np.zeros(len(owner), dtype=np.int64), size.prod(axis=1))
+    breathe()
     column, row = low[piece, 0] + step % size[piece, 0], low[piece, 1] + step // size[piece, 0]
     held_by = start[owner[piece]] + row * across[owner[piece]] + column
     breathe()
-    order = np.argsort(held_by, kind="stable")
+    order = in_order(held_by)
     breathe()
     asked = np.flatnonzero(number[face] > 0)
     column, row = cell(face[asked], points[asked]).T
+    breathe()
     wanted = start[face[asked]] + row * across[face[asked]] + column
-    first, last = (np.searchsorted(held_by[order], wanted, side=side) for side in ("left", "right"))
+    rising = held_by[order]
+    breathe()
+    first, last = (np.searchsorted(rising, wanted, side=side) for side in ("left", "right"))
     breathe()
     entry, point = ranges(first, last - first)
+    breathe()
     point, piece = asked[point], piece[order[entry]]
     lowest, highest = corners.min(axis=1) - TOUCHING, corners.max(axis=1) + TOUCHING
     for axis in (0, 1):

@@ -38,8 +38,9 @@ class ReflectionMesh:
     counts : dict
         How much of each part the scene needed, plain integers: cameras, nodes visited, pairs, roots, `joined` polygons
         that hold their whole triangle and `cut` ones, edges that a bound on depth or count left too long (`limited`),
-        whether it was the bound on count (`bounded`), cameras that are too small to be cut (`open`) and those in which
-        too much lies over one another (`crowded`), both of which are `filled` by cells that `rays` tell what to show,
+        whether it was the bound on count (`bounded`), cameras that are too small to be cut (`open`), those in which so
+        much lies over one another that rays show it as finely (`dense`) or more coarsely than was asked for
+        (`crowded`), all of which are `filled` by cells that `rays` tell what to show,
         cameras of later bounces that were not followed (`unfollowed`), `probes` that see a diffuse object and those of
         them that no face shows (`missed`).
     seconds : dict

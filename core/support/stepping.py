@@ -64,6 +64,9 @@ def in_steps(work: Callable[[], Result]) -> Generator[tuple[float, str], None, R
     try:
         while running.go_on():
             yield running.told
+        # what the caller does next is not a part of a long last step
+        if perf_counter() - running.resumed > INTERVAL:
+            yield running.told
     finally:
         running.stop()
     if running.error is not None:

@@ -88,7 +88,11 @@ def measured(sample: str, job: tuple, steps: Steps, scratch: Path) -> tuple[str,
         options = {**options, "filepath": str(scratch / f"{sample} {name}")}
     steps.taken.clear()
     begun = time.perf_counter()
-    getattr(bpy.ops.reflection_mesh, name)("EXEC_DEFAULT", **options)
+    try:
+        getattr(bpy.ops.reflection_mesh, name)("EXEC_DEFAULT", **options)
+    except RuntimeError as refused:
+        # as maps of one mirror where there are several
+        return sample, name, str(len(steps.taken)), "–", str(refused).strip().splitlines()[0], "–"
     if not steps.taken:
         steps.taken.append((time.perf_counter() - begun, False, "all of it"))
     (seconds, stage), (render, _) = steps.longest(False), steps.longest(True)

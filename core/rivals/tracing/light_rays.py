@@ -19,6 +19,7 @@ from ...cameras import MirrorSurface
 from ...caustics import Lamp
 from ...culling import BoxTree, first_hits
 from ...geometry import TriangleMesh, dot, norm
+from ...support import breathe
 
 SMALLEST = 1e-12  # sine of a way to a triangle: one that runs along it is sent on as if it did not quite
 TOUCHING = 1e-9  # of a way: a hit that much before its end is the end
@@ -84,10 +85,13 @@ class LightRays:
     def thrown(self, lamp: Lamp, count: int, seed: int = 0, depth: int = 1) -> Landed:
         """About `count` rays from all over the mirror."""
         face, uv, area = _strewn(self._mirror, lamp, count, np.random.default_rng(seed))
+        breathe()
         place = self._surface.places(face, uv)
+        breathe()
         way = lamp.directions(place.T).T.copy()
         length = norm(way)
         flux = area * self._sine(face, way) / (1.0 if lamp.sun else length**2)
+        breathe()
         lit = self._lit(lamp, place, way, face) & (flux > 0.0)
         face, uv, flux, way, start = face[lit], uv[:, lit], flux[lit], way[:, lit], place[:, lit]
         found, met, cosine = [], [], []
@@ -95,6 +99,7 @@ class LightRays:
         first_receiver = len(self._body.triangles)
         last_receiver = first_receiver + len(self._receivers.triangles)
         for _ in range(depth):
+            breathe()
             way, upright, weight, lifted = self._reflected(face, uv, way)
             flux[number] *= weight
             bent[number] |= lifted
@@ -102,12 +107,15 @@ class LightRays:
             cosine.append(np.ones(start.shape[1]))
             met[-1][number], cosine[-1][number] = face, upright
             hit, distance = self._trace(origin, way, face)
+            breathe()
             end = origin + np.where(np.isfinite(distance), distance, 0.0) * way
             own = (hit >= first_receiver) & (hit < last_receiver)
             found.append((number[own], end[:, own], hit[own] - first_receiver))
             on = (hit >= 0) & (hit < first_receiver)
             number, face, way, origin = number[on], hit[on], way[:, on], end[:, on]
+            breathe()
             uv = self._surface.coordinates(face, origin)
+        breathe()
         which, points, source = (np.concatenate(one, axis=-1) for one in zip(*found))
         return Landed(points.T, flux[which], source, start[:, which].T, [one[which] for one in met],
                       [one[which] for one in cosine], bent[which])
@@ -127,7 +135,9 @@ class LightRays:
         and whether they had to be lifted."""
         way = way / np.maximum(norm(way), 1e-300)
         ray = self._surface.unbent(face, uv, way)
+        breathe()
         rise, lifted = self._surface.rise(face, ray, way), self._surface.enters(face, ray, way)
+        breathe()
         self._surface.lift(face, uv, ray, way)
         weight = np.maximum(rise, 0.0) / np.maximum(self._sine(face, way), SMALLEST)
         # a ray is turned by twice the angle that it has to the mirror's plane
@@ -158,11 +168,15 @@ def _strewn(mirror: TriangleMesh, lamp: Lamp, count: int,
     share = (0.9 * upright + 0.1 * area) / squared
     number = np.maximum(np.rint(count * share / max(share.sum(), 1e-300)), 1).astype(np.int64) * (area > 0.0)
     part = np.repeat(np.arange(len(area)), number)
+    breathe()
     order = np.arange(len(part)) - np.repeat(np.cumsum(number) - number, number)
     shift = rng.random((2, len(area)))[:, part]
+    breathe()
     u, v = (order / number[part] + shift[0]) % 1.0, (order * GOLDEN + shift[1]) % 1.0
+    breathe()
     over = u + v > 1.0
     u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
+    breathe()
     corner = own[part].transpose(1, 2, 0)
     uv = corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0])
     return owner[part], uv, (area / np.maximum(number, 1))[part]

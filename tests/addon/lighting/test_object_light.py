@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from lamp_scenes import leaves_no_trace, link, lit_state, picture, psnr, scene_of
+from lamp_scenes import leaves_no_trace, link, lit_state, picture, principled, psnr, scene_of
 
 # gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
 SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Alpha", "Backfacing",
@@ -46,6 +46,23 @@ def test_it_is_exposed_once(blank, room):
     parts.generate()
     light(64)
     assert psnr(picture(room), reference) > 38.0
+
+
+def test_a_lamp_s_body_is_as_bright_as_the_mirror_shows_it(blank, room):
+    """Cycles clamps what lamps light at ten, seen in a mirror, and what shines itself not before the second one."""
+    scene_of(blank)
+    bulb = parts.add("uv_sphere", "Bulb", radius=0.4, location=(-1.0, -1.5, 1.6))
+    bulb.data.materials.append(principled("Bulb", (0.0, 0.0, 0.0), **{
+        "Emission Color": (1.0, 0.5, 0.25, 1.0), "Emission Strength": 200.0}))
+    bulb.visible_camera = False
+    parts.select(bulb, *(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    blank.scene.cycles.film_exposure = 0.004
+    assert blank.scene.cycles.sample_clamp_indirect == 10.0
+    reference = picture(room)
+    assert (reference[..., 0] > 0.85).sum() > 50
+    parts.generate()
+    light(16)
+    assert psnr(picture(room), reference) > 40.0
 
 
 def shine(scene, width: int = 0, kind: str = "ShaderNodeTexEnvironment") -> bpy.types.World:

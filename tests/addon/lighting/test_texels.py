@@ -15,9 +15,7 @@ def test_texels_show_the_picture_that_they_are_made_of(room):
         kernel = texels.pixel_kernel(kind, width)
         assert abs(kernel.sum() - 1.0) < 1e-12 and np.allclose(kernel, kernel[::-1])
         smooth = 0.3 + 0.2 * rng.random((20, 30, 3))
-        shown = smooth
-        for axis in (0, 1):
-            shown = sum(weight * np.roll(shown, step - len(kernel) // 2, axis) for step, weight in enumerate(kernel))
+        shown = _shown(smooth, kernel)
         found = finished(texels.texels_of(shown.astype(np.float32), np.ones((20, 30), np.float32), kernel))
         assert np.abs(found - smooth)[6:-6, 6:-6].max() < 0.02
 
@@ -58,3 +56,48 @@ def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):
     found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
                                       texels.pixel_kernel("BOX", 1.0)))
     assert np.abs(found[:, 8:] - own).max() < 0.02 and (found[:, :5] == 0.0).all()
+
+
+def test_a_gap_between_results_shows_nothing_of_what_lies_farther_away(room):
+    """Two pieces of a result with a dark gap between them, thinner than a pixel; what is bright lies behind the second,
+    and every pixel up to there holds a little that is no result."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    coverage = np.ones((12, 20))
+    coverage[:, 9], coverage[:, 10:14], coverage[:, 14:] = 0.6, 0.98, 0.0
+    own, beside = np.array((0.8, 0.5, 0.1)), np.array((0.1, 0.4, 0.9))
+    light = coverage[..., None] * own
+    light[:, 14:] = beside
+    found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
+                                      texels.pixel_kernel("BOX", 1.0)))
+    assert np.abs(found[:, :11] - own).max() < 0.02
+
+
+def test_what_is_overexposed_in_one_colour_is_as_bright_as_it_is_where_a_result_ends(room):
+    """Where a pixel holds a part of it, half of twice white is white: white itself would be half as bright."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
+    own, beside = np.array((2.0, 0.4, 0.3)), np.array((0.1, 0.4, 0.9))
+    light = coverage[..., None] * own + (1.0 - coverage[..., None]) * beside
+    found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
+                                      texels.pixel_kernel("BOX", 1.0), white=1.0))
+    assert np.abs(found[:, 9:] - own).max() < 0.05
+
+
+def test_beside_small_lamps_it_is_nearly_as_dark_as_it_is(room):
+    """Lamps of two to four texels in the dark, whose picture is known in closed form, up to white."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    kernel, dark = texels.pixel_kernel("BLACKMAN_HARRIS", 1.5), 0.05
+    true = np.full((40, 40, 3), dark)
+    true[8:10, 8:10], true[8:11, 25:28], true[25:27, 7:10], true[25:29, 25:29] = 9.0, 30.0, 3.0, 100.0
+    picture = _shown(true, kernel)
+    found = finished(texels.texels_of(picture.astype(np.float32), np.ones((40, 40), np.float32), kernel, white=1.0))
+    shown = _shown(found.astype(np.float64), kernel)
+    off = (np.minimum(shown, 1.0) - np.minimum(picture, 1.0))[4:-4, 4:-4]
+    assert np.sqrt((off**2).mean()) < 0.02
+
+
+def _shown(texels: np.ndarray, kernel: np.ndarray) -> np.ndarray:
+    """What texels show, in closed form: interpolated linearly, through the filter."""
+    for axis in (0, 1):
+        texels = sum(weight * np.roll(texels, step - len(kernel) // 2, axis) for step, weight in enumerate(kernel))
+    return texels

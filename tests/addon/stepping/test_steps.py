@@ -167,11 +167,37 @@ def test_no_step_of_cutting_along_a_caustic_keeps_the_window_waiting(room):
                                                      settings(placement="SURFACE"))) < 0.5
 
 
+def test_no_step_of_finding_many_pieces_keeps_the_window_waiting(room):
+    """A million of them, as a mirror of many bends shows them."""
+    core, reading = room("core"), room("addon.reading")
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "bowl.blend"))
+    depsgraph, chosen = bpy.context.evaluated_depsgraph_get(), reading.choose(bpy.context)
+    view = reading.read_view(bpy.context)
+    mesh = core.reflect(view, reading.read_mirror(depsgraph, chosen.mirrors[0]).mesh,
+                        reading.read_scene(depsgraph, chosen.diffuse).mesh, core.Settings(placement="SURFACE"))
+    assert least(lambda: core.in_steps(lambda: core.picture_pieces(view, mesh, 1e-4))) < 0.5
+
+
 @pytest.mark.parametrize("name", ["sphere", "pool", "suzanne"])
 def test_no_step_of_caustics_keeps_the_window_waiting(room, name):
     module, settings, choose = room("addon.operators.caustics"), room("core").Settings(), room("addon.reading").choose
     assert longest_of(name, lambda: module.throwing(bpy.context, choose(bpy.context), module.chosen_lamps(bpy.context),
                                                     module.Asked(1, lambda mirror: settings, True))) < 0.5
+
+
+def test_no_step_of_judging_caustics_by_rays_keeps_the_window_waiting(room):
+    """Each throw of rays was one."""
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "dish.blend"))
+    bpy.ops.reflection_mesh.caustics()
+    light, place = room("addon.comparison.light_of_results"), room("addon.operators.compare_light")
+    result, depsgraph = place.caustics_in(bpy.context)[0], bpy.context.evaluated_depsgraph_get()
+    around = place._surroundings(bpy.context, depsgraph, result, [result])
+    assert least(lambda: light.against_rays(depsgraph, result, light.Lit.of(result), around, 400_000)) < 0.5
+
+
+def test_no_step_of_packing_a_picture_keeps_the_window_waiting(room):
+    report, values = room("addon.report"), np.random.default_rng(3).random((4320, 3840)) + 1e-3
+    assert least(lambda: room("core").in_steps(lambda: report.heat_map(values, 1e-3, 1.0))) < 0.5
 
 
 def test_no_step_of_light_but_its_renders_keeps_the_window_waiting(room):

@@ -91,7 +91,8 @@ PARTS = {
     "what mirrors hide from whole cameras": Part(Overlaps, "in_sight", lambda self, last: self.candidates, "torus",
                                                  "candidates", 1.05, settings=ALL),
     "the eye's plane": Part(REFLECTION, "cut_before_eye", lambda cameras: cameras, (LOW, WIDE_FLOOR, ROOM), "faces"),
-    "filling by rays": Part(Crowds, "filled", lambda self, candidates: (candidates, 0, 0), "sphere", "uncovered", 10.0,
+    "filling by rays": Part(Crowds, "filled", lambda self, candidates: (candidates, 0, 0, False), "sphere", "uncovered",
+                            10.0,
                             settings={"maximum_memory": 1e-4}),
     "work beside the origin": Part(REFLECTION, "far_corner", lambda mirror: None, "far away", "maximum"),
     "images smaller than a pixel": Part(Magnification, "pixels", lambda self, cones, camera, sphere: np.full(

@@ -17,6 +17,7 @@ LEAST_AREA = 0.3  # pixels: faces below show nothing
 TOLERANCES, FEWEST = 5.0, 10  # by which one ray in ten may miss, of as many at least
 STEP = 0.02  # pixels between the rays that tell the motion per pixel
 ROUNDING = 1e-7  # of the scene's size: a miss below is none
+NEAREST = 1e-6  # of what is farthest: a depth before the eye
 EDGE_ON = 0.02  # sine at which a ray meets its source: what is seen flatter shows its outline only
 
 
@@ -61,9 +62,32 @@ def on_mirror(configuration: Configuration, mesh: ReflectionMesh) -> Iterator[st
 
 
 def _pixels_beside(view: View, corners: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """How far in the picture (n,) places (n, 3) are from triangles (n, 3, 3)."""
-    flat, spots = (np.pad(view.pixels(points.reshape(-1, 3)), ((0, 0), (0, 1))) for points in (corners, places))
-    return np.linalg.norm(nearest_points(flat.reshape(-1, 3, 3), spots) - spots, axis=1)
+    """How far in the picture (n,) places (n, 3) are from triangles (n, 3, 3), of which only what lies before the eye has
+    a picture; NaN where that is nothing."""
+    before = _before_eye(view, corners)
+    flat, spots = (np.pad(view.pixels(points.reshape(-1, 3)), ((0, 0), (0, 1))) for points in (before, places))
+    pictures = flat.reshape(len(places), 2, 3, 3)
+    return np.min([np.linalg.norm(nearest_points(pictures[:, k], spots) - spots, axis=1) for k in (0, 1)], axis=0)
+
+
+def _before_eye(view: View, corners: np.ndarray) -> np.ndarray:
+    """Two triangles (n, 2, 3, 3) that make up what of each triangle (n, 3, 3) lies before the eye; NaN if nothing does."""
+    depth = view.depths(corners.reshape(-1, 3)).reshape(-1, 3)
+    nearest = NEAREST * np.abs(depth).max(axis=1, initial=0.0, keepdims=True)
+    ahead = depth > nearest
+    several = ahead.sum(axis=1) >= 2
+    # the corner that is alone on its side comes first
+    order = (np.argmax(ahead != several[:, None], axis=1)[:, None] + np.arange(3)) % 3
+    a, b, c = np.moveaxis(np.take_along_axis(corners, order[..., None], axis=1), 1, 0)
+    turned = np.take_along_axis(depth, order, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = ((turned[:, :1] - nearest) / (turned[:, :1] - turned[:, 1:]))[..., None]
+    ab, ac = a + share[:, 0] * (b - a), a + share[:, 1] * (c - a)
+    alone, cut = np.stack((a, ab, ac), axis=1), np.stack((np.stack((ab, b, c), 1), np.stack((ab, c, ac), 1)), axis=1)
+    found = np.where(several[:, None, None, None], cut, alone[:, None])
+    found[ahead.all(axis=1)] = corners[ahead.all(axis=1), None]
+    found[~ahead.any(axis=1)] = np.nan
+    return found
 
 
 def nearest_points(corners: np.ndarray, points: np.ndarray) -> np.ndarray:

@@ -1,0 +1,70 @@
+"""Pixels that results cover in part: what they alone show there, and how that goes on beyond them."""
+from __future__ import annotations
+
+import numpy as np
+
+from ...core import breathe
+from ..rendering import sum_around
+
+SEEN_WHOLE = 0.995  # of a pixel: coverage from which it shows nothing else
+SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
+UNSEEN = 0.002
+BRIGHTEST_GAP = 2.0  # times what results show beside a gap that is thinner than a pixel
+
+
+def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: np.ndarray,
+                             rings: int) -> tuple[np.ndarray, np.ndarray]:
+    """What results show in pixels that they cover in part, where the light beside them, continued for a filter's width
+    of `rings`, tells; and which pixels (height, width) are known so.
+
+    In a gap that is thinner than a pixel no such light is near, and what lies on the other side of the next piece of a
+    result may be very different: there what results show goes on as it is within, as far as something between
+    darkness and twice as bright a light in the gap allows.
+    """
+    border = (coverage > UNSEEN) & (coverage < SEEN_WHOLE)
+    apart = (coverage <= UNSEEN) & (opacity > UNSEEN)
+    breathe()
+    both = np.concatenate((light, opacity[..., None]), axis=2)
+    breathe()
+    beside, told = _continued(both, apart, border, rings)
+    breathe()
+    within = _continued(light, coverage >= SEEN_WHOLE, border & ~told, rings)[0]
+    breathe()
+    alone = light.copy()
+    # row after row: few have a border, and a row stays in the cache
+    for row in np.flatnonzero(border.any(axis=1)):
+        breathe()
+        share = np.maximum(coverage[row], SEEN_PARTLY)[:, None]
+        other = np.maximum(opacity[row, :, None] - share, 0.0)
+        rest = other * beside[row, :, :3] / np.maximum(beside[row, :, 3:], UNSEEN)
+        most = light[row] / share
+        guess = np.clip(within[row], most - BRIGHTEST_GAP * other / share * within[row], most)
+        shown = np.where(told[row, :, None], np.maximum(most - rest / share, 0.0), guess)
+        alone[row, border[row]] = shown[border[row]]
+    return alone, coverage > SEEN_PARTLY
+
+
+def filled(picture: np.ndarray, known: np.ndarray, needed: np.ndarray) -> np.ndarray:
+    """The picture with its unknown pixels, where needed, as the known ones around them, ring by ring."""
+    return _continued(picture, known, needed, max(known.shape))[0] if known.any() else picture
+
+
+def _continued(picture: np.ndarray, known: np.ndarray, needed: np.ndarray,
+               rings: int) -> tuple[np.ndarray, np.ndarray]:
+    """The picture with unknown pixels, where needed, as the known ones around them, so many rings far; and which
+    pixels (height, width) are known then."""
+    found, known = np.where(known[..., None], picture, 0.0), known.copy()
+    breathe()
+    for _ in range(rings):
+        open_ = needed & ~known
+        if not open_.any():
+            break
+        weight = sum_around(known.astype(np.float64))
+        breathe()
+        ring = open_ & (weight > 0.0)
+        if not ring.any():
+            break
+        found[ring] = sum_around(found)[ring] / weight[ring, None]
+        known |= ring
+        breathe()
+    return np.where(known[..., None], found, picture), known
