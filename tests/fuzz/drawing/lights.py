@@ -43,7 +43,7 @@ def drawn_light(seed: int) -> LightConfiguration:
     rng = np.random.default_rng((seed, 15))
     kinds, mirror = drawn_mirror(rng)
     kind, lamp, view = _lamp(rng, mirror)
-    kind, lamp = _patterned((seed, 18), kind, lamp, view)
+    kind, lamp = _patterned((seed, 18), kind, lamp, mirror)
     parts, receivers = drawn_scene(rng, view, mirror)
     names = [str(seed), *kinds, kind, *parts]
     others = blockers = None
@@ -79,14 +79,14 @@ def _lamp(rng: np.random.Generator, mirror: TriangleMesh) -> tuple[str, Lamp, Vi
     return f"lamp at {distance:g}", Lamp(place), View.looking_at(place, target, (64, 64))
 
 
-def _patterned(seed: tuple[int, int], kind: str, lamp: Lamp, view: View) -> tuple[str, Lamp]:
-    """Some lamps as spots and squares are, which light a cone round the view's middle or beside it. Drawn for itself,
-    so that seeds that are kept stay what they were in all else."""
+def _patterned(seed: tuple[int, int], kind: str, lamp: Lamp, mirror: TriangleMesh) -> tuple[str, Lamp]:
+    """Some lamps as spots and squares are, which light a cone round some place of the mirror. Drawn for itself, so that
+    seeds that are kept stay what they were in all else."""
     rng = np.random.default_rng(seed)
     if lamp.sun or rng.random() < 0.5:
         return kind, lamp
-    axis = view.forward + rng.normal(0.0, 0.2, 3)
-    axis /= np.linalg.norm(axis)
+    aim = rng.dirichlet((1.0, 1.0, 1.0)) @ mirror.positions[mirror.triangles[rng.integers(len(mirror.triangles))]]
+    axis = (aim - lamp.place) / max(np.linalg.norm(aim - lamp.place), 1e-300)
     half = float(rng.choice([0.02, 0.1, 0.3, 0.8, 1.5]))
     place = lamp.place
 
