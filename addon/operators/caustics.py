@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import product
+from itertools import chain, product
 
 import bpy
 
@@ -201,7 +201,8 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
         remarks.append("A mirror's colour that changes over it counts as one: plug it off to choose which.")
     layers = sum(made.layers for made in prepared)
     receivers = {obj: made.arrays.materials for obj, made in zip(objects, prepared)}
-    return Thrown(objects, receivers, layers, remarks + too_many_layers(scene, layers), dark)
+    remarks += too_many_layers(scene, layers, chain.from_iterable(receivers.values()))
+    return Thrown(objects, receivers, layers, remarks, dark)
 
 
 class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Operator):

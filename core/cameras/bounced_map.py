@@ -85,8 +85,13 @@ class BouncedMap(ReflectionMap):
         on = drawn_in(self.surface.coordinates(triangle, self._arriving(face, uv)[0]))
         return [*self.before.met_later(self.face_before[face], uv), self.surface.places(triangle, on)]
 
-    def leaving(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
-        return [*self.before.leaving(self.face_before[face], uv), self.rays(face, uv)]
+    def leaving(self, face: np.ndarray, uv: np.ndarray, bent: bool = True) -> list[np.ndarray]:
+        before = self.before.leaving(self.face_before[face], uv, bent)
+        if bent:
+            return [*before, self.rays(face, uv)]
+        triangle = self.triangle[face]
+        place, direction, _ = self._arriving(face, uv)
+        return [*before, self.surface.unbent(triangle, self.surface.coordinates(triangle, place), direction)]
 
     def turned_before(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
         return self.before.turned(self.face_before[face], uv, self._arriving(face, uv)[2])

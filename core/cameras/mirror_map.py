@@ -101,8 +101,10 @@ class MirrorMap(ReflectionMap):
     def met_later(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
         return []
 
-    def leaving(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
-        return [self.rays(face, uv)]
+    def leaving(self, face: np.ndarray, uv: np.ndarray, bent: bool = True) -> list[np.ndarray]:
+        if bent or self.parallel:
+            return [self.rays(face, uv)]
+        return [self.surface.unbent(face, uv, self.arriving(self.places(face, uv)))]
 
     def turned_before(self, face: np.ndarray, uv: np.ndarray) -> float:
         return 1.0

@@ -79,8 +79,9 @@ class ReflectionMap(ABC):
         """Places (3, n) on each mirror that the ray from Q meets later, the last of them O. None after one bounce."""
 
     @abstractmethod
-    def leaving(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
-        """Directions (3, n) in which the ray leaves each mirror that it meets, the nearest to the eye first; R last."""
+    def leaving(self, face: np.ndarray, uv: np.ndarray, bent: bool = True) -> list[np.ndarray]:
+        """Directions (3, n) in which the ray leaves each mirror that it meets, the nearest to the eye first; R last.
+        Those, without `bent`, in which it would leave each if it were not lifted there."""
 
     @abstractmethod
     def lifted(self, face: np.ndarray, uv: np.ndarray, slack: float = 0.0) -> np.ndarray:

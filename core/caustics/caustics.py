@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh, View
+from ..geometry import TriangleMesh
 from ..recentring import far_corner, moved_surface
 from ..reflection import reflect
 from ..result import ReflectionMesh
 from ..support import NothingInView, ReflectionError, Settings, breathe, in_steps, tell
 from .caustic_mesh import CausticMesh
-from .corners import Corners, light_at
+from .corners import Corners, light_at, mean_weight
 from .energy import flux_of
 from .hiding import screens_of, shades_of
 from .joining import joined
@@ -117,7 +117,8 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
     """The light of one view's faces, of each bounce for itself."""
     lit = []
     view = seen.maps[0].view
-    whole = _flux(lamp, view, seen.mirror_position[seen.triangles]).sum()
+    sent = seen.mirror_position[seen.triangles]
+    whole = (flux_of(view, sent) * lamp.mean_share(sent)).sum()
     reach = np.ptp(seen.reflected_position, axis=0).max()
     for number, ray_map in enumerate(seen.maps, 1):
         chosen = np.flatnonzero(seen.bounces == number)
@@ -128,14 +129,9 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
         breathe()
         faces = refined(ray_map, faces, receivers, lamp, (LEAST * whole, FINEST * reach), settings.maximum_faces)
         places = np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2)
-        lit.append((faces, _flux(lamp, view, places), seen, number, receivers))
+        flux = flux_of(view, places) * mean_weight(ray_map, faces.face, faces.light, lamp)
+        lit.append((faces, flux, seen, number, receivers))
     return lit
-
-
-def _flux(lamp: Lamp, view: View, places: np.ndarray) -> np.ndarray:
-    """What light (m,) of the lamp triangles of the mirror (m, 3, 3) take."""
-    flux = flux_of(view, places)
-    return flux if lamp.pattern is None else flux * lamp.mean_share(places)
 
 
 def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, receivers: TriangleMesh,

@@ -2,8 +2,12 @@
 
 Light of the intensity I that has gone the way d to the mirror has the irradiance I / |d|^2 across its direction there.
 On its way on a thin bundle of it grows to `turned` times its area across the light, and falls on the receiver with the
-cosine c: I c / (|d|^2 |turned|) is the irradiance there, infinite on a caustic, where `turned` is zero. Flat triangles
-with smooth normals send a bundle on that is wider or narrower than what came: by the sines of both ways to them.
+cosine c: I c / (|d|^2 |turned|) is the irradiance there, infinite on a caustic, where `turned` is zero.
+
+Flat triangles with smooth normals send a bundle on that is wider or narrower than what came, by the sines of both ways
+to them. A path tracer, which comes from the receiver, does not see that: it finds the lamp as bright as ever in what it
+sees of the triangle. So that both find the same, light must be weighted by how much wider its bundle leaves. E. Veach,
+"Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 5.3.
 """
 from __future__ import annotations
 
@@ -13,10 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import BouncedMap, ReflectionMap
-from ..geometry import dot, norm, unit
-from .lamps import Lamp
+from ..geometry import dot, following, norm, unit
+from .lamps import Lamp, mean_of_seven
 
 ON_FOLD = 1e-12  # of the growth of a bundle: less is none
+SMALLEST = 1e-12  # sine of a way to a triangle: one that runs along it is counted as if it did not quite
 ARRIVED = 1e-6  # of the path: by how much the ray of a corner may miss it
 
 
@@ -31,6 +36,8 @@ class Corners:
     irradiance : (n,) float64
         Infinite on a caustic.
     turned : (n,) float64
+    weight : (n,) float64
+        What a path tracer sees of the light that comes; 1 where normals are those of the faces.
     cosine : (n,) float64
         At the first mirror.
     place : (3, n) float64
@@ -44,6 +51,7 @@ class Corners:
     uv: np.ndarray
     irradiance: np.ndarray
     turned: np.ndarray
+    weight: np.ndarray
     cosine: np.ndarray
     place: np.ndarray
     side: np.ndarray
@@ -88,30 +96,62 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
         way = place - ray_map.view.eye[:, None]
         falling = 1.0 / np.maximum(dot(way, way), 1e-300)
     cosine = -dot(ray, normals) / length
-    ways = [unit(way), *map(unit, ray_map.leaving(face, uv))]
-    grown = np.abs(turned) * _widened(ray_map, face, ways)
+    ways = [way, *ray_map.leaving(face, uv)]
+    widened, weight = _widened(ray_map, face, uv, ways)
+    grown = np.abs(turned) * widened
     with np.errstate(divide="ignore"):
         irradiance = np.where(grown > ON_FOLD, falling * np.abs(cosine) / np.maximum(grown, ON_FOLD), np.inf)
+    irradiance = np.where(weight > 0.0, irradiance, 0.0) * weight
     if lamp.pattern is not None:
         share = lamp.share(place.T)
         irradiance = np.where(share > 0.0, irradiance, 0.0) * share
     # a ray is turned by twice the angle that it has to the mirror's plane
-    upright = np.sqrt(np.clip(0.5 * (1.0 - dot(ways[0], ways[1])), 0.0, 1.0))
+    upright = np.sqrt(np.clip(0.5 * (1.0 - dot(unit(ways[0]), unit(ways[1]))), 0.0, 1.0))
     miss = norm(origin + s * ray - points)
     size = sum(map(norm, ray_map.spans(face)))
     # where the mirror stands on what is lit, light comes from the very place
     arrived = (s * length >= -ARRIVED * size) & (miss <= ARRIVED * (norm(points - origin) + size))
-    return Corners(uv, irradiance, turned, upright, place, np.sign(cosine), arrived)
+    return Corners(uv, irradiance, turned, weight, upright, place, np.sign(cosine), arrived)
 
 
-def _widened(ray_map: ReflectionMap, face: np.ndarray, ways: list[np.ndarray]) -> np.ndarray:
-    """How much wider (n,) bundles leave the flat triangles of all mirrors than they come; `ways` (3, n) are the unit
-    directions of light before the first mirror and behind each."""
+def mean_weight(ray_map: ReflectionMap, face: np.ndarray, light: Corners, lamp: Lamp) -> np.ndarray:
+    """What counts (m,) of the light of faces with these corners, of the lamp's pattern times the `weight`."""
+    uv = light.uv.reshape(2, 3, -1)
+    inner = np.concatenate((0.5 * (uv + following(uv)), uv.mean(axis=1, keepdims=True)), axis=1).reshape(2, -1)
+    owner = np.tile(face, 4)
+    place = ray_map.places(owner, inner)
+    way = ray_map.view.forward[:, None] if ray_map.orthographic else place - ray_map.view.eye[:, None]
+    ways = [np.broadcast_to(way, place.shape), *ray_map.leaving(owner, inner)]
+    middles = _widened(ray_map, owner, inner, ways)[1] * lamp.share(place.T)
+    corners, middles = light.weight * lamp.share(light.place.T), middles.reshape(4, -1)
+    return mean_of_seven(corners.reshape(3, -1), middles[:3], middles[3])
+
+
+def _widened(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray,
+             ways: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """How much wider (n,) bundles leave the flat triangles of all mirrors than they come, and their weight (n,); `ways`
+    (3, n) are the light's directions before the first mirror and behind each.
+
+    They differ where rays would enter a triangle and are lifted: a path tracer that comes along the lifted ray finds
+    no light there, and as much less before as the ray rises less.
+    """
+    ways = [unit(way) for way in ways]
+    widened = _wider(ray_map, face, ways, ways[1:])
+    asked, weight = np.flatnonzero(ray_map.grazing[face]), widened
+    if len(asked):
+        unbent = [unit(way) for way in ray_map.leaving(face[asked], uv[:, asked], False)]
+        weight = widened.copy()
+        weight[asked] = _wider(ray_map, face[asked], [way[:, asked] for way in ways], unbent)
+    return widened, weight
+
+
+def _wider(ray_map: ReflectionMap, face: np.ndarray, came: list[np.ndarray], sent: list[np.ndarray]) -> np.ndarray:
+    """How much wider (n,) bundles are that are `sent` on by mirrors than those that `came`, all unit vectors (3, n)."""
     wider = np.ones(len(face))
-    for before, after in zip(ways[-2::-1], ways[:0:-1]):
+    for before, after in zip(came[len(sent) - 1::-1], sent[::-1]):
         surface, triangle = ray_map.last(face)
-        normal = surface.face_normal[:, triangle]
-        wider *= np.abs(dot(after, normal)) / np.maximum(np.abs(dot(before, normal)), 1e-12)
+        rise = np.abs(dot(before, surface.face_normal[:, triangle]))
+        wider *= np.maximum(surface.rise(triangle, after, before), 0.0) / np.maximum(rise, SMALLEST)
         if isinstance(ray_map, BouncedMap):
             face, ray_map = ray_map.face_before[face], ray_map.before
     return wider

@@ -67,13 +67,9 @@ class Lamp:
         return np.ones(places.shape[:-1]) if self.pattern is None else self.pattern(places)
 
     def mean_share(self, corners: np.ndarray) -> np.ndarray:
-        """The same for all of triangles (m, 3, 3), by the rule of seven points that is exact for cubics.
-
-        A. Stroud, "Approximate Calculation of Multiple Integrals", 1971.
-        """
+        """The same for all of triangles (m, 3, 3)."""
         middles, middle = 0.5 * (corners + np.roll(corners, -1, axis=1)), corners.mean(axis=1)
-        return (self.share(corners).sum(axis=1) / 20.0 + self.share(middles).sum(axis=1) * (2.0 / 15.0)
-                + self.share(middle) * (9.0 / 20.0))
+        return mean_of_seven(self.share(corners).T, self.share(middles).T, self.share(middle))
 
     def directions(self, places: np.ndarray) -> np.ndarray:
         """From the lamp to `places` (n, 3), as long as the way; of a sun unit vectors."""
@@ -111,6 +107,15 @@ class Lamp:
                 return [_lamp_view(view, shades, screens)]
         return [_lamp_view(_side(self.place, axis, sign, size), shades, screens)
                 for axis in range(3) for sign in (1.0, -1.0)]
+
+
+def mean_of_seven(corners: np.ndarray, middles: np.ndarray, middle: np.ndarray) -> np.ndarray:
+    """The mean (m,) over triangles of what is known at their corners (3, m), in the middles of their sides (3, m) and
+    in their own (m,); exact for cubics.
+
+    A. Stroud, "Approximate Calculation of Multiple Integrals", 1971.
+    """
+    return corners.sum(axis=0) / 20.0 + middles.sum(axis=0) * (2.0 / 15.0) + middle * (9.0 / 20.0)
 
 
 def _round(place: np.ndarray, mirror: TriangleMesh) -> bool:

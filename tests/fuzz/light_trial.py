@@ -17,6 +17,7 @@ SECONDS = 20.0  # of processor time
 RAYS, MORE, THROWS = 5_000, 60_000, 6  # of a throw; of one that decides; throws, whose differences are the noise
 SHARE, LEAST = 0.004, 1e-4  # of the light that arrives, and of all that the mirror is sent: more must not be wrong
 NOISE = 8.0  # times the standard error of the throws
+PLACES = 256  # on each triangle of a mirror, at which a lamp's pattern is asked
 EXACT = 1e-6  # of the light: by how much irradiance may miss the flux
 SINGLE = 0.02  # of all that the mirror is sent: by how much it may be more where places are single precision
 ON_SOURCE = 1e-6  # of all that is there
@@ -114,7 +115,8 @@ def _places(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[st
 def _missed(configuration: LightConfiguration, flux: np.ndarray, told: int) -> Iterator[str]:
     """The light on each triangle is that of rays to their noise: none is lost, and nothing is lit that is hidden. The
     light of rays that smooth normals would send into the mirror is left out."""
-    if _as_rays(configuration, flux, told, RAYS) is not None:
+    # few rays say nothing of a narrow cone
+    if configuration.lamp.pattern is not None or _as_rays(configuration, flux, told, RAYS) is not None:
         wrong = _as_rays(configuration, flux, told, MORE)
         if wrong is not None:
             yield wrong
@@ -124,8 +126,9 @@ def _as_rays(configuration: LightConfiguration, flux: np.ndarray, told: int, cou
     one = configuration
     rays = LightRays(one.mirror, one.receivers, one.others, one.blockers)
     thrown = [rays.thrown(one.lamp, count, seed, one.settings.depth) for seed in range(THROWS)]
-    landed = np.array([np.bincount(light.source_face, light.flux, minlength=len(flux)) for light in thrown])
-    bent = np.mean([light.flux[light.bent].sum() for light in thrown])
+    watts = [light.flux * one.lamp.share(light.start) for light in thrown]
+    landed = np.array([np.bincount(light.source_face, each, minlength=len(flux)) for light, each in zip(thrown, watts)])
+    bent = np.mean([each[light.bent].sum() for light, each in zip(thrown, watts)])
     mean, noise = landed.mean(axis=0), landed.std(axis=0, ddof=1) / np.sqrt(THROWS)
     whole, least = landed.sum(axis=1), LEAST * _sent(one) + bent
     # what a mesh tells of may be missing
@@ -141,11 +144,15 @@ def _as_rays(configuration: LightConfiguration, flux: np.ndarray, told: int, cou
 def _sent(configuration: LightConfiguration) -> float:
     """About what light the lamp sends towards the mirror."""
     a, b, c = np.moveaxis(configuration.mirror.positions[configuration.mirror.triangles], 1, 0)
-    normal = 0.5 * np.cross(b - a, c - a)
-    way = configuration.lamp.directions((a + b + c) / 3.0)
-    length = np.maximum(np.linalg.norm(way, axis=1), 1e-300)
-    squared = 1.0 if configuration.lamp.sun else np.maximum(length**2, np.linalg.norm(normal, axis=1))
-    return float((np.abs((normal * way).sum(axis=1)) / length / squared).sum())
+    normal, lamp = 0.5 * np.cross(b - a, c - a), configuration.lamp
+    inner = np.full((1, 1, 3), 1.0 / 3.0)
+    if lamp.pattern is not None:
+        inner = np.random.default_rng(0).dirichlet((1.0, 1.0, 1.0), (PLACES, 1))
+    places = inner[..., :1] * a + inner[..., 1:2] * b + inner[..., 2:] * c
+    way = lamp.directions(places.reshape(-1, 3)).reshape(places.shape)
+    length = np.maximum(np.linalg.norm(way, axis=2), 1e-300)
+    squared = 1.0 if lamp.sun else np.maximum(length**2, np.linalg.norm(normal, axis=1))
+    return float((np.abs((normal * way).sum(axis=2)) / length / squared * lamp.share(places)).mean(axis=0).sum())
 
 
 def _areas(positions: np.ndarray, mesh: CausticMesh) -> np.ndarray:

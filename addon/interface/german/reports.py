@@ -110,6 +110,10 @@ LACKS = {
     "Light Paths > Max Bounces > Transparent.":
         "Cycles folgt durch {} durchsichtige Schichten, und vom Licht liegen {} oder mehr übereinander, was dort "
         "dunkel ist: erhöhe Lichtpfade > Max. Reflexionen > Transparent.",
+    "Cycles follows {} transparent layers, and what '{}' mirrors passes {} or more of light twice, which is dark "
+    "there: raise Light Paths > Max Bounces > Transparent.":
+        "Cycles folgt durch {} durchsichtige Schichten, und was '{}' spiegelt, kommt zweimal durch {} oder mehr vom "
+        "Licht, was dort dunkel ist: erhöhe Lichtpfade > Max. Reflexionen > Transparent.",
     "Between the corners of '{}' the picture is up to {} px off: subdivide it, or choose A Copy.":
         "Zwischen den Ecken von '{}' ist das Bild bis zu {} px daneben: unterteile es, oder wähle Eine Kopie.",
     "About {} % of what the mirror shows is missing: give it a clean mesh, or move the camera.":

@@ -126,4 +126,5 @@ def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) ->
             obj.reflection_mesh.eyes = sequence.records[-1].made_with["places"][key]
             objects.append(obj)
             told += leave_out(scene, *pairs[key], whole) if plan.leave_out else []
-    return objects, told + too_many_layers(scene, sequence.layers)
+    return objects, told + too_many_layers(scene, sequence.layers, (
+        slot.material for obj in lit for slot in obj.material_slots))

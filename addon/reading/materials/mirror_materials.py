@@ -28,6 +28,15 @@ def is_mirror(material: bpy.types.Material | None) -> bool:
     return shader.type in MIRRORS
 
 
+def shines(material: bpy.types.Material | None) -> bool:
+    """Whether what is no mirror mirrors a little as well: a Principled BSDF that is not told to have no specular."""
+    if material is None or not compat.uses_nodes(material):
+        return False
+    shader = surface_shader(material.node_tree)
+    return shader is not None and shader.type == "BSDF_PRINCIPLED" and not _constant(
+        shader, "Specular IOR Level", at_most=0.0)
+
+
 def is_sharp(shader: bpy.types.Node) -> bool:
     """Whether a shader's roughness is near 0 all over."""
     return _constant(shader, "Roughness", at_most=SHARP_ROUGHNESS)

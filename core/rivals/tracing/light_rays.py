@@ -1,9 +1,12 @@
 """Light that mirrors throw, by rays one by one from places strewn over the mirror: what meshes of light are judged by.
 
 A place on the mirror that stands for the area A, at the distance d from a lamp of 1 W/sr and met at the angle t, brings
-A cos(t) / d^2 W along; for a sun of 1 W/m2 it is A cos(t). A ray back to the lamp tells whether the light comes there,
-one along the reflection where it goes. Places are strewn evenly, by a lattice in each triangle that is shifted at
-random: several throws are independent of each other, and their differences tell their noise.
+A cos(t) / d^2 W along; for a sun of 1 W/m2 it is A cos(t). Where smooth normals send it on at another angle to the flat
+triangle than it came, it is weighted by the sines of both, as light must be that a path tracer shall find as bright
+(E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 5.3): none of what would enter the
+triangle and is lifted out of it. A ray back to the lamp tells whether the light comes there, one along the reflection
+where it goes. Places are strewn evenly, by a lattice in each triangle that is shifted at random: several throws are
+independent of each other, and their differences tell their noise.
 """
 from __future__ import annotations
 
@@ -18,6 +21,7 @@ from ...culling import BoxTree, first_hits
 from ...geometry import TriangleMesh, dot, norm
 from ...support import breathe
 
+SMALLEST = 1e-12  # sine of a way to a triangle: one that runs along it is sent on as if it did not quite
 TOUCHING = 1e-9  # of a way: a hit that much before its end is the end
 GOLDEN = 0.6180339887498949
 NEAR, LEVELS = 0.5, 12  # of their distance from the lamp: how large parts of the mirror may be; times that it is split
@@ -86,8 +90,7 @@ class LightRays:
         breathe()
         way = lamp.directions(place.T).T.copy()
         length = norm(way)
-        upright = np.abs(dot(way, self._surface.face_normal[:, face])) / np.maximum(length, 1e-300)
-        flux = area * upright / (1.0 if lamp.sun else length**2)
+        flux = area * self._sine(face, way) / (1.0 if lamp.sun else length**2)
         breathe()
         lit = self._lit(lamp, place, way, face) & (flux > 0.0)
         face, uv, flux, way, start = face[lit], uv[:, lit], flux[lit], way[:, lit], place[:, lit]
@@ -97,7 +100,8 @@ class LightRays:
         last_receiver = first_receiver + len(self._receivers.triangles)
         for _ in range(depth):
             breathe()
-            way, upright, lifted = self._reflected(face, uv, way)
+            way, upright, weight, lifted = self._reflected(face, uv, way)
+            flux[number] *= weight
             bent[number] |= lifted
             met.append(np.full(start.shape[1], -1))
             cosine.append(np.ones(start.shape[1]))
@@ -121,17 +125,23 @@ class LightRays:
         _, distance = self._trace(place, -way, face)
         return distance == np.inf if lamp.sun else distance >= 1.0 - TOUCHING
 
+    def _sine(self, face: np.ndarray, way: np.ndarray) -> np.ndarray:
+        """Of the angle (n,) between ways (3, n) and flat triangles."""
+        return np.abs(dot(way, self._surface.face_normal[:, face])) / np.maximum(norm(way), 1e-300)
+
     def _reflected(self, face: np.ndarray, uv: np.ndarray,
-                   way: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Unit rays that leave the mirror, the cosine at which they met it, and whether they had to be lifted."""
+                   way: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Unit rays that leave the mirror, the cosine at which they met it, what of their light a path tracer finds,
+        and whether they had to be lifted."""
         way = way / np.maximum(norm(way), 1e-300)
         ray = self._surface.unbent(face, uv, way)
         breathe()
-        lifted = self._surface.enters(face, ray, way)
+        rise, lifted = self._surface.rise(face, ray, way), self._surface.enters(face, ray, way)
         breathe()
         self._surface.lift(face, uv, ray, way)
+        weight = np.maximum(rise, 0.0) / np.maximum(self._sine(face, way), SMALLEST)
         # a ray is turned by twice the angle that it has to the mirror's plane
-        return ray, np.sqrt(np.clip(0.5 * (1.0 - dot(way, ray)), 0.0, 1.0)), lifted
+        return ray, np.sqrt(np.clip(0.5 * (1.0 - dot(way, ray)), 0.0, 1.0)), weight, lifted
 
 
 def by_boxes(mesh: TriangleMesh) -> Tracer:

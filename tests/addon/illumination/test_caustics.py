@@ -184,6 +184,19 @@ def test_more_layers_than_cycles_follows_are_told(blank, capfd):
     assert "Cycles follows 5 transparent layers, and of light 8 or more" in capfd.readouterr().out
 
 
+def test_layers_that_a_shiny_floor_mirrors_once_more_are_told(blank, capfd):
+    floor, _, _ = scene_of(shadow_soft_size=0.1)
+    blank.scene.cycles.transparent_max_bounces = 8
+    floor.data.materials[0] = varnish = paint("Varnish", "PRINCIPLED", ALBEDO, "Base Color")
+    values = varnish.node_tree.nodes[0].inputs
+    values["Metallic"].default_value = 0.0
+    twice = "Cycles follows 8 transparent layers, and what 'Varnish' mirrors passes 5 or more of light twice"
+    for eyes, specular, told in ((4, 0.5, False), (5, 0.0, False), (5, 0.5, True)):
+        values["Specular IOR Level"].default_value = specular
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=eyes) == {"FINISHED"}
+        assert (twice in capfd.readouterr().out) == told
+
+
 def test_what_is_lit_as_well_as_it_mirrors_stays_lit(blank, room, tmp_path, capfd):
     """A frame of the mirror's own object, or water over its ground, is not taken out of what the lamp lights."""
     floor, mirror, lamp = scene_of(shadow_soft_size=0.1)

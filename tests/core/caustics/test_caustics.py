@@ -53,6 +53,23 @@ def graph(height, slope, radius: float, count: int) -> TriangleMesh:
     return TriangleMesh(positions, triangles, normals[triangles])
 
 
+def bent_strip(tilt: float) -> TriangleMesh:
+    """A square across x whose normals turn from its foot, where they look down by `tilt`, to its top."""
+    flat, tilts = upright(0.0, 1.5, 0.5), np.array([-tilt, -tilt, 0.0, 0.0])
+    normals = np.column_stack((np.ones(4), 0.0 * tilts, tilts)) / np.hypot(1.0, tilts)[:, None]
+    return TriangleMesh(flat.positions, flat.triangles, normals[flat.triangles])
+
+
+def seen_from_below(tilt: float, sun: Lamp) -> float:
+    """How much of the strip of `bent_strip` those see whom it shows a sun, across their sight, from top to foot."""
+    height = (np.arange(100_000) + 0.5) / 100_000
+    foot = np.array([1.0, 0.0, -tilt]) / np.hypot(1.0, tilt)
+    normal = height[:, None] * (1.0, 0.0, 0.0) + (1.0 - height)[:, None] * foot
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    way = sun.place - 2.0 * (normal @ sun.place)[:, None] * normal
+    return float(np.maximum(way[:, 0], 0.0).mean())
+
+
 def areas(mesh) -> np.ndarray:
     a, b, c = np.moveaxis(mesh.positions[mesh.triangles], 1, 0)
     return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
@@ -90,7 +107,10 @@ def by_rays(lamp: Lamp, mirror: TriangleMesh, receiver: TriangleMesh, count: int
     place = start + along[:, None] * way
     normal = np.einsum("nk,nkc->nc", weights, mirror.corner_normals[met])
     normal /= np.linalg.norm(normal, axis=1)[:, None]
+    came, flat = way, mirror.face_normals()[met]
     way = way - 2.0 * (way * normal).sum(axis=1)[:, None] * normal
+    # as a path tracer would find it
+    share = share * np.maximum(-(way * flat).sum(axis=1) / (came * flat).sum(axis=1), 0.0)
     found, _ = first_hits(both, place, way, leaving=met)
     lit = found >= len(mirror.triangles)
     along, _ = plane_hits(receiver, found[lit] - len(mirror.triangles), place[lit], way[lit])
@@ -123,25 +143,44 @@ def test_a_flat_mirror_throws_light_as_from_the_lamp_behind_it():
     assert (normal[:, 2] > 0.0).all() and (mesh.image_parity == 1).all()
 
 
-def test_irradiance_is_the_solid_angle_of_a_thin_bundle_over_the_area_that_it_lights():
+def test_irradiance_is_what_a_path_tracer_finds_that_comes_from_the_receiver():
+    """A lamp of 1 W/sr and the area A across its light is as bright as 1 / A, in the solid angle in which it is
+    seen."""
+    normals = np.array([(1.0, -0.3, 0.1), (1.0, 0.2, -0.1), (1.0, 0.1, 0.2)])
     mirror = TriangleMesh(np.array([(0.0, -0.4, 1.2), (0.1, 0.5, 1.1), (0.0, 0.0, 1.9)]), np.array([[0, 1, 2]]),
-                          np.array([[(1.0, -0.3, 0.1), (1.0, 0.2, -0.1), (1.0, 0.1, 0.2)]]))
-    view = View.looking_at((1.5, 0.2, 3.0), (0.0, 0.0, 1.4), (64, 64))
-    ray_map, face = MirrorMap(view, mirror), np.zeros(3, dtype=int)
-
-    def landed(uv: np.ndarray) -> np.ndarray:
-        place, way = ray_map.leave(face[:uv.shape[1]], uv)
-        return place - place[2] / way[2] * way
+                          normals[None])
+    view, up = View.looking_at((1.5, 0.2, 3.0), (0.0, 0.0, 1.4), (64, 64)), np.array([0.0, 0.0, 1.0])
+    ray_map, face = MirrorMap(view, mirror), np.zeros(1, dtype=int)
+    unit_normals = normals / np.linalg.norm(normals, axis=1)[:, None]
     for u, v in ((0.2, 0.3), (0.5, 0.1), (0.1, 0.7)):
-        uv = np.array([[u, u + 1e-5, u], [v, v, v + 1e-5]])
-        points = landed(uv)
-        area = 0.5 * np.linalg.norm(np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]))
-        a, b, c = ray_map.places(face, uv).T - view.eye
-        seen = 0.5 * abs(a @ np.cross(b - a, c - a)) / np.linalg.norm(a)**3
-        found = light_at(ray_map, face[:1], uv[:, :1], points[:, :1], np.array([[0.0], [0.0], [1.0]]),
-                         Lamp(view.eye))
-        assert abs(found.irradiance[0] * area / seen - 1.0) < 1e-3
+        inner = np.array([(u, v), (u + 1e-5, v), (u, v + 1e-5)])
+        inner = np.column_stack((1.0 - inner.sum(axis=1), inner))
+        place, normal = inner @ mirror.positions, inner @ unit_normals
+        normal /= np.linalg.norm(normal, axis=1)[:, None]
+
+        def sent_on(way: np.ndarray, normal: np.ndarray = normal) -> np.ndarray:
+            return way - 2.0 * (way * normal).sum(axis=1)[:, None] * normal
+        way = sent_on(place - view.eye)[0]
+        point = place[0] - place[0, 2] / way[2] * way
+        seen, back = place - point, sent_on(place - point)
+        across = place[0] - view.eye
+        back *= (((view.eye - place) @ across) / (back @ across))[:, None]
+        ends = place + back
+        area = 0.5 * np.linalg.norm(np.cross(ends[1] - ends[0], ends[2] - ends[0]))
+        a, b, c = seen
+        angle = 0.5 * abs(a @ np.cross(b - a, c - a)) / np.linalg.norm(a)**3
+        found = light_at(ray_map, face, np.array([[u], [v]]), point[:, None], up[:, None], Lamp(view.eye))
+        assert abs(found.irradiance[0] * area / (angle * a[2] / np.linalg.norm(a)) - 1.0) < 1e-3
         assert found.arrived[0] and found.side[0] == 1.0
+
+
+def test_normals_far_from_the_faces_bring_the_light_that_a_path_tracer_finds():
+    """Of a sun of 1 W/m2 it finds as much as what it sees of the mirror where that shows the sun."""
+    mirror, floor, sun = bent_strip(0.35), level(0.0, 0.0, -3.0, 60.0), Lamp.shining((-1.0, 0.0, -1.0))
+    expected = seen_from_below(0.35, sun)
+    assert abs(expected - np.sqrt(0.5)) > 0.1  # which is what the mirror takes of the light
+    mesh = caustics(sun, mirror, floor)
+    assert abs(mesh.flux.sum() / expected - 1.0) < 1e-3 and abs(received(mesh) / mesh.flux.sum() - 1.0) < 1e-9
 
 
 def test_what_stands_in_the_way_casts_its_shadow_exactly():
@@ -200,7 +239,7 @@ def test_the_light_of_a_ring_is_that_of_rays():
         assert abs(mesh.flux.sum() - share.sum()) < max(4.0 * noise, 0.002 * share.sum())
         assert abs(received(mesh) / mesh.flux.sum() - 1.0) < 1e-9
         ours, theirs = binned(*strewn(mesh), 32), binned(points, share, 32)
-        spread = np.sqrt(theirs * share[0])
+        spread = np.sqrt(theirs * share.mean())
         assert np.abs(ours - theirs).sum() < 1.2 * np.sqrt(2.0 / np.pi) * spread.sum() + 0.01 * theirs.sum()
         assert np.isfinite(mesh.irradiance).all() and mesh.irradiance.min() >= 0.0
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from core import Lamp, Settings, TriangleMesh, reflect
-from core.caustics.corners import light_at
+from core.caustics.corners import light_at, mean_weight
 from core.caustics.energy import balanced, flux_of, on_faces, shown_area
 from core.caustics.refinement import refined
 from core.geometry import cross, dot, norm
@@ -28,7 +28,8 @@ def faces_of(lamp: Lamp, mirror: TriangleMesh, receiver: TriangleMesh):
     whole = flux_of(view, seen.mirror_position[seen.triangles]).sum()
     reach = np.ptp(seen.reflected_position, axis=0).max()
     faces = refined(ray_map, faces, receiver, lamp, (room.LEAST * whole, room.FINEST * reach), 10**6)
-    return faces, flux_of(view, np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2)), ray_map
+    flux = flux_of(view, np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2))
+    return faces, flux * mean_weight(ray_map, faces.face, faces.light, lamp), ray_map
 
 
 def asked_all_over(faces, ray_map, inner: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -6,7 +6,7 @@ import pytest
 
 from core import Lamp, caustics
 from core.rivals.tracing import LightRays
-from tests.core.caustics.test_caustics import level, ring, solid_angle, upright
+from tests.core.caustics.test_caustics import bent_strip, level, ring, seen_from_below, solid_angle, upright
 from tests.fuzz.drawing.lights import drawn_light
 from tests.fuzz.kept import kept_seeds
 from tests.fuzz.light_trial import light_problems
@@ -32,6 +32,12 @@ def test_a_lamp_close_to_the_mirror_is_no_trouble():
     landed = [LightRays(mirror, floor).thrown(lamp, 100_000, seed).flux.sum() for seed in range(4)]
     ways = caustics(lamp, mirror, floor).flux.sum()
     assert np.std(landed) < 1e-3 * ways and abs(np.mean(landed) / ways - 1.0) < 1e-3
+
+
+def test_rays_are_weighted_as_a_path_tracer_finds_them():
+    sun, floor = Lamp.shining((-1.0, 0.0, -1.0)), level(0.0, 0.0, -3.0, 60.0)
+    landed = LightRays(bent_strip(0.35), floor).thrown(sun, 100_000)
+    assert not landed.bent.any() and abs(landed.flux.sum() / seen_from_below(0.35, sun) - 1.0) < 1e-3
 
 
 def test_what_stands_in_the_way_hides():

@@ -43,6 +43,7 @@ def drawn_light(seed: int) -> LightConfiguration:
     rng = np.random.default_rng((seed, 15))
     kinds, mirror = drawn_mirror(rng)
     kind, lamp, view = _lamp(rng, mirror)
+    kind, lamp = _patterned((seed, 18), kind, lamp, mirror)
     parts, receivers = drawn_scene(rng, view, mirror)
     names = [str(seed), *kinds, kind, *parts]
     others = blockers = None
@@ -76,3 +77,33 @@ def _lamp(rng: np.random.Generator, mirror: TriangleMesh) -> tuple[str, Lamp, Vi
     distance = float(rng.choice([0.05, 0.5, 2.0, 4.0, 50.0]))
     place = distance * way + (0.0 if distance > 0.1 else mirror.positions[rng.integers(len(mirror.positions))])
     return f"lamp at {distance:g}", Lamp(place), View.looking_at(place, target, (64, 64))
+
+
+def _patterned(seed: tuple[int, int], kind: str, lamp: Lamp, mirror: TriangleMesh) -> tuple[str, Lamp]:
+    """Some lamps as spots and squares are, which light a cone round some place of the mirror. Drawn for itself, so that
+    seeds that are kept stay what they were in all else."""
+    rng = np.random.default_rng(seed)
+    if lamp.sun or rng.random() < 0.5:
+        return kind, lamp
+    aim = rng.dirichlet((1.0, 1.0, 1.0)) @ mirror.positions[mirror.triangles[rng.integers(len(mirror.triangles))]]
+    axis = (aim - lamp.place) / max(np.linalg.norm(aim - lamp.place), 1e-300)
+    half = float(rng.choice([0.02, 0.1, 0.3, 0.8, 1.5]))
+    place = lamp.place
+
+    def ahead(places: np.ndarray) -> np.ndarray:
+        way = places - place
+        return way @ axis / np.maximum(np.linalg.norm(way, axis=-1), 1e-300)
+
+    if rng.random() < 0.5:
+        blend = max((1.0 - np.cos(half)) * float(rng.choice([0.0, 0.15, 1.0])), 1e-6)
+
+        def spot(places: np.ndarray) -> np.ndarray:
+            t = np.clip((ahead(places) - np.cos(half)) / blend, 0.0, 1.0)
+            return t * t * (3.0 - 2.0 * t)
+        return f"spot of {half:g}, {kind}", Lamp(place, False, spot, max(0.5 * half, 4e-3))
+
+    def square(places: np.ndarray) -> np.ndarray:
+        cosine = np.maximum(ahead(places), 0.0)
+        tangent = np.sqrt(np.maximum(1.0 - cosine**2, 0.0)) / np.maximum(cosine, 1e-12)
+        return cosine * np.maximum(1.0 - tangent / np.tan(half), 0.0)
+    return f"square of {half:g}, {kind}", Lamp(place, False, square, max(0.5 * half, 4e-3))
