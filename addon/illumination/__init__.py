@@ -7,7 +7,7 @@ from .caustic_material import adds_light, forget_added_light
 from .cycles_caustics import leave_out, too_many_layers
 from .eye import Eye
 from .in_the_way import blockers_of, blocking
-from .lamps import NoLight, chosen_lamps, eyes_of, has_a_size, lights_renders, meant_lamps
+from .lamps import NoLight, chosen_lamps, eyes_of, has_a_size, light_of_nodes, lights_renders, meant_lamps
 from .mesh_lamps import radiance_of
 from .mirror_parts import MirrorPart, parts_of
 from .own_caustics import (
@@ -23,5 +23,5 @@ from .write_caustics import Caustic, caustics_object, places_kept, results_with,
 __all__ = ["Caustic", "Eye", "MirrorPart", "NoLight", "Tint", "adds_light", "blockers_of", "blocking",
            "bring_back_abandoned", "caustic_arrays", "caustics_object", "chosen_lamps", "eyes_of",
            "forget_added_light", "has_a_size", "leave_out", "leave_out_own_caustics", "leaves_out",
-           "let_lamps_light_mirrors", "lights_renders", "makes_own_caustics", "meant_lamps", "parts_of",
-           "places_kept", "radiance_of", "results_with", "too_many_layers", "write_caustics"]
+           "let_lamps_light_mirrors", "light_of_nodes", "lights_renders", "makes_own_caustics", "meant_lamps",
+           "parts_of", "places_kept", "radiance_of", "results_with", "too_many_layers", "write_caustics"]

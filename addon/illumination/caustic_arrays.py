@@ -17,6 +17,8 @@ ROUNDING = 2.0 ** -20  # of a coordinate: by how much single precision may miss,
 DEPTH_STEP = 2.0 ** -22  # of the depth buffer of viewports: what it can tell apart, several times over
 SPREAD = 2.0  # times as far before it: where the layer of the largest number lies
 ACROSS = np.array((0.6180, 0.7071, 0.3437))  # an odd direction, along which few places of a mirror are as far
+FLAT = 1e-11  # of unit vectors' scalar product: what misses 1 by less is rounding
+GRAZING = 1e-2  # cosine: light that comes more level to a triangle is shaded as if it did not
 MOST_LIFT = 2e-3  # of the size of what is lit
 
 
@@ -31,8 +33,9 @@ def caustic_arrays(lit: list[tuple[Eye, Tint, CausticMesh]], scene: DiffuseScene
     start = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])
     triangles = np.concatenate([mesh.triangles + first for mesh, first in zip(meshes, start)])
     together = {name: np.concatenate([getattr(mesh, name) for mesh in meshes]) for name in (
-        "mirror_position", "image_parity", "source_face", "source_weights", "bounces")}
+        "mirror_position", "image_parity", "source_face", "source_weights", "direction", "bounces")}
     irradiance, light = _light(lit)
+    light *= _shading(scene, together)[..., None]
     low, high = positions.min(axis=0), positions.max(axis=0)
     origin = (0.5 * (low + high)).astype(np.float32).astype(np.float64)
     size = float((high - low).max())
@@ -65,6 +68,24 @@ def _light(lit: list[tuple[Eye, Tint, CausticMesh]]) -> tuple[np.ndarray, np.nda
         coloured.append(mesh.irradiance[:, :, None] * eye.power * tint.at(mesh.cosine, mesh.bounces))
     light = np.concatenate(coloured)
     return light.mean(axis=2), light
+
+
+def _shading(scene: DiffuseScene, together: dict) -> np.ndarray:
+    """By how much (m, 3) the smooth normals of what is lit change the light at the corners, which engines shade by the
+    cosine to these instead of the flat triangle's."""
+    source, direction = together["source_face"], together["direction"]
+    flat = scene.mesh.face_normals()[source][:, None]
+    smooth = _unit(np.matmul(together["source_weights"], _unit(scene.normals[source], flat)), flat)
+    level = (flat * direction).sum(axis=2)
+    level = np.copysign(np.maximum(np.abs(level), GRAZING), level)
+    share = np.maximum((smooth * direction).sum(axis=2) / level, 0.0)
+    return np.where((smooth * flat).sum(axis=2) > 1.0 - FLAT, 1.0, share)
+
+
+def _unit(vectors: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Vectors (..., 3) made as long as 1, or the `other` ones where they have no length."""
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.where(length > 0.0, vectors / np.where(length > 0.0, length, 1.0), other)
 
 
 def _lift(positions: np.ndarray, size: float, farthest: float, camera: bpy.types.Object | None) -> np.ndarray:

@@ -8,6 +8,7 @@ import bpy
 from .. import compat
 from ..faults import AllOrNothing
 from ..reading.materials import surface_shader
+from .diffuse_share import SHARES, diffuse_share
 from .receiver_places import MARK, asks_for_more, forget_groups, show_by_places
 
 LIGHT = "caustic_light"
@@ -33,16 +34,17 @@ def adds_light(receiver: bpy.types.Material | None, whole: AllOrNothing) -> tupl
     whole.undo(bpy.data.materials.remove, material)
     material[MARK] = True
     albedo = (0.8, 0.8, 0.8, 1.0) if receiver is None else tuple(receiver.diffuse_color)
-    share, colour = 1.0, None
+    colour: bpy.types.NodeSocket | None = None
+    share: float | bpy.types.NodeSocket = 1.0
     if shader is not None:
         socket = shader.inputs[COLOURS[shader.type]]
         albedo = tuple(socket.default_value)
         colour = socket.links[0].from_socket if socket.is_linked else None
-        metallic = shader.inputs.get("Metallic")
-        share = 1.0 - metallic.default_value if metallic is not None and not metallic.is_linked else 1.0
-        known = known and (colour is None or not asks_for_more(tree))
+        asked = (socket, *(shader.inputs[name] for name in SHARES if name in shader.inputs))
+        known = known and not (any(one.is_linked for one in asked) and asks_for_more(tree))
+        share = diffuse_share(tree, shader)
         show_by_places(tree, whole)
-    _show(tree, albedo, colour, share / math.pi)
+    _show(tree, albedo, colour, share)
     material.surface_render_method = "BLENDED"
     material.use_transparency_overlap = True
     material.use_backface_culling = False
@@ -58,9 +60,10 @@ def forget_added_light(materials: list) -> None:
     forget_groups()
 
 
-def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket | None, share: float) -> None:
-    """Let a tree emit its colour times the light's, times a share, and show what lies behind; to the side that is lit
-    alone, or the receiver would be lit by what it sends back."""
+def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket | None,
+          share: float | bpy.types.NodeSocket) -> None:
+    """Let a tree emit its colour times the light's, times a share, over pi, and show what lies behind; to the side that
+    is lit alone, or the receiver would be lit by what it sends back."""
     def add(kind: str, place: tuple[float, float]) -> bpy.types.Node:
         node = tree.nodes.new(kind)
         node.location = place
@@ -77,9 +80,16 @@ def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket 
     else:
         tree.links.new(colour, product.inputs[1])
     seen, front = add("ShaderNodeNewGeometry", (0.0, -500.0)), add("ShaderNodeMath", (200.0, -500.0))
-    front.operation, front.inputs[0].default_value, front.inputs[2].default_value = "MULTIPLY_ADD", -share, share
+    known = share / math.pi if isinstance(share, float) else 1.0 / math.pi
+    front.operation, front.inputs[0].default_value, front.inputs[2].default_value = "MULTIPLY_ADD", -known, known
     tree.links.new(seen.outputs["Backfacing"], front.inputs[1])
-    tree.links.new(front.outputs[0], emission.inputs["Strength"])
+    strength = front
+    if not isinstance(share, float):
+        strength = add("ShaderNodeMath", (200.0, -650.0))
+        strength.operation = "MULTIPLY"
+        tree.links.new(front.outputs[0], strength.inputs[0])
+        tree.links.new(share, strength.inputs[1])
+    tree.links.new(strength.outputs[0], emission.inputs["Strength"])
     clear.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     tree.links.new(product.outputs["Vector"], emission.inputs["Color"])
     tree.links.new(emission.outputs["Emission"], both.inputs[0])

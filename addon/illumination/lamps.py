@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ...core import Lamp, ReflectionError
+from .. import compat
 from .eye import Eye, across
 from .mesh_lamps import eyes_of_mesh, is_mesh_lamp
 
@@ -52,12 +53,18 @@ def lights_renders(lamp: bpy.types.Object) -> bool:
 
 def _meant(context: bpy.types.Context, objects: list) -> list:
     """Of some objects the selected lamps, and meshes that emit light; where none is selected that of active caustics,
-    else all lamps but meshes."""
+    else all lamps but meshes. A portal gives no light of its own."""
+    objects = [obj for obj in objects if not _is_portal(obj)]
     active = context.view_layer.objects.active
     own = [obj for obj in objects if active is not None and active.reflection_mesh.role == "CAUSTICS"
            and obj == active.reflection_mesh.lamp]
     chosen = [obj for obj in objects if obj.select_get() and (obj.type == "LIGHT" or is_mesh_lamp(obj))]
     return chosen or own or [obj for obj in objects if obj.type == "LIGHT"]
+
+
+def _is_portal(lamp: bpy.types.Object) -> bool:
+    own = getattr(lamp.data, "cycles", None) if lamp.type == "LIGHT" and lamp.data.type == "AREA" else None
+    return own is not None and own.is_portal
 
 
 def has_a_size(lamp: bpy.types.Object) -> bool:
@@ -92,6 +99,7 @@ def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, 
         return eyes
     axes, place = matrix[:3, :3] / length, matrix[:3, 3]
     power = np.array(data.color, dtype=np.float64) * data.energy * 2.0**getattr(data, "exposure", 0.0)
+    power = power * light_of_nodes(data)[0]
     if getattr(data, "use_temperature", False):
         power = power * np.array(data.temperature_color, dtype=np.float64)
     if not (power > 0.0).any():
@@ -117,6 +125,22 @@ def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, 
         half = np.cos(0.5 * data.spot_size)
         cone = half, max((1.0 - half) * data.spot_blend, 1e-6)
     return [Eye(Lamp(place + offset), power / count, axes, data.type, cone) for offset in offsets]
+
+
+def light_of_nodes(data: bpy.types.Light) -> tuple[np.ndarray, bool]:
+    """What a lamp's nodes make of red, green and blue of its light, and whether that is all that they tell: what is
+    plugged into an Emission counts as if it were not."""
+    if not compat.uses_nodes(data):
+        return np.ones(3), True
+    output = data.node_tree.get_output_node("ALL")
+    if output is None or not output.inputs["Surface"].is_linked:
+        return np.zeros(3), True
+    shader = output.inputs["Surface"].links[0].from_node
+    if shader.type != "EMISSION":
+        return np.ones(3), False
+    colour, strength = (shader.inputs[name] for name in ("Color", "Strength"))
+    light = np.array(colour.default_value[:3], dtype=np.float64) * strength.default_value
+    return np.maximum(light, 0.0), not (colour.is_linked or strength.is_linked)
 
 
 def _disc(count: int) -> np.ndarray:

@@ -7,7 +7,6 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError
-from .. import compat
 from ..illumination import eyes_of, has_a_size
 from ..reading import seen_in
 
@@ -84,20 +83,9 @@ def _shown(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> ShownLamp:
     else:
         width = height = 2.0 * data.shadow_soft_size
         shape, area = "DISC" if data.use_soft_falloff else "BALL", np.pi * data.shadow_soft_size**2
-    radiance = eye.power / max(area, 1e-30) * _by_nodes(data)
+    radiance = eye.power / max(area, 1e-30)
     return ShownLamp(matrix[:3, 3], eye.axes, shape, (float(width), float(height)), tuple(radiance.tolist()), eye.cone,
                      data.type == "SPOT")
-
-
-def _by_nodes(data: bpy.types.Light) -> np.ndarray:
-    """What a lamp's nodes make of its light, where that is one colour; white elsewhere."""
-    output = data.node_tree.get_output_node("ALL") if compat.uses_nodes(data) else None
-    if output is None or not output.inputs["Surface"].is_linked:
-        return np.ones(3)
-    shader = output.inputs["Surface"].links[0].from_node
-    if shader.type != "EMISSION" or any(socket.is_linked for socket in shader.inputs):
-        return np.ones(3)
-    return np.array(shader.inputs["Color"].default_value[:3]) * shader.inputs["Strength"].default_value
 
 
 def lamps_before(result: bpy.types.Object, lamps: list[ShownLamp]) -> tuple[ShownLamp, ...]:

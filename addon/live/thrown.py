@@ -12,7 +12,7 @@ from ...core import ReflectionError, Settings
 from ..faults import Steps, sentence
 from ..frames import plays
 from ..freshness import digest_of
-from ..illumination import Tint, blocking, lights_renders, places_kept, radiance_of, results_with
+from ..illumination import Tint, blocking, light_of_nodes, lights_renders, places_kept, radiance_of, results_with
 from ..operators.caustics import Asked, NothingThrown, throwing
 from ..reading import NothingSeen, Participants, visible
 from ..settings import Wanted
@@ -203,7 +203,7 @@ def _lamp_numbers(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> tup
     data = evaluated.data
     values = (getattr(data, prop.identifier) for prop in data.bl_rna.properties
               if prop.type in NUMBERS and prop.identifier != "use_nodes")
-    return (np.array(evaluated.matrix_world, dtype=np.float32).tobytes(),
+    return (np.array(evaluated.matrix_world, dtype=np.float32).tobytes(), light_of_nodes(data)[0].tobytes(),
             *(tuple(value) if hasattr(value, "__len__") and not isinstance(value, str | set) else str(value)
               for value in values))
 

@@ -22,6 +22,7 @@ from ..illumination import (
     chosen_lamps,
     eyes_of,
     leave_out,
+    light_of_nodes,
     parts_of,
     too_many_layers,
     write_caustics,
@@ -197,6 +198,10 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
     for material in dict.fromkeys(unknown):
         remarks.append(f"The colour of '{material.name}' is not known all over, where it asks for what only its own "
                        "object knows or is mixed of several shaders: its light may have another colour.")
+    for lamp in dict.fromkeys(made.lamp for made in prepared):
+        if lamp.type == "LIGHT" and not light_of_nodes(lamp.data)[1]:
+            remarks.append(f"The nodes of '{lamp.name}' tell more than one colour and one strength: its light counts "
+                           "as if the rest were plugged off.")
     if not all(made.plain for made in prepared):
         remarks.append("A mirror's colour that changes over it counts as one: plug it off to choose which.")
     layers = sum(made.layers for made in prepared)

@@ -32,6 +32,8 @@ class CausticMesh:
         +1 or -1 (turned over), 0 on a caustic.
     cosine : (m, 3) float64
         Of the angle at which the light meets the mirror that it meets first, at the corners.
+    direction : (m, 3, 3) float64
+        In which the light comes to the corners; unit vectors.
     source_face : (m,) int64
         Triangle of what is lit.
     source_weights : (m, 3, 3) float64
@@ -60,6 +62,7 @@ class CausticMesh:
     mirror_position: np.ndarray
     image_parity: np.ndarray
     cosine: np.ndarray
+    direction: np.ndarray
     source_face: np.ndarray
     source_weights: np.ndarray
     bounces: np.ndarray

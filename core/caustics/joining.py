@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..geometry import TriangleMesh, has_area
+from ..cameras import ReflectionMap
+from ..geometry import TriangleMesh, has_area, unit
 from ..result import ReflectionMesh
 from ..support import NothingInView, breathe
 from .caustic_mesh import CausticMesh
@@ -70,7 +71,8 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     order = np.where(over[:, None], (0, 2, 1), (0, 1, 2))
     triangles, irradiance, cosine = (np.take_along_axis(values, order, axis=1) for values in (
         faces.triangles[kept], irradiance, cosine))
-    corners = np.take_along_axis(corners[kept], order[:, :, None], axis=1)
+    corners, direction = (np.take_along_axis(values, order[:, :, None], axis=1) for values in (
+        corners[kept], _directions(seen.maps[number - 1], faces, kept)))
     source = faces.source[kept]
     breathe()
     weights = _weights(receivers, source, corners)
@@ -83,9 +85,15 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     return {
         "positions": faces.points[:, used].T, "triangles": number_of[triangles], "irradiance": irradiance,
         "flux": flux[kept], "mirror_position": light.place[:, entry].T,
-        "image_parity": parity.astype(np.int8), "cosine": cosine, "source_face": source,
-        "source_weights": weights,
+        "image_parity": parity.astype(np.int8), "cosine": cosine, "direction": direction,
+        "source_face": source, "source_weights": weights,
         "bounces": np.full(len(kept), number, dtype=np.int8)}
+
+
+def _directions(ray_map: ReflectionMap, faces: LitFaces, kept: np.ndarray) -> np.ndarray:
+    """Unit vectors (m, 3, 3) in which light comes to the corners of the faces that are `kept` (m,)."""
+    uv = faces.light.uv.reshape(2, 3, -1)
+    return np.stack([unit(ray_map.rays(faces.face[kept], uv[:, corner, kept])).T for corner in range(3)], axis=1)
 
 
 def _weights(receivers: TriangleMesh, source: np.ndarray, corners: np.ndarray) -> np.ndarray:

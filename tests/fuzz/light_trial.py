@@ -69,7 +69,7 @@ def _numbers(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[s
     count, vertices = len(mesh.triangles), len(mesh.positions)
     shapes = {"positions": (vertices, 3), "mirror_position": (vertices, 3), "image_parity": (vertices,),
               "triangles": (count, 3), "irradiance": (count, 3), "flux": (count,), "cosine": (count, 3),
-              "source_face": (count,), "source_weights": (count, 3, 3), "bounces": (count,)}
+              "direction": (count, 3, 3), "source_face": (count,), "source_weights": (count, 3, 3), "bounces": (count,)}
     for name, shape in shapes.items():
         values = getattr(mesh, name)
         if values.shape != shape:
@@ -79,6 +79,7 @@ def _numbers(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[s
     if not count:
         yield "lengths: it shows nothing, and nothing says so"
     bounds = {"triangles": (0, vertices - 1), "irradiance": (0.0, np.inf), "flux": (0.0, np.inf), "cosine": (0.0, 1.0),
+              "direction": (-1.0 - 1e-12, 1.0 + 1e-12),
               "source_face": (0, len(configuration.receivers.triangles) - 1), "source_weights": (0.0, 1.0 + 1e-9),
               "bounces": (1, configuration.settings.depth), "image_parity": (-1, 1)}
     for name, (low, high) in bounds.items():

@@ -104,6 +104,8 @@ LACKS = {
     "several shaders: its light may have another colour.":
         "Die Farbe von '{}' ist nicht überall bekannt, wo sie nach etwas fragt, das nur das Objekt selbst weiß, oder "
         "aus mehreren Shadern gemischt ist: sein Licht kann eine andere Farbe haben.",
+    "The nodes of '{}' tell more than one colour and one strength: its light counts as if the rest were plugged off.":
+        "Die Nodes von '{}' sagen mehr als eine Farbe und eine Stärke: sein Licht zählt, als wäre der Rest abgezogen.",
     "A mirror's colour that changes over it counts as one: plug it off to choose which.":
         "Die Farbe eines Spiegels, die sich über ihn ändert, zählt als eine: ziehe sie ab, um zu wählen, welche.",
     "Cycles follows {} transparent layers, and of light {} or more lie over each other, which is dark there: raise "

@@ -31,6 +31,35 @@ def test_it_is_as_bright_as_the_lamp_behind_a_flat_mirror(blank, tmp_path, kind)
     assert np.percentile(np.abs(ratio - 1.0), 75) < 0.01
 
 
+def emission(lamp: bpy.types.Object) -> bpy.types.Node:
+    """The node by which a lamp shines, from now on."""
+    lamp.data.use_nodes = True
+    return next(node for node in lamp.data.node_tree.nodes if node.type == "EMISSION")
+
+
+def test_a_lamps_nodes_colour_and_strengthen_its_light(blank, tmp_path, capfd):
+    """As Cycles shows it; what is plugged into them is told, and portals are no lamps."""
+    floor, mirror, lamp = scene_of()
+    blank.scene.cycles.max_bounces = 0
+    shader = emission(lamp)
+    shader.inputs["Color"].default_value, shader.inputs["Strength"].default_value = (0.2, 1.0, 0.6, 1.0), 3.0
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
+    ratio = (light / np.maximum(expected, 1e-12))[inner(light)]
+    assert len(ratio) > 500 and np.abs(np.median(ratio, axis=0) - 1.0).max() < 2e-3
+    assert "tell more than one colour" not in capfd.readouterr().out
+    tree = lamp.data.node_tree
+    warm = tree.nodes.new("ShaderNodeBlackbody")
+    tree.links.new(warm.outputs[0], shader.inputs["Color"])
+    mirror.hide_render = False
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert "The nodes of 'Lamp' tell more than one colour" in capfd.readouterr().out
+    tree.links.remove(tree.nodes["Light Output"].inputs["Surface"].links[0])
+    assert "gives no light" in parts.refusal(bpy.ops.reflection_mesh.caustics)
+    lamp.data.type = "AREA"
+    lamp.data.cycles.is_portal = True
+    assert "no lamp" in parts.refusal(bpy.ops.reflection_mesh.caustics)
+
+
 def test_a_metal_is_whiter_at_a_grazing_angle(blank, room):
     tint = room("addon.illumination").Tint
     mirror = parts.add("plane", "Mirror")

@@ -52,8 +52,12 @@ def test_it_is_right_at_rest(scene, clock, name):
 
 def test_a_lamp_without_a_move(scene, clock):
     """Its power, its colour; and what nothing depends on: the camera."""
+    scene.lamp.data.use_nodes = True
+    shader = next(node for node in scene.lamp.data.node_tree.nodes if node.type == "EMISSION")
+    clock.rest()
     for change in (lambda: setattr(scene.lamp.data, "energy", 50.0),
                    lambda: setattr(scene.lamp.data, "color", (0.1, 0.2, 0.9)),
+                   lambda: setattr(shader.inputs["Strength"], "default_value", 0.5),
                    lambda: setattr(scene.mirror.active_material.node_tree.nodes[0].inputs["Color"], "default_value",
                                    (0.2, 0.9, 0.1, 1.0))):
         before = shape(scene.light)

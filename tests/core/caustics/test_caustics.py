@@ -136,6 +136,7 @@ def test_a_flat_mirror_throws_light_as_from_the_lamp_behind_it():
     # no value is off by more than what is linear on a face may be
     assert np.abs(mesh.irradiance / expected - 1.0).max() < 0.03
     assert np.median(np.abs(mesh.irradiance / expected - 1.0)) < 1e-3
+    assert np.abs(mesh.direction - way / np.linalg.norm(way, axis=2, keepdims=True)).max() < 1e-9
     whole = solid_angle((1.0, 0.0, 3.0), upright(0.0, 1.5, 0.5))
     assert abs(mesh.flux.sum() / whole - 1.0) < 1e-9 and abs(received(mesh) / whole - 1.0) < 1e-9
     # turned to the side that is lit
@@ -264,6 +265,7 @@ def test_several_bounces_go_on_from_mirror_to_mirror():
     way = two.positions[two.triangles[again]] - (2.0, 0.0, 4.0)
     expected = 4.0 / np.linalg.norm(way, axis=2)**3
     assert np.median(np.abs(two.irradiance[again] / expected - 1.0)) < 1e-3
+    assert np.abs(two.direction[again] - way / np.linalg.norm(way, axis=2, keepdims=True)).max() < 1e-9
     assert two.flux[again].sum() <= solid_angle((-1.0, 0.0, 4.0), window) + 1e-9
     # a wall that the light of the first mirror meets throws nothing on
     walled = caustics(lamp, first, floor, Settings(depth=2), second, upright(5.0, 1.0, 1.0))

@@ -1,0 +1,80 @@
+"""What light falls on: smooth normals, gloss and glass take as much of a mesh of light as of a lamp's own."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from caustic_scene import ALBEDO, TINT, inner, light_and_lamp_behind, paint, rendered, scene_of
+
+
+def on_a_ball(floor: bpy.types.Object, smooth: bool) -> None:
+    """Let the light fall on a coarse ball instead of the floor."""
+    ball = parts.add("uv_sphere", "Ball", segments=24, ring_count=12, radius=2.0)
+    ball.data.polygons.foreach_set("use_smooth", [smooth] * len(ball.data.polygons))
+    ball.data.materials.append(floor.active_material)
+    floor.data, floor.location = ball.data, (0.0, 0.0, -2.0)
+    bpy.data.objects.remove(ball)
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+def test_smooth_faces_are_lit_smoothly(blank, tmp_path, smooth):
+    floor, mirror, lamp = scene_of()
+    blank.scene.cycles.max_bounces = 0
+    on_a_ball(floor, smooth)
+    parts.select(floor, lamp, mirror)
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
+    seen = inner(light) & (expected > 0.2 * np.percentile(expected, 95, axis=(0, 1))).all(axis=2)
+    ratio = light[seen] / expected[seen]
+    assert len(ratio) > 500
+    assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 2e-3
+    assert np.percentile(np.abs(ratio - 1.0), 90) < 0.01
+
+
+@pytest.mark.parametrize("tilt, values", [
+    (0.0, {}), (1.1, {}), (1.1, {"Roughness": 1.0}), (1.1, {"Roughness": 0.1, "Specular IOR Level": 1.0}),
+    (0.0, {"Transmission Weight": 0.5}), (1.1, {"Alpha": 0.3})], ids=str)
+def test_what_gloss_and_glass_take_is_gone(blank, tmp_path, tilt, values):
+    """Beside what Cycles has more of with the colour than without: its gloss is the same in both."""
+    floor, mirror, lamp = scene_of()
+    blank.scene.cycles.max_bounces = 0
+    floor.data.materials[0] = paint("Varnish", "PRINCIPLED", ALBEDO, "Base Color")
+    shader = floor.active_material.node_tree.nodes[0]
+    for name, value in {"Metallic": 0.0, "Roughness": 0.5, **values}.items():
+        shader.inputs[name].default_value = value
+    camera = blank.scene.camera
+    camera.rotation_euler, camera.location = (tilt, 0.0, 0.0), (0.0, -6.0 * np.sin(tilt), 6.0 * np.cos(tilt))
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
+    shader.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+    expected = expected - rendered(tmp_path, 64) * TINT
+    ratio = (light / np.maximum(expected, 1e-12))[inner(light)]
+    assert len(ratio) > 400
+    assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 0.015
+
+
+@pytest.mark.parametrize("linked", [False, True])
+def test_metal_sends_no_light_back_by_its_colour(blank, tmp_path, linked):
+    floor, mirror, lamp = scene_of()
+    blank.scene.cycles.max_bounces = 0
+    floor.data.materials[0] = paint("Metal", "PRINCIPLED", ALBEDO, "Base Color")
+    tree = floor.active_material.node_tree
+    values = tree.nodes[0].inputs
+    values["Roughness"].default_value, values["Specular IOR Level"].default_value = 1.0, 0.0
+    values["Metallic"].default_value = 0.4
+    if linked:
+        value = tree.nodes.new("ShaderNodeValue")
+        value.outputs[0].default_value = 0.4
+        tree.links.new(value.outputs[0], values["Metallic"])
+    dull = paint("Dull", "DIFFUSE", ALBEDO)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    result = bpy.data.objects["Mirror Caustics"]
+    found = []
+    for _ in range(2):
+        lit = rendered(tmp_path)
+        result.hide_render = True
+        found.append(lit - rendered(tmp_path))
+        result.hide_render = False
+        floor.data.materials[0] = dull
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    seen = inner(found[1])
+    assert np.abs(found[0][seen] / found[1][seen] - 0.6).max() < 1e-3
