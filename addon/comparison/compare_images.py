@@ -20,6 +20,7 @@ from .compare_pictures import Pictures
 KINDS = {"no mirror": (20, 20, 20), "left out": (62, 62, 68), "right": (130, 130, 130), "hole": (213, 94, 0),
          "spill": (0, 114, 178), "wrong layer": (240, 228, 66)}
 DIFFERENCE, DISPLACEMENT = (0.001, 1.0), (0.01, 10.0)       # ends of the scales: linear light, pixels
+AROUND = "Drawing what is round the mirror"
 
 
 def comparison_pictures(folder: str, scene: bpy.types.Scene, pictures: Pictures,
@@ -41,12 +42,11 @@ def comparison_pictures(folder: str, scene: bpy.types.Scene, pictures: Pictures,
     for name, data in maps.items():
         with open(os.path.join(folder, f"{name}.png"), "wb") as file:
             file.write(data)
-    stage = "Drawing what is round the mirror"
-    yield 0.3, stage
+    yield 0.3, AROUND
     # the page shows of the maps what is round the mirrors alone, and so larger
     box = surroundings(measurement.mirror)
     maps = yield from part(in_steps(partial(_maps, difference[box], measurement.displacement[box], coverage[box])), 0.3,
-                           0.0, stage)
+                           0.0, AROUND)
     small = {}
     for name, linear in (("reference", pictures.reference), ("result", pictures.result)):
         yield 0.6 if name == "reference" else 0.8, f"Writing {name}.png"
