@@ -18,8 +18,10 @@ import numpy as np
 
 from ..cameras import BouncedMap, ReflectionMap
 from ..geometry import dot, following, norm, unit
+from ..support import breathe
 from .lamps import Lamp, mean_of_seven
 
+AT_ONCE = 1 << 13
 ON_FOLD = 1e-12  # of the growth of a bundle: less is none
 SMALLEST = 1e-12  # sine of a way to a triangle: one that runs along it is counted as if it did not quite
 ARRIVED = 1e-6  # of the path: by how much the ray of a corner may miss it
@@ -115,43 +117,71 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
 
 
 def mean_weight(ray_map: ReflectionMap, face: np.ndarray, light: Corners, lamp: Lamp) -> np.ndarray:
-    """What counts (m,) of the light of faces with these corners, of the lamp's pattern times the `weight`."""
+    """What counts (m,) of the light of faces with these corners, of the lamp's pattern times the `weight`.
+
+    Over the places of a face it is asked for by the light that comes: as these are seen from the lamp, and as steeply
+    as it falls on the mirrors. Where it grazes them the weight alone has no bounds.
+    """
     uv = light.uv.reshape(2, 3, -1)
-    inner = np.concatenate((0.5 * (uv + following(uv)), uv.mean(axis=1, keepdims=True)), axis=1).reshape(2, -1)
-    owner = np.tile(face, 4)
-    place = ray_map.places(owner, inner)
+    counted = np.empty(len(face))
+    for start in range(0, len(face), AT_ONCE):
+        breathe()
+        own = slice(start, start + AT_ONCE)
+        corners = uv[:, :, own]
+        places = np.concatenate((corners, 0.5 * (corners + following(corners)), corners.mean(axis=1, keepdims=True)), 1)
+        sent, came = (values.reshape(7, -1) for values in _passed(
+            ray_map, np.tile(face[own], 7), places.reshape(2, -1), lamp))
+        sent, came = (mean_of_seven(values[:3], values[3:6], values[6]) for values in (sent, came))
+        counted[own] = sent / np.where(came > 0.0, came, 1.0)
+    return counted
+
+
+def _passed(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, lamp: Lamp) -> tuple[np.ndarray, np.ndarray]:
+    """The lamp's light (n,) that is found on an area of the first mirror, and that which comes there."""
+    place = ray_map.places(face, uv)
     way = ray_map.view.forward[:, None] if ray_map.orthographic else place - ray_map.view.eye[:, None]
-    ways = [np.broadcast_to(way, place.shape), *ray_map.leaving(owner, inner)]
-    middles = _widened(ray_map, owner, inner, ways)[1] * lamp.share(place.T)
-    corners, middles = light.weight * lamp.share(light.place.T), middles.reshape(4, -1)
-    return mean_of_seven(corners.reshape(3, -1), middles[:3], middles[3])
+    ways = [np.broadcast_to(way, place.shape), *ray_map.leaving(face, uv)]
+    falling = 1.0 / np.maximum(dot(ways[0], ways[0]), 1e-300)
+    _, sent, came = _rises(ray_map, face, uv, ways)
+    return sent * falling * lamp.share(place.T), came * falling
 
 
 def _widened(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray,
              ways: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """How much wider (n,) bundles leave the flat triangles of all mirrors than they come, and their weight (n,); `ways`
-    (3, n) are the light's directions before the first mirror and behind each.
+    (3, n) are the light's directions before the first mirror and behind each."""
+    lifted, sent, came = _rises(ray_map, face, uv, ways)
+    came = np.maximum(came, SMALLEST)
+    return lifted / came, sent / came
 
-    They differ where rays would enter a triangle and are lifted: a path tracer that comes along the lifted ray finds
-    no light there, and as much less before as the ray rises less.
+
+def _rises(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray,
+           ways: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """How steeply (n,) light leaves the flat triangles of all mirrors, the sines multiplied; how steeply it would as a
+    path tracer finds it; and how steeply it came.
+
+    The first two differ where rays would enter a triangle and are lifted: a path tracer that comes along the lifted ray
+    finds no light there, and as much less before as the ray rises less.
     """
     ways = [unit(way) for way in ways]
-    widened = _wider(ray_map, face, ways, ways[1:])
-    asked, weight = np.flatnonzero(ray_map.grazing[face]), widened
+    lifted, came = _sines(ray_map, face, ways, ways[1:])
+    asked, sent = np.flatnonzero(ray_map.grazing[face]), lifted
     if len(asked):
         unbent = [unit(way) for way in ray_map.leaving(face[asked], uv[:, asked], False)]
-        weight = widened.copy()
-        weight[asked] = _wider(ray_map, face[asked], [way[:, asked] for way in ways], unbent)
-    return widened, weight
+        sent = lifted.copy()
+        sent[asked], _ = _sines(ray_map, face[asked], [way[:, asked] for way in ways], unbent)
+    return lifted, sent, came
 
 
-def _wider(ray_map: ReflectionMap, face: np.ndarray, came: list[np.ndarray], sent: list[np.ndarray]) -> np.ndarray:
-    """How much wider (n,) bundles are that are `sent` on by mirrors than those that `came`, all unit vectors (3, n)."""
-    wider = np.ones(len(face))
+def _sines(ray_map: ReflectionMap, face: np.ndarray, came: list[np.ndarray],
+           sent: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """How steeply (n,) light leaves the flat triangles of mirrors, and how steeply it comes, the sines multiplied: of
+    unit vectors (3, n) that `came`, and were `sent` on."""
+    rises, falls = np.ones(len(face)), np.ones(len(face))
     for before, after in zip(came[len(sent) - 1::-1], sent[::-1]):
         surface, triangle = ray_map.last(face)
-        rise = np.abs(dot(before, surface.face_normal[:, triangle]))
-        wider *= np.maximum(surface.rise(triangle, after, before), 0.0) / np.maximum(rise, SMALLEST)
+        falls *= np.abs(dot(before, surface.face_normal[:, triangle]))
+        rises *= np.maximum(surface.rise(triangle, after, before), 0.0)
         if isinstance(ray_map, BouncedMap):
             face, ray_map = ray_map.face_before[face], ray_map.before
-    return wider
+    return rises, falls
