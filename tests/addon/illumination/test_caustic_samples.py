@@ -74,3 +74,17 @@ def test_the_pools_waves_move_and_come_back():
     assert 0.003 < np.ptp(first) < 0.05
     assert np.abs(heights(2) - first).max() > 1e-4
     assert (scene.frame_start, scene.frame_end) == (1, 48) and np.abs(heights(49) - first).max() < 1e-6
+
+
+def test_slivers_between_layers_shine_no_more_than_falls_on_them():
+    """They stand between the heights of two layers, where these meet on the curve, and had shone like sparks."""
+    made = thrown("dish")
+    _, area, names = lit(made)
+    own = names == "Table"
+    corners = parts.attribute(made, "position").astype(np.float64)[parts.corners(made)][own]
+    x, y = np.moveaxis((corners - corners[:, :1])[:, 1:, :2], 2, 0)
+    # the table is level
+    level = 0.5 * np.abs(x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0])
+    given = level * parts.attribute(made, "irradiance").reshape(-1, 3)[own].mean(axis=1)
+    shown = area[own] * parts.attribute(made, "caustic_light").reshape(-1, 9)[own].mean(axis=1)
+    assert (shown - given).max() < 1e-5 * given.sum() and abs(shown.sum() / given.sum() - 1.0) < 1e-4
