@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
+from ...core.geometry import first_of
 from ..reading.read_meshes import LocalMesh, Placed
 from ..writing import UV_MAP, write_mesh
 from ..writing.mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
@@ -120,6 +121,6 @@ def _vertices(positions: np.ndarray, triangles: np.ndarray, division: Division) 
     are: what hangs together still does."""
     own = division.weights.max(axis=2) == 1.0
     vertices = np.take_along_axis(triangles[division.owner], division.weights.argmax(axis=2), axis=1)
-    _, first, number = np.unique(division.lattice[~own], return_index=True, return_inverse=True)
-    vertices[~own] = len(positions) + number.reshape(-1)
+    _, first, number = first_of(division.lattice[~own])
+    vertices[~own] = len(positions) + number
     return np.concatenate((positions, division.values(positions[triangles])[~own][first])), vertices

@@ -72,7 +72,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             refused.append(f"{mirror.name}: {error}")
             continue
         if not len(result.positions):
-            refused.append(f"{mirror.name}: The camera sees none of the diffuse objects in this mirror; move the "
+            refused.append(f"{mirror.name}: The camera sees none of the reflected objects in this mirror; move the "
                            "camera, the mirror or the objects.")
             unseen += 1
             continue
