@@ -15,7 +15,7 @@ from .atlas import arranged, packed
 from .bake_scene import bake_scene
 from .levels import FINER, levels_of
 from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
-from .stand_ins import stand_ins
+from .stand_ins import new_meshes, stand_ins
 
 LARGEST = 4096  # texels along a side of all maps together
 FEWER = 0.5     # of the samples are enough where a picture is denoised
@@ -103,8 +103,8 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
                   for number, one in levels.items()}
         yield done / whole, PREPARING
         stands = stand_ins(placed, divisions, places, turned=set(chosen) if turned else set())
-        yield done / whole, PREPARING
-        with bake_scene(context, scene.sources, stands, opacity=opacity, backs=turned) as stage:
+        meshes = yield from part(new_meshes(stands), done / whole, 0.0, PREPARING)
+        with bake_scene(context, scene.sources, stands, meshes, opacity=opacity, backs=turned) as stage:
             for number in chosen:
                 yield done / whole, Undivided(f"Cycles bakes the light on '{scene.sources[number].name}'")
                 own = levels[number]

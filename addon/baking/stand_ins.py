@@ -8,6 +8,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ...core.geometry import first_of
+from ..faults import Steps, still_there
 from ..reading.read_meshes import LocalMesh, Placed
 from ..writing import UV_MAP, write_mesh
 from ..writing.mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
@@ -86,6 +87,19 @@ def swap_names(one: bpy.types.Object, other: bpy.types.Object) -> None:
     first, second = one.name, other.name
     one.name = f"{UV_MAP} {second}"
     other.name, one.name = first, second
+
+
+def new_meshes(stands: list[StandIn]) -> Steps[list]:
+    """The mesh of each of them, a step before each; closed at any step, or after an error, none is left."""
+    made: list = []
+    try:
+        for number, stand in enumerate(stands):
+            yield number / len(stands), ""
+            made.append(new_mesh(stand))
+    except BaseException:
+        bpy.data.batch_remove(still_there(made))
+        raise
+    return made
 
 
 def new_mesh(stand: StandIn) -> bpy.types.Mesh:

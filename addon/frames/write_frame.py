@@ -64,7 +64,8 @@ def write_result(context: bpy.types.Context, result: bpy.types.Object | None, pa
     yield 0.9, ""
     if not is_whole(path):
         raise _unwritten(path)
-    return ResultRecord(os.path.basename(path), shows.attributes if shows else (), shows.materials if shows else (), lit)
+    attributes, slots = (shows.attributes, shows.materials) if shows else ((), ())
+    return ResultRecord(os.path.basename(path), attributes, slots, lit)
 
 
 def write_image(material: bpy.types.Material, path: str) -> None:

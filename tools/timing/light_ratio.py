@@ -2,8 +2,8 @@
 
     python -m tools.timing.light_ratio [room bathroom pond] [--rounds 3] [--side 512] [--samples 64]
 
-Both in turn, in processor seconds of all cores: machines are noisy, and the medians of a few rounds are compared. Cycles
-renders the mirrors as the file has them, without the reflections, and does not denoise.
+Both in turn, in processor seconds of all cores: machines are noisy, and the medians of a few rounds are compared.
+Cycles renders the mirrors as the file has them, without the reflections, and does not denoise.
 """
 from __future__ import annotations
 
