@@ -26,7 +26,7 @@ def check_given(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTre
     if mirrors is not None and not len(mirrors.triangles):
         raise ReflectionError("The mirrors have no faces; give all mirrors, this one among them, or leave them out.")
     if isinstance(scene, TriangleMesh) and not len(scene.triangles) and settings.method != "POINTS":
-        raise ReflectionError("The diffuse objects have no faces; select objects with faces to reflect.")
+        raise ReflectionError("The reflected objects have no faces; select objects with faces to reflect.")
     if np.abs(view.eye).max() > LARGEST:
         raise ReflectionError("The view's eye is further than 1e40 from the origin; move it nearer or make the scene "
                               "smaller.")

@@ -121,7 +121,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     tree = given_tree if isinstance(given_tree, kind) else kind.build(
         given_tree if isinstance(given_tree, TriangleMesh) else given_tree.mesh)
     if not len(tree):
-        raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
+        raise ReflectionError("The reflected objects have no faces with an area; select objects with faces to reflect.")
     known = scene if isinstance(scene, Standing) and scene.tree is tree and scene.mirrors is mirrors else None
     mirror, given, met = _with_mirrors(view, tree, mirror, mirrors, known)
     progress.done("tree")

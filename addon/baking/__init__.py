@@ -5,7 +5,8 @@ from .mirror_share import WHITE, Share
 from .object_bake import ObjectLight, baked
 from .object_map import KeptMap, kept_map, lay_out, write_mirror_normals
 from .opacity import opacity_of
-from .seen_sources import can_be_baked, vectors
+from .seen_sources import are_few, can_be_baked, vectors
 
-__all__ = ["KeptMap", "LaterMirrors", "ObjectLight", "Share", "Surroundings", "WHITE", "baked", "can_be_baked",
-           "kept_map", "lay_out", "new_object_material", "opacity_of", "vectors", "write_mirror_normals"]
+__all__ = ["KeptMap", "LaterMirrors", "ObjectLight", "Share", "Surroundings", "WHITE", "are_few", "baked",
+           "can_be_baked", "kept_map", "lay_out", "new_object_material", "opacity_of", "vectors",
+           "write_mirror_normals"]

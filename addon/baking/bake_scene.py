@@ -15,7 +15,7 @@ from ..faults import interrupt_held, still_there
 from ..rendering import copied_scene, denoise, look_through
 from ..writing import UV_MAP
 from .opacity import as_mirrors_see, show_opacity, turn_over, without_openings
-from .stand_ins import StandIn, new_mesh, new_object, swap_names
+from .stand_ins import StandIn, new_object, swap_names
 from .swift_world import swiftly_sampled
 from .whole_texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved, shines
 
@@ -125,11 +125,13 @@ class BakeScene:
 
 
 @contextmanager
-def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn], *, opacity: bool,
+def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn], meshes: list, *, opacity: bool,
                backs: bool) -> Iterator[BakeScene]:
-    """The user's scene as a copy, with stand-ins in place of `sources`; with `opacity` they glow by how opaque they
-    are, and with `backs` what is baked is turned over."""
+    """The user's scene as a copy, with stand-ins, each with its mesh, in place of `sources`; with `opacity` they glow
+    by how opaque they are, and with `backs` what is baked is turned over. The meshes go with the scene."""
     with copied_scene(context, UV_MAP) as (scene, back):
+        made = list(meshes)
+        back.callback(lambda: bpy.data.batch_remove(still_there(made)))
         _prepare(scene)
         if opacity:
             # they glow by themselves
@@ -142,16 +144,13 @@ def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn],
         for source in sources:
             back.callback(setattr, source, "hide_render", source.hide_render)
             source.hide_render = True
-        made: list = []
-        back.callback(lambda: bpy.data.batch_remove(still_there(made)))
         materials = dict.fromkeys(material for stand in stands for material in stand.mesh.materials or (None,))
         targets = {material: _target(material, opacity, backs) for material in materials}
         made += targets.values()
         objects = []
-        for stand in stands:
-            mesh = new_mesh(stand)
+        for stand, mesh in zip(stands, meshes, strict=True):
             obj = new_object(sources[stand.owner], stand, mesh)
-            made += [obj, mesh]
+            made.append(obj)
             scene.collection.objects.link(obj)
             objects.append((stand.owner, obj))
             # linked objects keep their names

@@ -13,6 +13,7 @@ MOST_ALONG = 256  # parts along a triangle's side
 STEPS = 2.0     # places along what is seen, to one part of what it is seen of
 MOST_STEPS = 64
 CHUNK = 1 << 12  # parts, or faces, at once
+PLACES = 1 << 18  # on faces, at once
 
 
 @dataclass(frozen=True)
@@ -139,5 +140,6 @@ def _strewn(weights: np.ndarray, count: np.ndarray) -> Iterator[tuple[np.ndarray
         corners = np.unique(_parts_of_one(number).reshape(-1, 2), axis=0)
         places = np.column_stack((number - corners.sum(axis=1), corners)) / number
         chosen = np.flatnonzero(steps == number)
-        for first in range(0, len(chosen), CHUNK):
-            yield chosen[first:first + CHUNK], places
+        count = max(PLACES // len(places), 1)
+        for first in range(0, len(chosen), count):
+            yield chosen[first:first + count], places

@@ -15,7 +15,7 @@ from .atlas import arranged, packed
 from .bake_scene import bake_scene
 from .levels import FINER, levels_of
 from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
-from .stand_ins import stand_ins
+from .stand_ins import new_meshes, stand_ins
 
 LARGEST = 4096  # texels along a side of all maps together
 FEWER = 0.5     # of the samples are enough where a picture is denoised
@@ -54,13 +54,7 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
     """
     yield 0.0, MEASURING
     seen = yield from part(in_steps(partial(seen_sources, results, view, scene)), 0.0, 0.0, MEASURING)
-    parts = triangles_by_source(scene)
-    open_ = [not all(is_opaque(scene.materials[index]) for index in np.unique(scene.material[part])) for part in parts]
-    # through an object that is open in places its backs are seen, and what has a rim shows both sides as it is
-    both = [through or (seen.both[number] and has_rim(scene.mesh.triangles[parts[number]]))
-            for number, through in enumerate(open_)]
-    sheets = [(number, back) for number in range(len(parts)) for back in (False, True)
-              if both[number] or back == bool(seen.backs[number])]
+    parts, open_, sheets = yield from part(in_steps(partial(_sheets, scene, seen)), 0.0, 0.0, MEASURING)
     atlases, at, side, density = yield from part(
         in_steps(partial(_packed, scene, parts, sheets, FINER * seen.density)), 0.0, 0.0, MEASURING)
     levels = yield from part(in_steps(partial(levels_of, results, view, scene, parts, density, atlases)), 0.0, 0.0,
@@ -77,6 +71,18 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
     uv = {number: atlas.uv for number, atlas in atlases.items()}
     return ObjectLight(texels, np.concatenate([(uv[sheet[0]] * atlases[sheet[0]].size + start) / side for sheet, start
                                                in zip(sheets, at, strict=True)]).astype(np.float32), sheets)
+
+
+def _sheets(scene: DiffuseScene, seen: SeenSources) -> tuple[list, list, list]:
+    """The triangles of each source, whether it is open in places, and what is baked: (source, whether its backs)."""
+    parts = triangles_by_source(scene)
+    breathe()
+    open_ = [not all(is_opaque(scene.materials[index]) for index in np.unique(scene.material[part])) for part in parts]
+    # through an object that is open in places its backs are seen, and what has a rim shows both sides as it is
+    both = [through or (seen.both[number] and has_rim(scene.mesh.triangles[parts[number]]))
+            for number, through in enumerate(open_)]
+    return parts, open_, [(number, back) for number in range(len(parts)) for back in (False, True)
+                          if both[number] or back == bool(seen.backs[number])]
 
 
 def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources, levels: dict, asked: list,
@@ -97,8 +103,8 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
                   for number, one in levels.items()}
         yield done / whole, PREPARING
         stands = stand_ins(placed, divisions, places, turned=set(chosen) if turned else set())
-        yield done / whole, PREPARING
-        with bake_scene(context, scene.sources, stands, opacity=opacity, backs=turned) as stage:
+        meshes = yield from part(new_meshes(stands), done / whole, 0.0, PREPARING)
+        with bake_scene(context, scene.sources, stands, meshes, opacity=opacity, backs=turned) as stage:
             for number in chosen:
                 yield done / whole, Undivided(f"Cycles bakes the light on '{scene.sources[number].name}'")
                 own = levels[number]

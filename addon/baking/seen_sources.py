@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, View, breathe
+from ...core.geometry import distinct, edge_numbers
 from ..reading import DiffuseScene
 from .sight import places_of_sight
 
@@ -15,6 +16,7 @@ SHARPEST = 0.9  # quantile of the pixels of an object that have no more than one
 SOLID = 0.1     # of a closed object's picture: where fronts are more of it they hide the backs
 HAIR = 0.01     # of an object's picture: what outlines show of a side that is hidden
 OUTSIDE = 1e-6  # of a pixel that the camera sees: what one beside the picture tells
+FEW = 64        # sources: each is baked by itself, and Blender takes half a second and more for each
 UNSEEN = 0.5    # of the others' middle density, where nothing of an object is seen
 
 
@@ -88,8 +90,9 @@ def fronts_seen(scene: DiffuseScene, triangle: np.ndarray, towards: np.ndarray) 
 
 def has_rim(triangles: np.ndarray) -> bool:
     """Whether a surface of triangles (n, 3) ends somewhere."""
-    edges = np.sort(np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2), axis=1)
-    return bool((np.unique(edges, axis=0, return_counts=True)[1] == 1).any())
+    edges = edge_numbers(triangles.astype(np.int64), np.roll(triangles, -1, axis=1), int(triangles.max(initial=0)) + 1)
+    breathe()
+    return bool((np.bincount(distinct(edges.ravel())[1]) == 1).any())
 
 
 def can_be_baked(results: list) -> bool:
@@ -97,6 +100,11 @@ def can_be_baked(results: list) -> bool:
     return all(len(result.data.polygons) and "source_face" in result.data.attributes
                and result.reflection_mesh.mirror is not None
                and all(entry.object is not None for entry in result.reflection_mesh.sources) for result in results)
+
+
+def are_few(results: list) -> bool:
+    """Whether what `results` show is baked in a while."""
+    return len({entry.object for result in results for entry in result.reflection_mesh.sources}) <= FEW
 
 
 def triangle_of(result: bpy.types.Object, scene: DiffuseScene) -> np.ndarray:

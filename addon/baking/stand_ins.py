@@ -7,6 +7,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
+from ...core.geometry import first_of
+from ..faults import Steps, still_there
 from ..reading.read_meshes import LocalMesh, Placed
 from ..writing import UV_MAP, write_mesh
 from ..writing.mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
@@ -87,6 +89,19 @@ def swap_names(one: bpy.types.Object, other: bpy.types.Object) -> None:
     other.name, one.name = first, second
 
 
+def new_meshes(stands: list[StandIn]) -> Steps[list]:
+    """The mesh of each of them, a step before each; closed at any step, or after an error, none is left."""
+    made: list = []
+    try:
+        for number, stand in enumerate(stands):
+            yield number / len(stands), ""
+            made.append(new_mesh(stand))
+    except BaseException:
+        bpy.data.batch_remove(still_there(made))
+        raise
+    return made
+
+
 def new_mesh(stand: StandIn) -> bpy.types.Mesh:
     """The mesh as parts of triangles, each with room of its own in the picture."""
     local, division = stand.mesh, divided(stand.count)
@@ -120,6 +135,6 @@ def _vertices(positions: np.ndarray, triangles: np.ndarray, division: Division) 
     are: what hangs together still does."""
     own = division.weights.max(axis=2) == 1.0
     vertices = np.take_along_axis(triangles[division.owner], division.weights.argmax(axis=2), axis=1)
-    _, first, number = np.unique(division.lattice[~own], return_index=True, return_inverse=True)
-    vertices[~own] = len(positions) + number.reshape(-1)
+    _, first, number = first_of(division.lattice[~own])
+    vertices[~own] = len(positions) + number
     return np.concatenate((positions, division.values(positions[triangles])[~own][first])), vertices

@@ -119,7 +119,7 @@ def _add_anamorphosis(verb: argparse.ArgumentParser) -> None:
 def _add_participants(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--mirror", nargs="+", default=[], metavar="NAME",
                       help="mirror objects (else by selection and role, as in the window)")
-    verb.add_argument("--diffuse", nargs="+", default=[], metavar="NAME", help="diffuse objects")
+    verb.add_argument("--diffuse", nargs="+", default=[], metavar="NAME", help="reflected objects")
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
@@ -209,7 +209,7 @@ def _chosen(context: bpy.types.Context, options: argparse.Namespace) -> Particip
         raise core.ReflectionError(f"There is no object '{missing[0]}' in the view layer: check its name.")
     both = set(options.mirror) & set(options.diffuse)
     if both:
-        raise core.ReflectionError(f"'{min(both)}' is named both as a mirror and as a diffuse object: name it once.")
+        raise core.ReflectionError(f"'{min(both)}' is named both as a mirror and as reflected: name it once.")
     return Participants([objects[name] for name in options.mirror], [objects[name] for name in options.diffuse], [])
 
 

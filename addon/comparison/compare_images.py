@@ -19,8 +19,9 @@ from .compare_pictures import Pictures
 # what a pixel of holes.png is, and its colour: of M. Okabe and K. Ito's set, safe for all kinds of colour vision
 KINDS = {"no mirror": (20, 20, 20), "left out": (62, 62, 68), "right": (130, 130, 130), "hole": (213, 94, 0),
          "spill": (0, 114, 178), "wrong layer": (240, 228, 66)}
+DRAWING = "Drawing the maps"
+ROUND = "Drawing what is round the mirror"
 DIFFERENCE, DISPLACEMENT = (0.001, 1.0), (0.01, 10.0)       # ends of the scales: linear light, pixels
-AROUND = "Drawing what is round the mirror"
 
 
 def comparison_pictures(folder: str, scene: bpy.types.Scene, pictures: Pictures,
@@ -34,19 +35,18 @@ def comparison_pictures(folder: str, scene: bpy.types.Scene, pictures: Pictures,
     scene : bpy.types.Scene
         A temporary scene whose view settings are those of the user; its image settings are changed.
     """
-    stage = "Drawing the maps"
-    yield 0.0, stage
+    yield 0.0, DRAWING
     difference = np.abs(pictures.reference.astype(np.float64) - pictures.result).mean(axis=2)
     coverage = coverage_picture(measurement)
-    maps = yield from part(in_steps(partial(_maps, difference, measurement.displacement, coverage)), 0.0, 0.0, stage)
+    maps = yield from part(in_steps(partial(_maps, difference, measurement.displacement, coverage)), 0.0, 0.0, DRAWING)
     for name, data in maps.items():
         with open(os.path.join(folder, f"{name}.png"), "wb") as file:
             file.write(data)
-    yield 0.3, AROUND
+    yield 0.3, ROUND
     # the page shows of the maps what is round the mirrors alone, and so larger
     box = surroundings(measurement.mirror)
     maps = yield from part(in_steps(partial(_maps, difference[box], measurement.displacement[box], coverage[box])), 0.3,
-                           0.0, AROUND)
+                           0.0, ROUND)
     small = {}
     for name, linear in (("reference", pictures.reference), ("result", pictures.result)):
         yield 0.6 if name == "reference" else 0.8, f"Writing {name}.png"

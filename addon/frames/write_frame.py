@@ -3,11 +3,13 @@ from __future__ import annotations
 
 import os
 import zlib
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
 from ...core import ReflectionError
+from ..faults import Steps, still_there
 from ..files import is_whole
 from .frame_records import ResultRecord
 from .packed_mesh import packable, packed
@@ -30,8 +32,8 @@ def material_key(name: str, library: str) -> tuple[int, ...]:
 
 
 def write_result(context: bpy.types.Context, result: bpy.types.Object | None, path: str, lit: bool,
-                 materials: list | None = None) -> ResultRecord:
-    """Write what a result shows, modifiers included, or nothing where there is none.
+                 materials: list | None = None) -> Steps[ResultRecord]:
+    """Write what a result shows, modifiers included, or nothing where there is none; a step before each part of that.
 
     Parameters
     ----------
@@ -43,19 +45,27 @@ def write_result(context: bpy.types.Context, result: bpy.types.Object | None, pa
     ReflectionError
         Where the file cannot be written whole.
     """
+    shows, matrix = None, None
+    if result is not None:
+        shown = result.evaluated_get(context.evaluated_depsgraph_get())
+        shows = _read(shown.to_mesh(), result.data.materials if materials is None else materials)
+        shown.to_mesh_clear()
+        matrix = result.matrix_world.copy()
+        yield 0.3, ""
     mesh = bpy.data.meshes.new(NAME)
     try:
-        attributes, slots, matrix = [], [], None
-        if result is not None:
-            depsgraph = context.evaluated_depsgraph_get()
-            shown = result.evaluated_get(depsgraph)
-            attributes, slots = _fill(mesh, shown.to_mesh(), result.data.materials if materials is None else materials)
-            matrix = result.matrix_world
-            shown.to_mesh_clear()
+        if shows is not None:
+            _fill(mesh, shows)
+            yield 0.6, ""
         _export(context, mesh, matrix, path)
     finally:
-        bpy.data.meshes.remove(mesh)
-    return ResultRecord(os.path.basename(path), tuple(attributes), tuple(slots), lit)
+        # between two steps others may have removed it
+        bpy.data.batch_remove(still_there([mesh]))
+    yield 0.9, ""
+    if not is_whole(path):
+        raise _unwritten(path)
+    attributes, slots = (shows.attributes, shows.materials) if shows else ((), ())
+    return ResultRecord(os.path.basename(path), attributes, slots, lit)
 
 
 def write_image(material: bpy.types.Material, path: str) -> None:
@@ -82,8 +92,21 @@ def write_image(material: bpy.types.Material, path: str) -> None:
         raise _unwritten(path)
 
 
-def _fill(mesh: bpy.types.Mesh, shown: bpy.types.Mesh, slots) -> tuple[list, list]:
-    """Positions, faces and packed colours of an evaluated mesh; returns its attributes and materials."""
+@dataclass(frozen=True)
+class _Shown:
+    """A mesh as files hold it: positions (3 n,), corners (m,), where faces begin (k,), colours as `packed` gives them,
+    the attributes that these are of, and its materials (name, library)."""
+
+    positions: np.ndarray
+    corners: np.ndarray
+    starts: np.ndarray
+    colours: dict
+    attributes: tuple
+    materials: tuple
+
+
+def _read(shown: bpy.types.Mesh, slots) -> _Shown:
+    """An evaluated mesh, whose materials are `slots`."""
     positions = np.empty(3 * len(shown.vertices), dtype=np.float32)
     corners = np.empty(len(shown.loops), dtype=np.int32)
     starts, index = (np.empty(len(shown.polygons), dtype=np.int32) for _ in range(2))
@@ -91,19 +114,24 @@ def _fill(mesh: bpy.types.Mesh, shown: bpy.types.Mesh, slots) -> tuple[list, lis
     shown.loops.foreach_get("vertex_index", corners)
     shown.polygons.foreach_get("loop_start", starts)
     shown.polygons.foreach_get("material_index", index)
-    mesh.vertices.add(len(shown.vertices))
-    mesh.vertices.foreach_set("co", positions)
-    mesh.loops.add(len(corners))
-    mesh.polygons.add(len(starts))
-    mesh.loops.foreach_set("vertex_index", corners)
-    mesh.polygons.foreach_set("loop_start", starts)
     materials = [(slot.name, slot.library.filepath if slot.library else "") if slot else ("", "") for slot in slots]
     keys = np.array([material_key(*entry) for entry in materials] or [(0,) * len(BITS)])
     attributes = packable(shown)
-    for name, (domain, values) in packed(shown, attributes, keys[np.minimum(index, len(keys) - 1)]).items():
+    colours = packed(shown, attributes, keys[np.minimum(index, len(keys) - 1)])
+    return _Shown(positions, corners, starts, colours, tuple(attributes), tuple(dict.fromkeys(materials)))
+
+
+def _fill(mesh: bpy.types.Mesh, shown: _Shown) -> None:
+    """Positions, faces and packed colours."""
+    mesh.vertices.add(len(shown.positions) // 3)
+    mesh.vertices.foreach_set("co", shown.positions)
+    mesh.loops.add(len(shown.corners))
+    mesh.polygons.add(len(shown.starts))
+    mesh.loops.foreach_set("vertex_index", shown.corners)
+    mesh.polygons.foreach_set("loop_start", shown.starts)
+    for name, (domain, values) in shown.colours.items():
         mesh.attributes.new(name, "FLOAT_COLOR", domain).data.foreach_set("color", values.ravel())
     mesh.update()
-    return attributes, list(dict.fromkeys(materials))
 
 
 def writes_usd() -> bool:
@@ -131,8 +159,6 @@ def _export(context: bpy.types.Context, mesh: bpy.types.Mesh, matrix, path: str)
     finally:
         bpy.data.objects.remove(obj)
         bpy.data.scenes.remove(scene)
-    if not is_whole(path):
-        raise _unwritten(path)
 
 
 def _unwritten(path: str) -> ReflectionError:

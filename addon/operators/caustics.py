@@ -211,7 +211,7 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
 
 
 class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Operator):
-    """Compute the light of lamps that the mirrors throw on the diffuse objects, as meshes that add it to them"""
+    """Compute the light of lamps that the mirrors throw on the reflected objects, as meshes that add it to them"""
 
     bl_idname = "reflection_mesh.caustics"
     bl_label = "Generate Caustics"

@@ -72,12 +72,13 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             refused.append(f"{mirror.name}: {error}")
             continue
         if not len(result.positions):
-            refused.append(f"{mirror.name}: The camera sees none of the diffuse objects in this mirror; move the "
+            refused.append(f"{mirror.name}: The camera sees none of the reflected objects in this mirror; move the "
                            "camera, the mirror or the objects.")
             unseen += 1
             continue
         remarks += shortcomings(mirror.name, result)
-        arrays = (mesh_arrays if result.discs is None else point_arrays)(result, scene, surface, view)
+        written = partial(mesh_arrays if result.discs is None else point_arrays, result, scene, surface, view)
+        arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0, f"{mirror.name}: Writing")
         prepared.append(Reflection(mirror, context.scene.camera, sources, result, arrays, view.resolution,
                                    own[index].placement, manners.attributes))
     if not prepared:

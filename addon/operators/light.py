@@ -8,7 +8,17 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, View
-from ..baking import KeptMap, LaterMirrors, Surroundings, baked, can_be_baked, kept_map, new_object_material, vectors
+from ..baking import (
+    KeptMap,
+    LaterMirrors,
+    Surroundings,
+    are_few,
+    baked,
+    can_be_baked,
+    kept_map,
+    new_object_material,
+    vectors,
+)
 from ..faults import AllOrNothing, SteppedOperator, Steps, Undivided, part, tell
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
@@ -33,6 +43,8 @@ from .clear import chosen_results
 
 NAME = "Reflection Light"
 IN_OBJECT_MODE = "Reflections are lit in Object Mode: leave the present mode first."
+FOR_THIS_FRAME = ("So many objects are reflected that their light was made for this frame alone: bake frames for an "
+                  "animation, or choose Light: Objects to keep it while things move.")
 NOTHING_TO_LIGHT = "The scene has no reflection to light: generate one first."
 
 
@@ -82,8 +94,8 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
             lit = [result for result in results if every or needs_light(result) or lamps_before(result, lamps)]
             if not lit:
                 continue
-            with_objects = kind == "OBJECTS" or (kind == "AUTO" and any(map(moves, [
-                context.scene.camera, *(result.reflection_mesh.mirror for result in lit)])) and can_be_baked(lit))
+            with_objects = kind == "OBJECTS" or (kind == "AUTO" and _view_moves(context, lit) and can_be_baked(lit)
+                                                 and are_few(lit))
             steps = (_on_objects if with_objects else _in_picture)(context, lit, view, samples, whole)
             shows.append((yield from part(steps, number / len(groups), 1.0 / len(groups))))
             everything += lit
@@ -97,6 +109,11 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
         for linked in meshes.values():
             _stay_linked(linked, whole)
     return everything
+
+
+def _view_moves(context: bpy.types.Context, lit: list) -> bool:
+    """Whether the camera or a mirror is animated."""
+    return any(map(moves, [context.scene.camera, *(result.reflection_mesh.mirror for result in lit)]))
 
 
 def _keep_apart(mesh: bpy.types.Mesh, linked: list, whole: AllOrNothing) -> None:
@@ -225,7 +242,11 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
         results, wanted = with_copies(context, chosen_results(context)), self.wanted(context)
-        lit = yield from lighting_groups(context, wanted.lights(results), self.every)
+        lights = wanted.lights(results)
+        lit = yield from lighting_groups(context, lights, self.every)
+        if any(kind == "AUTO" and set(group) & set(lit) and _view_moves(context, group) and not are_few(group)
+               for group, _, kind in lights):
+            tell(self, {"INFO"}, FOR_THIS_FRAME)
         self.show_used(wanted, [result.reflection_mesh.mirror for result in results])
         tell(self, {"INFO"}, summary(lit, time.perf_counter() - started))
 

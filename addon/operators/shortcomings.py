@@ -37,7 +37,7 @@ SENTENCES = {
         " the tolerance or the memory.",
     "coarse":
         "{count} of {points} points are too far from their neighbours to be discs without gaps: subdivide the"
-        " diffuse objects, or choose the method General.",
+        " reflected objects, or let the reflection be made of faces.",
 }
 
 

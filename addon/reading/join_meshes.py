@@ -90,7 +90,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
 def join_scene(placed: list[Placed], objects: list) -> DiffuseScene:
     """As `read_scene`, of meshes that have been read."""
     if not placed:
-        raise ReflectionError(f"'{objects[0].name}' has no faces to reflect: choose diffuse objects with faces.")
+        raise ReflectionError(f"'{objects[0].name}' has no faces to reflect: choose objects with faces.")
     positions, triangles, owners, faces, material, materials = _join(placed, len(objects))
     return DiffuseScene(_triangle_mesh(objects, positions, triangles), list(objects), owners, faces, material,
                         materials, normals_of(placed), *lines_of(placed), *join_layers(placed),

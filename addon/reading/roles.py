@@ -118,8 +118,8 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
         raise ReflectionError(NO_MIRROR)
     if not seen.diffuse:
         if diffuse:
-            raise NothingSeen(f"The diffuse object '{diffuse[0].name}' is hidden: show it in the viewport, in renders "
-                              "and to glossy rays.")
+            raise NothingSeen(f"The reflected object '{diffuse[0].name}' is hidden: show it in the viewport, in "
+                              "renders and to glossy rays.")
         raise ReflectionError(f"Nothing to reflect in '{seen.mirrors[0].name}': select the objects to reflect together "
                               "with it, or set their role to Reflected in the Reflection tab.")
     return seen

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...core import ReflectionMesh, TriangleMesh, View
+from ...core import ReflectionMesh, TriangleMesh, View, breathe
 from .. import compat
 from ..reading.join_meshes import DiffuseScene, MirrorSurface
 from .shown_attributes import shown_attributes
@@ -85,6 +85,7 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
         Who sees it.
     """
     result, origin = vertices_written(result, surface.mesh, view)
+    breathe()
     source, mirror_face = result.source_face, result.mirror_face
     spans = mirror_face < 0
     weights = result.source_weights.astype(np.float32)
@@ -99,8 +100,10 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
         Attribute("sharp_face", "BOOLEAN", "FACE", scene.sharp_face[source]),
         *_normals(result, scene),
     )
+    breathe()
     # corners of the result's faces are interpolated in their source triangles
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
+    breathe()
     return MeshArrays(origin, (result.positions - origin).astype(np.float32), result.triangles.astype(np.int32),
                       own + shown, scene.materials, _lines(result, scene))
 
@@ -127,6 +130,7 @@ def _lines(result: ReflectionMesh, scene: DiffuseScene) -> Lines:
     side, triangles = result.source_sides, result.triangles
     edges = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).astype(np.int32)
     ends = _once(edges.reshape(-1, 2)).reshape(side.shape)
+    breathe()
     on_side = side >= 0
     # of each face's source all sides at once
     shown = np.nonzero(on_side)[0], side[on_side]
@@ -139,7 +143,9 @@ def _lines(result: ReflectionMesh, scene: DiffuseScene) -> Lines:
 def _once(edges: np.ndarray) -> np.ndarray:
     """Which edges (e, 2) are there once."""
     key = edge_keys(edges)
+    breathe()
     order = np.argsort(key)
+    breathe()
     new = np.append(np.diff(key[order], prepend=-1) != 0, True)
     once = np.empty(len(key), dtype=bool)
     once[order] = new[:-1] & new[1:]

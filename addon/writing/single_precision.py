@@ -10,7 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core import ReflectionMesh, View
+from ...core import ReflectionMesh, View, breathe
+from ...core.geometry import distinct
 
 SPACING = 2.0 ** -22  # of a coordinate: numbers that differ by less are next to each other, or next but one
 SLIVER = 8.0 * SPACING  # of a coordinate: what is no wider has been a line
@@ -23,17 +24,21 @@ def in_single_precision(result: ReflectionMesh, origin: np.ndarray, view: View) 
     rounded = exact.astype(np.float32)
     vertex = _together(rounded, result.triangles)
     triangles = result.triangles if vertex is None else vertex[result.triangles]
+    breathe()
     face = np.arange(len(triangles)) if vertex is None else _with_area(triangles, vertex, rounded)
     if not len(face):
         return result
     triangles, weights = triangles[face], result.source_weights[face]
+    breathe()
     thin = _thin(rounded, triangles)
+    breathe()
     ahead = view.directions(result.positions)
     turned = thin[_away(rounded, ahead, triangles[thin]) != _away(exact, ahead, result.triangles[face[thin]])]
     triangles[turned], weights[turned] = triangles[turned][:, [0, 2, 1]], weights[turned][:, [0, 2, 1]]
     if vertex is None:
         return replace(result, triangles=triangles, source_weights=weights)
-    kept, corners = np.unique(triangles, return_inverse=True)
+    kept, corners = distinct(triangles.ravel())
+    breathe()
     of_faces = {name: getattr(result, name)[face] for name in ("source_face", "mirror_face", "bounces")}
     of_vertices = {name: getattr(result, name)[kept] for name in (
         "positions", "reflected_position", "mirror_position", "path_length", "image_parity", "mirror_normals")}

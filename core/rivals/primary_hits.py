@@ -66,7 +66,7 @@ def primary_hits(view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Prima
     work = Work()
     width, height = view.resolution
     if not (np.linalg.norm(scene.face_normals(), axis=1) > 0.0).any():
-        raise ReflectionError("The diffuse objects have no faces with an area; select objects with faces to reflect.")
+        raise ReflectionError("The reflected objects have no faces with an area; select objects with faces to reflect.")
     on_mirror, on_scene = (draw(view, mesh.positions, mesh.triangles) for mesh in (mirror, scene))
     work.count(projections=len(mirror.positions) + len(scene.positions))
     pixel = np.flatnonzero(on_mirror.depth < on_scene.depth)

@@ -1,7 +1,7 @@
 """Sentences on what cannot be done, and what to do instead."""
 
 OBJECTS = {
-    "'{}' has no faces to reflect: choose diffuse objects with faces.":
+    "'{}' has no faces to reflect: choose objects with faces.":
         "'{}' hat keine Flächen zum Spiegeln: wähle Objekte mit Flächen.",
     "The mirror '{}' has no faces: choose an object with faces.":
         "Der Spiegel '{}' hat keine Flächen: wähle ein Objekt mit Flächen.",
@@ -23,9 +23,9 @@ OBJECTS = {
         "Ein Punkt hat eine Koordinate größer als 1e40; rücke ihn näher oder mache die Szene kleiner.",
     "A shading normal is not a finite number; recalculate the normals.":
         "Eine Normale ist keine endliche Zahl; berechne die Normalen neu.",
-    "The diffuse objects have no faces with an area; select objects with faces to reflect.":
+    "The reflected objects have no faces with an area; select objects with faces to reflect.":
         "Die Objekte haben keine Flächen mit einem Inhalt; wähle Objekte mit Flächen zum Spiegeln.",
-    "The diffuse objects have no faces; select objects with faces to reflect.":
+    "The reflected objects have no faces; select objects with faces to reflect.":
         "Die Objekte haben keine Flächen; wähle Objekte mit Flächen zum Spiegeln.",
     "The mirror has no faces; give it faces or choose another mirror.":
         "Der Spiegel hat keine Flächen; gib ihm welche oder wähle einen anderen.",
@@ -63,7 +63,7 @@ CAMERAS = {
         "'{}' ist für die Kamera '{}': mache diese zur Kamera der Szene, oder erzeuge die Spiegelung auch für '{}'.",
     "The camera sees none of the reflections: generate them again for this view.":
         "Die Kamera sieht keine der Spiegelungen: erzeuge sie für diesen Blick neu.",
-    "{}: The camera sees none of the diffuse objects in this mirror; move the camera, the mirror or the objects.":
+    "{}: The camera sees none of the reflected objects in this mirror; move the camera, the mirror or the objects.":
         "{}: Die Kamera sieht keines der Objekte in diesem Spiegel; bewege die Kamera, den Spiegel oder die Objekte.",
     "The camera sees none of the objects in this mirror; move the camera, the mirror or the objects.":
         "Die Kamera sieht keines der Objekte in diesem Spiegel; bewege die Kamera, den Spiegel oder die Objekte.",
@@ -77,7 +77,7 @@ CHOICE = {
         "oder nimm ihn aus den Quellen.",
     "The mirror '{}' is hidden: show it in the viewport and in renders.":
         "Der Spiegel '{}' ist ausgeblendet: zeige ihn in der Ansicht und im Render.",
-    "The diffuse object '{}' is hidden: show it in the viewport, in renders and to glossy rays.":
+    "The reflected object '{}' is hidden: show it in the viewport, in renders and to glossy rays.":
         "Das Objekt '{}' ist ausgeblendet: zeige es in der Ansicht, im Render und für Glanzstrahlen.",
     "Nothing to reflect in '{}': select the objects to reflect together with it, or set their role to Reflected in "
     "the Reflection tab.":

@@ -14,6 +14,10 @@ DONE = {
     "{}: lit in {} s": "{}: beleuchtet in {} s",
     "Nothing to light: the reflected materials emit what they show, and the mirrors add nothing.":
         "Nichts zu beleuchten: die gespiegelten Materialien leuchten selbst, und die Spiegel tun nichts hinzu.",
+    "So many objects are reflected that their light was made for this frame alone: bake frames for an animation, or "
+    "choose Light: Objects to keep it while things move.":
+        "So viele Objekte werden gespiegelt, dass ihr Licht nur für dieses Bild gemacht ist: backe Einzelbilder für "
+        "eine Animation, oder wähle Licht: Objekte, damit es bleibt, während sich etwas bewegt.",
     "{}: {} faces of light, {} s": "{}: {} Flächen aus Licht, {} s",
     "{} of {} frame{} baked into '{}', {} s": "{0} von {1} Einzelbildern gebacken, in '{3}', {4} s",
     "{}: UV map '{}', {} faces, those that are seen marked '{}', {} s":
@@ -151,8 +155,8 @@ LACKS = {
     "tolerance or the memory.":
         "Die Verfeinerung endete bei der größten Zahl von Flächen, so dass der Fehler größer als die Toleranz sein "
         "kann: erhöhe die Toleranz oder den Speicher.",
-    "{count} of {points} points are too far from their neighbours to be discs without gaps: subdivide the diffuse "
-    "objects, or choose the method General.":
+    "{count} of {points} points are too far from their neighbours to be discs without gaps: subdivide the reflected "
+    "objects, or let the reflection be made of faces.":
         "{count} von {points} Punkten sind zu weit von ihren Nachbarn für Scheiben ohne Lücken: unterteile die "
         "Objekte, oder lasse die Spiegelung aus Flächen bestehen.",
 }

@@ -35,7 +35,7 @@ OPERATORS = {
     "USD": "Auch Spiegelungen, die so schon richtig aussehen: für Dateien, die Bilder mitnehmen, aber nicht alle "
         "Materialien, wie glTF und USD",
     "Generate Caustics": "Kaustik erzeugen",
-    "Compute the light of lamps that the mirrors throw on the diffuse objects, as meshes that add it to them":
+    "Compute the light of lamps that the mirrors throw on the reflected objects, as meshes that add it to them":
         "Berechnet das Licht der Lampen, das die Spiegel auf die Objekte werfen, als Netze, die es ihnen hinzufügen",
     "What": "Was",
     "What is written of each frame": "Was von jedem Einzelbild geschrieben wird",

@@ -179,11 +179,13 @@ def _frame(context: bpy.types.Context, plan: Plan, take: tuple,
         place = record_path(plan.folder, baked.take(name), frame)
         with staged(plan.folder) as scratch:
             for number, key in enumerate(baked.keys):
-                yield 0.95 + 0.04 * number / len(baked.keys), f"Writing {key}"
+                start, share = 0.95 + 0.04 * number / len(baked.keys), 0.04 / len(baked.keys)
+                yield start, f"Writing {key}"
                 result = by_key.get(key)
                 path = os.path.join(scratch, file_name(baked.file(key, name), frame, "usdc"))
                 shows = result is not None and result.reflection_mesh.light_material is not None
-                made[key] = write_result(context, result, path, shows, baked.materials_of(result))
+                steps = write_result(context, result, path, shows, baked.materials_of(result))
+                made[key] = yield from part(steps, start, share, f"Writing {key}")
             if image:
                 yield 0.99, "Writing the light"
                 write_image(lit[0], os.path.join(scratch, image))

@@ -253,6 +253,24 @@ def test_what_moves_is_lit_on_the_objects(blank):
     assert result.reflection_mesh.light_map is not None
 
 
+def test_of_many_objects_the_light_is_made_in_the_picture(blank, room):
+    """Each would be baked by itself, half a second and more: a shelf of instanced books took two minutes."""
+    scene_of(blank)
+    mirror, box = bpy.data.objects["Mirror"], bpy.data.objects["Box"]
+    few = room("addon.baking.seen_sources").FEW
+    books = [bpy.data.objects.new(f"Book {number}", box.data) for number in range(few)]
+    for number, book in enumerate(books):
+        book.location, book.scale = (-2.0 + 4.0 * number / few, -3.0, 2.0), (0.02, 0.1, 0.2)
+        blank.scene.collection.objects.link(book)
+    blank.scene.camera.keyframe_insert("location", frame=1)
+    for shown, kept in ((books[:few - 2], True), (books, False)):
+        parts.select(*shown, box, bpy.data.objects["Floor"], mirror)
+        result = parts.generate()
+        assert room("addon.baking").are_few([result]) == kept
+    assert bpy.ops.reflection_mesh.light(samples=1) == {"FINISHED"}
+    assert result.reflection_mesh.light_map is None and result.reflection_mesh.light_material is not None
+
+
 def test_it_is_saved_with_the_file(blank, tmp_path):
     scene_of(blank)
     parts.generate(tolerance=4.0)

@@ -207,8 +207,8 @@ def test_cycles_shows_the_same(ball_scene, case):
 def test_what_no_glossy_ray_meets_is_told(ball_scene):
     mirror, box, cone = ball_scene
     box.visible_glossy = cone.visible_glossy = False
-    assert parts.refusal() == ("The diffuse object 'Box' is hidden: show it in the viewport, in renders and to glossy "
-                               "rays.")
+    assert parts.refusal() == ("The reflected object 'Box' is hidden: show it in the viewport, in renders and to "
+                               "glossy rays.")
 
 
 def test_each_view_layer_shows_its_own(ball_scene):

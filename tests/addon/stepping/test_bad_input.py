@@ -143,7 +143,7 @@ def test_zero_normals_are_replaced_by_flat_ones(scene):
 def test_scene_wholly_outside_the_view(scene):
     scene[1].location = 0.0, -1.5, 5000.0
     bpy.context.view_layer.update()
-    assert "sees none of the diffuse objects" in parts.refusal()
+    assert "sees none of the reflected objects" in parts.refusal()
 
 
 def test_mirrors_that_show_nothing_are_left_out(scene, room):

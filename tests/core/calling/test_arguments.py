@@ -115,7 +115,7 @@ REFLECTED = [
     *cases("mirror", lambda given: reflect(VIEW, given, SCENE), empty=TriangleMesh([], []),
            tiny=TriangleMesh(POSITIONS * 1e-320, TRIANGLES), line=TriangleMesh(POSITIONS * (1, 0, 0), TRIANGLES)),
     *cases("scene", lambda given: reflect(VIEW, MIRROR, given), **NO_MESHES),
-    *cases("diffuse objects", lambda given: reflect(VIEW, MIRROR, given), empty=TriangleMesh([], []),
+    *cases("reflected objects", lambda given: reflect(VIEW, MIRROR, given), empty=TriangleMesh([], []),
            points=TriangleMesh(POSITIONS, []), nothing=TriangleMesh.joined([])),
     *cases("settings", lambda given: reflect(VIEW, MIRROR, SCENE, given), none=None, number=0.5,
            dict={"tolerance": 0.5}),

@@ -1,0 +1,93 @@
+"""What lighting in the picture takes, beside Cycles that renders the same window of the file with as many samples.
+
+    python -m tools.timing.light_ratio [room bathroom pond] [--rounds 3] [--side 512] [--samples 64]
+
+Both in turn, in processor seconds of all cores: machines are noisy, and the medians of a few rounds are compared.
+Cycles renders the mirrors as the file has them, without the reflections, and does not denoise.
+"""
+from __future__ import annotations
+
+import argparse
+import statistics
+import sys
+import time
+from functools import partial
+
+import numpy as np
+
+from tools import extension_zip
+from tools.quietly import quietly
+
+SAMPLES = ("room", "bathroom", "pond")
+ROWS = ("sample", "window", "Cycles s", "light s", "ratio", "stages s")
+
+
+def main(arguments: list[str]) -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="*", default=SAMPLES)
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--side", type=int, default=512, help="pixels along the picture's sides")
+    parser.add_argument("--samples", type=int, default=64)
+    options = parser.parse_args(arguments)
+    print(f"| {' | '.join(ROWS)} |\n|{'---|' * len(ROWS)}", flush=True)
+    with extension_zip.installed():
+        for name in options.names:
+            print(f"| {' | '.join(quietly(partial(measured, name, options)))} |", flush=True)
+    return 0
+
+
+def measured(name: str, options: argparse.Namespace) -> tuple[str, ...]:
+    """One row."""
+    import bpy
+    from bl_ext.user_default.reflection_mesh.addon.lighting import Window
+    from bl_ext.user_default.reflection_mesh.addon.operators.light import _on_the_mirror, lighting
+    from bl_ext.user_default.reflection_mesh.addon.reading import read_view
+    bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{name}.blend"))
+    scene = bpy.context.scene
+    scene.render.resolution_x = scene.render.resolution_y = options.side
+    scene.render.resolution_percentage = 100
+    bpy.ops.reflection_mesh.generate("EXEC_DEFAULT")
+    results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"]
+    window = Window.around(read_view(bpy.context), np.concatenate([_on_the_mirror(result) for result in results]))
+    assert window is not None
+    cycles, stages, lights = [], {}, []
+    for _ in range(options.rounds):
+        for result in results:
+            result.hide_render = True
+        cycles.append(_render(scene, window, options.samples))
+        for result in results:
+            result.hide_render = False
+        begun, stage = time.process_time(), "Reading the scene"
+        lights.append(0.0)
+        for _, told in lighting(bpy.context, results, options.samples, "PICTURE", every=True):
+            now = time.process_time()
+            stages[stage] = stages.get(stage, 0.0) + (now - begun) / options.rounds
+            lights[-1] += now - begun
+            begun, stage = now, str(told)
+        now = time.process_time()
+        stages[stage], lights[-1] = stages.get(stage, 0.0) + (now - begun) / options.rounds, lights[-1] + now - begun
+    one, other = statistics.median(cycles), statistics.median(lights)
+    told = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in stages.items())
+    return (name, f"{window.width} x {window.height}", f"{one:.2f}", f"{other:.2f}", f"{other / one:.2f}", told)
+
+
+def _render(scene, window, samples: int) -> float:
+    """Processor seconds of a render of the window as the file has it, without denoising."""
+    import bpy
+    copy = scene.copy()
+    try:
+        copy.cycles.samples, copy.cycles.use_denoising = samples, False
+        render, (width, height) = copy.render, window.size
+        render.engine = "CYCLES"
+        render.use_border = render.use_crop_to_border = True
+        render.border_min_x, render.border_max_x = window.column / width, (window.column + window.width) / width
+        render.border_min_y, render.border_max_y = window.row / height, (window.row + window.height) / height
+        begun = time.process_time()
+        bpy.ops.render.render(scene=copy.name)
+        return time.process_time() - begun
+    finally:
+        bpy.data.scenes.remove(copy)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
