@@ -1,5 +1,5 @@
-"""Brings docs/benchmark.md up to a report of `make report`: its tables and its plots. What the page says is written by
-hand: read it against the tables, and against the growth that this prints.
+"""Brings docs/benchmark.md up to a report of `make report`: its tables and the plots that it shows. What the page says
+is written by hand: read it against the tables, and against the growth that this prints.
 
     python -m tools.read_report [report] [--page docs/benchmark.md]
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -15,8 +16,6 @@ COMPARED = {"refined, 0.5 px": ("GENERAL", 0.5), "refined, 0.25 px": ("GENERAL",
             "rays, 2 x 2": ("RAYS", 2), "2 x 2 at edges": ("RAYS_ADAPTIVE", 2),
             "4 x 4 at edges": ("RAYS_ADAPTIVE", 4), "BVHTree, 1 x 1": ("BVHTREE", 1), "BVHTree, 2 x 2": ("BVHTREE", 2)}
 START, END = "<!-- {} by tools/read_report.py -->\n", "<!-- end of the table -->\n"
-PLOTS = ("*_area_mean_error_px.svg", "growth_*.svg", "sphere_mean_error_px.svg", "sphere_stages.svg",
-         "suzanne_stages.svg")
 
 
 def main(arguments: list[str]) -> int:
@@ -33,8 +32,8 @@ def main(arguments: list[str]) -> int:
     options.page.write_text(text, encoding="utf-8")
     plots = options.page.with_suffix("")
     plots.mkdir(parents=True, exist_ok=True)
-    for path in [path for pattern in PLOTS for path in (options.report / "plots").glob(pattern)]:
-        shutil.copyfile(path, plots / path.name)
+    for name in sorted(set(re.findall(rf"\({plots.name}/(\w+\.svg)\)", text))):
+        shutil.copyfile(options.report / "plots" / name, plots / name)
     for line in report["growths"]:
         points = ", ".join(f"{size:,}: {spent:.2f}" for size, spent in zip(line["sizes"], line["seconds"]))
         print(f"{line['title']}, {line['axis']}: {points}")
