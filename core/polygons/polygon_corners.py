@@ -7,6 +7,7 @@ Clipping finds which of them a polygon has from linear functions; here each gets
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from .clipping import Polygons
 from .convex_polygons import Line
 from .vertex_images import NEAR_IMAGE, VertexImages
 
+BESIDE = 0.5  # pixels: how far corners may lie beside their camera, whose sides are straight where the map is not
 WELD = 1e-9  # of the size of what is seen: nodes closer than this are one
 
 
@@ -61,12 +63,24 @@ class _Corners:
         corners = self.cameras.corners[self.camera[chosen]].T
         return (np.take(self.cameras.places, corners, axis=1) * self.weights[:, chosen]).sum(axis=1)
 
-    def near(self, moved: np.ndarray, guess: np.ndarray) -> np.ndarray:
-        """Whether places (3, n) moved from the guess by no more than straight outlines may miss; else they are another
-        image, or Newton's method went astray on a triangle seen edge on."""
+    def near(self, chosen: np.ndarray, moved: np.ndarray, guess: np.ndarray) -> np.ndarray:
+        """Whether places (3, n) moved from the guess, and out of their camera, by no more than straight outlines may
+        miss; else they are another image, or Newton's method went astray on a triangle seen edge on."""
+        view = self.cameras.view
         with np.errstate(invalid="ignore", over="ignore"):
-            away = np.linalg.norm(self.cameras.view.pixels(moved.T) - self.cameras.view.pixels(guess.T), axis=1)
-        return away < NEAR_IMAGE
+            pixel = view.pixels(moved.T)
+            away = np.linalg.norm(pixel - view.pixels(guess.T), axis=1)
+            low, high = self._box(chosen)
+            return (away < NEAR_IMAGE) & (np.maximum(low - pixel, pixel - high) < BESIDE).all(axis=1)
+
+    def _box(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """From where to where (n, 2) in the picture the cameras reach."""
+        corner = self._pixels[self.cameras.corners[self.camera[chosen]]]
+        return corner.min(axis=1), corner.max(axis=1)
+
+    @cached_property
+    def _pixels(self) -> np.ndarray:
+        return self.cameras.view.pixels(self.cameras.places.T)
 
     def seen(self, chosen: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The point (3, n) that the true ray at a place meets on the triangle's plane, and its s."""
@@ -147,7 +161,7 @@ def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     edge = corners.frames.positions[scene_edge[:, 1]].T - point
     t, along, s = mirror_map.meet(face, (uv_start, uv_end), (point, edge), (t, seen_s))
     met = start + np.clip(t, 0.0, 1.0) * way
-    near = corners.near(met, place) & (s >= 0.0)
+    near = corners.near(chosen, met, place) & (s >= 0.0)
     # just beyond an end of the edge, by no more than straight outlines miss, the end stands in
     along = np.clip(np.where(near, along, _share(seen - point, edge)), 0.0, 1.0)
     return (np.where(near, met, place), point + along * edge, np.where(near, s, seen_s)), group
@@ -165,6 +179,8 @@ def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     vertex = corners.frames.vertices[side, column]
     guess = corners.guess(chosen)
     image = images.nearest(vertex, camera, corners.cameras.view.pixels(guess.T))
+    named = np.flatnonzero(image >= 0)
+    image[named[~corners.near(chosen[named], images.place[:, image[named]], guess[:, named])]] = -1
     # a vertex on the wrong side of a bent mirror edge by less than the linear clip sees has no image of its own here
     lone = image < 0
     first, group = groups(np.where(lone, camera, -1) + 1, np.where(lone, vertex + len(images.vertex), image))
@@ -178,7 +194,7 @@ def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     _, seen_s = corners.seen(chosen[own], start)
     moved, found = mirror_map.locate(face, mirror_map.coordinates(face, start), seen_s, point[:, lone])
     moved_place = mirror_map.places(face, moved)
-    near = corners.near(moved_place, start) & mirror_map.meets(face, moved, found, point[:, lone])
+    near = corners.near(chosen[own], moved_place, start) & mirror_map.meets(face, moved, found, point[:, lone])
     place[:, lone] = np.where(near, moved_place, start)
     distance[lone] = np.where(near, found, seen_s)
     return (place, point, distance), group

@@ -80,9 +80,9 @@ def _before_eye(view: View, corners: np.ndarray) -> np.ndarray:
     order = (np.argmax(ahead != several[:, None], axis=1)[:, None] + np.arange(3)) % 3
     a, b, c = np.moveaxis(np.take_along_axis(corners, order[..., None], axis=1), 1, 0)
     turned = np.take_along_axis(depth, order, axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         share = ((turned[:, :1] - nearest) / (turned[:, :1] - turned[:, 1:]))[..., None]
-    ab, ac = a + share[:, 0] * (b - a), a + share[:, 1] * (c - a)
+        ab, ac = a + share[:, 0] * (b - a), a + share[:, 1] * (c - a)
     alone, cut = np.stack((a, ab, ac), axis=1), np.stack((np.stack((ab, b, c), 1), np.stack((ab, c, ac), 1)), axis=1)
     found = np.where(several[:, None, None, None], cut, alone[:, None])
     found[ahead.all(axis=1)] = corners[ahead.all(axis=1), None]
