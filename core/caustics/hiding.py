@@ -5,6 +5,7 @@ In an empty room with a flat floor none does, and what cannot hide need not be a
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,7 +15,22 @@ from .lamps import Lamp
 ABOVE = 1e-7  # of the scene's size: what lies less far behind a triangle lies in its plane
 PLANES = 1e-6  # of a unit normal, and of the scene's size: planes that differ by less are one
 AT_ONCE = 1 << 22
-Sides = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Where things lie.
+
+    Attributes
+    ----------
+    of : callable
+        Whether any of them lies above planes n . x = h of normals (n, 3) and heights (n,), and whether any lies below.
+    count : int
+        How many they are.
+    """
+
+    of: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+    count: int
 
 
 def screens_of(mirrors: TriangleMesh, receivers: TriangleMesh, scene: TriangleMesh) -> TriangleMesh | None:
@@ -31,7 +47,7 @@ def shades_of(lamp: Lamp, mirror: TriangleMesh, scene: TriangleMesh) -> Triangle
         above = -(normal @ lamp.place) if lamp.sun else normal @ lamp.place - height
         return above > 0.0, above < 0.0
 
-    return _between(scene, of_lamp, _sides_of(mirror, room), room)
+    return _between(scene, Sides(of_lamp, 1), _sides_of(mirror, room), room)
 
 
 def _room(*meshes: TriangleMesh) -> float:
@@ -40,15 +56,14 @@ def _room(*meshes: TriangleMesh) -> float:
 
 
 def _sides_of(mesh: TriangleMesh, room: float) -> Sides:
-    """Whether any of a mesh lies above planes n . x = h, and whether any lies below."""
+    """Where the corners of a mesh lie."""
     points = mesh.positions[np.unique(mesh.triangles)]
 
     def found(normal: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         above = points @ normal.T
         return above.max(axis=0) - height > room, above.min(axis=0) - height < -room
 
-    found.count = len(points)  # type: ignore[attr-defined]
-    return found
+    return Sides(found, len(points))
 
 
 def _between(scene: TriangleMesh, start: Sides, end: Sides, room: float) -> TriangleMesh | None:
@@ -60,10 +75,9 @@ def _between(scene: TriangleMesh, start: Sides, end: Sides, room: float) -> Tria
     key = np.rint(np.column_stack((normal / PLANES, height * (ABOVE / PLANES / room))))
     _, first, plane = np.unique(key, axis=0, return_index=True, return_inverse=True)
     hides = np.zeros(len(first), dtype=bool)
-    work = sum(getattr(side, "count", 1) for side in (start, end))
-    for part in shares(np.full(len(first), work), AT_ONCE):
+    for part in shares(np.full(len(first), start.count + end.count), AT_ONCE):
         planes = normal[first[part]], height[first[part]]
-        (above, below), (end_above, end_below) = start(*planes), end(*planes)
+        (above, below), (end_above, end_below) = start.of(*planes), end.of(*planes)
         hides[part] = (above & end_below) | (below & end_above)
     chosen = hides[plane.reshape(-1)]
     return TriangleMesh(scene.positions, scene.triangles[chosen]) if chosen.any() else None

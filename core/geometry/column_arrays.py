@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields
-from typing import TypeVar
+from dataclasses import Field, fields
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
@@ -13,8 +13,10 @@ Kind = TypeVar("Kind", bound="ColumnArrays")
 class ColumnArrays:
     """What dataclasses share whose fields are arrays, of all of which the last axis counts the same things."""
 
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+
     def _arrays(self) -> list[np.ndarray]:
-        return [getattr(self, field.name) for field in fields(self)]  # type: ignore[arg-type]
+        return [getattr(self, field.name) for field in fields(self)]
 
     def __len__(self) -> int:
         return self._arrays()[0].shape[-1]
