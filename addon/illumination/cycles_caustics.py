@@ -1,12 +1,9 @@
-"""What Cycles does with light that mirrors throw: its own caustics left out, and what it cannot follow told."""
+"""What Cycles does with light that mirrors throw: its own caustics left out."""
 from __future__ import annotations
-
-from collections.abc import Iterable
 
 import bpy
 
 from ..faults import AllOrNothing
-from ..reading.materials import shines
 from .lamps import has_a_size
 from .own_caustics import leave_out_own_caustics, makes_own_caustics
 
@@ -23,18 +20,3 @@ def leave_out(scene: bpy.types.Scene, mirror: bpy.types.Object, lamp: bpy.types.
         return []
     return [f"Cycles adds its own caustics of '{lamp.name}', whose light is linked already: take '{mirror.name}' out "
             "of what it lights."]
-
-
-def too_many_layers(scene: bpy.types.Scene, layers: int, lit: Iterable[bpy.types.Material | None]) -> list:
-    """A sentence where Cycles does not follow as many transparent layers of light on the materials that are `lit`."""
-    bounces = scene.cycles.transparent_max_bounces
-    if scene.render.engine != "CYCLES" or 2 * layers <= bounces:
-        return []
-    if layers > bounces:
-        return [f"Cycles follows {bounces} transparent layers, and of light {layers} or more lie over each other, "
-                "which is dark there: raise Light Paths > Max Bounces > Transparent."]
-    shining = next((material for material in lit if shines(material)), None)
-    if shining is None:
-        return []
-    return [f"Cycles follows {bounces} transparent layers, and what '{shining.name}' mirrors passes {layers} or more "
-            "of light twice, which is dark there: raise Light Paths > Max Bounces > Transparent."]

@@ -21,10 +21,10 @@ from ..illumination import (
     caustic_arrays,
     chosen_lamps,
     eyes_of,
+    follow_layers,
     leave_out,
     light_of_nodes,
     parts_of,
-    too_many_layers,
     write_caustics,
 )
 from ..reading import DiffuseScene, MirrorSurface, Participants, choose, read_mirror, read_scene
@@ -195,6 +195,9 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
             unknown += strange
             if wanted.leave_out:
                 remarks += leave_out(scene, made.mirror, made.lamp, whole)
+        layers = sum(made.layers for made in prepared)
+        receivers = {obj: made.arrays.materials for obj, made in zip(objects, prepared)}
+        remarks += follow_layers(scene, layers, chain.from_iterable(receivers.values()), whole)
     for material in dict.fromkeys(unknown):
         remarks.append(f"The colour of '{material.name}' is not known all over, where it asks for what only its own "
                        "object knows or is mixed of several shaders: its light may have another colour.")
@@ -204,9 +207,6 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
                            "as if the rest were plugged off.")
     if not all(made.plain for made in prepared):
         remarks.append("A mirror's colour that changes over it counts as one: plug it off to choose which.")
-    layers = sum(made.layers for made in prepared)
-    receivers = {obj: made.arrays.materials for obj, made in zip(objects, prepared)}
-    remarks += too_many_layers(scene, layers, chain.from_iterable(receivers.values()))
     return Thrown(objects, receivers, layers, remarks, dark)
 
 

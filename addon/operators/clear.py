@@ -5,7 +5,7 @@ import bpy
 
 from ..faults import in_one_sentence, tell
 from ..frames import stop_playing
-from ..illumination import bring_back_abandoned, forget_added_light
+from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_map, forget_previews
 from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
 from . import polls
@@ -57,7 +57,7 @@ def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:
 def clear_caustics(caustics: list) -> None:
     """Remove `caustics` with their meshes and materials, and let Cycles show its own again where none are left."""
     remove_caustics(caustics)
-    bring_back_abandoned()
+    _bring_back()
 
 
 def remove_caustics(caustics: list) -> None:
@@ -66,6 +66,11 @@ def remove_caustics(caustics: list) -> None:
     materials = {material for mesh in meshes for material in mesh.materials} - {None}
     _remove(caustics)
     forget_added_light(list(materials))
+
+
+def _bring_back() -> bool:
+    """Bring back what was changed for light that no mesh shows any more; whether anything was."""
+    return any([bring_back_abandoned(), bring_back_layers()])
 
 
 def _remove(objects: list) -> None:
@@ -99,7 +104,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
         selected = set(context.selected_objects)
         if named != any(obj in selected or obj.reflection_mesh.mirror in selected for obj in results):
             results, caustics = ([], caustics) if named else (results, [])
-        if not results and not caustics and not bring_back_abandoned() and not any(
+        if not results and not caustics and not _bring_back() and not any(
                 obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
             tell(self, {"WARNING"}, "The scene has no reflection to clear.")
             return {"CANCELLED"}

@@ -112,14 +112,14 @@ LACKS = {
         "Die Nodes von '{}' sagen mehr als eine Farbe und eine Stärke: sein Licht zählt, als wäre der Rest abgezogen.",
     "A mirror's colour that changes over it counts as one: plug it off to choose which.":
         "Die Farbe eines Spiegels, die sich über ihn ändert, zählt als eine: ziehe sie ab, um zu wählen, welche.",
-    "Cycles follows {} transparent layers, and of light {} or more lie over each other, which is dark there: raise "
-    "Light Paths > Max Bounces > Transparent.":
-        "Cycles folgt durch {} durchsichtige Schichten, und vom Licht liegen {} oder mehr übereinander, was dort "
-        "dunkel ist: erhöhe Lichtpfade > Max. Reflexionen > Transparent.",
-    "Cycles follows {} transparent layers, and what '{}' mirrors passes {} or more of light twice, which is dark "
-    "there: raise Light Paths > Max Bounces > Transparent.":
-        "Cycles folgt durch {} durchsichtige Schichten, und was '{}' spiegelt, kommt zweimal durch {} oder mehr vom "
-        "Licht, was dort dunkel ist: erhöhe Lichtpfade > Max. Reflexionen > Transparent.",
+    "Cycles followed {} transparent layers, and {} or more of light have to be passed: Light Paths > Max Bounces > "
+    "Transparent is {} until the light is cleared.":
+        "Cycles folgte durch {} durchsichtige Schichten, und {} oder mehr vom Licht sind zu durchqueren: Lichtpfade > "
+        "Max. Reflexionen > Transparent ist {}, bis das Licht entfernt wird.",
+    "Cycles follows {} transparent layers, and {} or more of light have to be passed, so that it is dark behind them: "
+    "lower Lamp Places or the depth.":
+        "Cycles folgt durch {} durchsichtige Schichten, und {} oder mehr vom Licht sind zu durchqueren, so dass es "
+        "dahinter dunkel ist: senke Orte je Lampe oder die Tiefe.",
     "Between the corners of '{}' the picture is up to {} px off: subdivide it, or choose A Copy.":
         "Zwischen den Ecken von '{}' ist das Bild bis zu {} px daneben: unterteile es, oder wähle Eine Kopie.",
     "About {} % of what the mirror shows is missing: give it a clean mesh, or move the camera.":

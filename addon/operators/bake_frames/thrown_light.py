@@ -8,7 +8,7 @@ import bpy
 from .... import core
 from ...faults import AllOrNothing, Steps, still_there
 from ...frames import Sequence, play_caustics, player_of, told_apart
-from ...illumination import leave_out, lights_renders, places_kept, too_many_layers
+from ...illumination import follow_layers, leave_out, lights_renders, places_kept
 from ...reading import NothingSeen, candidates, visible
 from ...settings import of_each
 from ..caustics import Asked, NothingThrown, name_of, throwing
@@ -126,5 +126,6 @@ def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) ->
             obj.reflection_mesh.eyes = sequence.records[-1].made_with["places"][key]
             objects.append(obj)
             told += leave_out(scene, *pairs[key], whole) if plan.leave_out else []
-    return objects, told + too_many_layers(scene, sequence.layers, (
-        slot.material for obj in lit for slot in obj.material_slots))
+        materials = (slot.material for obj in lit for slot in obj.material_slots)
+        told += follow_layers(scene, sequence.layers, materials, whole)
+    return objects, told

@@ -204,26 +204,55 @@ def test_the_verb_writes_a_file(blank, room, tmp_path):
     assert run(["caustics", "--eyes", "0", "--output", str(path)]) == 1
 
 
-def test_more_layers_than_cycles_follows_are_told(blank, capfd):
+def test_cycles_is_let_follow_all_layers_until_the_light_is_cleared(blank, tmp_path, capfd):
     scene_of(shadow_soft_size=0.1)
-    blank.scene.cycles.transparent_max_bounces = 5
+    cycles = blank.scene.cycles
+    cycles.transparent_max_bounces = 5
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=4) == {"FINISHED"}
-    assert "transparent layers" not in capfd.readouterr().out
+    assert cycles.transparent_max_bounces == 5
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=8) == {"FINISHED"}
-    assert "Cycles follows 5 transparent layers, and of light 8 or more" in capfd.readouterr().out
+    told = "Cycles followed 5 transparent layers, and 8 or more of light have to be passed"
+    assert told in capfd.readouterr().out
+    assert cycles.transparent_max_bounces == 16
+    seen = rendered(tmp_path)
+    cycles.transparent_max_bounces = 5
+    dark = (rendered(tmp_path) < 0.9 * seen).all(axis=2)
+    cycles.transparent_max_bounces = 256
+    assert np.allclose(seen, rendered(tmp_path)) and dark.sum() > 100
+    cycles.transparent_max_bounces = 16
+    # what goes by hand is brought back as what is cleared is
+    bpy.data.objects.remove(bpy.data.objects["Mirror Caustics"])
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert cycles.transparent_max_bounces == 5
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=8) == {"FINISHED"}
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=20) == {"FINISHED"}
+    assert cycles.transparent_max_bounces == 40
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert cycles.transparent_max_bounces == 5
+    assert "reflection_mesh_transparent_layers" not in blank.scene
 
 
-def test_layers_that_a_shiny_floor_mirrors_once_more_are_told(blank, capfd):
+def test_a_number_of_layers_that_the_user_changed_stays(blank):
+    scene_of(shadow_soft_size=0.1)
+    cycles = blank.scene.cycles
+    cycles.transparent_max_bounces = 5
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=8) == {"FINISHED"}
+    cycles.transparent_max_bounces = 50
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert cycles.transparent_max_bounces == 50
+
+
+def test_layers_that_a_shiny_floor_mirrors_once_more_are_followed(blank):
     floor, _, _ = scene_of(shadow_soft_size=0.1)
-    blank.scene.cycles.transparent_max_bounces = 8
+    cycles = blank.scene.cycles
     floor.data.materials[0] = varnish = paint("Varnish", "PRINCIPLED", ALBEDO, "Base Color")
     values = varnish.node_tree.nodes[0].inputs
     values["Metallic"].default_value = 0.0
-    twice = "Cycles follows 8 transparent layers, and what 'Varnish' mirrors passes 5 or more of light twice"
-    for eyes, specular, told in ((4, 0.5, False), (5, 0.0, False), (5, 0.5, True)):
+    for eyes, specular, followed in ((4, 0.5, 8), (5, 0.0, 8), (5, 0.5, 20)):
+        cycles.transparent_max_bounces = 8
         values["Specular IOR Level"].default_value = specular
         assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=eyes) == {"FINISHED"}
-        assert (twice in capfd.readouterr().out) == told
+        assert cycles.transparent_max_bounces == followed
 
 
 def test_what_is_lit_as_well_as_it_mirrors_stays_lit(blank, room, tmp_path, capfd):
