@@ -5,10 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import ColumnArrays, dot, first_of, in_order, ranges
+from ..geometry import ColumnArrays, columns, dot, first_of, in_order, ranges, shares
 from ..support import breathe
 from .convex_polygons import ConvexPolygons, Kind
 
+CORNERS_AT_ONCE = 1 << 15  # fit the cache
 PASSES = 256  # lines that cut one piece
 SHORTEST = 1e-6  # of a line: what must lie in a part to cut it
 
@@ -51,17 +52,29 @@ def divide(pieces: Kind, lines: Lines, line: np.ndarray, piece: np.ndarray, most
 
 def _crosses(pieces: ConvexPolygons, lines: Lines, line: np.ndarray, piece: np.ndarray) -> np.ndarray:
     """Whether the lines' bounding parts run through the inside of the pieces."""
-    corner, asked = ranges(pieces.start[piece], pieces.size[piece])
-    number = line[asked]
-    value = (pieces.weights[:, corner] * lines.values[:, number]).sum(axis=0)
-    after = pieces.following[corner]
-    value_after = (pieces.weights[:, after] * lines.values[:, number]).sum(axis=0)
+    size, after = pieces.size, pieces.following
+    found = [np.zeros(0, dtype=bool)]
+    for part in shares(size[piece], CORNERS_AT_ONCE):
+        breathe()
+        corner, asked = ranges(pieces.start[piece[part]], size[piece[part]])
+        found.append(_cross(pieces.weights, (corner, after[corner]), lines, line[part], asked))
+    return np.concatenate(found)
+
+
+def _cross(weights: np.ndarray, corners: tuple[np.ndarray, np.ndarray], lines: Lines, line: np.ndarray,
+           asked: np.ndarray) -> np.ndarray:
+    """Whether lines (n,) cross pieces; their corners and those after them (k,), each of which is `asked` for a line."""
+    corner, after = corners
+    value = dot(columns(weights, corner), columns(lines.values, line[asked]))
+    # the corner after it lies as far from it here as it does among all
+    value_after = value[np.arange(len(corner)) + after - corner]
     crossing = np.flatnonzero((value >= 0.0) != (value_after >= 0.0))
     share = value[crossing] / (value[crossing] - value_after[crossing])
-    start, end = pieces.weights[:, corner[crossing]], pieces.weights[:, after[crossing]]
-    number, asked = number[crossing], asked[crossing]
-    way = lines.stop[:, number] - lines.start[:, number]
-    at = dot(start + share * (end - start) - lines.start[:, number], way) / np.maximum(dot(way, way), 1e-300)
+    start, end = columns(weights, corner[crossing]), columns(weights, after[crossing])
+    asked = asked[crossing]
+    first = columns(lines.start, line[asked])
+    way = columns(lines.stop, line[asked]) - first
+    at = dot(start + share * (end - start) - first, way) / np.maximum(dot(way, way), 1e-300)
     low, high = np.full(len(line), np.inf), np.full(len(line), -np.inf)
     np.minimum.at(low, asked, at)
     np.maximum.at(high, asked, at)
