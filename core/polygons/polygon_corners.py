@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras, ReflectionMap
-from ..geometry import SceneFrames, columns, dot, groups, others
+from ..geometry import SceneFrames, columns, dot, groups, largest, others, smallest
 from ..support import breathe
 from .clipping import Polygons
 from .convex_polygons import Line
@@ -70,17 +70,15 @@ class _Corners:
         with np.errstate(invalid="ignore", over="ignore"):
             pixel = view.pixels(moved.T)
             away = np.linalg.norm(pixel - view.pixels(guess.T), axis=1)
-            low, high = self._box(chosen)
-            return (away < NEAR_IMAGE) & (np.maximum(low - pixel, pixel - high) < BESIDE).all(axis=1)
-
-    def _box(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """From where to where (n, 2) in the picture the cameras reach."""
-        corner = self._pixels[self.cameras.corners[self.camera[chosen]]]
-        return corner.min(axis=1), corner.max(axis=1)
+            low, high = (columns(side, self.camera[chosen]) for side in self._boxes)
+            beside = np.maximum(low - pixel.T, pixel.T - high)
+            return (away < NEAR_IMAGE) & (beside[0] < BESIDE) & (beside[1] < BESIDE)
 
     @cached_property
-    def _pixels(self) -> np.ndarray:
-        return self.cameras.view.pixels(self.cameras.places.T)
+    def _boxes(self) -> tuple[np.ndarray, np.ndarray]:
+        """From where to where (2, n) in the picture each camera reaches."""
+        corner = columns(self.cameras.view.pixels(self.cameras.places.T).T, self.cameras.corners.T)
+        return smallest(corner.swapaxes(0, 1)), largest(corner.swapaxes(0, 1))
 
     def seen(self, chosen: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The point (3, n) that the true ray at a place meets on the triangle's plane, and its s."""
