@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 
 from ...core import CausticMesh
+from ...core.geometry import areas
 from ..reading import DiffuseScene
 from ..writing import Attribute, MeshArrays, shown_layers
 from .caustic_material import LIGHT
@@ -42,9 +43,9 @@ def caustic_arrays(lit: list[tuple[Eye, Tint, CausticMesh]], scene: DiffuseScene
     place = np.repeat(np.arange(len(meshes)), [len(mesh.positions) for mesh in meshes])
     lift = _lift(positions, size, float(np.abs(positions).max()), camera)
     lift *= _layers(together["mirror_position"], together["image_parity"], place)
-    flat, positions = _areas(positions, triangles), positions + lift[:, None] * _normals(positions, triangles)
+    flat, positions = areas(positions[triangles]), positions + lift[:, None] * _normals(positions, triangles)
     # where layers meet on a caustic slivers stand upright between them, and have many times their area
-    light *= (flat / np.maximum(_areas(positions, triangles), np.maximum(flat, 1e-300)))[:, None, None]
+    light *= (flat / np.maximum(areas(positions[triangles]), np.maximum(flat, 1e-300)))[:, None, None]
     source, weights = together["source_face"], together["source_weights"].astype(np.float32)
     own = (
         Attribute("material_index", "INT", "FACE", scene.material[source].astype(np.int32)),
@@ -106,11 +107,6 @@ def _layers(mirror_position: np.ndarray, parity: np.ndarray, place: np.ndarray) 
     along = mirror_position @ ACROSS
     along = (along - along.min()) / max(float(np.ptp(along)), 1e-300)
     return 1.0 + SPREAD * (place + 0.5 * along + 0.25 * (1 - parity)) / (place.max() + 1)
-
-
-def _areas(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    a, b, c = np.moveaxis(positions[triangles], 1, 0)
-    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
 
 
 def _normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core import breathe
-from ...core.geometry import cross, dot
+from ...core.geometry import areas, cross, dot
 from ...core.polygons import ConvexPolygons, Line
 
 BINS = 128  # squares along the longest side of the box round what is lit
@@ -51,7 +51,7 @@ def light_in_squares(corners: np.ndarray, irradiance: np.ndarray, normals: np.nd
     across = _across(corners, normals, squares)
     reach = np.ptp(across, axis=1) + 1.0
     breathe()
-    area, found = _areas(corners), []
+    area, found = areas(corners), []
     for part in _runs(reach.prod(axis=1)):
         breathe()
         face, weights = _cut(across[part])
@@ -135,11 +135,6 @@ def light_errors(light: tuple[np.ndarray, np.ndarray], thrown: list) -> dict:
     whole = rays.sum(axis=1).std(ddof=1) / np.sqrt(len(rays))
     values = (ours.sum() - total, whole, np.abs(ours - mean).sum(), noise.sum())
     return known | {name: float(100.0 * value / total) for name, value in zip(names, values)}
-
-
-def _areas(corners: np.ndarray) -> np.ndarray:
-    a, b, c = np.moveaxis(corners, 1, 0)
-    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
 
 
 def _runs(count: np.ndarray) -> list[slice]:

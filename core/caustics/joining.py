@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh, has_area, unit
+from ..geometry import TriangleMesh, areas, has_area, unit
 from ..result import ReflectionMesh
 from ..support import NothingInView, breathe
 from .caustic_mesh import CausticMesh
@@ -40,8 +40,7 @@ def joined(parts: list) -> CausticMesh:
         entry["triangles"] = entry["triangles"] + first
     mesh = CausticMesh(**{name: np.concatenate([entry[name] for entry in found]) for name in found[0]}, counts=counts)
     breathe()
-    a, b, c = np.moveaxis(mesh.positions[mesh.triangles], 1, 0)
-    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    area = areas(mesh.positions[mesh.triangles])
     return replace(mesh, irradiance=amounting(mesh.irradiance, mesh.flux, area))
 
 

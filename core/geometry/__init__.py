@@ -11,6 +11,7 @@ from .lamp_view import LampView
 from .near_triangles import meeting
 from .scene_frames import SceneFrames, falling
 from .subdivision import (
+    areas,
     doubled_areas,
     edge_lengths,
     edge_numbers,
@@ -26,7 +27,7 @@ from .view import View
 from .z_buffer import Drawn, draw
 
 __all__ = ["ColumnArrays", "Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View",
-           "area_normals", "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas",
-           "draw", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area",
-           "in_order", "largest", "meeting", "norm", "ordered", "others", "parent_side", "ranges", "rows",
+           "area_normals", "areas", "columns", "connected", "corners_beyond", "cross", "distinct", "dot",
+           "doubled_areas", "draw", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups",
+           "has_area", "in_order", "largest", "meeting", "norm", "ordered", "others", "parent_side", "ranges", "rows",
            "shared_edges", "shares", "smallest", "solve", "split", "unit"]

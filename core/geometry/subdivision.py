@@ -87,6 +87,12 @@ def doubled_areas(corners: np.ndarray) -> np.ndarray:
     return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
 
 
+def areas(corners: np.ndarray) -> np.ndarray:
+    """Areas (n,) of triangles in space with `corners` (n, 3, 3)."""
+    a, b, c = np.moveaxis(corners, 1, 0)
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+
 def shared_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Edges of triangles (n, 3), each once.
 

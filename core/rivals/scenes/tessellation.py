@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...geometry import TriangleMesh, shared_edges, split
+from ...geometry import TriangleMesh, areas, shared_edges, split
 
 ROUNDS = 16
 _MIDDLES = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.5],
@@ -26,8 +26,7 @@ def tessellated(mesh: TriangleMesh, vertices: int) -> tuple[TriangleMesh, np.nda
     """About `vertices` vertices on the surface of a mesh, evenly, and the triangle of the mesh that each of the finer
     triangles lies in. No coarser than the mesh is."""
     positions, triangles, source = mesh.positions, mesh.triangles, np.arange(len(mesh.triangles))
-    a, b, c = (positions[triangles[:, k]] for k in range(3))
-    area = 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+    area = float(areas(positions[triangles]).sum())
     # half as many vertices as triangles, which are equilateral and of three quarters of the longest side, more or less
     longest = np.sqrt(area / max(vertices, 1) * 2.0 / np.sqrt(3.0)) / 0.75
     for _ in range(ROUNDS):
