@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from lamp_scenes import leaves_no_trace, link, lit_state, picture, principled, psnr, scene_of
+from lamp_scenes import leaves_no_trace, link, lit_state, picture, principled, psnr, scene_of, shine
 
 # gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
 SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Alpha", "Backfacing",
@@ -65,28 +65,9 @@ def test_a_lamp_s_body_is_as_bright_as_the_mirror_shows_it(blank, room):
     assert psnr(picture(room), reference) > 40.0
 
 
-def shine(scene, width: int = 0, kind: str = "ShaderNodeTexEnvironment") -> bpy.types.World:
-    """A world that is bright to one side; of an image with a sun as wide as ours where it is `width` pixels wide."""
-    world = scene.world
-    if bpy.app.version < (5, 0, 0):
-        world.use_nodes = True
-    tree = world.node_tree
-    node = tree.nodes.new(kind if width else "ShaderNodeTexGradient")
-    if width:
-        pixels = np.full((width // 2, width, 4), (0.2, 0.3, 0.5, 1.0), dtype=np.float32)
-        rows, columns = (slice(int(0.68 * size), int(0.68 * size) + max(1, round(width * 0.53 / 360.0)))
-                         for size in pixels.shape[:2])
-        pixels[rows, columns, :3] = 3e4
-        node.image = bpy.data.images.new("Sky", width, width // 2, float_buffer=True)
-        node.image.pixels.foreach_set(pixels.ravel())
-        node.image.pack()
-    link(tree, node.outputs["Color"], next(one for one in tree.nodes if one.type == "BACKGROUND").inputs["Color"])
-    return world
-
-
 def test_a_bake_waits_no_longer_for_the_world_than_its_light_needs(blank, room):
     """Cycles maps the light of the world for each bake anew."""
-    swiftly = room("addon.baking.swift_world").swiftly_sampled
+    swiftly = room("addon.rendering.swift_world").swiftly_sampled
     scene_of(blank)
     for width, columns in ((0, 512), (512, None), (2048, 1024)):
         blank.scene.world = bpy.data.worlds.new("World")
