@@ -30,6 +30,30 @@ def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
     assert lit > before + 6.0
 
 
+@pytest.mark.parametrize("by", ["modifier", "shape key"])
+def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflected(blank, room, by):
+    """A box that is bent, with a pattern that lies on it as before."""
+    scene_of(blank, "Generated")
+    box = bpy.data.objects["Box"]
+    if by == "modifier":
+        fine = box.modifiers.new("Fine", "SUBSURF")
+        fine.subdivision_type, fine.levels, fine.render_levels = "SIMPLE", 3, 3
+        stretched = box.modifiers.new("Stretched", "SIMPLE_DEFORM")
+        stretched.deform_method, stretched.factor, stretched.deform_axis = "TWIST", 1.6, "Z"
+    else:
+        box.shape_key_add(name="Basis")
+        key = box.shape_key_add(name="Larger")
+        key.data.foreach_set("co", np.array([(1.4 * x, y, 0.5 * z + 0.5 * x) for x, y, z in (
+            vertex.co for vertex in box.data.vertices)], dtype=np.float32).ravel())
+        key.value = 1.0
+    kept = set(bpy.data.shape_keys), set(bpy.data.scenes)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    light()
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert (set(bpy.data.shape_keys), set(bpy.data.scenes)) == kept
+
+
 def test_what_catches_shadows_is_what_mirrors_show_of_it(blank, room):
     scene_of(blank)
     bpy.data.objects["Floor"].is_shadow_catcher = True
