@@ -35,15 +35,16 @@ def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflect
     """A box that is bent, with a pattern that lies on it as before."""
     scene_of(blank, "Generated")
     box = bpy.data.objects["Box"]
+    box.scale = (1.4, 1.4, 1.4)
     if by == "modifier":
         fine = box.modifiers.new("Fine", "SUBSURF")
         fine.subdivision_type, fine.levels, fine.render_levels = "SIMPLE", 3, 3
         stretched = box.modifiers.new("Stretched", "SIMPLE_DEFORM")
-        stretched.deform_method, stretched.factor, stretched.deform_axis = "TWIST", 1.6, "Z"
+        stretched.deform_method, stretched.factor, stretched.deform_axis = "TWIST", 3.0, "Z"
     else:
         box.shape_key_add(name="Basis")
         key = box.shape_key_add(name="Larger")
-        key.data.foreach_set("co", np.array([(1.4 * x, y, 0.5 * z + 0.5 * x) for x, y, z in (
+        key.data.foreach_set("co", np.array([(x, 0.7 * y + z, z - 0.8 * x) for x, y, z in (
             vertex.co for vertex in box.data.vertices)], dtype=np.float32).ravel())
         key.value = 1.0
     kept = set(bpy.data.shape_keys), set(bpy.data.scenes)
