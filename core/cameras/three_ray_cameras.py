@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View, following
+from ..geometry import TriangleMesh, View, connected, following
 from .mirror_map import MirrorMap
 from .reflection_map import ReflectionMap
 
@@ -67,16 +67,13 @@ def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
     """Indices of the mirror's triangles that the view may see: with an area, and, where the mirror is a closed surface,
     on the side that hides the others. Open mirrors show both their sides, as in Cycles, and so do closed ones that the
     plane of an orthographic eye cuts: some of its rays begin inside."""
-    corners = mirror.positions[mirror.triangles]
-    towards, areal = _towards(view, corners), mirror.areal
+    areal = np.flatnonzero(mirror.areal)
+    triangles = mirror.triangles[areal]
     visible = not_edge_on(view, mirror)
-    if _closed(mirror.triangles[areal]):
-        volume = np.einsum("ij,ij->", corners[:, 0] - corners.mean(axis=(0, 1)), _normals(corners))
-        if not view.orthographic:
-            outside = abs(_winding_number(view.eye, corners[areal])) < 0.5
-            visible &= towards * volume > 0.0 if outside else towards * volume < 0.0
-        elif (view.depths(corners[areal].reshape(-1, 3)) > 0.0).all():
-            visible &= towards * volume > 0.0
+    if _closed(triangles):
+        corners = mirror.positions[triangles]
+        if not view.orthographic or (view.depths(corners.reshape(-1, 3)) > 0.0).all():
+            visible[areal] &= _towards(view, corners) * _outwards(view, triangles, corners) > 0.0
     return np.flatnonzero(visible)
 
 
@@ -88,6 +85,18 @@ def not_edge_on(view: View, mesh: TriangleMesh) -> np.ndarray:
 def _towards(view: View, corners: np.ndarray) -> np.ndarray:
     """How much of the normals of triangles (m, 3, 3) the view sees, from behind less than nothing."""
     return -np.einsum("ij,ij->i", view.directions(corners[:, 0]), _normals(corners))
+
+
+def _outwards(view: View, triangles: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """(n,): positive where the normals of triangles (n, 3, 3) point out of their closed body, or into it where the eye
+    is in it, as in a room with a ball; else negative."""
+    body = connected(triangles)
+    sixfold = np.einsum("ij,ij->i", corners[:, 0] - corners.mean(axis=(0, 1)), _normals(corners))
+    volume = np.bincount(body, sixfold)
+    if not view.orthographic:
+        around = np.abs(np.bincount(body, _solid_angles(view.eye, corners))) > 2.0 * np.pi
+        volume = np.where(around, -volume, volume)
+    return volume[body]
 
 
 def _normals(corners: np.ndarray) -> np.ndarray:
@@ -104,8 +113,9 @@ def _closed(triangles: np.ndarray) -> bool:
     return bool((forth == back).all() and (forth[1:] != forth[:-1]).all())
 
 
-def _winding_number(point: np.ndarray, corners: np.ndarray) -> float:
-    """How often the triangles (n, 3, 3) wind round the point: the sum of their solid angles over 4 pi.
+def _solid_angles(point: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """The solid angles (n,) of triangles (n, 3, 3) as a point sees them, negative from behind; their sum over 4 pi is
+    how often closed ones wind round the point.
 
     A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 1983.
     """
@@ -114,7 +124,7 @@ def _winding_number(point: np.ndarray, corners: np.ndarray) -> float:
     numerator = np.einsum("ij,ij->i", a, np.cross(b, c))
     denominator = (la * lb * lc + np.einsum("ij,ij->i", a, b) * lc + np.einsum("ij,ij->i", b, c) * la
                    + np.einsum("ij,ij->i", c, a) * lb)
-    return float(np.arctan2(numerator, denominator).sum() / (2.0 * np.pi))
+    return 2.0 * np.arctan2(numerator, denominator)
 
 
 def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.ndarray) -> Cameras:

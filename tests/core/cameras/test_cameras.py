@@ -9,6 +9,7 @@ from core.cameras.shading_horizon import cut_at_horizon
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from tests.inputs import shapes
 from tests.inputs.scenes import SCENES
+from tests.oracles.ray_hits import first_hits
 from tests.oracles.true_map import case_of, true_rays, truth_of, view_rays
 
 
@@ -48,6 +49,32 @@ def test_from_inside_a_closed_mirror_its_inner_side_is_seen():
     ball = shapes.combine(shapes.icosphere((0.0, 0.0, 0.0), 2.0, 2))
     view = View.looking_at((0.5, 0.3, -0.2), (1.0, 1.0, 0.0), (64, 64))
     assert len(visible_triangles(view, ball)) == len(ball.triangles)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("kind", ["perspective", "orthographic"])
+def test_of_each_body_of_one_mesh_the_side_that_hides_the_other_is_taken(kind, turned):
+    """Beside each other, and a room round them, each wound as it likes: what rays meet first, and nothing behind it."""
+    bodies = [shapes.icosphere((0.0, 0.0, 0.0), 0.5, 2), shapes.icosphere((0.4, 1.5, 0.3), 0.6, 2)]
+    if kind == "perspective":
+        bodies.append(shapes.icosphere((0.0, 0.0, 0.0), 6.0, 2))
+    meshes = [shapes.combine(body) for body in bodies]
+    if turned:
+        meshes[0] = TriangleMesh(meshes[0].positions, meshes[0].triangles[:, ::-1])
+    mirror = TriangleMesh.joined(meshes)
+    view = View.looking_at((4.0, 0.3, 0.2), (0.0, 0.7, 0.1), (96, 96),
+                           orthographic_scale=4.0 if kind == "orthographic" else 0.0)
+    chosen = visible_triangles(view, mirror)
+    origin, ray = view_rays(view, mirror.positions[mirror.triangles].mean(axis=1))
+    if view.orthographic:
+        origin = origin - 9.0 * ray  # before all of them
+    met = np.unique(first_hits(mirror, origin, ray)[0])
+    met = met[met >= 0]
+    assert len(met) > 100 and np.isin(met, chosen).all()
+    # of both balls less than a half
+    ball = sum(len(mesh.triangles) for mesh in meshes[:2])
+    assert np.count_nonzero(chosen < ball) <= ball // 2
+    assert np.count_nonzero(chosen >= ball) == sum(len(mesh.triangles) for mesh in meshes[2:])
 
 
 def test_triangles_without_area_and_those_seen_edge_on_have_no_camera():
