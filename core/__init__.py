@@ -1,7 +1,7 @@
 """The forward reflection method on plain NumPy arrays; knows nothing of Blender."""
 from .caustics import CausticMesh, Lamp, caustic_steps, caustics
 from .culling import PointTree, SceneTree
-from .following import Followed, FollowedImages
+from .following import FollowedImages
 from .geometry import TriangleMesh, View, draw
 from .reflection import ReflectionError, reflect, reflection_steps
 from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
@@ -9,7 +9,7 @@ from .solver import Images, project
 from .standing import Standing
 from .support import METHODS, PLACEMENTS, NothingInView, Settings, breathe, in_steps
 
-__all__ = ["CausticMesh", "Discs", "Followed", "FollowedImages", "Images", "Lamp", "METHODS", "NothingInView",
-           "PLACEMENTS", "PicturePieces", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings",
-           "Standing", "TriangleMesh", "View", "breathe", "caustic_steps", "caustics", "draw", "in_steps",
-           "picture_pieces", "project", "reflect", "reflecting_normals", "reflection_steps"]
+__all__ = ["CausticMesh", "Discs", "FollowedImages", "Images", "Lamp", "METHODS", "NothingInView", "PLACEMENTS",
+           "PicturePieces", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "Standing",
+           "TriangleMesh", "View", "breathe", "caustic_steps", "caustics", "draw", "in_steps", "picture_pieces",
+           "project", "reflect", "reflecting_normals", "reflection_steps"]

@@ -167,7 +167,10 @@ def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np
         Of the sources' triangles, component and corner first.
     """
     away = doubled_areas(mirror_map.view.pixels(seen.T)[nodes]) < 0.0
-    height = dot(area_normals(corners)[:, None], last[:, nodes.T] - corners).sum(axis=0)
+    breathe()
+    above = last[:, nodes.T] - corners
+    breathe()
+    height = dot(area_normals(corners)[:, None], above).sum(axis=0)
     return away != (height < 0.0)
 
 
@@ -224,7 +227,9 @@ def _on_mirror(mirror_map: MirrorMap, face: np.ndarray, triangles: np.ndarray, s
     owner = np.zeros(seen.shape[1], dtype=np.int64)
     owner[triangles.ravel()] = np.repeat(face, 3)
     room = OFF_MIRROR * np.ptp(seen, axis=1).max()
+    breathe()
     off = distance_from(mirror_map, owner, seen) > room
+    breathe()
     corner = np.flatnonzero(off[triangles.ravel()])
     if not len(corner):
         return seen

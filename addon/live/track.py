@@ -7,7 +7,8 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 
-from ...core import Followed, FollowedImages, ReflectionMesh, TriangleMesh, View
+from ...core import FollowedImages, ReflectionMesh, TriangleMesh, View
+from ...core.following import Followed
 from ..freshness import COARSE
 from ..writing import vertices_written
 
