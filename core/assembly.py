@@ -31,6 +31,7 @@ from .whole_faces import Seamed
 
 BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
 OFF_MIRROR = 1e-6  # of the size of what is seen of it: how far from it a place may lie
+CORNERS_AT_ONCE = 1 << 17  # before whoever waits has a turn
 ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the caustic
 
 
@@ -198,10 +199,11 @@ def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, 
     share it: such a corner becomes a vertex of its own, in the same place of the picture, with the point of the rim.
     """
     corner = triangles.ravel()
-    rim = rows(met.positions[frames.vertices[:, column]])
-    breathe()
-    own = (rim * weights).sum(axis=1)
-    breathe()
+    own = np.empty((3, len(corner)))
+    for start in range(0, len(corner), CORNERS_AT_ONCE):
+        some = slice(start, start + CORNERS_AT_ONCE)
+        own[:, some] = (rows(met.positions[frames.vertices[:, column[some]]]) * weights[:, some]).sum(axis=1)
+        breathe()
     size = np.ptp(met.positions[frames.vertices.ravel()], axis=0).max() if len(corner) else 0.0
     beside = np.flatnonzero(norm(own - point[:, corner]) > BESIDE * size)
     breathe()
