@@ -18,11 +18,16 @@ def uses_nodes(material: bpy.types.Material | bpy.types.Light) -> bool:
     return material.use_nodes and material.node_tree is not None
 
 
-def use_nodes(material: bpy.types.Material) -> bpy.types.NodeTree:
-    """The node tree of a material that was made just now."""
+def use_nodes(material: bpy.types.Material | bpy.types.Light) -> bpy.types.NodeTree:
+    """The node tree of a material or lamp that was made just now, which uses it from now on."""
     if bpy.app.version < (5, 0, 0):
         material.use_nodes = True
     return material.node_tree
+
+
+def eevee_links_light() -> bool:
+    """Whether EEVEE lets a lamp light what it is linked to alone; from 4.3 on."""
+    return bpy.app.version >= (4, 3, 0)
 
 
 def packs_normals() -> bool:

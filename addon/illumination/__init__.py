@@ -6,6 +6,7 @@ from .caustic_arrays import caustic_arrays
 from .caustic_material import adds_light, forget_added_light
 from .cycles_caustics import leave_out
 from .eye import Eye
+from .glint import follow_lamp, is_glint
 from .in_the_way import blockers_of, blocking
 from .lamps import NoLight, chosen_lamps, eyes_of, has_a_size, light_of_nodes, lights_renders, meant_lamps
 from .mesh_lamps import radiance_of
@@ -23,8 +24,8 @@ from .transparent_layers import bring_back_layers, follow_layers, raises_layers
 from .write_caustics import Caustic, caustics_object, places_kept, results_with, write_caustics
 
 __all__ = ["Caustic", "Eye", "MirrorPart", "NoLight", "Tint", "adds_light", "blockers_of", "blocking",
-           "bring_back_abandoned", "bring_back_layers", "caustic_arrays", "caustics_object", "chosen_lamps",
-           "eyes_of", "follow_layers", "forget_added_light", "has_a_size", "leave_out", "leave_out_own_caustics",
-           "leaves_out", "leaves_out_any", "let_lamps_light_mirrors", "light_of_nodes", "lights_renders",
-           "makes_own_caustics", "meant_lamps", "parts_of", "places_kept", "radiance_of", "raises_layers",
-           "results_with", "write_caustics"]
+           "bring_back_abandoned", "bring_back_layers", "caustic_arrays", "caustics_object", "chosen_lamps", "eyes_of",
+           "follow_lamp", "follow_layers", "forget_added_light", "has_a_size", "is_glint", "leave_out",
+           "leave_out_own_caustics", "leaves_out", "leaves_out_any", "let_lamps_light_mirrors", "light_of_nodes",
+           "lights_renders", "makes_own_caustics", "meant_lamps", "parts_of", "places_kept", "radiance_of",
+           "raises_layers", "results_with", "write_caustics"]

@@ -16,7 +16,7 @@ def leave_out(scene: bpy.types.Scene, mirror: bpy.types.Object, lamp: bpy.types.
     if not alone:
         return [f"Cycles adds its own caustics of '{lamp.name}' in '{mirror.name}', which is lit as well as it "
                 "mirrors: switch Light Paths > Caustics > Reflective off."]
-    if leave_out_own_caustics(lamp, mirror, whole):
+    if leave_out_own_caustics(scene, lamp, mirror, whole):
         return []
     return [f"Cycles adds its own caustics of '{lamp.name}', whose light is linked already: take '{mirror.name}' out "
             "of what it lights."]

@@ -11,6 +11,7 @@ import numpy as np
 from ...core import Lamp, ReflectionError
 from .. import compat
 from .eye import Eye, across
+from .glint import is_glint
 from .mesh_lamps import eyes_of_mesh, is_mesh_lamp
 
 SPREAD_LEAST = 1e-3  # radians: narrower area lamps are taken for as wide
@@ -53,8 +54,8 @@ def lights_renders(lamp: bpy.types.Object) -> bool:
 
 def _meant(context: bpy.types.Context, objects: list) -> list:
     """Of some objects the selected lamps, and meshes that emit light; where none is selected that of active caustics,
-    else all lamps but meshes. A portal gives no light of its own."""
-    objects = [obj for obj in objects if not _is_portal(obj)]
+    else all lamps but meshes. A portal gives no light of its own, nor does the image of a lamp."""
+    objects = [obj for obj in objects if not (_is_portal(obj) or is_glint(obj))]
     active = context.view_layer.objects.active
     own = [obj for obj in objects if active is not None and active.reflection_mesh.role == "CAUSTICS"
            and obj == active.reflection_mesh.lamp]

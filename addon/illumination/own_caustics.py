@@ -1,7 +1,8 @@
 """Cycles' own caustics of a lamp in a mirror, left out where the mesh shows them: light linking, for this pair alone.
 
 The mirror is taken out of what the lamp lights, so that no ray finds the lamp in it. It goes on to shade, to reflect
-everything else, and to be lit by all other lamps; what goes with it is the lamp's own image in the mirror.
+everything else, and to be lit by all other lamps. The lamp's own image in the mirror, which goes with it, is brought
+back by a second lamp, but for meshes that emit.
 """
 from __future__ import annotations
 
@@ -13,6 +14,7 @@ from .. import compat
 from ..faults import AllOrNothing
 from ..reading import is_mirror
 from ..reading.materials import MIRRORS, all_nodes, is_sharp
+from .glint import forget_lost_glints, glint_of, hide_from_mirror, show_in_mirror
 
 
 def makes_own_caustics(mirror: bpy.types.Object) -> tuple[bool, bool]:
@@ -25,9 +27,10 @@ def makes_own_caustics(mirror: bpy.types.Object) -> tuple[bool, bool]:
     return any(whole) or any(map(is_sharp, sharp)), bool(whole) and all(whole)
 
 
-def leave_out_own_caustics(lamp: bpy.types.Object, mirror: bpy.types.Object, whole: AllOrNothing) -> bool:
-    """Let a lamp not light a mirror; False where the user has linked the lamp otherwise, or the lamp is not the
-    file's own, and nothing has changed."""
+def leave_out_own_caustics(scene: bpy.types.Scene, lamp: bpy.types.Object, mirror: bpy.types.Object,
+                           whole: AllOrNothing) -> bool:
+    """Let a lamp not light a mirror, which goes on to show it; False where the user has linked the lamp otherwise, or
+    the lamp is not the file's own, and nothing has changed."""
     linking = lamp.light_linking
     collection = linking.receiver_collection
     if lamp.library is not None or (collection is not None and not _is_ours(collection, lamp)):
@@ -43,6 +46,8 @@ def leave_out_own_caustics(lamp: bpy.types.Object, mirror: bpy.types.Object, who
     for entry, child in zip(collection.collection_objects, collection.objects):
         if child == mirror:
             entry.light_linking.link_state = "EXCLUDE"
+    if lamp.type == "LIGHT":
+        show_in_mirror(scene, lamp, mirror, whole)
     return True
 
 
@@ -51,6 +56,7 @@ def bring_back_own_caustics(lamp: bpy.types.Object | None, mirror: bpy.types.Obj
     collection = None if lamp is None else lamp.light_linking.receiver_collection
     if collection is None or not _is_ours(collection, lamp):
         return
+    hide_from_mirror(lamp, mirror)
     if mirror is not None and mirror.name in collection.objects:
         collection.objects.unlink(mirror)
     if not len(collection.objects):
@@ -73,7 +79,10 @@ def bring_back_abandoned() -> bool:
                  if not any((lamp, mirror) in made for lamp in own)]
     for pair in abandoned:
         bring_back_own_caustics(*pair)
-    return bool(abandoned)
+    lost = [collection for collection in bpy.data.collections if collection.get(_MARK) and not collection.users]
+    for collection in lost:
+        bpy.data.collections.remove(collection)
+    return any((abandoned, lost, forget_lost_glints()))
 
 
 def leaves_out_any() -> bool:
@@ -88,12 +97,16 @@ def leaves_out(lamp: bpy.types.Object, mirror: bpy.types.Object) -> bool:
 
 
 def let_lamps_light_mirrors(lamps: list, back: ExitStack) -> None:
-    """Let lamps light the mirrors that they leave out, until the stack takes it back."""
+    """Let lamps light the mirrors that they leave out, by themselves, until the stack takes it back."""
     for lamp in dict.fromkeys(lamps):
         collection = lamp.light_linking.receiver_collection
         if collection is not None and _is_ours(collection, lamp):
             back.callback(setattr, lamp.light_linking, "receiver_collection", collection)
             lamp.light_linking.receiver_collection = None
+            glint = glint_of(lamp)
+            if glint is not None:
+                back.callback(setattr, glint, "hide_render", glint.hide_render)
+                glint.hide_render = True
 
 
 _MARK = "reflection_mesh_left_out"

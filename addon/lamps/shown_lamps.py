@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError
-from ..illumination import eyes_of, has_a_size
+from ..illumination import eyes_of, has_a_size, is_glint
 from ..reading import seen_in
 
 KNOWN = ("mirror_position", "reflected_position", "bounces")  # what a result must tell
@@ -53,7 +53,7 @@ class ShownLamp:
 def lamps_that_show(context: bpy.types.Context) -> list[ShownLamp]:
     """The scene's lamps that mirrors show before what they reflect: suns lie behind all of it."""
     lamps = [obj for obj in context.view_layer.objects if obj.type == "LIGHT" and obj.data.type != "SUN"
-             and obj.visible_glossy and has_a_size(obj) and _is_met(obj.data)]
+             and obj.visible_glossy and has_a_size(obj) and not is_glint(obj) and _is_met(obj.data)]
     if not lamps:
         return []
     depsgraph, shown = context.evaluated_depsgraph_get(), []

@@ -21,6 +21,7 @@ from ..illumination import (
     caustic_arrays,
     chosen_lamps,
     eyes_of,
+    follow_lamp,
     follow_layers,
     leave_out,
     light_of_nodes,
@@ -195,6 +196,8 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
             unknown += strange
             if wanted.leave_out:
                 remarks += leave_out(scene, made.mirror, made.lamp, whole)
+            else:
+                follow_lamp(made.lamp)
         layers = sum(made.layers for made in prepared)
         receivers = {obj: made.arrays.materials for obj, made in zip(objects, prepared)}
         remarks += follow_layers(scene, layers, chain.from_iterable(receivers.values()), whole)

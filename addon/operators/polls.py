@@ -9,7 +9,7 @@ from collections.abc import Callable
 import bpy
 from bpy.app.translations import pgettext_tip
 
-from ..illumination import leaves_out_any, raises_layers
+from ..illumination import is_glint, leaves_out_any, raises_layers
 from ..reading import NO_CAMERA, NO_MIRROR, RESULTS
 
 LOOKED_THROUGH = 500    # objects: to look for roles in more takes longer than a redraw may
@@ -84,4 +84,4 @@ def _is_result(obj: bpy.types.Object) -> bool:
 
 def _is_made_or_window(obj: bpy.types.Object) -> bool:
     record = obj.reflection_mesh
-    return (record.role in RESULTS and obj.library is None) or record.camera_hidden
+    return (record.role in RESULTS and obj.library is None) or record.camera_hidden or is_glint(obj)

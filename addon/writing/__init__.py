@@ -15,6 +15,7 @@ from .write_object import (
     Reflection,
     Written,
     forget_mesh,
+    link_beside,
     new_beside,
     new_object,
     show_own_materials,
@@ -23,7 +24,7 @@ from .write_object import (
 
 __all__ = ["Attribute", "Builder", "LONGEST_RECORD", "MOST_UV_MAPS", "MeshArrays", "RAYS", "Reflection", "UV_MAP",
            "Written", "as_shown", "close_abandoned_windows", "disc_nodes", "forget_collection", "forget_mesh",
-           "forget_nodes", "gather", "hide_discs", "light_layer", "mesh_arrays", "mesh_bytes", "new_beside",
-           "new_object", "place_of", "point_arrays", "put_back_materials", "set_window", "show_for_camera",
-           "show_in_layer", "show_own_materials", "shown_layers", "size_text", "vertices_written",
+           "forget_nodes", "gather", "hide_discs", "light_layer", "link_beside", "mesh_arrays", "mesh_bytes",
+           "new_beside", "new_object", "place_of", "point_arrays", "put_back_materials", "set_window",
+           "show_for_camera", "show_in_layer", "show_own_materials", "shown_layers", "size_text", "vertices_written",
            "what_is_in_the_way", "write_mesh", "write_object"]

@@ -141,18 +141,23 @@ def new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllO
 
 def new_beside(context: bpy.types.Context, name: str, other: bpy.types.Object,
                whole: AllOrNothing) -> bpy.types.Object:
-    """An object with an empty mesh in the collections of another, those of this scene that can be changed, else in the
-    scene's own."""
+    """An object with an empty mesh beside another."""
     mesh = bpy.data.meshes.new(name)
     whole.undo(bpy.data.meshes.remove, mesh)
     obj = bpy.data.objects.new(name, mesh)
     whole.undo(bpy.data.objects.remove, obj)
-    of_scene = {context.scene.collection, *context.scene.collection.children_recursive}
+    link_beside(context.scene, obj, other)
+    return obj
+
+
+def link_beside(scene: bpy.types.Scene, obj: bpy.types.Object, other: bpy.types.Object) -> None:
+    """Put an object into the collections of another, those of this scene that can be changed, else into the scene's
+    own."""
+    of_scene = {scene.collection, *scene.collection.children_recursive}
     beside = [collection for collection in other.users_collection
               if collection in of_scene and collection.library is None]
-    for collection in beside or [context.scene.collection]:
+    for collection in beside or [scene.collection]:
         collection.objects.link(obj)
-    return obj
 
 
 def _remember(obj: bpy.types.Object, made: Reflection) -> None:

@@ -101,7 +101,8 @@ def corners(obj: bpy.types.Object) -> np.ndarray:
 def state() -> dict:
     """What a refused or cancelled operator must leave as it is: data, objects' settings, selection, render settings."""
     scene, layer = bpy.context.scene, bpy.context.view_layer
-    kinds = ("objects", "meshes", "materials", "collections", "images", "scenes", "cameras", "node_groups", "worlds")
+    kinds = ("objects", "meshes", "materials", "collections", "images", "scenes", "cameras", "lights",
+             "node_groups", "worlds")
     objects = {
         obj.name: (obj.select_get(), obj.hide_get(), obj.hide_viewport, obj.hide_render, obj.visible_camera,
                    obj.visible_glossy, obj.visible_shadow, obj.mode, obj.reflection_mesh.role,

@@ -1,0 +1,137 @@
+"""A lamp's own image in the mirrors that it does not light any more: a second lamp for these alone, in the same place.
+
+Where light has met a diffuse surface on its way from the camera the second lamp is dark: mirrors show it, and throw no
+light of it. Cycles asks a lamp's nodes about each path (Light Path > Diffuse Depth); other engines ask none.
+"""
+from __future__ import annotations
+
+import bpy
+
+from .. import compat
+from ..faults import AllOrNothing
+from ..writing import link_beside
+
+_MARK = "reflection_mesh_glint"
+RAYS = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter",
+        "visible_shadow")
+VALUES = {"BOOLEAN", "INT", "FLOAT", "ENUM"}
+FACTORS = ("diffuse_factor", "specular_factor", "transmission_factor", "volume_factor")  # that EEVEE knows alone
+
+
+def is_glint(obj: bpy.types.Object) -> bool:
+    """Whether an object is the image of a lamp in mirrors, not a lamp of its own."""
+    return _MARK in obj
+
+
+def glint_of(lamp: bpy.types.Object) -> bpy.types.Object | None:
+    """The second lamp of a lamp, if it has one that can be changed."""
+    return next((obj for obj in lamp.children if is_glint(obj) and obj.library is None), None)
+
+
+def show_in_mirror(scene: bpy.types.Scene, lamp: bpy.types.Object, mirror: bpy.types.Object,
+                   whole: AllOrNothing) -> None:
+    """Let a mirror that a lamp does not light show it all the same."""
+    name, glint = f"{lamp.name} Glint", glint_of(lamp)
+    data = lamp.data.copy()
+    whole.undo(bpy.data.lights.remove, data)
+    data.name, data[_MARK] = name, True
+    _darken_behind_diffuse(data)
+    if not compat.eevee_links_light():
+        for factor in FACTORS:
+            setattr(data, factor, 0.0)
+    if glint is None:
+        glint = _made(scene, lamp, data, whole)
+    else:
+        whole.undo(setattr, glint, "data", glint.data)
+        whole.after(_replace, glint.data, data)
+        glint.data = data
+    lit = glint.light_linking.receiver_collection
+    if mirror.name not in lit.objects:
+        lit.objects.link(mirror)
+        whole.undo(lit.objects.unlink, mirror)
+
+
+def follow_lamp(lamp: bpy.types.Object) -> None:
+    """Let the image of a lamp, if there is one, be as bright and as large as the lamp is now."""
+    glint = glint_of(lamp)
+    if glint is None:
+        return
+    for prop in lamp.data.bl_rna.properties:
+        name = prop.identifier
+        if prop.type in VALUES and not prop.is_readonly and name not in {"use_nodes", *FACTORS}:
+            value = getattr(lamp.data, name)
+            if getattr(glint.data, name) != value:
+                setattr(glint.data, name, value)
+
+
+def hide_from_mirror(lamp: bpy.types.Object, mirror: bpy.types.Object | None) -> None:
+    """Let a mirror not show the image of a lamp any more; without any mirror there is none."""
+    glint = glint_of(lamp)
+    if glint is None:
+        return
+    lit = glint.light_linking.receiver_collection
+    if mirror is not None and mirror.name in lit.objects:
+        lit.objects.unlink(mirror)
+    if not len(lit.objects):
+        _remove(glint)
+
+
+def forget_lost_glints() -> bool:
+    """Remove what is left of lamps that are gone; whether there was any."""
+    lost = [obj for obj in bpy.data.objects if is_glint(obj) and obj.parent is None and obj.library is None]
+    for glint in lost:
+        _remove(glint)
+    return bool(lost)
+
+
+def _made(scene: bpy.types.Scene, lamp: bpy.types.Object, data: bpy.types.Light,
+          whole: AllOrNothing) -> bpy.types.Object:
+    glint = bpy.data.objects.new(data.name, data)
+    whole.undo(bpy.data.objects.remove, glint)
+    glint[_MARK] = True
+    lit = bpy.data.collections.new(data.name)
+    whole.undo(bpy.data.collections.remove, lit)
+    lit[_MARK] = True
+    glint.light_linking.receiver_collection = lit
+    glint.light_linking.blocker_collection = lamp.light_linking.blocker_collection
+    for rays in RAYS:
+        setattr(glint, rays, getattr(lamp, rays))
+    glint.lightgroup = lamp.lightgroup
+    glint.parent, glint.hide_select = lamp, True
+    link_beside(scene, glint, lamp)
+    return glint
+
+
+def _replace(old: bpy.types.Light, data: bpy.types.Light) -> None:
+    name = old.name
+    if old.users == 0:
+        bpy.data.lights.remove(old)
+    data.name = name
+
+
+def _darken_behind_diffuse(data: bpy.types.Light) -> None:
+    tree = data.node_tree if compat.uses_nodes(data) else _plain_nodes(data)
+    surface = tree.get_output_node("ALL").inputs["Surface"]
+    shader = surface.links[0].from_socket
+    path, mix = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeMixShader")
+    tree.links.new(path.outputs["Diffuse Depth"], mix.inputs["Fac"])
+    tree.links.new(shader, mix.inputs[1])
+    tree.links.new(mix.outputs[0], surface)
+
+
+def _plain_nodes(data: bpy.types.Light) -> bpy.types.NodeTree:
+    """Nodes of a lamp that used none, whatever it kept."""
+    tree = compat.use_nodes(data)
+    tree.nodes.clear()
+    output, shader = tree.nodes.new("ShaderNodeOutputLight"), tree.nodes.new("ShaderNodeEmission")
+    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    return tree
+
+
+def _remove(glint: bpy.types.Object) -> None:
+    data, lit = glint.data, glint.light_linking.receiver_collection
+    bpy.data.objects.remove(glint)
+    if data.users == 0:
+        bpy.data.lights.remove(data)
+    if lit is not None and lit.users == 0:
+        bpy.data.collections.remove(lit)

@@ -1,0 +1,129 @@
+"""A mirror whose caustics are a mesh goes on to show the lamp, as before; and no caustics come of that."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from caustic_scene import AIM, aim, rendered, scene_of
+from mathutils import Vector
+
+SIZES = {"POINT": {"shadow_soft_size": 0.2}, "SPOT": {"shadow_soft_size": 0.2, "spot_size": 1.0},
+         "SUN": {"angle": 0.2}, "AREA": {"size": 0.4}}
+
+
+def looked_into(kind: str = "POINT") -> tuple:
+    """The scene of `scene_of`, seen so that the mirror shows the lamp."""
+    floor, mirror, lamp = scene_of(kind, **SIZES[kind])
+    scene, camera = bpy.context.scene, bpy.context.scene.camera
+    behind = Vector((2.0 * AIM.x - lamp.location.x, *lamp.location[1:]))
+    camera.location = AIM + 1.2 * (AIM - behind).normalized()  # just above the floor
+    camera.rotation_euler = (behind - camera.location).to_track_quat("-Z", "Y").to_euler()
+    camera.data.type, camera.data.lens = "PERSP", 20.0
+    # Cycles by default
+    scene.cycles.blur_glossy, scene.cycles.max_bounces = 1.0, 3
+    return floor, mirror, lamp
+
+
+def of_lamp(picture: np.ndarray) -> np.ndarray:
+    """Pixels that show a lamp."""
+    return picture[..., 0] > 0.5 * picture.max()
+
+
+@pytest.mark.parametrize("kind", SIZES)
+def test_the_mirror_shows_the_lamp_and_throws_no_light_of_it(blank, tmp_path, kind):
+    floor, mirror, lamp = looked_into(kind)
+    before = rendered(tmp_path)
+    bpy.context.scene.cycles.caustics_reflective = False
+    without = rendered(tmp_path)
+    bpy.context.scene.cycles.caustics_reflective = True
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    bpy.data.objects["Mirror Caustics"].hide_render = True
+    found = rendered(tmp_path)
+    shown = of_lamp(before)
+    assert 10 < shown.sum() < 1000
+    assert np.abs(found[shown].mean(axis=0) / before[shown].mean(axis=0) - 1.0).max() < 0.01
+    # what Cycles finds by chance is not little
+    by_chance = before[~shown].mean() - without[~shown].mean()
+    assert by_chance > 0.05 * without[~shown].mean()
+    assert np.abs(found[~shown].mean() - without[~shown].mean()) < 0.1 * by_chance
+    lamp.children[0].hide_render = True
+    assert rendered(tmp_path)[shown].mean() < 0.5 * before[shown].mean()
+
+
+def test_it_goes_where_the_lamp_goes_and_has_its_nodes(blank, tmp_path):
+    floor, mirror, lamp = looked_into("SPOT")
+    lamp.data.use_nodes = True
+    tree = lamp.data.node_tree
+    shader = next(node for node in tree.nodes if node.type == "EMISSION")
+    warm = tree.nodes.new("ShaderNodeBlackbody")
+    warm.inputs[0].default_value = 3000.0
+    tree.links.new(warm.outputs[0], shader.inputs["Color"])
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    bpy.data.objects["Mirror Caustics"].hide_render = True
+    aim(lamp, lamp.location + Vector((0.0, 0.25, 0.1)))
+    found = rendered(tmp_path)
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    expected = rendered(tmp_path)
+    shown = of_lamp(expected)
+    assert shown.sum() >= 8 and np.abs(found[shown].mean(axis=0) / expected[shown].mean(axis=0) - 1.0).max() < 0.01
+
+
+def test_it_is_made_anew_with_the_light_and_as_bright_as_the_lamp(blank, room):
+    floor, mirror, lamp = looked_into()
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    made = parts.state()["data"]
+    lamp.data.energy, lamp.data.shadow_soft_size = 30.0, 0.1
+    # as live updates do, which leave nothing more out
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", leave_out=False) == {"FINISHED"}
+    glint, = lamp.children
+    assert (glint.data.energy, round(glint.data.shadow_soft_size, 6)) == (30.0, 0.1)
+    lamp.data.use_nodes = True
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert parts.state()["data"] == made and [child.data.energy for child in lamp.children] == [30.0]
+
+
+def test_it_counts_as_no_lamp(blank, room):
+    floor, mirror, lamp = looked_into("AREA")
+    fresh, lamps = room("addon.freshness.lamps").lamps_of, room("addon.lamps").lamps_that_show
+    before, shown = fresh(bpy.context), len(lamps(bpy.context))
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    bpy.context.view_layer.update()
+    glint, = lamp.children
+    assert fresh(bpy.context) == before and len(lamps(bpy.context)) == shown == 1
+    parts.select(floor, glint, mirror)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert [obj.name for obj in bpy.data.objects if obj.reflection_mesh.role == "CAUSTICS"] == ["Mirror Caustics"]
+
+
+def test_it_goes_with_the_light_and_with_the_lamp(blank):
+    floor, mirror, lamp = looked_into()
+    before = parts.state()["data"]
+    for remove in ((), (bpy.data.objects["Lamp"],)):
+        parts.select(floor, lamp, mirror)
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+        assert len(lamp.children) == 1
+        for obj in remove:
+            bpy.data.objects.remove(obj)
+            bpy.data.lights.remove(bpy.data.lights["Lamp"])
+        assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+        after = parts.state()["data"]
+        gone = {"objects": ["Lamp"], "lights": ["Lamp"]} if remove else {}
+        assert after == {kind: [name for name in names if name not in gone.get(kind, ())]
+                         for kind, names in before.items()}
+
+
+def test_two_mirrors_share_it(blank):
+    floor, mirror, lamp = looked_into()
+    other = parts.add("plane", "Other", size=1.2, location=(-AIM.x, 0.0, 1.0), rotation=(0.0, np.pi / 2, 0.0))
+    other.data.materials.append(mirror.active_material)
+    before = parts.state()["data"]
+    parts.select(floor, lamp, other, mirror)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    glint, = lamp.children
+    assert set(glint.light_linking.receiver_collection.objects) == {mirror, other}
+    parts.select(other)
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert list(glint.light_linking.receiver_collection.objects) == [mirror]
+    parts.select(mirror)
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"} and parts.state()["data"] == before
