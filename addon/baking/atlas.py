@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .halves import halves
+
 RIM = 0.49         # texels between a triangle and the border of its cell: the outermost have their middles inside
-DIAGONAL = 2.0     # texels along either leg to the triangle that shares its cell
+DIAGONAL = 2.0     # texels along either leg to another triangle that shares its cell
 NARROW = 1.0       # the same in the smallest cells
 SMALLEST = 2       # a cell's side is at least 2 to this power
 
@@ -42,7 +44,8 @@ def arranged(sizes: np.ndarray) -> tuple[np.ndarray, int]:
 
 
 def packed(corners: np.ndarray, density: float) -> Atlas:
-    """Pack triangles into a picture, two and two into rectangles with sides of powers of two.
+    """Pack triangles into a picture, two and two into rectangles with sides of powers of two: the halves of a
+    parallelogram side by side as they are, others with a gap.
 
     Rectangles of one shape are stacked to squares, and squares, from large to small along a Z curve, lie without a gap
     (the order of G. M. Morton, "A Computer Oriented Geodetic Data Base", 1966).
@@ -55,11 +58,18 @@ def packed(corners: np.ndarray, density: float) -> Atlas:
         Texels per unit of length.
     """
     legs, first = _legs(corners)
+    second, alike = halves(np.take_along_axis(corners, first[:, :, None], axis=1))
+    first[alike] = first[alike][:, (0, 2, 1)]
+    legs[second] = legs[np.flatnonzero(second) - 1]
+    whole = second | np.r_[second[1:], np.zeros(min(len(second), 1), bool)]
     texels = legs * density
-    exponents = _exponents(texels)
-    size = _side(int((4 ** _squares(exponents)[2]).sum()))
+    exponents = _exponents(texels, whole)
+    size = _side(int((4 ** _squares(exponents, whole)[2]).sum()))
     # no more than is asked for is baked, but for the smallest, which need the room
-    return Atlas(size, _placed(exponents, np.where(exponents == SMALLEST, np.inf, texels), first, size))
+    texels = np.where(exponents == SMALLEST, np.inf, texels)
+    uv = np.empty((len(first), 3, 2), dtype=np.float32)
+    np.put_along_axis(uv, first[:, :, None], _placed(exponents, texels, whole) / size, axis=1)
+    return Atlas(size, uv)
 
 
 def _legs(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -77,9 +87,11 @@ def _legs(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             np.column_stack((apex, np.take_along_axis(ends, order, axis=1))))
 
 
-def _exponents(texels: np.ndarray) -> np.ndarray:
-    """Sides (n, 2), as powers of two, of the cells in which legs of so many texels have room."""
-    around = texels + 2.0 * RIM + np.where(texels < 2.0 ** SMALLEST - 2.0 * RIM - NARROW, NARROW, DIAGONAL)
+def _exponents(texels: np.ndarray, whole: np.ndarray) -> np.ndarray:
+    """Sides (n, 2), as powers of two, of the cells in which legs of so many texels have room, and the gap to the other
+    triangle in it where both are not halves of a `whole`."""
+    gap = np.where(texels < 2.0 ** SMALLEST - 2.0 * RIM - NARROW, NARROW, DIAGONAL)
+    around = texels + 2.0 * RIM + np.where(whole[:, None], 0.0, gap)
     return np.maximum(np.ceil(np.log2(around)), SMALLEST).astype(np.int64)
 
 
@@ -91,11 +103,11 @@ def _side(area: int) -> int:
     return side
 
 
-def _squares(exponents: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _squares(exponents: np.ndarray, whole: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The square (n,) in which each triangle's cell lies, its place (n,) in it, two a rectangle, and the squares' sides
     as powers of two, from large to small."""
-    # the longer leg comes first, and so does the longer side
-    order = np.lexsort((-exponents[:, 1], -exponents[:, 0]))
+    # the longer leg comes first, and so does the longer side; before single triangles what keeps even places together
+    order = np.lexsort((~whole, -exponents[:, 1], -exponents[:, 0]))
     ranked = exponents[order]
     new = np.r_[True, (ranked[1:] != ranked[:-1]).any(axis=1)] if len(ranked) else np.zeros(0, bool)
     group = np.cumsum(new) - 1
@@ -112,9 +124,10 @@ def _squares(exponents: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     return square, place, np.repeat(shapes[:, 0], squares)
 
 
-def _placed(exponents: np.ndarray, texels: np.ndarray, first: np.ndarray, size: int) -> np.ndarray:
-    """Coordinates (n, 3, 2) of the triangles' corners, legs as long as `texels` (n, 2) where there is room."""
-    square, place, sides = _squares(exponents)
+def _placed(exponents: np.ndarray, texels: np.ndarray, whole: np.ndarray) -> np.ndarray:
+    """Where the triangles' corners lie, (n, 3, 2), in texels, first that between the legs, which are as long as
+    `texels` (n, 2) where there is room."""
+    square, place, sides = _squares(exponents, whole)
     area = 4 ** sides
     # each square starts where the curve has gone over the larger ones
     at = _along_z_curve(np.concatenate(([0], np.cumsum(area)))[:-1])[square].astype(np.float64)
@@ -122,15 +135,15 @@ def _placed(exponents: np.ndarray, texels: np.ndarray, first: np.ndarray, size: 
     at[:, 1] += (place // 2) * cell[:, 1]
     low = np.full((len(cell), 2), RIM)
     across, up = low.copy(), low.copy()
-    gap = np.where(exponents == SMALLEST, NARROW, DIAGONAL)
-    across[:, 0] += np.minimum(cell[:, 0] - 2.0 * RIM - gap[:, 0], texels[:, 0])
-    up[:, 1] += np.minimum(cell[:, 1] - 2.0 * RIM - gap[:, 1], texels[:, 1])
+    gap = np.where(whole[:, None], 0.0, np.where(exponents == SMALLEST, NARROW, DIAGONAL))
+    length = np.minimum(cell - 2.0 * RIM - gap, texels)
+    across[:, 0] += length[:, 0]
+    up[:, 1] += length[:, 1]
     spots = np.stack((low, across, up), axis=1)
     turned = (place % 2 == 1)[:, None, None]
-    spots = np.where(turned, cell[:, None] - spots, spots) + at[:, None]
-    uv = np.empty_like(spots)
-    np.put_along_axis(uv, first[:, :, None], spots, axis=1)
-    return (uv / size).astype(np.float32)
+    # half a turn about the middle of the cell, or about that of the diagonal
+    ends = np.where(whole[:, None], 2.0 * RIM + length, cell)
+    return np.where(turned, ends[:, None] - spots, spots) + at[:, None]
 
 
 def _along_z_curve(index: np.ndarray) -> np.ndarray:

@@ -12,11 +12,10 @@ from mathutils import Matrix
 from ...core import ReflectionError
 from .. import compat
 from ..faults import interrupt_held, still_there
-from ..rendering import copied_scene, denoise, look_through
+from ..rendering import copied_scene, denoise, look_through, put_swift_world
 from ..writing import UV_MAP
 from .opacity import as_mirrors_see, show_opacity, turn_over, without_openings
 from .stand_ins import StandIn, new_object, swap_names
-from .swift_world import swiftly_sampled
 from .whole_texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved, shines
 
 
@@ -136,10 +135,8 @@ def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn],
         if opacity:
             # they glow by themselves
             scene.world = None
-        elif scene.world is not None:
-            scene.world = swiftly_sampled(scene.world)
-            if scene.world is not context.scene.world:
-                back.callback(bpy.data.worlds.remove, scene.world)
+        else:
+            put_swift_world(scene, back)
         look_through(scene, bpy.data.objects.new(UV_MAP, bpy.data.cameras.new(UV_MAP)), back)
         for source in sources:
             back.callback(setattr, source, "hide_render", source.hide_render)

@@ -16,6 +16,7 @@ from .bake_scene import bake_scene
 from .levels import FINER, levels_of
 from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
 from .stand_ins import new_meshes, stand_ins
+from .undeformed import is_deformed, undeformed_positions
 
 LARGEST = 4096  # texels along a side of all maps together
 FEWER = 0.5     # of the samples are enough where a picture is denoised
@@ -90,6 +91,7 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
     """What Cycles bakes of each of `asked`, (source, whether its backs); None there for how opaque it is."""
     placed = read_meshes(context.evaluated_depsgraph_get(), scene.sources, mirror=False)
     divisions = {number: one.division for number, one in levels.items()}
+    undeformed = yield from part(_undeformed(context.scene, scene.sources), 0.0, 0.0, PREPARING)
     # coarse ones first, the finest of all objects together
     bakes: dict = {}
     for number, back in asked:
@@ -102,7 +104,7 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
         places = {number: one.places(level, back) if number in chosen else one.nowhere()
                   for number, one in levels.items()}
         yield done / whole, PREPARING
-        stands = stand_ins(placed, divisions, places, turned=set(chosen) if turned else set())
+        stands = stand_ins(placed, divisions, places, set(chosen) if turned else set(), undeformed)
         meshes = yield from part(new_meshes(stands), done / whole, 0.0, PREPARING)
         with bake_scene(context, scene.sources, stands, meshes, opacity=opacity, backs=turned) as stage:
             for number in chosen:
@@ -120,6 +122,17 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
                     in_steps(partial(own.picture, level, back, picture, found.get((number, back)), colours)),
                     done / whole, 0.0, PREPARING)
                 done += own.texels(level, None)
+    return found
+
+
+def _undeformed(scene: bpy.types.Scene, sources: list) -> Steps[dict]:
+    """Positions before anything deforms them, by source, of those that are deformed; a step before each."""
+    found = {}
+    for number, source in enumerate(sources):
+        if not is_deformed(source):
+            continue
+        yield 0.0, PREPARING
+        found[number] = undeformed_positions(scene, source)
     return found
 
 

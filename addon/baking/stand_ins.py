@@ -13,6 +13,7 @@ from ..reading.read_meshes import LocalMesh, Placed
 from ..writing import UV_MAP, write_mesh
 from ..writing.mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
 from .division import Division, divided
+from .undeformed import keep_undeformed
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,8 @@ class StandIn:
         Whether its back is asked for: a bake shades the front.
     own : bool
         Whether it is the participant itself, and not an instance.
+    undeformed : (n, 3) float32 or None
+        Where the vertices of the mesh are for Generated coordinates; None: where they are.
     """
 
     owner: int
@@ -42,11 +45,12 @@ class StandIn:
     uv: np.ndarray
     turned: bool
     own: bool
+    undeformed: np.ndarray | None = None
 
 
-def stand_ins(placed: list[Placed], divisions: dict, uv: dict, turned: set) -> list[StandIn]:
+def stand_ins(placed: list[Placed], divisions: dict, uv: dict, turned: set, undeformed: dict) -> list[StandIn]:
     """Every place of every mesh; `divisions`, and `uv` of their parts, by owner, in the order in which a joined scene
-    counts triangles, and the owners that are `turned`."""
+    counts triangles, the owners that are `turned`, and `undeformed` positions of those that are deformed."""
     counted, made = dict.fromkeys(uv, 0), []
     ends = {owner: np.concatenate(([0], np.cumsum(division.count**2))) for owner, division in divisions.items()}
     for item in placed:
@@ -56,8 +60,13 @@ def stand_ins(placed: list[Placed], divisions: dict, uv: dict, turned: set) -> l
             counted[owner] += count
             first, last = ends[owner][[part.start, part.stop]]
             made.append(StandIn(owner, item.mesh, matrix, divisions[owner].count[part], uv[owner][first:last],
-                                owner in turned, not instance))
+                                owner in turned, not instance, _of_its_own(undeformed, owner, item.mesh, instance)))
     return made
+
+
+def _of_its_own(undeformed: dict, owner: int, mesh: LocalMesh, instance: bool) -> np.ndarray | None:
+    found = undeformed.get(owner)
+    return None if instance or found is None or len(found) != len(mesh.positions) else found
 
 
 def new_object(source: bpy.types.Object, stand: StandIn, mesh: bpy.types.Mesh) -> bpy.types.Object:
@@ -79,6 +88,9 @@ def new_object(source: bpy.types.Object, stand: StandIn, mesh: bpy.types.Mesh) -
         obj = bpy.data.objects.new(UV_MAP, mesh)
         obj.pass_index, obj.color = source.pass_index, source.color
     obj.matrix_world = Matrix(stand.matrix.tolist())
+    if stand.undeformed is not None:
+        triangles = stand.mesh.triangles[:, _joined(stand)]
+        keep_undeformed(obj, _vertices(stand.undeformed, triangles, divided(stand.count))[0])
     return obj
 
 
@@ -105,10 +117,8 @@ def new_meshes(stands: list[StandIn]) -> Steps[list]:
 def new_mesh(stand: StandIn) -> bpy.types.Mesh:
     """The mesh as parts of triangles, each with room of its own in the picture."""
     local, division = stand.mesh, divided(stand.count)
-    # a transform that turns space inside out turns triangles over, in Blender as in the joined scene
-    inside_out = np.linalg.det(stand.matrix[:3, :3]) < 0.0
-    joined = (0, 2, 1) if inside_out else (0, 1, 2)
-    order = (0, 2, 1) if inside_out != stand.turned else (0, 1, 2)
+    joined = _joined(stand)
+    order = joined if not stand.turned else joined[:1] + joined[:0:-1]
     positions, vertices = _vertices(local.positions, local.triangles[:, joined], division)
     corners = local.corners[:, joined]
     uv_maps = [entry for entry in in_order(local.uv_maps, local.active_uv) if entry[0] != UV_MAP]
@@ -128,6 +138,12 @@ def new_mesh(stand: StandIn) -> bpy.types.Mesh:
     mesh.use_auto_texspace = False
     mesh.texspace_location, mesh.texspace_size = local.texture_space
     return mesh
+
+
+def _joined(stand: StandIn) -> tuple[int, ...]:
+    """The order of a triangle's corners in the joined scene: a transform that turns space inside out turns triangles
+    over, there as in Blender."""
+    return (0, 2, 1) if np.linalg.det(stand.matrix[:3, :3]) < 0.0 else (0, 1, 2)
 
 
 def _vertices(positions: np.ndarray, triangles: np.ndarray, division: Division) -> tuple[np.ndarray, np.ndarray]:

@@ -13,10 +13,11 @@ from ...core import View
 from .. import compat
 from ..faults import still_there
 from ..reading import is_opaque, materials_of
-from ..rendering import copied_scene, denoise, look_through, rendered
+from ..rendering import copied_scene, denoise, look_through, put_swift_world, rendered
 
 MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
-COVERAGE_SAMPLES = 64
+COVERAGE_SAMPLES = 64  # where a result ends; elsewhere as few tell that it does not
+INNER_SAMPLES, UNEVEN = 8, 0.01
 PLAIN_WHITE, ROLLED_OFF_WHITE = 1.0, 8.0
 
 
@@ -67,9 +68,8 @@ class LightScene:
         something stands before them. What mirrors are not alone in has to be asked."""
         scene, layer = self.scene, self.scene.view_layers[0]
         stage, others = (bpy.data.collections.new(name) for name in ("Reflection Light", "Reflection Light Others"))
-        opaque = bpy.data.materials.new("Reflection Light Opaque")
+        opaque = _white()
         # no more than whether something is there is asked: no texture, no lamp, no sky
-        compat.use_nodes(opaque).nodes.clear()
         layer.material_override, scene.world = opaque, None
         made: list = [opaque]
         try:
@@ -87,6 +87,8 @@ class LightScene:
                 stage.objects.link(made[-1])
             cycles = scene.cycles
             cycles.samples, cycles.max_bounces, cycles.use_denoising = COVERAGE_SAMPLES, 0, False
+            cycles.use_adaptive_sampling = True
+            cycles.adaptive_min_samples, cycles.adaptive_threshold = INNER_SAMPLES, UNEVEN
             scene.render.film_transparent, scene.render.use_persistent_data = True, False
             return rendered(scene)[..., 3]
         finally:
@@ -98,6 +100,7 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
     """The user's scene as a copy that shares its objects; results are hidden in it, their mirrors seen."""
     with copied_scene(context, "Reflection Light") as (scene, back):
         _prepare(scene, window)
+        put_swift_world(scene, back)
         look_through(scene, _sharp_camera(context.scene.camera), back)
         for result in results:
             back.callback(setattr, result, "hide_render", result.hide_render)
@@ -159,6 +162,16 @@ def _sharp_camera(camera: bpy.types.Object) -> bpy.types.Object:
     copy, copy.data = camera.copy(), camera.data.copy()
     copy.data.dof.use_dof = False
     return copy
+
+
+def _white() -> bpy.types.Material:
+    """A material as bright as nothing is dark, so that adaptive sampling finds where both meet."""
+    made = bpy.data.materials.new("Reflection Light Opaque")
+    tree = compat.use_nodes(made)
+    tree.nodes.clear()
+    glow, output = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("Emission", "OutputMaterial"))
+    tree.links.new(glow.outputs[0], output.inputs[0])
+    return made
 
 
 def _stand_in(result: bpy.types.Object, material: bpy.types.Material) -> bpy.types.Object:

@@ -2,5 +2,7 @@
 from .cycles_pictures import denoise, rendered, with_cycles
 from .neighbours import grown, sum_around
 from .scene_copies import copied_scene, look_through
+from .swift_world import put_swift_world
 
-__all__ = ["copied_scene", "denoise", "grown", "look_through", "rendered", "sum_around", "with_cycles"]
+__all__ = ["copied_scene", "denoise", "grown", "look_through", "put_swift_world", "rendered", "sum_around",
+           "with_cycles"]

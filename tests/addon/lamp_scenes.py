@@ -131,6 +131,25 @@ def scene_of(context: bpy.types.Context, source: str = "", mirror: str = "") -> 
     return wall
 
 
+def shine(scene, width: int = 0, kind: str = "ShaderNodeTexEnvironment") -> bpy.types.World:
+    """A world that is bright to one side; of an image with a sun as wide as ours where it is `width` pixels wide."""
+    world = scene.world
+    if bpy.app.version < (5, 0, 0):
+        world.use_nodes = True
+    tree = world.node_tree
+    node = tree.nodes.new(kind if width else "ShaderNodeTexGradient")
+    if width:
+        pixels = np.full((width // 2, width, 4), (0.2, 0.3, 0.5, 1.0), dtype=np.float32)
+        rows, columns = (slice(int(0.68 * size), int(0.68 * size) + max(1, round(width * 0.53 / 360.0)))
+                         for size in pixels.shape[:2])
+        pixels[rows, columns, :3] = 3e4
+        node.image = bpy.data.images.new("Sky", width, width // 2, float_buffer=True)
+        node.image.pixels.foreach_set(pixels.ravel())
+        node.image.pack()
+    link(tree, node.outputs["Color"], next(one for one in tree.nodes if one.type == "BACKGROUND").inputs["Color"])
+    return world
+
+
 def plain_scene() -> bpy.types.Object:
     """A box that emits what it shows before a wall mirror that shows all of it: nothing that lamps change; returns the
     mirror."""

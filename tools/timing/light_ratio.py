@@ -3,7 +3,8 @@
     python -m tools.timing.light_ratio [room bathroom pond] [--rounds 3] [--side 512] [--samples 64]
 
 Both in turn, in processor seconds of all cores: machines are noisy, and the medians of a few rounds are compared.
-Cycles renders the mirrors as the file has them, without the reflections, and does not denoise.
+Cycles renders the mirrors as the file has them, without the reflections: once without denoising, and once with the
+denoiser that light has, which is what Blender does by default.
 """
 from __future__ import annotations
 
@@ -11,6 +12,7 @@ import argparse
 import statistics
 import sys
 import time
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -19,7 +21,7 @@ from tools import extension_zip
 from tools.quietly import quietly
 
 SAMPLES = ("room", "bathroom", "pond")
-ROWS = ("sample", "window", "Cycles s", "light s", "ratio", "stages s")
+ROWS = ("sample", "window", "Cycles s", "denoised s", "light s", "ratio", "ratio to denoised", "stages s")
 
 
 def main(arguments: list[str]) -> int:
@@ -42,6 +44,7 @@ def measured(name: str, options: argparse.Namespace) -> tuple[str, ...]:
     from bl_ext.user_default.reflection_mesh.addon.lighting import Window
     from bl_ext.user_default.reflection_mesh.addon.operators.light import _on_the_mirror, lighting
     from bl_ext.user_default.reflection_mesh.addon.reading import read_view
+    from bl_ext.user_default.reflection_mesh.addon.rendering import denoise
     bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{name}.blend"))
     scene = bpy.context.scene
     scene.render.resolution_x = scene.render.resolution_y = options.side
@@ -50,11 +53,12 @@ def measured(name: str, options: argparse.Namespace) -> tuple[str, ...]:
     results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"]
     window = Window.around(read_view(bpy.context), np.concatenate([_on_the_mirror(result) for result in results]))
     assert window is not None
-    cycles, stages, lights = [], {}, []
+    cycles, denoised, stages, lights = [], [], {}, []
     for _ in range(options.rounds):
         for result in results:
             result.hide_render = True
         cycles.append(_render(scene, window, options.samples))
+        denoised.append(_render(scene, window, options.samples, denoise))
         for result in results:
             result.hide_render = False
         begun, stage = time.process_time(), "Reading the scene"
@@ -66,17 +70,21 @@ def measured(name: str, options: argparse.Namespace) -> tuple[str, ...]:
             begun, stage = now, str(told)
         now = time.process_time()
         stages[stage], lights[-1] = stages.get(stage, 0.0) + (now - begun) / options.rounds, lights[-1] + now - begun
-    one, other = statistics.median(cycles), statistics.median(lights)
+    one, two, other = (statistics.median(each) for each in (cycles, denoised, lights))
     told = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in stages.items())
-    return (name, f"{window.width} x {window.height}", f"{one:.2f}", f"{other:.2f}", f"{other / one:.2f}", told)
+    return (name, f"{window.width} x {window.height}", f"{one:.2f}", f"{two:.2f}", f"{other:.2f}",
+            f"{other / one:.2f}", f"{other / two:.2f}", told)
 
 
-def _render(scene, window, samples: int) -> float:
-    """Processor seconds of a render of the window as the file has it, without denoising."""
+def _render(scene, window, samples: int, denoise: Callable | None = None) -> float:
+    """Processor seconds of a render of the window as the file has it, with what makes its settings denoise, or without
+    denoising."""
     import bpy
     copy = scene.copy()
     try:
         copy.cycles.samples, copy.cycles.use_denoising = samples, False
+        if denoise is not None:
+            denoise(copy.cycles)
         render, (width, height) = copy.render, window.size
         render.engine = "CYCLES"
         render.use_border = render.use_crop_to_border = True

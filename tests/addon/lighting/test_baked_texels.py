@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from lamp_scenes import link, picture, principled, psnr, scene_of
+from lamp_scenes import link, picture, principled, psnr, scene_of, shader_of
 
 
 def light(samples: int = 64) -> None:
@@ -88,6 +88,62 @@ def test_a_pattern_goes_on_where_triangles_meet(blank, room, shining):
     parts.generate()
     light()
     assert psnr(picture(room), reference) > 36.0
+
+
+def test_halves_of_a_quad_lie_side_by_side(room):
+    """Against the corners themselves: where two triangles of a rectangle meet in space, they meet in the picture; what
+    is no parallelogram has room of its own."""
+    rng = np.random.default_rng(4)
+    quads = np.zeros((40, 4, 3))
+    sides = rng.normal(size=(2, 40, 3)) * np.exp(rng.normal(size=(2, 40, 1)))
+    along = (sides[0] * sides[1]).sum(axis=1, keepdims=True) / (sides[0]**2).sum(axis=1, keepdims=True)
+    sides[1] -= along * sides[0]
+    quads[:, 1], quads[:, 2], quads[:, 3] = sides[0], sides[0] + sides[1], sides[1]
+    quads[::8] = np.array(((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)))
+    kites = quads[:10] + 0.3 * rng.normal(size=(10, 4, 3))
+    kites[:, 3] += kites[:, 0] - kites[:, 2]
+    for corners in (quads, kites):
+        split = np.array(((0, 1, 2), (2, 3, 0)))
+        triangles = corners[:, split].reshape(-1, 3, 3)
+        places = room("addon.baking.atlas").packed(triangles, 20.0)
+        one, other = places.spots[::2], places.spots[1::2]
+        # corners 0 and 2 are ends of the diagonal
+        apart = np.linalg.norm(one[:, (0, 2)] - other[:, (2, 0)], axis=2).max(axis=1)
+        assert (apart < 1e-3).all() if corners is quads else (apart > 0.9).all()
+        owner = np.full((places.size, places.size), -1)
+        for number, spots in enumerate(places.spots):
+            rows, columns = np.mgrid[:places.size, :places.size] + 0.5
+            turns = [(end[0] - start[0]) * (rows - start[1]) - (end[1] - start[1]) * (columns - start[0])
+                     for start, end in zip(spots, np.roll(spots, -1, axis=0))]
+            # on the diagonal itself a texel is of both
+            inside = (np.array(turns) > 1e-3).all(axis=0) | (np.array(turns) < -1e-3).all(axis=0)
+            assert inside.any() and (owner[inside] == -1).all()
+            owner[inside] = number
+
+
+@pytest.mark.parametrize("patterned", [False, True])
+def test_no_diagonal_is_seen_on_a_wall_of_two_triangles(blank, room, patterned):
+    """A wall with a lamp close to it, against Cycles: where its two triangles meet it is as bright as there."""
+    made = principled("Plaster", (0.8, 0.8, 0.8), **{"Specular IOR Level": 0.0})
+    if patterned:
+        tree = made.node_tree
+        noise = tree.nodes.new("ShaderNodeTexNoise")
+        noise.inputs["Scale"].default_value = 60.0
+        link(tree, noise.outputs["Color"], shader_of(made).inputs["Base Color"])
+    card_scene(blank, made)
+    blank.scene.world.color = (0.0, 0.0, 0.0)
+    bpy.ops.object.light_add(type="POINT", location=(0.0, -7.2, 1.0))
+    lamp = blank.object
+    lamp.data.energy, lamp.visible_glossy, lamp.visible_camera = 25.0, False, False
+    card = bpy.data.objects["Card"]
+    parts.select(card, bpy.data.objects["Mirror"])
+    reference = picture(room)
+    parts.generate()
+    light()
+    error = (picture(room) - reference).mean(axis=2)[28:-6, 12:-12]
+    # noise is one pixel's, a diagonal or a blotch is that of many side by side
+    around = np.lib.stride_tricks.sliding_window_view(error, (5, 5))
+    assert np.abs(np.median(around, axis=(2, 3))).max() < 0.005
 
 
 def test_no_seam_is_seen_where_triangles_meet(blank, room):

@@ -19,6 +19,7 @@ from lamp_scenes import (
     psnr,
     scene_of,
     shader_of,
+    shine,
 )
 
 SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Glass", "Alpha",
@@ -187,6 +188,48 @@ def test_light_is_one_render_of_the_mirrors_window(blank, room, monkeypatch, mir
     assert len(asked) == 2 and asked[0][1:] == (7, blank.scene.cycles.max_bounces)
     assert asked[0][0][0] * asked[0][0][1] <= (width + 6) * (height + 6)
     assert all(bounces == 0 for *_, bounces in asked[1:])
+
+
+def test_light_waits_no_longer_for_the_world_than_its_light_needs(blank, room, monkeypatch):
+    """Cycles maps the light of the world for each render anew."""
+    scene_of(blank)
+    world = shine(blank.scene)
+    parts.generate()
+    place, asked = room("addon.lighting.light_scene"), []
+    work = place.rendered
+
+    def counted(scene):
+        asked.append(scene.world and (scene.world.cycles.sampling_method, scene.world.cycles.sample_map_resolution))
+        return work(scene)
+    monkeypatch.setattr(place, "rendered", counted)
+    bpy.ops.reflection_mesh.light(samples=1)
+    # what results cover has no sky
+    assert asked == [("MANUAL", 512), None]
+    assert set(bpy.data.worlds) == {world} and blank.scene.world == world
+
+
+def test_what_a_result_covers_is_told_finely_where_it_ends(blank, room):
+    """Against Cycles with the same samples everywhere, and sixteen times as many."""
+    scene_of(blank)
+    # edges in every direction, and none where the mirror ends
+    bpy.data.objects["Floor"].hide_render = bpy.data.objects["Floor"].hide_viewport = True
+    parts.select(bpy.data.objects["Box"], bpy.data.objects["Mirror"])
+    result = parts.generate()
+    place = room("addon.lighting.light_scene")
+    lighting, operator = room("addon.lighting"), room("addon.operators.light")
+    window = lighting.Window.around(room("addon.reading").read_view(blank), operator._on_the_mirror(result))
+    found = []
+    for finest in (False, True):
+        with lighting.light_scene(blank, [result], window) as scene, pytest.MonkeyPatch.context() as patched:
+            if finest:
+                patched.setattr(place, "COVERAGE_SAMPLES", 1024)
+                patched.setattr(place, "INNER_SAMPLES", 1024)
+            found.append(scene.coverage())
+    few, exact = found
+    ends = (exact > 0.0) & (exact < 1.0)
+    assert ends.sum() > 100 and np.abs(few - exact).max() < 0.1
+    # eight samples, as within, are 0.05 off
+    assert np.sqrt(((few - exact)[ends]**2).mean()) < 0.015
 
 
 def test_a_blender_without_the_denoiser_renders_with_noise(room):

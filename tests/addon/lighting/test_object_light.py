@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from lamp_scenes import leaves_no_trace, link, lit_state, picture, principled, psnr, scene_of
+from lamp_scenes import leaves_no_trace, link, lit_state, picture, principled, psnr, scene_of, shine
 
 # gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
 SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Alpha", "Backfacing",
@@ -28,6 +28,31 @@ def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
     lit, noise = psnr(picture(room), reference), psnr(other, reference)
     assert lit > min(38.0, noise - 1.5)
     assert lit > before + 6.0
+
+
+@pytest.mark.parametrize("by", ["modifier", "shape key"])
+def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflected(blank, room, by):
+    """A box that is bent, with a pattern that lies on it as before."""
+    scene_of(blank, "Generated")
+    box = bpy.data.objects["Box"]
+    box.scale = (1.4, 1.4, 1.4)
+    if by == "modifier":
+        fine = box.modifiers.new("Fine", "SUBSURF")
+        fine.subdivision_type, fine.levels, fine.render_levels = "SIMPLE", 3, 3
+        stretched = box.modifiers.new("Stretched", "SIMPLE_DEFORM")
+        stretched.deform_method, stretched.factor, stretched.deform_axis = "TWIST", 3.0, "Z"
+    else:
+        box.shape_key_add(name="Basis")
+        key = box.shape_key_add(name="Larger")
+        key.data.foreach_set("co", np.array([(x, 0.7 * y + z, z - 0.8 * x) for x, y, z in (
+            vertex.co for vertex in box.data.vertices)], dtype=np.float32).ravel())
+        key.value = 1.0
+    kept = set(bpy.data.shape_keys), set(bpy.data.scenes)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    light()
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert (set(bpy.data.shape_keys), set(bpy.data.scenes)) == kept
 
 
 def test_what_catches_shadows_is_what_mirrors_show_of_it(blank, room):
@@ -65,28 +90,9 @@ def test_a_lamp_s_body_is_as_bright_as_the_mirror_shows_it(blank, room):
     assert psnr(picture(room), reference) > 40.0
 
 
-def shine(scene, width: int = 0, kind: str = "ShaderNodeTexEnvironment") -> bpy.types.World:
-    """A world that is bright to one side; of an image with a sun as wide as ours where it is `width` pixels wide."""
-    world = scene.world
-    if bpy.app.version < (5, 0, 0):
-        world.use_nodes = True
-    tree = world.node_tree
-    node = tree.nodes.new(kind if width else "ShaderNodeTexGradient")
-    if width:
-        pixels = np.full((width // 2, width, 4), (0.2, 0.3, 0.5, 1.0), dtype=np.float32)
-        rows, columns = (slice(int(0.68 * size), int(0.68 * size) + max(1, round(width * 0.53 / 360.0)))
-                         for size in pixels.shape[:2])
-        pixels[rows, columns, :3] = 3e4
-        node.image = bpy.data.images.new("Sky", width, width // 2, float_buffer=True)
-        node.image.pixels.foreach_set(pixels.ravel())
-        node.image.pack()
-    link(tree, node.outputs["Color"], next(one for one in tree.nodes if one.type == "BACKGROUND").inputs["Color"])
-    return world
-
-
 def test_a_bake_waits_no_longer_for_the_world_than_its_light_needs(blank, room):
     """Cycles maps the light of the world for each bake anew."""
-    swiftly = room("addon.baking.swift_world").swiftly_sampled
+    swiftly = room("addon.rendering.swift_world").swiftly_sampled
     scene_of(blank)
     for width, columns in ((0, 512), (512, None), (2048, 1024)):
         blank.scene.world = bpy.data.worlds.new("World")

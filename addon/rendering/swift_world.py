@@ -1,5 +1,7 @@
-"""Worlds whose light Cycles is soon ready to sample: it makes a map of where they are bright for each bake anew."""
+"""Worlds whose light Cycles is soon ready to sample: it maps where they are bright for each render and bake anew."""
 from __future__ import annotations
+
+from contextlib import ExitStack
 
 import bpy
 
@@ -8,6 +10,16 @@ from ..reading import all_nodes
 
 PLAIN = 512     # columns of the map of what has no image
 FINE = 1024     # of what has one: a pixel is less than the sun is wide, so that its middle lies in the sun somewhere
+
+
+def put_swift_world(scene: bpy.types.Scene, back: ExitStack) -> None:
+    """Let a temporary scene have its world as `swiftly_sampled`, as long as the stack is open."""
+    if scene.world is None:
+        return
+    world = swiftly_sampled(scene.world)
+    if world is not scene.world:
+        back.callback(bpy.data.worlds.remove, world)
+        scene.world = world
 
 
 def swiftly_sampled(world: bpy.types.World) -> bpy.types.World:
