@@ -31,6 +31,7 @@ from .whole_faces import Seamed
 
 BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
 OFF_MIRROR = 1e-6  # of the size of what is seen of it: how far from it a place may lie
+CORNERS_AT_ONCE = 1 << 17  # before whoever waits has a turn
 ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the caustic
 
 
@@ -167,7 +168,10 @@ def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np
         Of the sources' triangles, component and corner first.
     """
     away = doubled_areas(mirror_map.view.pixels(seen.T)[nodes]) < 0.0
-    height = dot(area_normals(corners)[:, None], last[:, nodes.T] - corners).sum(axis=0)
+    breathe()
+    above = last[:, nodes.T] - corners
+    breathe()
+    height = dot(area_normals(corners)[:, None], above).sum(axis=0)
     return away != (height < 0.0)
 
 
@@ -195,10 +199,11 @@ def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, 
     share it: such a corner becomes a vertex of its own, in the same place of the picture, with the point of the rim.
     """
     corner = triangles.ravel()
-    rim = rows(met.positions[frames.vertices[:, column]])
-    breathe()
-    own = (rim * weights).sum(axis=1)
-    breathe()
+    own = np.empty((3, len(corner)))
+    for start in range(0, len(corner), CORNERS_AT_ONCE):
+        some = slice(start, start + CORNERS_AT_ONCE)
+        own[:, some] = (rows(met.positions[frames.vertices[:, column[some]]]) * weights[:, some]).sum(axis=1)
+        breathe()
     size = np.ptp(met.positions[frames.vertices.ravel()], axis=0).max() if len(corner) else 0.0
     beside = np.flatnonzero(norm(own - point[:, corner]) > BESIDE * size)
     breathe()
@@ -224,7 +229,9 @@ def _on_mirror(mirror_map: MirrorMap, face: np.ndarray, triangles: np.ndarray, s
     owner = np.zeros(seen.shape[1], dtype=np.int64)
     owner[triangles.ravel()] = np.repeat(face, 3)
     room = OFF_MIRROR * np.ptp(seen, axis=1).max()
+    breathe()
     off = distance_from(mirror_map, owner, seen) > room
+    breathe()
     corner = np.flatnonzero(off[triangles.ravel()])
     if not len(corner):
         return seen

@@ -13,10 +13,12 @@ from .cameras import INSIDE, MirrorMap, drawn_in, settle
 from .culling import SceneTree, first_crossed
 from .geometry import TriangleMesh, View, norm, rows, unit
 from .result import ReflectionMesh, place
+from .support import breathe
 
 STEPS = 3  # of Newton's method, before an image is looked for on other triangles of the mirror
 LOOKS = 4  # times that images are followed between two looks for one that is lost
 LIFTED = 3e-3  # of the viewing distance: faces that leave the mirror's triangles would sink behind its edges
+AT_ONCE = 1 << 15  # images, before whoever waits has a turn
 CLOSE = 1e-3  # of its viewing distance: where the ray of an image that was found may pass its point
 
 
@@ -73,6 +75,7 @@ class FollowedImages:
         source[corner], weights[corner] = np.repeat(mesh.source_face, 3), mesh.source_weights.reshape(-1, 3)
         face[corner] = np.repeat(mesh.mirror_face, 3)
         places = rows(mesh.mirror_position)
+        breathe()
         unknown = np.flatnonzero(face < 0)
         if len(unknown):
             # of faces that span several triangles of the mirror
@@ -85,36 +88,55 @@ class FollowedImages:
             near = np.zeros(count, dtype=np.int64)
             np.maximum.at(near, corner, np.repeat(face[mesh.triangles].max(axis=1), 3))
             face = np.where(face >= 0, face, near)
+        breathe()
         mirror_map = MirrorMap(view, mirror)
+        breathe()
         uv = drawn_in(mirror_map.coordinates(face, places))
+        breathe()
         distance = norm(rows(mesh.reflected_position) - places) / norm(mirror_map.arriving(places))
         return cls(source, rows(weights), face, uv, distance, np.zeros(count, dtype=bool))
 
     def seen(self, view: View, mirror: TriangleMesh, scene: TriangleMesh, placement: str) -> Followed:
         """Where the view sees the images now, in a mirror and a scene of as many triangles as before."""
-        corners = scene.positions[scene.triangles[self.source]]
-        points = rows(np.einsum("kn,nkc->nc", self.weights, corners))
         mirror_map = MirrorMap(view, mirror)
-        uv, s = mirror_map.locate(self.face, self.uv, self.distance, points, STEPS)
-        face, found = self.face.copy(), np.minimum(uv.min(axis=0), 1.0 - uv.sum(axis=0)) >= -INSIDE
-        # most of what is lost stays so, and costs the longest walks
-        turn = np.arange(len(found)) % LOOKS == self.times % LOOKS
-        near = np.flatnonzero(~found & (turn | ~self.lost))
-        face[near], uv[:, near], s[near], found[near] = settle(
-            mirror_map, face[near], uv[:, near], s[near], points[:, near])
-        origin, ray = mirror_map.leave(face, uv)
-        lost = ~(found & (s > 0.0) & (norm(origin + s * ray - points) < CLOSE * norm(ray)))
-        uv = np.where(lost, drawn_in(np.nan_to_num(uv)), uv)
-        seen = mirror_map.places(face, uv)
-        path = norm(points - seen)
-        s = np.where(lost, path / norm(mirror_map.arriving(seen)), s)
+        breathe()
+        face, uv, s, points, seen = (np.empty_like(self.face), np.empty_like(self.uv), np.empty_like(self.distance),
+                                     np.empty_like(self.weights), np.empty_like(self.weights))
+        lost, path = np.empty_like(self.lost), np.empty_like(self.distance)
+        for first in range(0, len(face), AT_ONCE):
+            some = slice(first, first + AT_ONCE)
+            points[:, some] = self._points(scene, some)
+            face[some], uv[:, some], s[some], lost[some] = self._found(mirror_map, points[:, some], some)
+            seen[:, some] = mirror_map.places(face[some], uv[:, some])
+            path[some] = norm(points[:, some] - seen[:, some])
+            s[some] = np.where(lost[some], path[some] / norm(mirror_map.arriving(seen[:, some])), s[some])
+            breathe()
         positions = place(view, seen, path, placement)
+        breathe()
         if placement == "LAYERED" and len(path):
             # towards the eye, who sees no difference
             ahead = view.directions(positions.T).T
             positions = positions - LIFTED * (np.ptp(seen, axis=1).max() if view.orthographic else 1.0) * ahead
         images = replace(self, face=face, uv=uv, distance=s, lost=lost, times=self.times + 1)
         return Followed(images, positions.T, points.T, seen.T, path, lost)
+
+    def _points(self, scene: TriangleMesh, some: slice) -> np.ndarray:
+        """Where some of the points are now, (3, n)."""
+        corners = scene.positions[scene.triangles[self.source[some]]]
+        return rows(np.einsum("kn,nkc->nc", self.weights[:, some], corners))
+
+    def _found(self, mirror_map: MirrorMap, points: np.ndarray, some: slice) -> tuple[np.ndarray, ...]:
+        """The triangle of the mirror, the place in it and the distance of some of the images, and which are lost."""
+        uv, s = mirror_map.locate(self.face[some], self.uv[:, some], self.distance[some], points, STEPS)
+        face, found = self.face[some].copy(), np.minimum(uv.min(axis=0), 1.0 - uv.sum(axis=0)) >= -INSIDE
+        # most of what is lost stays so, and costs the longest walks
+        turn = (some.start + np.arange(len(found))) % LOOKS == self.times % LOOKS
+        near = np.flatnonzero(~found & (turn | ~self.lost[some]))
+        face[near], uv[:, near], s[near], found[near] = settle(
+            mirror_map, face[near], uv[:, near], s[near], points[:, near])
+        origin, ray = mirror_map.leave(face, uv)
+        lost = ~(found & (s > 0.0) & (norm(origin + s * ray - points) < CLOSE * norm(ray)))
+        return face, np.where(lost, drawn_in(np.nan_to_num(uv)), uv), s, lost
 
 
 @dataclass(frozen=True)

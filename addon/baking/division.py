@@ -7,13 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import breathe
+from ...core.geometry import ranges, shares
 
 ACROSS = 8.0    # texels along a part's legs at the most
 MOST_ALONG = 256  # parts along a triangle's side
 STEPS = 2.0     # places along what is seen, to one part of what it is seen of
 MOST_STEPS = 64
-CHUNK = 1 << 12  # parts, or faces, at once
-PLACES = 1 << 18  # on faces, at once
+PLACES = 1 << 18  # on faces, or in the boxes of parts, at once
+SLACK = 1e-4    # of a part's sides: what lies on its border is in it
 
 
 @dataclass(frozen=True)
@@ -88,28 +89,27 @@ def parts_along(spots: np.ndarray, widest: float) -> np.ndarray:
 def enlarged(small: np.ndarray, large: np.ndarray, known: np.ndarray, start: np.ndarray, end: np.ndarray) -> None:
     """Write into a picture `large`, where nothing is `known` (side, side), what `small` tells, linearly between its
     texels, of parts that have their corners (p, 3, 2) in it at `start`, and in `large` at `end`, counted in texels."""
-    for first in range(0, len(start), CHUNK):
-        begin, finish = start[first:first + CHUNK], end[first:first + CHUNK]
-        low = np.floor(finish.min(axis=1) - 0.5)
-        across = int((np.ceil(finish.max(axis=1)) - low).max()) + 1
-        step = np.arange(across)
-        texels = low[:, None] + np.stack(np.meshgrid(step, step), axis=-1).reshape(-1, 2)
-        sides = np.stack((finish[:, 1] - finish[:, 0], finish[:, 2] - finish[:, 0]), axis=1)
-        offset = texels + 0.5 - finish[:, None, 0]
-        turn = sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            along = (offset[..., 0] * sides[:, 1, 1, None] - offset[..., 1] * sides[:, 1, 0, None]) / turn[:, None]
-            up = (offset[..., 1] * sides[:, 0, 0, None] - offset[..., 0] * sides[:, 0, 1, None]) / turn[:, None]
-        inside = (along >= -1e-4) & (up >= -1e-4) & (along + up <= 1.0 + 1e-4)
-        part, place = np.nonzero(inside)
-        column, row = texels[part, place].astype(np.int64).T
-        weights = np.stack((along[part, place], up[part, place]), axis=1)
-        weights = np.column_stack((1.0 - weights.sum(axis=1), weights))
-        open_ = ((column >= 0) & (row >= 0) & (column < len(large)) & (row < len(large)))
-        open_[open_] = ~known[row[open_], column[open_]]
-        at = np.einsum("nk,nkc->nc", weights[open_], begin[part[open_]])
-        large[row[open_], column[open_]] = _between(small, at)
-        known[row[open_], column[open_]] = True
+    low = np.maximum(np.floor(end.min(axis=1) - 0.5).astype(np.int64), 0)
+    wide, high = np.maximum(np.minimum(np.ceil(end.max(axis=1)).astype(np.int64) + 1, len(large)) - low, 0).T
+    along, up = end[:, 1] - end[:, 0], end[:, 2] - end[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # to the places along both sides
+        back = np.stack((up[:, 1], -up[:, 0], -along[:, 1], along[:, 0])) / (along[:, 0] * up[:, 1] - along[:, 1]
+                                                                            * up[:, 0])
+    # a strip may be thousands of texels long, and few wide
+    for some in shares(wide * high, PLACES):
+        breathe()
+        step, part = ranges(np.zeros(some.stop - some.start, dtype=np.int64), (wide * high)[some])
+        part += some.start
+        column, row = low[part, 0] + step % wide[part], low[part, 1] + step // wide[part]
+        away, above = column + 0.5 - end[part, 0, 0], row + 0.5 - end[part, 0, 1]
+        second = back[0, part] * away + back[1, part] * above
+        third = back[2, part] * away + back[3, part] * above
+        open_ = (second >= -SLACK) & (third >= -SLACK) & (second + third <= 1.0 + SLACK) & ~known[row, column]
+        column, row, part, second, third = (of[open_] for of in (column, row, part, second, third))
+        weights = np.column_stack((1.0 - second - third, second, third))
+        large[row, column] = _between(small, np.einsum("nk,nkc->nc", weights, start[part]))
+        known[row, column] = True
 
 
 def _between(picture: np.ndarray, at: np.ndarray) -> np.ndarray:

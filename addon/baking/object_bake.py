@@ -118,7 +118,9 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
                 picture = stage.bake(number, (width, height), seen.seen_from[number], bool(seen.one_eye[number]), few,
                                      denoised)
                 colours = stage.colours(number, (width, height), few) if denoised else None
-                found[number, back] = own.picture(level, back, picture, found.get((number, back)), colours)
+                found[number, back] = yield from part(
+                    in_steps(partial(own.picture, level, back, picture, found.get((number, back)), colours)),
+                    done / whole, 0.0, PREPARING)
                 done += own.texels(level, None)
     return found
 

@@ -16,7 +16,7 @@ SHARPEST = 0.9  # quantile of the pixels of an object that have no more than one
 SOLID = 0.1     # of a closed object's picture: where fronts are more of it they hide the backs
 HAIR = 0.01     # of an object's picture: what outlines show of a side that is hidden
 OUTSIDE = 1e-6  # of a pixel that the camera sees: what one beside the picture tells
-FEW = 64        # sources: each is baked by itself, and Blender takes half a second and more for each
+FEW = 16        # sources: each is baked by itself, and takes two seconds and more; a picture of all takes twenty
 UNSEEN = 0.5    # of the others' middle density, where nothing of an object is seen
 
 

@@ -15,16 +15,17 @@ from .own_caustics import (
     bring_back_abandoned,
     leave_out_own_caustics,
     leaves_out,
+    leaves_out_any,
     let_lamps_light_mirrors,
     makes_own_caustics,
 )
 from .tint import Tint
-from .transparent_layers import bring_back_layers, follow_layers
+from .transparent_layers import bring_back_layers, follow_layers, raises_layers
 from .write_caustics import Caustic, caustics_object, places_kept, results_with, write_caustics
 
 __all__ = ["Caustic", "Eye", "MirrorPart", "NoLight", "Tint", "adds_light", "blockers_of", "blocking",
            "bring_back_abandoned", "bring_back_layers", "caustic_arrays", "caustics_object", "chosen_lamps", "eyes_of",
            "follow_lamp", "follow_layers", "forget_added_light", "has_a_size", "is_glint", "leave_out",
-           "leave_out_own_caustics", "leaves_out", "let_lamps_light_mirrors", "light_of_nodes", "lights_renders",
-           "makes_own_caustics", "meant_lamps", "parts_of", "places_kept", "radiance_of", "results_with",
-           "write_caustics"]
+           "leave_out_own_caustics", "leaves_out", "leaves_out_any", "let_lamps_light_mirrors", "light_of_nodes",
+           "lights_renders", "makes_own_caustics", "meant_lamps", "parts_of", "places_kept", "radiance_of",
+           "raises_layers", "results_with", "write_caustics"]

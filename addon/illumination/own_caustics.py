@@ -85,6 +85,11 @@ def bring_back_abandoned() -> bool:
     return any((abandoned, lost, forget_lost_glints()))
 
 
+def leaves_out_any() -> bool:
+    """Whether some mirror of the file is left out, as far as collections tell: a look, and no search for lamps."""
+    return any(_MARK in collection and collection.library is None for collection in bpy.data.collections)
+
+
 def leaves_out(lamp: bpy.types.Object, mirror: bpy.types.Object) -> bool:
     """Whether a lamp does not light a mirror because its caustics are a mesh."""
     collection = lamp.light_linking.receiver_collection

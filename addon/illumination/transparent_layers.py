@@ -50,6 +50,11 @@ def bring_back_layers() -> bool:
     return bool(found)
 
 
+def raises_layers() -> bool:
+    """Whether the number is raised in some scene."""
+    return any(_KEPT in scene for scene in bpy.data.scenes)
+
+
 def _set(scene: bpy.types.Scene, count: int, whole: AllOrNothing) -> None:
     cycles, kept = scene.cycles, scene.get(_KEPT)
     bounces = cycles.transparent_max_bounces

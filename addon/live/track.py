@@ -2,15 +2,42 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import bpy
 import numpy as np
 
 from ...core import FollowedImages, ReflectionMesh, TriangleMesh, View
+from ...core.following import Followed
 from ..freshness import COARSE
 from ..writing import vertices_written
 
 ATTRIBUTES = ("reflected_position", "mirror_position", "path_length")
+
+
+class Written(NamedTuple):
+    """Objects that show one result, without anything of Blender's, which may go.
+
+    Attributes
+    ----------
+    results : tuple of int
+        `session_uid` of the result and of its copies: what has a name may be renamed, and what is pointed to may go.
+    vertices : tuple of int
+        How many each has.
+    mirror : int
+        The same of the mirror.
+    placement : str
+    """
+
+    results: tuple[int, ...]
+    vertices: tuple[int, ...]
+    mirror: int
+    placement: str
+
+    @classmethod
+    def of(cls, objects: list, mirror: bpy.types.Object, placement: str) -> Written:
+        return cls(tuple(obj.session_uid for obj in objects), tuple(len(obj.data.vertices) for obj in objects),
+                   mirror.session_uid, placement)
 
 
 @dataclass(frozen=True)
@@ -19,11 +46,8 @@ class Track:
 
     Attributes
     ----------
-    results : tuple of int
-        `session_uid` of the result and of its copies: what has a name may be renamed, and what is pointed to may go.
-    mirror : int
-        The same of the mirror.
-    placement : str
+    shown : Written
+        What shows it.
     origin : (3,) float64
         From where the positions of the mesh are told.
     images : core.FollowedImages
@@ -32,38 +56,43 @@ class Track:
         How many the mirror and the scene have.
     """
 
-    results: tuple[int, ...]
-    mirror: int
-    placement: str
+    shown: Written
     origin: np.ndarray
     images: FollowedImages
     triangles: tuple[int, int]
 
+    @property
+    def mirror(self) -> int:
+        """The mirror's `session_uid`."""
+        return self.shown.mirror
+
     @classmethod
-    def of(cls, written: list, result: ReflectionMesh, placement: str, view: View, mirror: TriangleMesh,
-           scene: TriangleMesh) -> Track | None:
-        """The way of a result that was written just now, to the objects `written`; None where it cannot be followed: it
-        shows mirrors in mirrors, or points."""
+    def of(cls, shown: Written, result: ReflectionMesh, view: View, mirror: TriangleMesh, scene: TriangleMesh
+           ) -> Track | None:
+        """The way of a result that was written just now; None where it cannot be followed: it shows mirrors in mirrors,
+        or points. Works on arrays alone."""
         if result.discs is not None or (result.bounces > 1).any():
             return None
         result, origin = vertices_written(result, mirror, view)
-        if any(len(result.positions) != len(obj.data.vertices) for obj in written):
+        if any(len(result.positions) != count for count in shown.vertices):
             return None
         images = FollowedImages.of(view, mirror, result)
-        return cls(tuple(obj.session_uid for obj in written), written[0].reflection_mesh.mirror.session_uid, placement,
-                   origin, images, (len(mirror.triangles), len(scene.triangles)))
+        return cls(shown, origin, images, (len(mirror.triangles), len(scene.triangles)))
 
     def fits(self, objects: dict, mirror: TriangleMesh, scene: TriangleMesh) -> bool:
         """Whether the results, by their `session_uid`, are still those that were written, and what they show has not
         changed but for its place."""
-        results = [objects.get(uid) for uid in self.results]
+        results = [objects.get(uid) for uid in self.shown.results]
         return (all(obj is not None and len(obj.data.vertices) == self.images.source.size for obj in results)
                 and (len(mirror.triangles), len(scene.triangles)) == self.triangles)
 
-    def moved(self, objects: dict, view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Track:
-        """The results where the view sees them now, written."""
-        now = self.images.seen(view, mirror, scene, self.placement)
-        results = [objects[uid] for uid in self.results]
+    def seen(self, view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Followed:
+        """Where the view sees the vertices now; works on arrays alone."""
+        return self.images.seen(view, mirror, scene, self.shown.placement)
+
+    def written(self, objects: dict, now: Followed) -> Track:
+        """The results, by their `session_uid` among `objects`, with their vertices where these are seen now."""
+        results = [objects[uid] for uid in self.shown.results]
         for mesh in {obj.data for obj in results}:
             _write(mesh, "position", now.positions - self.origin)
             for name in ATTRIBUTES:

@@ -8,13 +8,11 @@ import bpy
 
 from ...core import ReflectionError, View
 from ..faults import sentence
-from ..freshness import COARSE, same_view, view_numbers
-from ..reading import known_results
-from ..standing import Kept
+from ..freshness import same_view, view_numbers
 from .eye import read_eye
+from .following import Following
 from .pace import Pace
 from .thrown import ThrownLight
-from .track import Track
 from .watched import Record, Watched, watched
 from .work import Work
 
@@ -38,13 +36,14 @@ class LiveUpdater:
     milliseconds : float
         What the last update took.
     thrown : ThrownLight
+    following : Following
     updates : dict of str to int
         How many there were: `followed`, `coarse` and `exact`.
     """
 
     def __init__(self, of_viewport: bool = False) -> None:
         self.of_viewport = of_viewport
-        self.milliseconds, self.thrown = 0.0, ThrownLight()
+        self.milliseconds, self.thrown, self.following = 0.0, ThrownLight(), Following()
         self._told, self._rests = "", False
         self.updates = {"followed": 0, "coarse": 0, "exact": 0}
         self._pace = Pace()
@@ -52,8 +51,6 @@ class LiveUpdater:
         self._record: Record | None = None  # what the results show
         self._looked: Record | None = None  # what was found at the last look
         self._changed = 0.0                 # when that was another thing than before
-        self._tracks: list[Track] = []
-        self._meshes: dict = {}             # by mirror: its mesh and the scene's, as the results show them
         self._work: Work | None = None
         self._moving: float | None = None   # since when vertices have followed
         self._took = 0.0                    # seconds that the last new results took
@@ -78,7 +75,8 @@ class LiveUpdater:
     def forget(self) -> None:
         """Let go of all that is Blender's and of what is known of the file, which may be another one now."""
         self._drop_work()
-        self._tracks, self._meshes, self._record, self._looked, self._rests = [], {}, None, None, False
+        self.following.forget()
+        self._record, self._looked, self._rests = None, None, False
         self.thrown.forget()
         self.note()
 
@@ -101,6 +99,9 @@ class LiveUpdater:
             self._drop_work()
             self._told = WAITS
             return ""
+        if self.following.is_under_way:
+            # all else waits for that
+            return self._go_on_following(context, now)
         if not (self._noted or self.of_viewport):
             if self._rests or (self._work is None and now - self._changed < PAUSE):
                 return ""
@@ -115,7 +116,7 @@ class LiveUpdater:
         if self._rests:
             return ""
         rested = now - self._changed >= PAUSE
-        if rested and self._work is not None and self._tracks and not self._work.exact:
+        if rested and self._work is not None and self.following.tracks and not self._work.exact:
             self._drop_work()
         if self._work is None:
             if not rested:
@@ -129,7 +130,8 @@ class LiveUpdater:
         self._noted = self._moved = False
         if not current.chosen:
             self._drop_work()
-            self._told, self._looked, self._record, self._tracks = NOTHING_YET, None, None, []
+            self.following.forget()
+            self._told, self._looked, self._record = NOTHING_YET, None, None
             self._rests = True
             return None
         self._told = ""
@@ -146,16 +148,8 @@ class LiveUpdater:
         if work is not None and not current.record.same(work.record) and (
                 not work.on_the_way or current.record.members != work.record.members):
             self._drop_work()
-        if self._follow(context, current):
-            self.milliseconds = 1000.0 * (time.perf_counter() - started)
-            self.updates["followed"] += 1
-            self._pace.took(time.perf_counter() - started)
-            self._moving = now if self._moving is None else self._moving
-            if self._work is None and now - self._moving > max(LONG, REST * self._took):
-                self._begin(context, current, now)
-            if self._work is not None:
-                self._go_on(context, current.view, now)
-            return "followed"
+        if self.following.begin(context, current, self._record, started):
+            return self._go_on_following(context, now)
         if self._work is None:
             self._begin(context, current, now)
         return self._go_on(context, current.view, now)
@@ -168,25 +162,26 @@ class LiveUpdater:
                         for mirror, own in settings.items()}
         self._work = Work.of(context, current, settings, on_the_way)
 
-    def _follow(self, context: bpy.types.Context, current: Watched) -> bool:
-        """Let all results follow; whether that is possible."""
-        wanted = {mirror.session_uid for group in current.chosen for mirror in group.mirrors}
-        if self._record is None or not self._tracks or {track.mirror for track in self._tracks} != wanted:
-            return False
-        if current.record.members != self._record.members:
-            # these may be another camera's results
-            self._tracks = []
-            return False
-        meshes = self._meshes
-        if current.record.digests != self._record.digests:
-            meshes = _read(context, current)
-        objects = {obj.session_uid: obj for obj in known_results(context.scene, context.view_layer)}
-        if not all(track.fits(objects, *meshes[track.mirror]) for track in self._tracks):
-            self._tracks = []
-            return False
-        self._tracks = [track.moved(objects, current.view, *meshes[track.mirror]) for track in self._tracks]
-        self._meshes, self._record = meshes, current.record
-        return True
+    def _go_on_following(self, context: bpy.types.Context, now: float) -> str:
+        """A turn of the vertices' way; what else there is to do when they have arrived."""
+        done = self.following.go_on(context)
+        if done == "lost":
+            self._noted = self._moved = True
+            return "working"
+        if done != "followed":
+            return done
+        self._record = self.following.record
+        self.milliseconds = 1000.0 * self.following.seconds
+        self.updates["followed"] += 1
+        self._pace.took(self.following.seconds)
+        self._moving = now if self._moving is None else self._moving
+        begins = self._work is None and now - self._moving > max(LONG, REST * self._took)
+        if begins or self._work is not None:
+            view = read_eye(context, self.of_viewport)
+            if begins:
+                self._begin(context, watched(context, view), now)
+            self._go_on(context, view, now)
+        return "followed"
 
     def _go_on(self, context: bpy.types.Context, view: View, now: float) -> str:
         """Some work on the next results."""
@@ -195,37 +190,22 @@ class LiveUpdater:
             return "working"
         self._work, self._moving, self._took = None, None, work.seconds
         self._told, self.milliseconds = work.told, 1000.0 * work.seconds
-        self._keep_track(work)
+        self.following.learn(work)
+        self.following.go_on(context)
         self._record, self._rests = work.record, work.exact
         kind = "exact" if work.exact else "coarse"
         self.updates[kind] += 1
-        if work.on_the_way and not self._tracks:
+        if work.on_the_way and not self.following.tracks:
             self._pace.took(work.seconds)
         current = watched(context, view)
         if current.record.same(work.record):
             return kind
         # all has moved on meanwhile, and nobody is to see where it was
         self._noted, self._moved, self._rests = True, True, False
-        self._follow(context, current)
+        if not self.following.is_under_way and self.following.begin(context, current, self._record,
+                                                                    time.perf_counter()):
+            self._go_on_following(context, now)
         return kind
-
-    def _keep_track(self, work: Work) -> None:
-        """Remember how to follow new results, if all of them can be."""
-        self._tracks, self._meshes = [], {}
-        tracks = []
-        for outcome in work.outcomes:
-            view, surfaces, scene = outcome.read
-            for obj, result in outcome.results:
-                mirror = obj.reflection_mesh.mirror
-                meshes = surfaces[mirror].mesh, scene.mesh
-                written = [obj, *(copy for copy in outcome.copies if copy.reflection_mesh.mirror == mirror)]
-                tracks.append(Track.of(written, result, work.settings[mirror.session_uid].placement, view, *meshes))
-                self._meshes[mirror.session_uid] = meshes
-                if not work.exact:
-                    for one in written:
-                        one.reflection_mesh.made_from = COARSE
-        if all(track is not None for track in tracks):
-            self._tracks = tracks
 
     def _drop_work(self) -> None:
         work, self._work = self._work, None
@@ -235,16 +215,6 @@ class LiveUpdater:
     def _give_up(self, told: str) -> str:
         """Nothing can be done before the next change."""
         self._drop_work()
-        self._tracks, self._record, self._looked, self._rests, self._told = [], None, None, True, told
+        self.following.forget()
+        self._record, self._looked, self._rests, self._told = None, None, True, told
         return ""
-
-
-def _read(context: bpy.types.Context, current: Watched) -> dict:
-    """The meshes of each mirror and of what it shows, by the mirror's `session_uid`."""
-    depsgraph = context.evaluated_depsgraph_get()
-    meshes = {}
-    for group in current.chosen:
-        stage = Kept.of(depsgraph).read(depsgraph, group.mirrors, group.diffuse)
-        meshes.update({mirror.session_uid: (surface.mesh, stage.scene.mesh)
-                       for mirror, surface in zip(group.mirrors, stage.surfaces)})
-    return meshes

@@ -13,7 +13,6 @@ from ..operators.write_results import Manners
 from .watched import Record, Watched
 
 BUDGET = 0.05   # seconds of work between two looks at what has changed
-READ = 2        # steps of a generation after which it has read what it reflects
 
 
 @dataclass
@@ -52,14 +51,15 @@ class Work:
         def of_mirror(mirror: bpy.types.Object) -> Settings:
             return settings[mirror.session_uid]
         return cls(current.record, settings, settings == current.record.settings, on_the_way,
-                   [generation(context, group, of_mirror, manners=Manners(preview_unlit=True), view=current.view)
-                    for group in current.chosen])
+                   [_reading_at_once(generation(context, group, of_mirror, manners=Manners(preview_unlit=True),
+                                                view=current.view)) for group in current.chosen])
 
     def go_on(self) -> bool:
         """Work for a while; whether all is done."""
         started = time.perf_counter()
-        steps = 0
-        while self._waiting and (steps < READ or time.perf_counter() - started < BUDGET):
+        begun = False
+        while self._waiting and not (begun and time.perf_counter() - started >= BUDGET):
+            begun = True
             try:
                 next(self._waiting[0])
             except StopIteration as stop:
@@ -69,7 +69,6 @@ class Work:
                 # what this mirror cannot show keeps none of the others
                 self.told = str(error)
                 del self._waiting[0]
-            steps += 1
         self.seconds += time.perf_counter() - started
         return not self._waiting
 
@@ -78,3 +77,9 @@ class Work:
         for steps in self._waiting:
             steps.close()
         self._waiting = []
+
+
+def _reading_at_once(steps: Steps[Outcome]) -> Steps[Outcome]:
+    """The steps of a generation, of which the first reads what is reflected, so that nothing moves in between."""
+    next(steps)
+    return (yield from steps)

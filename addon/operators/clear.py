@@ -11,6 +11,7 @@ from ..writing import close_abandoned_windows, disc_nodes, forget_collection, fo
 from . import polls
 
 IN_OBJECT_MODE = "Reflections are cleared in Object Mode: leave the present mode first."
+NOTHING_TO_CLEAR = "The scene has no reflection to clear."
 
 
 def chosen_results(context: bpy.types.Context) -> list:
@@ -93,7 +94,8 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE))
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE),
+                            polls.has_what_clears(NOTHING_TO_CLEAR))
 
     @in_one_sentence
     def execute(self, context: bpy.types.Context) -> set:
@@ -106,7 +108,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
             results, caustics = ([], caustics) if named else (results, [])
         if not results and not caustics and not _bring_back() and not any(
                 obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
-            tell(self, {"WARNING"}, "The scene has no reflection to clear.")
+            tell(self, {"WARNING"}, NOTHING_TO_CLEAR)
             return {"CANCELLED"}
         clear(context, results)
         clear_caustics(caustics)

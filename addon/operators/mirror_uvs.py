@@ -181,7 +181,8 @@ class REFLECTION_MESH_OT_mirror_uvs(UsesSettings, SteppedOperator, bpy.types.Ope
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        chosen, wanted = choose(context), self.wanted(context)
+        # maps are written on what is chosen, and on nothing else
+        chosen, wanted = choose(context, all_seen=False), self.wanted(context)
         outcome = yield from mapping(context, chosen, map_settings(wanted, chosen),
                                      Choices(self.target, self.frame, self.picture))
         self.show_used(wanted, chosen.mirrors)

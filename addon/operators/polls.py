@@ -9,7 +9,8 @@ from collections.abc import Callable
 import bpy
 from bpy.app.translations import pgettext_tip
 
-from ..reading import NO_CAMERA, NO_MIRROR
+from ..illumination import is_glint, leaves_out_any, raises_layers
+from ..reading import NO_CAMERA, NO_MIRROR, RESULTS
 
 LOOKED_THROUGH = 500    # objects: to look for roles in more takes longer than a redraw may
 Obstacle = Callable[[bpy.types.Context], str]
@@ -59,6 +60,14 @@ def has_result(sentence: str) -> Obstacle:
     return obstacle
 
 
+def has_what_clears(sentence: str) -> Obstacle:
+    """Tells `sentence` where the scene has no result, and nothing has been changed for one that is gone."""
+    def obstacle(context: bpy.types.Context) -> str:
+        there = _any(context.scene.objects, _is_made_or_window) or leaves_out_any() or raises_layers()
+        return "" if there else sentence
+    return obstacle
+
+
 def has_active(sentence: str) -> Obstacle:
     """Tells `sentence` where no object is active."""
     return lambda context: "" if context.view_layer.objects.active is not None else sentence
@@ -71,3 +80,8 @@ def _any(objects, asked: Callable[[bpy.types.Object], bool]) -> bool:
 
 def _is_result(obj: bpy.types.Object) -> bool:
     return obj.reflection_mesh.role == "REFLECTION" and obj.library is None
+
+
+def _is_made_or_window(obj: bpy.types.Object) -> bool:
+    record = obj.reflection_mesh
+    return (record.role in RESULTS and obj.library is None) or record.camera_hidden or is_glint(obj)

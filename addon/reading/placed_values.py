@@ -8,6 +8,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
+from ...core import breathe
 from .read_meshes import LocalMesh, Placed
 
 AT_ONCE = 1 << 17  # triangles: what is worked out on the way takes little memory beside the values themselves
@@ -73,6 +74,7 @@ class PlacedValues:
                 some = own[start:start + AT_ONCE]
                 place, triangle = np.divmod(flat[some] - self._starts[number], count)
                 found[some] = self._values(Part(self._placed[number], place, triangle))
+                breathe()
         found = found.reshape(rows.shape + self._shape)
         return found[(np.arange(len(rows)), *rest)] if rest else found
 

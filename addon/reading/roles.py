@@ -42,17 +42,18 @@ def participants(context: bpy.types.Context) -> tuple[list, list]:
     return chosen.mirrors, chosen.diffuse
 
 
-def choose(context: bpy.types.Context) -> Participants:
+def choose(context: bpy.types.Context, all_seen: bool = True) -> Participants:
     """As `participants`, with the objects that were left out because they are hidden.
 
     The selection decides by role. Where it gives no mirror or no diffuse object, the mirrors and sources of the results
     in it, and of the mirrors in it that have results, take part; else the objects of the view layer whose role is
-    explicit.
+    explicit. Mirrors that are selected alone, where no object is said to be reflected, show `all_seen`: whatever is
+    there, as mirrors do; without that, nothing.
     """
-    return visible(context, *candidates(context))
+    return visible(context, *candidates(context, all_seen))
 
 
-def candidates(context: bpy.types.Context) -> tuple[list, list]:
+def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list, list]:
     """The mirrors and the diffuse objects that `choose` chooses from, hidden ones among them."""
     active = context.view_layer.objects.active
     objects = [obj for obj in context.view_layer.objects if can_take_part(obj)]
@@ -67,8 +68,15 @@ def candidates(context: bpy.types.Context) -> tuple[list, list]:
     mirrors = [obj for obj in chosen if _says_mirror(obj)]
     if mirrors:
         # what is a mirror without any doubt is meant, and the roles say what it shows
-        return mirrors, [obj for obj in explicit if obj.reflection_mesh.role == "DIFFUSE" and obj not in mirrors]
+        said = [obj for obj in explicit if obj.reflection_mesh.role == "DIFFUSE" and obj not in mirrors]
+        return mirrors, said or (_others_seen(context, objects, mirrors) if all_seen else [])
     return _by_role(explicit, None)
+
+
+def _others_seen(context: bpy.types.Context, objects: list, mirrors: list) -> list:
+    """What the mirrors show of the objects that are there now."""
+    is_seen = seen_in(context)
+    return [obj for obj in objects if obj not in mirrors and is_seen(obj) and obj.visible_glossy]
 
 
 def _says_mirror(obj: bpy.types.Object) -> bool:

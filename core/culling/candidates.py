@@ -15,6 +15,7 @@ import numpy as np
 
 from ..cameras import Cameras
 from ..geometry import SceneFrames, columns, largest
+from ..support import breathe
 
 PER_PAIR = ("camera", "column", "sides", "ahead", "bend", "outlines")
 
@@ -58,7 +59,11 @@ class Candidates:
         return self._with(lambda values: columns(values, index))
 
     def _with(self, changed: Callable[[np.ndarray], np.ndarray]) -> Candidates:
-        return Candidates(self.cameras, self.frames, *(changed(getattr(self, name)) for name in PER_PAIR))
+        values = []
+        for name in PER_PAIR:
+            breathe()
+            values.append(changed(getattr(self, name)))
+        return Candidates(self.cameras, self.frames, *values)
 
     @staticmethod
     def joined(parts: Sequence[Candidates]) -> Candidates:

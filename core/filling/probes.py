@@ -63,8 +63,10 @@ def _lattice(view: View, mirror: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
 def _covered(corners: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarray:
     """Which probes a face with corners (m, 3, 2) in the picture covers."""
     places = (corners - low) / step - 0.5
+    breathe()
     first, last = (np.clip(np.nan_to_num(bound), -1, ACROSS).astype(np.int64) for bound in
                    (np.ceil(places.min(axis=1) - MARGIN / step), np.floor(places.max(axis=1) + MARGIN / step)))
+    breathe()
     first, count = np.maximum(first, 0), np.minimum(last, ACROSS - 1) + 1 - np.maximum(first, 0)
     face, covered = np.flatnonzero((count > 0).all(axis=1)), np.zeros(ACROSS * ACROSS, dtype=bool)
     for part in shares(count[face].prod(axis=1), PAIRS_AT_ONCE):

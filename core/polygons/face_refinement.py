@@ -90,9 +90,12 @@ class FaceRefinement:
         marked = np.zeros(len(ends), dtype=bool)
         a, b = ends[open_].T
         camera, column = faces.camera[face[open_]], faces.column[face[open_]]
+        breathe()
         mirror_face = self.cameras.face[camera]
         place = self._middle(nodes, a, b)
+        breathe()
         shown = 0.5 * (nodes.point[:, a] + nodes.point[:, b])
+        breathe()
         uv = self._map.coordinates(mirror_face, place)
         parts = []
         for start in range(0, max(len(column), 1), EDGES_AT_ONCE):
@@ -100,12 +103,14 @@ class FaceRefinement:
             part = slice(start, start + EDGES_AT_ONCE)
             parts.append(self._straying(mirror_face[part], uv[:, part], column[part], shown[:, part]))
         drift, error, point, distance = (np.concatenate(side, axis=-1) for side in zip(*parts))
+        breathe()
         worth = np.zeros(len(ends), dtype=bool)
         worth[edge[~self.beyond[faces.camera]]] = True
         (right, up), (other_right, other_up) = (columns(pixels.T, end) for end in (a, b))
         for one, other, size in ((right, other_right, self._view.resolution[0]),
                                  (up, other_up, self._view.resolution[1])):
             worth[open_] &= ~((np.maximum(one, other) < -MARGIN) | (np.minimum(one, other) > size + MARGIN))
+        breathe()
         drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
         length = np.sqrt((right - other_right)**2 + (up - other_up)**2)
         # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight
@@ -114,6 +119,7 @@ class FaceRefinement:
         outline = outline[open_]
         straying = np.minimum(error, length)
         chosen = (np.minimum(np.where(outline, 2.0 * drift, error), length) > tolerance) & (length > SHORTEST_EDGE)
+        breathe()
         along = np.flatnonzero(chosen & outline)
         if len(along):
             on_face, target = mirror_face[along], shown[:, along]

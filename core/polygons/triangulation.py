@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import following, parent_side, split
+from ..support import breathe
 from .clipping import Polygons
 from .convex_polygons import scene_edges
 
@@ -73,20 +74,25 @@ def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Face
     # the corner with the shortest diagonals: sum of squared distances to the corners that are not its neighbours
     spots = pixels[node_of]
     total = np.add.reduceat(spots, polygons.start[:-1], axis=0)[polygon] if len(size) else spots
+    breathe()
     squares = (spots**2).sum(axis=1)
     square_total = np.add.reduceat(squares, polygons.start[:-1])[polygon] if len(size) else squares
     before, after = start + (local - 1) % length, start + (local + 1) % length
     spread = length * squares - 2.0 * (spots * total).sum(axis=1) + square_total
+    breathe()
     spread -= ((spots - spots[before]) ** 2).sum(axis=1) + ((spots - spots[after]) ** 2).sum(axis=1)
+    breathe()
     spread = np.where(np.isnan(spread), np.inf, spread)
     bound = np.minimum.reduceat(spread, polygons.start[:-1])[polygon] if len(size) else spread
     least = np.flatnonzero(spread <= bound)
     apex = local[least[np.flatnonzero(np.diff(polygon[least], prepend=-1))]]
 
     fan, corner, step = polygons.fans(apex)
+    breathe()
     scene = scene_edges(polygons.after)
     first, last = step == 1, step + 2 == size[fan]
     edges = np.stack((scene[corner[0]] & first, scene[corner[1]], scene[corner[2]] & last), axis=1)
+    breathe()
     nodes = node_of[corner].T
     faces = Faces(nodes, polygons.camera[fan], polygons.column[fan], edges)
     a, b, c = faces.nodes.T

@@ -10,6 +10,7 @@ from ..cameras import Cameras
 from ..culling import Candidates, Cones
 from ..geometry import ranges
 from ..solver import project
+from ..support import breathe
 
 SAME_IMAGE = 1e-3  # pixels: closer images of one vertex are one image, found from both sides of a shared edge
 ROWS = 2.0**20  # of the picture and beyond, as high as that; what lies farther out is taken together
@@ -49,16 +50,22 @@ class VertexImages:
         # a crumpled mirror shows a vertex thousands of times: only rows of the picture that come near are looked at
         rows_of, asked = (np.floor(np.clip(spots[:, 1] / NEAR_IMAGE, -ROWS, ROWS)) for spots in (self.pixel, pixel))
         key, wanted = (of * 4.0 * ROWS + row for of, row in ((self.vertex, rows_of), (vertex, asked)))
+        breathe()
         order = np.argsort(key, kind="stable")
+        breathe()
         key = key[order]
         start, stop = np.searchsorted(key, wanted - 1.0), np.searchsorted(key, wanted + 1.0, side="right")
+        breathe()
         image, guess = ranges(start, stop - start)
         image = order[image]
         away = np.linalg.norm(self.pixel[image] - pixel[guess], axis=1)
+        breathe()
         own = self.camera[image] == camera[guess]
         meant = away < NEAR_IMAGE
         guess, image, away, own = guess[meant], image[meant], away[meant], own[meant]
+        breathe()
         order = np.lexsort((image, away, ~own, guess))
+        breathe()
         found, first = np.unique(guess[order], return_index=True)
         result = np.full(len(vertex), -1)
         result[found] = image[order[first]]

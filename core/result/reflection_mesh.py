@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..support import breathe
 from .discs import Discs
 
 ON_SIDE = 1e-6  # of a triangle: what lies nearer to its side lies on it
@@ -120,11 +121,17 @@ class ReflectionMesh:
         """
         if self.mirror_normals is None:
             return np.zeros(self.triangles.shape + (3,))
-        shown = np.matmul(self.source_weights, normals[self.source_face])
+        corners = normals[self.source_face]
+        breathe()
+        shown = np.matmul(self.source_weights, corners)
         for mirror in np.moveaxis(self.mirror_normals, 1, 0)[::-1]:
+            breathe()
             across = mirror[self.triangles]
+            breathe()
             shown -= 2.0 * np.einsum("fci,fci->fc", shown, across)[:, :, None] * across
+        breathe()
         length = np.sqrt(np.einsum("fci,fci->fc", shown, shown))[:, :, None]
+        breathe()
         return np.divide(shown, length, out=np.zeros_like(shown), where=length > 0.0)
 
     @property

@@ -17,8 +17,8 @@ TELLING = {"addon/faults/status_bar.py": set(), "addon/faults/stepped_operator.p
            "addon/lighting/lit_results.py": {"light_lines"}, "addon/comparison/show_comparison.py": set(),
            "addon/freshness/made_from.py": {"_changed", "difference"},
            **{path.relative_to(ROOT).as_posix(): set() for path in (ROOT / "addon" / "interface").glob("draw_*.py")}}
-SENTENCES = ("IN_OBJECT_MODE", "NOTHING_TO_LIGHT", "NO_SHEET", "NO_CAMERA", "NO_MIRROR", "NO_USD", "WAITS",
-             "NOTHING_YET")
+SENTENCES = ("IN_OBJECT_MODE", "NOTHING_TO_LIGHT", "NOTHING_TO_CLEAR", "NO_SHEET", "NO_CAMERA", "NO_MIRROR", "NO_USD",
+             "WAITS", "NOTHING_YET")
 
 
 def classes() -> list[type]:

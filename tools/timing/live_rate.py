@@ -67,7 +67,7 @@ def measured(name: str) -> list[str]:
         look()
     followed = 1000.0 * median(taken["followed"]) if "followed" in taken else None
     exact = rest()
-    updater._tracks, updater._pace.tolerance = [], 16.0
+    updater.following.tracks, updater._pace.tolerance = [], 16.0
     bpy.context.scene.camera.location.x += STEP
     bpy.context.view_layer.update()
     updater.note(False)

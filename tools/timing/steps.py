@@ -1,4 +1,4 @@
-"""The longest step of every operator on the samples: for as long the window neither draws nor hears ESC.
+"""The longest step of every operator, and of Live, on the samples: for as long the window neither draws nor hears ESC.
 
     python -m tools.timing.steps [sample or operator ...]
 
@@ -11,6 +11,7 @@ import importlib
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from tools.quietly import quietly
 ROWS = ("sample", "operator", "steps", "longest s", "in it", "longest render s")
 SAMPLES = ("sphere", "flat_mirror", "cylinder", "water", "bowl", "suzanne", "mirrors", "room", "bathroom", "pond",
            "anamorphosis", "pool", "dish", "ring", "sunlight")
+STEP, MOVES, LOOK = 0.02, 10, 0.02   # of Live: units, how often, seconds between two looks
 CAUSTIC = ("pool", "dish", "ring", "sunlight")
 # operators by what they need before them: (name, what must have run, options)
 REFLECTIONS = (
@@ -30,11 +32,13 @@ REFLECTIONS = (
     ("mirror_uvs", (), {"target": "ORIGINAL"}),
     ("compare", ("generate",), {"samples": 1, "what": "REFLECTIONS"}),
     ("bake", (), {"frames": "1", "samples": 4}),
+    ("live", ("generate",), {}),
     ("clear", ("generate",), {}))
 CAUSTICS = (
     ("caustics", (), {}),
     ("compare", ("caustics",), {"samples": 1, "what": "CAUSTICS", "converged": 8}),
     ("bake", (), {"frames": "1", "what": "CAUSTICS"}),
+    ("live", ("caustics",), {}),
     ("clear", ("caustics",), {}))
 
 
@@ -48,9 +52,7 @@ class Steps:
 
         def timed(operator) -> set | None:
             told = getattr(operator, "_progress", (0.0, ""))[1]
-            begun = time.process_time(), time.perf_counter()
-            outcome = step(operator)
-            seconds = min(time.process_time() - begun[0], time.perf_counter() - begun[1])
+            outcome, seconds = lesser(partial(step, operator))
             taken.append((seconds, isinstance(told, place.Undivided), str(told)))
             return outcome
         place.SteppedOperator._step = timed
@@ -59,6 +61,12 @@ class Steps:
         """Seconds and stage of the longest of those that can be divided, or of those that cannot."""
         return max(((seconds, stage) for seconds, whole, stage in self.taken if whole == undivided),
                    default=(0.0, ""))
+
+
+def lesser(work: Callable) -> tuple:
+    """What `work` returns, and the lesser of the clock's and the processor's seconds that it takes."""
+    begun = time.process_time(), time.perf_counter()
+    return work(), min(time.process_time() - begun[0], time.perf_counter() - begun[1])
 
 
 def main(names: list[str]) -> int:
@@ -89,7 +97,10 @@ def measured(sample: str, job: tuple, steps: Steps, scratch: Path) -> tuple[str,
     steps.taken.clear()
     begun = time.perf_counter()
     try:
-        getattr(bpy.ops.reflection_mesh, name)("EXEC_DEFAULT", **options)
+        if name == "live":
+            steps.taken += live_steps()
+        else:
+            getattr(bpy.ops.reflection_mesh, name)("EXEC_DEFAULT", **options)
     except RuntimeError as refused:
         # as maps of one mirror where there are several
         return sample, name, str(len(steps.taken)), "–", str(refused).strip().splitlines()[0], "–"
@@ -99,6 +110,38 @@ def measured(sample: str, job: tuple, steps: Steps, scratch: Path) -> tuple[str,
     what = " ".join([name, *(str(value).lower() for key, value in options.items()
                              if key in ("kind", "target", "what"))])
     return sample, what, str(len(steps.taken)), f"{seconds:.2f}", stage, f"{render:.2f}" if render else "–"
+
+
+def live_steps() -> list[tuple[float, bool, str]]:
+    """Seconds of each look of Live, and what it did: the camera moves, then what is reflected, and each time all is
+    made exact; then nothing can follow, and what is shown on the way is made anew."""
+    import bpy
+    updater = importlib.import_module(f"{extension_zip.PACKAGE}.addon.live").LiveUpdater()
+    scene, taken, now = bpy.context.scene, [], 0.0
+
+    def look(what: str) -> None:
+        nonlocal now
+        done, seconds = lesser(partial(updater.step, bpy.context, now))
+        taken.append((seconds, False, f"{what}: {done}"))
+        now += LOOK
+
+    def rest(what: str) -> None:
+        while not updater.at_rest:
+            look(what)
+
+    rest("begun")
+    source = next(obj.reflection_mesh.sources[0].object for obj in scene.objects if len(obj.reflection_mesh.sources))
+    for what, moved, follows in (("camera", scene.camera, True), ("object", source, True),
+                                 ("anew", scene.camera, False)):
+        for _ in range(MOVES):
+            if not follows:
+                updater.following.forget()
+            moved.location.x += STEP
+            bpy.context.view_layer.update()
+            updater.note()
+            look(what)
+        rest(what)
+    return taken
 
 
 if __name__ == "__main__":

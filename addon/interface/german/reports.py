@@ -28,7 +28,6 @@ DONE = {
     "{} reflections": "{} Spiegelungen",
     "the light of {} caustics": "das Licht von {} Kaustiken",
     "{} and the light of {} caustics": "{} und das Licht von {} Kaustiken",
-    "The scene has no reflection to clear.": "Die Szene hat keine Spiegelung zum Entfernen.",
     "No reflection is stale.": "Keine Spiegelung ist veraltet.",
     "The camera sees no mirror whose reflection could be judged; pictures in {}":
         "Die Kamera sieht keinen Spiegel, dessen Spiegelung sich beurteilen ließe; Bilder in {}",

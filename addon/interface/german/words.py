@@ -255,6 +255,7 @@ OBSTACLES = {
         "Die Szene hat keine Kamera: füge eine hinzu (Hinzufügen > Kamera) und mache sie zur Kamera der Szene.",
     "The scene has no reflection to light: generate one first.":
         "Die Szene hat keine Spiegelung zum Beleuchten: erzeuge zuerst eine.",
+    "The scene has no reflection to clear.": "Die Szene hat keine Spiegelung zum Entfernen.",
 }
 LIVE = {
     "Live": "Live",

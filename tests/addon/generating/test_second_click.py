@@ -58,14 +58,36 @@ def test_a_plain_object_that_was_made_a_mirror_does_too(scene):
     assert parts.generate() == result and middle(result)[0] > before[0] + 0.3
 
 
+def test_a_mirror_alone_shows_what_is_there(scene):
+    """As mirrors do, and nobody has to read what to select; what is hidden, or said to be left out, is not there."""
+    mirror, cube, result = scene
+    bpy.ops.reflection_mesh.clear()
+    ball, *others = (parts.add("uv_sphere", name, location=(1.5, -1.5, 1.0))
+                     for name in ("Ball", "Hidden", "Unseen", "Ignored"))
+    others[0].hide_set(True)
+    others[1].visible_glossy = False
+    others[2].reflection_mesh.role = "IGNORE"
+    parts.select(mirror)
+    assert bpy.ops.reflection_mesh.generate.poll()
+    made = parts.generate()
+    assert {source.object for source in made.reflection_mesh.sources} == {cube, ball}
+    # maps are written on nothing that was not chosen
+    bpy.ops.reflection_mesh.clear()
+    parts.select(mirror)
+    assert "Nothing to reflect in 'Mirror'" in parts.refusal(bpy.ops.reflection_mesh.mirror_uvs)
+    for obj in (cube, ball):
+        obj.hide_render = True
+    assert parts.refusal() == ("Nothing to reflect in 'Mirror': select the objects to reflect together with it, or set "
+                               "their role to Reflected in the Reflection tab.")
+
+
 def test_a_mirror_without_a_result_takes_what_roles_say(scene):
     mirror, cube, result = scene
     bpy.ops.reflection_mesh.clear()
+    parts.add("uv_sphere", "Ball", location=(1.5, -1.5, 1.0))
     parts.select(mirror)
-    assert parts.refusal() == ("Nothing to reflect in 'Mirror': select the objects to reflect together with it, or set "
-                               "their role to Reflected in the Reflection tab.")
     cube.reflection_mesh.role = "DIFFUSE"
-    assert parts.generate().reflection_mesh.sources[0].object == cube
+    assert [source.object for source in parts.generate().reflection_mesh.sources] == [cube]
 
 
 def test_several_results_are_updated_at_once(scene):

@@ -190,6 +190,20 @@ def test_light_without_a_reflection_is_grey(scene, room):
     assert "generate one first" in parts.refusal(bpy.ops.reflection_mesh.light)
 
 
+def test_clear_is_grey_where_nothing_is_left_to_clear(scene, room, monkeypatch):
+    """Not so while a window still has to be brought back."""
+    clear, mirror = bpy.ops.reflection_mesh.clear, bpy.data.objects["Mirror"]
+    assert not clear.poll() and parts.refusal(clear) == "The scene has no reflection to clear."
+    parts.generate()
+    assert clear.poll() and clear() == {"FINISHED"} and not clear.poll()
+    mirror.reflection_mesh.camera_hidden = True
+    assert clear.poll()
+    mirror.reflection_mesh.camera_hidden = False
+    # of crowds a run tells
+    monkeypatch.setattr(room("addon.operators.polls"), "LOOKED_THROUGH", 2)
+    assert clear.poll() and clear() == {"CANCELLED"}
+
+
 def test_roles_and_results_need_no_selection(scene):
     parts.generate()
     parts.select()

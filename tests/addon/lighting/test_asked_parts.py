@@ -2,6 +2,8 @@
 seen in curved mirrors."""
 from __future__ import annotations
 
+import tracemalloc
+
 import bpy
 import numpy as np
 import parts
@@ -163,3 +165,20 @@ def test_a_finer_picture_takes_what_it_lacks_from_the_coarser(room):
     expected = 0.2 + 0.03 * (2.0 + (44.0 - column - 0.5) / 3.0) - 0.01 * (2.0 + (40.0 - row - 0.5) / 3.0)
     other = (row != 39) | (column != 40)
     assert np.abs(large[row, column, 0] - expected)[other].max() < 1e-5
+
+
+def test_long_strips_take_the_room_that_they_have(room):
+    """Kerbs and rails are thousands of texels long and a few wide: squares around them filled 20 GB."""
+    module, size = room("addon.baking.division"), 2048
+    small, large = np.ones((64, 64, 1), np.float32), np.zeros((size, size, 1), np.float32)
+    known = np.zeros((size, size), bool)
+    first = np.arange(12)[:, None] * (0.0, 8.0)
+    end = first[:, None] + [(4.0, 4.0), (2004.0, 4.0), (4.0, 7.0)]
+    start = np.broadcast_to([(2.0, 2.0), (60.0, 2.0), (2.0, 3.0)], end.shape)
+    tracemalloc.start()
+    try:
+        module.enlarged(small, large, known, start, end)
+        assert tracemalloc.get_traced_memory()[1] < 100e6
+    finally:
+        tracemalloc.stop()
+    assert known.sum() == pytest.approx(12 * 0.5 * 2000 * 3, rel=0.02) and (large[known] == 1.0).all()

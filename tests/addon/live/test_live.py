@@ -98,6 +98,46 @@ def test_a_copy_that_is_removed_on_the_way_is_harmless(scene, clock):
     assert shape(scene.result) == generated(scene.leaf, scene.ball)
 
 
+def test_large_results_follow_in_turns(scene, clock, room, monkeypatch):
+    """Some vertices at each look, and all of them are written at once: as they would be in one go."""
+    following = clock.updater.following
+    scene.camera.location.x += 0.1
+    bpy.context.view_layer.update()
+    view = room("addon.reading").read_view(bpy.context)
+    now = [track.seen(view, *following._meshes[track.mirror]) for track in following.tracks]
+    expected = (now[0].positions - following.tracks[0].origin).astype(np.float32)
+    still = shape(scene.result)
+    monkeypatch.setattr(room("core.support.stepping"), "INTERVAL", -1.0)
+    monkeypatch.setattr(room("core.following"), "AT_ONCE", 4)
+    clock.updater.note(False)
+    done = []
+    while "followed" not in done:
+        assert shape(scene.result) == still
+        done += clock.run()
+    assert done.count("working") > len(expected) // 4 > 2 and done.count("followed") == 1
+    np.testing.assert_array_equal(parts.attribute(scene.result, "position"), expected)
+    assert "exact" in clock.rest() and not following.is_under_way and following.tracks
+    assert shape(scene.result) == generated(scene.leaf, scene.ball)
+
+
+def test_a_look_takes_one_step_of_new_results(scene, clock, room, monkeypatch):
+    """But for the first, which reads what is reflected: two steps at once kept the window waiting for both."""
+    module, taken = room("addon.live.work"), []
+
+    def generation(*_, **__):
+        for number in range(5):
+            taken.append(number)
+            yield 0.2 * number, "Step"
+    monkeypatch.setattr(module, "generation", generation)
+    monkeypatch.setattr(module, "BUDGET", 0.0)
+    work = module.Work.of(bpy.context, room("addon.live.watched").watched(
+        bpy.context, room("addon.reading").read_view(bpy.context)), {}, False)
+    told = []
+    while not work.go_on():
+        told.append(len(taken))
+    assert told == [2, 3, 4, 5]
+
+
 def test_one_update_for_one_change_and_none_for_its_own(scene, clock):
     updates = dict(clock.updater.updates)
     scene.camera.location.x += 0.1
@@ -145,7 +185,7 @@ def test_chooses_its_tolerance_by_what_updates_take(scene, clock, room):
     assert pace.coarse(0.5) == 0.5
     # mirrors in mirrors cannot follow: they are made anew, coarser
     bpy.context.scene.reflection_mesh.tolerance, clock.updater._pace.tolerance = 0.25, 8.0
-    clock.updater._tracks = []
+    clock.updater.following.tracks = []
     scene.camera.location.x += 0.1
     done = clock.run(0.2)
     assert "coarse" in done and "followed" not in done[:done.index("coarse")]

@@ -23,12 +23,25 @@ def test_removing_is_harmless(scene, clock, name, working, room, monkeypatch):
     if working:
         # new results are under way, and hold what goes
         monkeypatch.setattr(room("addon.live.work"), "BUDGET", 0.0)
-        clock.updater._tracks = []
+        clock.updater.following.tracks = []
         scene.camera.location.x += 0.2
         assert clock.run(2 * TICK) and clock.updater._work is not None
     bpy.data.objects.remove(getattr(scene, name))
     clock.rest()
     assert clock.updater.told
+    assert ("Ball Reflection" in bpy.data.objects) == (name != "result")
+
+
+@pytest.mark.parametrize("name", ["leaf", "ball", "result"])
+def test_removing_what_follows_is_harmless(scene, clock, name, room, monkeypatch):
+    """Between two turns of vertices that are on their way."""
+    monkeypatch.setattr(room("core.support.stepping"), "INTERVAL", -1.0)
+    monkeypatch.setattr(room("core.following"), "AT_ONCE", 4)
+    scene.camera.location.x += 0.1
+    assert clock.run() == ["working"] and clock.updater.following.is_under_way
+    bpy.data.objects.remove(getattr(scene, name))
+    clock.rest()
+    assert clock.updater.told and "unexpected" not in clock.updater.told.lower()
     assert ("Ball Reflection" in bpy.data.objects) == (name != "result")
 
 
@@ -41,7 +54,7 @@ def test_a_camera_that_is_removed_is_told(scene, clock):
 def coarse_work_begun(scene, clock, room, monkeypatch) -> None:
     """The camera has moved, nothing can follow, and a look at a time is taken at new results."""
     monkeypatch.setattr(room("addon.live.work"), "BUDGET", 0.0)
-    clock.updater._tracks = []
+    clock.updater.following.tracks = []
     scene.camera.location.x += 0.2
     assert clock.run(2 * TICK) and not clock.updater._work.exact
 
@@ -73,7 +86,7 @@ def test_what_cannot_follow_is_made_anew_on_the_way_by_a_coarse_files_settings_t
     bpy.context.scene.reflection_mesh.tolerance = 4.0
     scene.camera.location.x += 0.1
     clock.rest()
-    assert not clock.updater._tracks
+    assert not clock.updater.following.tracks
     monkeypatch.setattr(room("addon.live.work"), "BUDGET", 0.0)
     before = sum(clock.updater.updates.values())
     for _ in range(60):
@@ -151,7 +164,7 @@ def test_undo_and_redo_bring_the_right_results(scene, clock):
 
 def test_removing_the_extension_in_the_middle_ends_it(scene, room, clock):
     scene.camera.location.x += 0.1
-    clock.updater._tracks = []
+    clock.updater.following.tracks = []
     clock.run()
     live = room("addon.live")
     live.unregister()
