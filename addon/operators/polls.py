@@ -61,8 +61,11 @@ def has_result(sentence: str) -> Obstacle:
 
 
 def has_what_clears(sentence: str) -> Obstacle:
-    """Tells `sentence` where the scene has no result, and nothing has been changed for one that is gone."""
+    """Tells `sentence` in a window where the scene has no result, and nothing has been changed for one that is gone;
+    scripts in the background may clear to be sure."""
     def obstacle(context: bpy.types.Context) -> str:
+        if bpy.app.background:
+            return ""
         there = _any(context.scene.objects, _is_made_or_window) or leaves_out_any() or raises_layers()
         return "" if there else sentence
     return obstacle

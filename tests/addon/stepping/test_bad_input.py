@@ -198,7 +198,9 @@ def test_excluded_collection(scene):
 
 
 def test_clear_without_results(scene):
-    assert parts.refusal(bpy.ops.reflection_mesh.clear) == "The scene has no reflection to clear."
+    before = parts.state()
+    assert bpy.ops.reflection_mesh.clear() == {"CANCELLED"}
+    assert parts.state() == before
 
 
 def test_clear_in_edit_mode(scene):
