@@ -80,8 +80,11 @@ class SceneFrames:
     def distance(self, column: np.ndarray, places: np.ndarray, rays: np.ndarray) -> np.ndarray:
         """s at which the rays Q + s R, (3, n) each, meet the planes of the frames: far away, but not infinitely far,
         where they are parallel."""
-        normal = self._take(self.normal, column, places)
-        return -dot(normal, places - self._take(self.origin, column, places)) / falling(normal, rays)
+        return -self.height(column, places) / falling(self._take(self.normal, column, places), rays)
+
+    def height(self, column: np.ndarray, places: np.ndarray) -> np.ndarray:
+        """How high (n,) places (3, n) lie over the planes of the frames."""
+        return dot(self._take(self.normal, column, places), places - self._take(self.origin, column, places))
 
     @staticmethod
     def _take(row: np.ndarray, column: np.ndarray, like: np.ndarray) -> np.ndarray:

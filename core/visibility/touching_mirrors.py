@@ -51,11 +51,22 @@ def _probed(met: SceneAndMirrors, candidates: Candidates, probes: np.ndarray) ->
                      for values in (cameras.origins, cameras.rays))
     probed = np.tile(candidates.column, count)
     s = frames.distance(probed, origins, rays)
-    near = np.full(len(candidates), ABOVE * met.size)
+    near = np.full(len(probed), ABOVE * met.size)
     if cameras.mirror_map.bounce > 1:
         # later cameras follow the sides of their triangles only nearly, and may begin a little behind the next
         corners = np.take(met.mirror_corners, frames.triangle[candidates.column] - met.diffuse, axis=1)
-        near = BEHIND * np.ptp(corners, axis=2).max(axis=0)
-    ahead = s * norm(rays) > np.tile(near, count)
+        behind = np.tile(_side(met, candidates), count) * frames.height(probed, origins) <= 0.0
+        near[behind] = BEHIND * np.tile(np.ptp(corners, axis=2).max(axis=0), count)[behind]
+    ahead = s * norm(rays) > near
     seen = ahead & (frames.weights(probed, origins + s * rays) > ABOVE).all(axis=0)
     return seen.reshape(count, -1).any(axis=0)
+
+
+def _side(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
+    """On which side (p,) of the planes of the candidates the cameras' own triangles lie, 1 or -1; 0 on both."""
+    cameras, frames = candidates.cameras, candidates.frames
+    surface, face = cameras.mirror_map.last(cameras.face[candidates.camera])
+    corners = np.moveaxis(surface.corners(face), 1, 0)
+    heights = np.stack([frames.height(candidates.column, corner) for corner in corners])
+    room = ABOVE * np.abs(heights).max(axis=0)
+    return (heights.min(axis=0) >= -room) * 1.0 - (heights.max(axis=0) <= room)

@@ -8,6 +8,7 @@ from core import Settings, TriangleMesh, View, reflect
 from tests.inputs import shapes
 from tests.oracles.raster import rasterise
 from tests.oracles.ray_hits import first_hits
+from tests.oracles.true_map import picture_areas
 from tests.oracles.truth_bounces import trace_bounces
 
 pytestmark = pytest.mark.slow
@@ -161,3 +162,21 @@ def test_points_behind_mirrors_are_left_out(name):
     # the mirror's own triangles are the first of all
     _, distance = first_hits(mirrors, among.mirror_position, way / length[:, None], leaving=among.discs.mirror_face)
     assert (distance > length * (1.0 - 1e-9)).all()
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("kind", ["cube", "tetrahedron"])
+def test_a_closed_room_of_mirrors_shows_nothing_of_what_lies_outside(kind, turned):
+    """Light that leaves a wall right beside the next meets that, also after the second bounce."""
+    if kind == "cube":
+        room = shapes.combine(shapes.box((0.0, 0.0, 0.0), (2.0, 2.0, 2.0)))
+    else:
+        corners = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1.0)])
+        room = TriangleMesh(1.7 * corners, [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
+    if turned:
+        room = TriangleMesh(room.positions, room.triangles[:, ::-1])
+    outside = shapes.combine(shapes.icosphere((0.0, 0.0, 0.0), 8.0, 2))
+    view = View.looking_at((0.1, 0.2, 0.3), (1.0, 0.2, 0.1), (256, 256), field_of_view=1.5)
+    for tolerance in (0.5, 0.1):
+        mesh = reflect(view, room, outside, Settings(tolerance, "SURFACE", depth=2))
+        assert np.abs(picture_areas(view, mesh)).sum() < 1e-9
