@@ -5,6 +5,8 @@ light of it. Cycles asks a lamp's nodes about each path (Light Path > Diffuse De
 """
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import bpy
 
 from .. import compat
@@ -39,6 +41,10 @@ def show_in_mirror(scene: bpy.types.Scene, lamp: bpy.types.Object, mirror: bpy.t
     if not compat.eevee_links_light():
         for factor in FACTORS:
             setattr(data, factor, 0.0)
+    if glint is not None and glint.light_linking.receiver_collection is None:
+        # by hand; without one it would light everything
+        whole.after(_remove, glint)
+        glint = None
     if glint is None:
         glint = _made(scene, lamp, data, whole)
     else:
@@ -70,15 +76,17 @@ def hide_from_mirror(lamp: bpy.types.Object, mirror: bpy.types.Object | None) ->
     if glint is None:
         return
     lit = glint.light_linking.receiver_collection
-    if mirror is not None and mirror.name in lit.objects:
+    if lit is not None and mirror is not None and mirror.name in lit.objects:
         lit.objects.unlink(mirror)
-    if not len(lit.objects):
+    if lit is None or not len(lit.objects):
         _remove(glint)
 
 
-def forget_lost_glints() -> bool:
-    """Remove what is left of lamps that are gone; whether there was any."""
-    lost = [obj for obj in bpy.data.objects if is_glint(obj) and obj.parent is None and obj.library is None]
+def forget_lost_glints(leaves_out: Callable[[bpy.types.Object], bool]) -> bool:
+    """Remove what is left of lamps that are gone, or of which `leaves_out` tells that they light all mirrors again,
+    as copies of lamps may; whether there was any."""
+    lost = [obj for obj in bpy.data.objects if is_glint(obj) and obj.library is None
+            and (obj.parent is None or not leaves_out(obj.parent))]
     for glint in lost:
         _remove(glint)
     return bool(lost)

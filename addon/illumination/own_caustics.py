@@ -82,7 +82,7 @@ def bring_back_abandoned() -> bool:
     lost = [collection for collection in bpy.data.collections if collection.get(_MARK) and not collection.users]
     for collection in lost:
         bpy.data.collections.remove(collection)
-    return any((abandoned, lost, forget_lost_glints()))
+    return any((abandoned, lost, forget_lost_glints(_leaves_out_some)))
 
 
 def leaves_out_any() -> bool:
@@ -99,14 +99,18 @@ def leaves_out(lamp: bpy.types.Object, mirror: bpy.types.Object) -> bool:
 def let_lamps_light_mirrors(lamps: list, back: ExitStack) -> None:
     """Let lamps light the mirrors that they leave out, by themselves, until the stack takes it back."""
     for lamp in dict.fromkeys(lamps):
-        collection = lamp.light_linking.receiver_collection
-        if collection is not None and _is_ours(collection, lamp):
-            back.callback(setattr, lamp.light_linking, "receiver_collection", collection)
+        if _leaves_out_some(lamp):
+            back.callback(setattr, lamp.light_linking, "receiver_collection", lamp.light_linking.receiver_collection)
             lamp.light_linking.receiver_collection = None
             glint = glint_of(lamp)
             if glint is not None:
                 back.callback(setattr, glint, "hide_render", glint.hide_render)
                 glint.hide_render = True
+
+
+def _leaves_out_some(lamp: bpy.types.Object) -> bool:
+    collection = lamp.light_linking.receiver_collection
+    return collection is not None and _is_ours(collection, lamp)
 
 
 _MARK = "reflection_mesh_left_out"

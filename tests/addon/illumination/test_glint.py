@@ -127,3 +127,30 @@ def test_two_mirrors_share_it(blank):
     assert list(glint.light_linking.receiver_collection.objects) == [mirror]
     parts.select(mirror)
     assert bpy.ops.reflection_mesh.clear() == {"FINISHED"} and parts.state()["data"] == before
+
+
+def test_a_copy_of_the_lamp_leaves_none_behind(blank):
+    floor, mirror, lamp = looked_into()
+    before = parts.state()["data"]
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    glint, = lamp.children
+    copy, image = lamp.copy(), glint.copy()
+    image.parent = copy
+    for obj in (copy, image):
+        blank.scene.collection.objects.link(obj)
+    parts.select(mirror)
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert copy.light_linking.receiver_collection is None
+    bpy.data.objects.remove(copy)
+    assert parts.state()["data"] == before
+
+
+def test_one_whose_mirrors_were_unlinked_by_hand_is_made_anew_and_goes(blank):
+    floor, mirror, lamp = looked_into()
+    before = parts.state()["data"]
+    for _ in range(2):
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+        glint, = lamp.children
+        assert list(glint.light_linking.receiver_collection.objects) == [mirror]
+        bpy.data.collections.remove(glint.light_linking.receiver_collection)
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"} and parts.state()["data"] == before
