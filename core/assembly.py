@@ -58,12 +58,25 @@ def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors,
     breathe()
     faces = {"map_face": arrays.pop("map_face")}
     if isinstance(mirror_map.view, LampView):
-        arrays |= faces
         maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
+        faces["later_mirrors"] = _later_mirrors(maps, arrays["bounces"], faces["map_face"], met)
+        arrays |= faces
         arrays["positions"] = arrays["mirror_position"]
         return ReflectionMesh(**arrays, maps=maps)
     arrays["positions"] = place(mirror_map.view, arrays["mirror_position"].T, arrays["path_length"], placement, reach).T
     return ReflectionMesh(**arrays)
+
+
+def _later_mirrors(maps: tuple, bounces: np.ndarray, map_face: np.ndarray, met: SceneAndMirrors) -> np.ndarray:
+    """The triangles (m, b) of the mirrors, as given, that faces are seen by after the first one; -1 behind the last."""
+    later = np.full((len(map_face), len(maps) - 1), -1)
+    for number, ray_map in enumerate(maps, 1):
+        chosen = np.flatnonzero(bounces == number)
+        face = map_face[chosen]
+        for before in range(number - 2, -1, -1):
+            later[chosen, before] = met.given[ray_map.triangle[face]]
+            face, ray_map = ray_map.face_before[face], ray_map.before
+    return later
 
 
 def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np.ndarray,

@@ -200,8 +200,9 @@ def _with_mirrors(view: View, tree: SceneTree | PointTree, mirror: TriangleMesh,
     if screens is not None:
         every = mirror if every is None else every
         met, order = ordered(TriangleMesh.joined((every, screens)), shading=True)
-        return mirror, given, SceneAndMirrors(tree, met, order.triangle < len(every.triangles))
-    return mirror, given, SceneAndMirrors(tree, mirror if every is None else ordered(every, shading=True)[0])
+        return mirror, given, SceneAndMirrors(tree, met, order.triangle < len(every.triangles), order.triangle)
+    met, order = (mirror, given) if every is None else ordered(every, shading=True)
+    return mirror, given, SceneAndMirrors(tree, met, given=order.triangle)
 
 
 def _whole_first(cameras: Cameras, uncut: int, task: Task,

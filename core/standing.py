@@ -45,4 +45,4 @@ class Standing:
         """Of a scene, and all mirrors that may be seen in each other."""
         tree = SceneTree.build(scene) if isinstance(scene, TriangleMesh) else scene
         met, order = ordered(mirrors, shading=True)
-        return cls(tree, mirrors, order, SceneAndMirrors(tree, met))
+        return cls(tree, mirrors, order, SceneAndMirrors(tree, met, given=order.triangle))

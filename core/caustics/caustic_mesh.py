@@ -30,8 +30,11 @@ class CausticMesh:
         Where on the mirror the light comes from.
     image_parity : (n,) int8
         +1 or -1 (turned over), 0 on a caustic.
-    cosine : (m, 3) float64
-        Of the angle at which the light meets the mirror that it meets first, at the corners.
+    met : (m, b) int64
+        Triangles of the mirrors that the light of each face meets, in its order, those of `mirrors` behind those of
+        `mirror`; -1 where it meets no more.
+    cosine : (m, 3, b) float64
+        Of the angles at which it meets them, at the corners.
     direction : (m, 3, 3) float64
         In which the light comes to the corners; unit vectors.
     source_face : (m,) int64
@@ -61,6 +64,7 @@ class CausticMesh:
     flux: np.ndarray
     mirror_position: np.ndarray
     image_parity: np.ndarray
+    met: np.ndarray
     cosine: np.ndarray
     direction: np.ndarray
     source_face: np.ndarray

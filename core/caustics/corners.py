@@ -40,8 +40,8 @@ class Corners:
     turned : (n,) float64
     weight : (n,) float64
         What a path tracer sees of the light that comes; 1 where normals are those of the faces.
-    cosine : (n,) float64
-        At the first mirror.
+    cosine : (b, n) float64
+        At each of the mirrors, the first one first.
     place : (3, n) float64
         Where on the first mirror.
     side : (n,) float64
@@ -108,7 +108,9 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
         share = lamp.share(place.T)
         irradiance = np.where(share > 0.0, irradiance, 0.0) * share
     # a ray is turned by twice the angle that it has to the mirror's plane
-    upright = np.sqrt(np.clip(0.5 * (1.0 - dot(unit(ways[0]), unit(ways[1]))), 0.0, 1.0))
+    directions = [unit(way) for way in ways]
+    upright = np.stack([np.sqrt(np.clip(0.5 * (1.0 - dot(came, sent)), 0.0, 1.0))
+                        for came, sent in zip(directions, directions[1:])])
     miss = norm(origin + s * ray - points)
     size = sum(map(norm, ray_map.spans(face)))
     # where the mirror stands on what is lit, light comes from the very place

@@ -36,8 +36,12 @@ def joined(parts: list) -> CausticMesh:
         for name, count in part[0][2].counts.items() if part else ():
             counts[name] = counts.get(name, 0) + count
     start = np.cumsum([0] + [len(entry["positions"]) for entry in found])
+    most = max(entry["met"].shape[1] for entry in found)
     for entry, first in zip(found, start):
         entry["triangles"] = entry["triangles"] + first
+        more = most - entry["met"].shape[1]
+        entry["met"] = np.pad(entry["met"], ((0, 0), (0, more)), constant_values=-1)
+        entry["cosine"] = np.pad(entry["cosine"], ((0, 0), (0, 0), (0, more)))
     mesh = CausticMesh(**{name: np.concatenate([entry[name] for entry in found]) for name in found[0]}, counts=counts)
     breathe()
     area = areas(mesh.positions[mesh.triangles])
@@ -59,8 +63,8 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     area, size = 0.5 * np.linalg.norm(normal, axis=1), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
     arrived = light.arrived.reshape(3, -1).all(axis=0) | (flux > STRAY * flux.sum())
     kept = np.flatnonzero(has_area(area, size) & (flux > 0.0) & arrived)
-    irradiance, cosine, side = (value.reshape(3, -1).T[kept] for value in (
-        light.irradiance, light.cosine, light.side))
+    irradiance, side = (value.reshape(3, -1).T[kept] for value in (light.irradiance, light.side))
+    cosine = light.cosine.reshape(number, 3, -1).T[kept]
     breathe()
     irradiance = balanced(irradiance, on_faces(flux[kept], faces.beside[kept], faces.triangles[kept]),
                           faces.triangles[kept], shown_area(corners[kept], area[kept], reach))
@@ -68,10 +72,11 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     # turned to the side that is lit
     over = (side.sum(axis=1) < 0.0) != ((normal[kept] * faces.normal[:, kept].T).sum(axis=1) < 0.0)
     order = np.where(over[:, None], (0, 2, 1), (0, 1, 2))
-    triangles, irradiance, cosine = (np.take_along_axis(values, order, axis=1) for values in (
-        faces.triangles[kept], irradiance, cosine))
-    corners, direction = (np.take_along_axis(values, order[:, :, None], axis=1) for values in (
-        corners[kept], _directions(seen.maps[number - 1], faces, kept)))
+    triangles, irradiance = (np.take_along_axis(values, order, axis=1) for values in (
+        faces.triangles[kept], irradiance))
+    corners, direction, cosine = (np.take_along_axis(values, order[:, :, None], axis=1) for values in (
+        corners[kept], _directions(seen.maps[number - 1], faces, kept), cosine))
+    met = _met(seen, faces.origin[kept])
     source = faces.source[kept]
     breathe()
     weights = _weights(receivers, source, corners)
@@ -84,9 +89,16 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     return {
         "positions": faces.points[:, used].T, "triangles": number_of[triangles], "irradiance": irradiance,
         "flux": flux[kept], "mirror_position": light.place[:, entry].T,
-        "image_parity": parity.astype(np.int8), "cosine": cosine, "direction": direction,
+        "image_parity": parity.astype(np.int8), "met": met, "direction": direction,
+        "cosine": np.pad(cosine, ((0, 0), (0, 0), (0, met.shape[1] - number))),
         "source_face": source, "source_weights": weights,
         "bounces": np.full(len(kept), number, dtype=np.int8)}
+
+
+def _met(seen: ReflectionMesh, face: np.ndarray) -> np.ndarray:
+    """Triangles (m, b) of mirrors that the light of faces (m,) of a reflection meets."""
+    assert seen.later_mirrors is not None  # a lamp's view tells them
+    return np.column_stack((seen.mirror_face[face], seen.later_mirrors[face]))
 
 
 def _directions(ray_map: ReflectionMap, faces: LitFaces, kept: np.ndarray) -> np.ndarray:

@@ -45,6 +45,8 @@ class SceneAndMirrors:
         Of the mirrors.
     reflecting : (k,) bool
         Which triangles of the mirrors reflect; the others only hide what lies behind them.
+    given : (k,) int64
+        The triangle that each of the mirrors' was before they were put in order.
     mirror_tree : SceneTree
     mirror_corners : (3, m, 3) float64
         Of the mirrors' triangles, as [component, triangle, corner].
@@ -53,8 +55,9 @@ class SceneAndMirrors:
     """
 
     def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh,
-                 reflecting: np.ndarray | None = None) -> None:
+                 reflecting: np.ndarray | None = None, given: np.ndarray | None = None) -> None:
         self.reflecting = np.ones(len(mirrors.triangles), dtype=bool) if reflecting is None else reflecting
+        self.given = np.arange(len(mirrors.triangles)) if given is None else given
         self.tree, self.mirrors, self.mirror_tree = tree, mirrors, SceneTree.of_ordered(mirrors)
         self.mirror_corners = rows(mirrors.positions[mirrors.triangles])
         self._corners = [rows(mirrors.positions[corner]) for corner in mirrors.triangles.T]

@@ -60,6 +60,9 @@ class ReflectionMesh:
         For a lamp's view, the true maps of the first bounce, the second and so on; their numbers are the method's own.
     map_face : (m,) int64 or None
         For a lamp's view, the face of its bounce's map that each face is seen by.
+    later_mirrors : (m, b) int64 or None
+        For a lamp's view, the triangles of all mirrors that the light of each face meets after the first one, in its
+        order; -1 where it meets no more.
 
     Examples
     --------
@@ -90,6 +93,7 @@ class ReflectionMesh:
     mirror_normals: np.ndarray | None = None
     maps: tuple = ()
     map_face: np.ndarray | None = None
+    later_mirrors: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         if self.bounces is None:

@@ -21,6 +21,7 @@ PLACES = 256  # on each triangle of a mirror, at which a lamp's pattern is asked
 EXACT = 1e-6  # of the light: by how much irradiance may miss the flux
 SINGLE = 0.02  # of all that the mirror is sent: by how much it may be more where places are single precision
 ON_SOURCE = 1e-6  # of all that is there
+BESIDE = 1e-2  # of the mirror: half a pixel of the lamp's picture, and many times more where it is seen at an angle
 TOLD = ("missed", "bounded", "crowded", "limited")  # counts of what a mesh may lack
 
 
@@ -66,9 +67,10 @@ def checked_light(configuration: LightConfiguration, mesh: CausticMesh) -> list[
 
 
 def _numbers(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[str]:
-    count, vertices = len(mesh.triangles), len(mesh.positions)
+    count, vertices, most = len(mesh.triangles), len(mesh.positions), mesh.met.shape[1]
     shapes = {"positions": (vertices, 3), "mirror_position": (vertices, 3), "image_parity": (vertices,),
-              "triangles": (count, 3), "irradiance": (count, 3), "flux": (count,), "cosine": (count, 3),
+              "triangles": (count, 3), "irradiance": (count, 3), "flux": (count,), "met": (count, most),
+              "cosine": (count, 3, most),
               "direction": (count, 3, 3), "source_face": (count,), "source_weights": (count, 3, 3), "bounces": (count,)}
     for name, shape in shapes.items():
         values = getattr(mesh, name)
@@ -78,7 +80,9 @@ def _numbers(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[s
             yield f"finite: {name} holds {np.count_nonzero(~np.isfinite(values))} numbers that are none"
     if not count:
         yield "lengths: it shows nothing, and nothing says so"
-    bounds = {"triangles": (0, vertices - 1), "irradiance": (0.0, np.inf), "flux": (0.0, np.inf), "cosine": (0.0, 1.0),
+    mirrors = [one for one in (configuration.mirror, configuration.others) if one is not None]
+    bounds = {"triangles": (0, vertices - 1), "met": (-1, sum(len(one.triangles) for one in mirrors) - 1),
+              "irradiance": (0.0, np.inf), "flux": (0.0, np.inf), "cosine": (0.0, 1.0),
               "direction": (-1.0 - 1e-12, 1.0 + 1e-12),
               "source_face": (0, len(configuration.receivers.triangles) - 1), "source_weights": (0.0, 1.0 + 1e-9),
               "bounces": (1, configuration.settings.depth), "image_parity": (-1, 1)}
@@ -86,6 +90,8 @@ def _numbers(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[s
         values = getattr(mesh, name)
         if values.size and not (values.min() >= low and values.max() <= high):
             yield f"ranges: {name} reaches from {values.min()} to {values.max()}"
+    if ((mesh.met >= 0) != (np.arange(most) < mesh.bounces[:, None])).any():
+        yield "met: not as many mirrors as bounces"
 
 
 def _energy(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[str]:
@@ -103,7 +109,7 @@ def _energy(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[st
 
 
 def _places(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[str]:
-    """Corners lie where their weights say."""
+    """Corners lie where their weights say, and their light comes from the triangle of the mirror that is told."""
     receivers = configuration.receivers
     corners = receivers.positions[receivers.triangles[mesh.source_face]]
     astray = np.abs(np.matmul(mesh.source_weights, corners) - mesh.positions[mesh.triangles]).max()
@@ -111,6 +117,25 @@ def _places(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[st
     # and where rounding far from the origin puts them
     if astray > ON_SOURCE * size + 1e-13 * np.abs(receivers.positions).max():
         yield f"source: corners lie up to {astray:.2g} off their source"
+    mirror, places = configuration.mirror, mesh.mirror_position[mesh.triangles]
+    astray = _away(mirror.positions[mirror.triangles[mesh.met[:, 0]]], places).max()
+    if astray > BESIDE * np.ptp(mirror.positions, axis=0).max() + 1e-13 * np.abs(mirror.positions).max():
+        yield f"mirror: light comes from up to {astray:.2g} off the triangle that is told"
+
+
+def _away(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """How far (m, 3) places (m, 3, 3) are from triangles with `corners` (m, 3, 3)."""
+    corners = corners[:, :, None]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = normal / np.maximum(np.linalg.norm(normal, axis=2, keepdims=True), 1e-300)
+    above, inside, away = np.abs(((places - corners[:, 0]) * normal).sum(axis=2)), np.True_, np.inf
+    for start, end in ((0, 1), (1, 2), (2, 0)):
+        start, side = corners[:, start], corners[:, end] - corners[:, start]
+        along = ((places - start) * side).sum(axis=2) / np.maximum((side**2).sum(axis=2), 1e-300)
+        nearest = start + np.clip(along, 0.0, 1.0)[:, :, None] * side
+        away = np.minimum(away, np.linalg.norm(places - nearest, axis=2))
+        inside = inside & ((np.cross(side, places - start) * normal).sum(axis=2) >= 0.0)
+    return np.where(inside, above, away)
 
 
 def _missed(configuration: LightConfiguration, flux: np.ndarray, told: int) -> Iterator[str]:
