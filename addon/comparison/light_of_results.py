@@ -11,7 +11,7 @@ import numpy as np
 from ...core import TriangleMesh, breathe, in_steps
 from ...core.rivals.tracing import Landed, LightRays, by_boxes
 from ..faults import Steps, part
-from ..illumination import Eye, Tint, eyes_of
+from ..illumination import Eye, MirrorColours, eyes_of
 from ..metrics import Squares, added, light_errors, light_in_squares
 from ..reading import DiffuseScene, read_mirror, read_scene
 
@@ -76,30 +76,24 @@ class Surroundings:
     ----------
     surfaces : list of core.TriangleMesh
         The mirrors, that of the result first.
-    tints : list of Tint
-        Of all materials of the mirrors.
-    tint_of : (m,) int64
-        Which of them each triangle of the surfaces has, one behind another.
+    colours : MirrorColours
+        Of all triangles of the surfaces, one behind another.
     scene : DiffuseScene
         What may be lit.
     blockers : core.TriangleMesh or None
     """
 
     surfaces: list
-    tints: list
-    tint_of: np.ndarray
+    colours: MirrorColours
     scene: DiffuseScene
     blockers: TriangleMesh | None
 
     @classmethod
     def of(cls, depsgraph: bpy.types.Depsgraph, mirrors: list, sources: list,
            blockers: TriangleMesh | None) -> Surroundings:
-        surfaces, tints, tint_of = [read_mirror(depsgraph, mirror) for mirror in mirrors], [], []
-        for surface in surfaces:
-            tint_of.append(len(tints) + surface.material)
-            tints += [Tint.of_material(material) for material in surface.materials]
-        return cls([surface.mesh for surface in surfaces], tints, np.concatenate(tint_of),
-                   read_scene(depsgraph, sources), blockers)
+        surfaces = [read_mirror(depsgraph, mirror) for mirror in mirrors]
+        return cls([surface.mesh for surface in surfaces], MirrorColours.of(surfaces), read_scene(depsgraph, sources),
+                   blockers)
 
     def rays(self, tracer: Callable = by_boxes, body: TriangleMesh | None = None) -> LightRays:
         """The rays of one of the lamp's places; a lamp that is a mesh may hide with its `body`."""
@@ -110,14 +104,8 @@ class Surroundings:
 
     def watts(self, eye: Eye, landed: Landed) -> np.ndarray:
         """What each ray (n,) of one of the lamp's places brings, the mean of its colours."""
-        colour = eye.power * (landed.flux * eye.share(landed.start))[:, None]
-        for met, cosine in zip(landed.met, landed.cosine):
-            tint = np.where(met >= 0, self.tint_of[met], -1)
-            for index, one in enumerate(self.tints):
-                breathe()
-                own = np.flatnonzero(tint == index)
-                colour[own] *= one.at(cosine[own, None], np.ones(len(own), dtype=np.int64))[:, 0]
-        return colour.mean(axis=1)
+        left = self.colours.left(np.stack(landed.met, axis=1), np.stack(landed.cosine, axis=1))
+        return (eye.power * (landed.flux * eye.share(landed.start))[:, None] * left).mean(axis=1)
 
     def on_surfaces(self, lit: Lit) -> tuple[np.ndarray, np.ndarray]:
         """The corners (m, 3, 3) of faces brought back to the surfaces before which they lie, and the normals (m, 3) of

@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ..faults import AllOrNothing
-from ..illumination import adds_light, caustics_object, forget_added_light, results_with
+from ..illumination import adds_light, caustics_object, forget_added_light, results_with, stains, textured
 from .play import Player, material_of, show_frames
 
 
@@ -18,7 +18,9 @@ def play_caustics(context: bpy.types.Context, player: Player, name: str, pair: t
     whole.after(forget_added_light, [material for obj in results_with(context, *pair)[:1]
                                      for material in obj.data.materials])
     obj = caustics_object(context, name, pair, sources, whole)
-    materials = [adds_light(material_of(*entry), whole)[0] for entry in player.materials or [("", "")]]
+    made = stains(textured(pair[0]), whole)
+    materials = [adds_light(material_of(*entry), made, whole)[0]
+                 for entry in player.materials or [("", "")]]
     show_frames(obj, player, materials, whole)
     obj.reflection_mesh.faces = 0
     return obj

@@ -2,7 +2,7 @@
 
 In come lamps, a mirror's material and faces with irradiance; out come objects that add the light to what they lie on.
 """
-from .caustic_arrays import caustic_arrays
+from .caustic_arrays import MirrorPlaces, caustic_arrays
 from .caustic_material import adds_light, forget_added_light
 from .cycles_caustics import leave_out
 from .eye import Eye
@@ -10,7 +10,7 @@ from .glint import follow_lamp, is_glint
 from .in_the_way import blockers_of, blocking
 from .lamps import NoLight, chosen_lamps, eyes_of, has_a_size, light_of_nodes, lights_renders, meant_lamps
 from .mesh_lamps import radiance_of
-from .mirror_parts import MirrorPart, parts_of
+from .mirrors import MirrorColours, MirrorPart, Tint, parts_of, places_on_mirror, stains, textured
 from .own_caustics import (
     bring_back_abandoned,
     leave_out_own_caustics,
@@ -19,13 +19,13 @@ from .own_caustics import (
     let_lamps_light_mirrors,
     makes_own_caustics,
 )
-from .tint import Tint
 from .transparent_layers import bring_back_layers, follow_layers, raises_layers
 from .write_caustics import Caustic, caustics_object, places_kept, results_with, write_caustics
 
-__all__ = ["Caustic", "Eye", "MirrorPart", "NoLight", "Tint", "adds_light", "blockers_of", "blocking",
-           "bring_back_abandoned", "bring_back_layers", "caustic_arrays", "caustics_object", "chosen_lamps", "eyes_of",
-           "follow_lamp", "follow_layers", "forget_added_light", "has_a_size", "is_glint", "leave_out",
-           "leave_out_own_caustics", "leaves_out", "leaves_out_any", "let_lamps_light_mirrors", "light_of_nodes",
-           "lights_renders", "makes_own_caustics", "meant_lamps", "parts_of", "places_kept", "radiance_of",
-           "raises_layers", "results_with", "write_caustics"]
+__all__ = ["Caustic", "Eye", "MirrorColours", "MirrorPart", "MirrorPlaces", "NoLight", "Tint", "adds_light",
+           "blockers_of", "blocking", "bring_back_abandoned", "bring_back_layers", "caustic_arrays",
+           "caustics_object", "chosen_lamps", "eyes_of", "follow_lamp", "follow_layers", "forget_added_light",
+           "has_a_size", "is_glint", "leave_out", "leave_out_own_caustics", "leaves_out", "leaves_out_any",
+           "let_lamps_light_mirrors", "light_of_nodes", "lights_renders", "makes_own_caustics", "meant_lamps",
+           "parts_of", "places_kept", "places_on_mirror", "radiance_of", "raises_layers", "results_with", "stains",
+           "textured", "write_caustics"]

@@ -1,6 +1,8 @@
 """Light on receivers as a mesh that lies just before them."""
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import bpy
 import numpy as np
 
@@ -10,8 +12,8 @@ from ..reading import DiffuseScene
 from ..writing import Attribute, MeshArrays, shown_layers
 from .caustic_material import LIGHT
 from .eye import Eye
+from .mirrors import MirrorPart, Tint, mirror_attributes
 from .receiver_places import PLACES, places_asked
-from .tint import Tint
 
 LIFT = 1e-4  # of the size of what is lit: how far the mesh lies before it
 ROUNDING = 2.0 ** -20  # of a coordinate: by how much single precision may miss, several times over
@@ -23,8 +25,16 @@ GRAZING = 1e-2  # cosine: light that comes more level to a triangle is shaded as
 MOST_LIFT = 2e-3  # of the size of what is lit
 
 
-def caustic_arrays(lit: list[tuple[Eye, Tint, CausticMesh]], scene: DiffuseScene,
-                   camera: bpy.types.Object | None) -> MeshArrays:
+@dataclass(frozen=True)
+class MirrorPlaces:
+    """Which of a mirror's tints are textured, and the mirror with its coordinates, where any is."""
+
+    tints: list[Tint]
+    mirror: DiffuseScene | None
+
+
+def caustic_arrays(lit: list[tuple[Eye, MirrorPart, CausticMesh]], scene: DiffuseScene,
+                   places: MirrorPlaces, camera: bpy.types.Object | None) -> MeshArrays:
     """The arrays of one object: the light of all of a lamp's places that all parts of a mirror throw.
 
     Its faces are transparent and add their own light, so they may lie over each other in any order.
@@ -35,8 +45,9 @@ def caustic_arrays(lit: list[tuple[Eye, Tint, CausticMesh]], scene: DiffuseScene
     triangles = np.concatenate([mesh.triangles + first for mesh, first in zip(meshes, start)])
     together = {name: np.concatenate([getattr(mesh, name) for mesh in meshes]) for name in (
         "mirror_position", "image_parity", "source_face", "source_weights", "direction", "bounces")}
-    irradiance, light = _light(lit)
-    light *= _shading(scene, together)[..., None]
+    parts = [(part, mesh.irradiance[:, :, None] * eye.power, mesh) for eye, part, mesh in lit]
+    light = np.concatenate([sent * part.colours.left(mesh.met, mesh.cosine) for part, sent, mesh in parts])
+    irradiance, share = light.mean(axis=2), _shading(scene, together)
     low, high = positions.min(axis=0), positions.max(axis=0)
     origin = (0.5 * (low + high)).astype(np.float32).astype(np.float64)
     size = float((high - low).max())
@@ -45,7 +56,8 @@ def caustic_arrays(lit: list[tuple[Eye, Tint, CausticMesh]], scene: DiffuseScene
     lift *= _layers(together["mirror_position"], together["image_parity"], place)
     flat, positions = areas(positions[triangles]), positions + lift[:, None] * _normals(positions, triangles)
     # where layers meet on a caustic slivers stand upright between them, and have many times their area
-    light *= (flat / np.maximum(areas(positions[triangles]), np.maximum(flat, 1e-300)))[:, None, None]
+    share *= (flat / np.maximum(areas(positions[triangles]), np.maximum(flat, 1e-300)))[:, None]
+    light *= share[:, :, None]
     source, weights = together["source_face"], together["source_weights"].astype(np.float32)
     own = (
         Attribute("material_index", "INT", "FACE", scene.material[source].astype(np.int32)),
@@ -56,21 +68,22 @@ def caustic_arrays(lit: list[tuple[Eye, Tint, CausticMesh]], scene: DiffuseScene
         Attribute("source_object", "INT", "FACE", scene.source_object[source].astype(np.int32)),
         Attribute("source_face", "INT", "FACE", scene.source_face[source].astype(np.int32)),
         Attribute("bounces", "INT", "FACE", together["bounces"].astype(np.int32)))
-    places = {"Generated": scene.generated, "Object": scene.own_places}
-    own += tuple(Attribute(PLACES[name], "FLOAT_VECTOR", "CORNER", np.matmul(weights, places[name][source]))
+    known = {"Generated": scene.generated, "Object": scene.own_places}
+    own += tuple(Attribute(PLACES[name], "FLOAT_VECTOR", "CORNER", np.matmul(weights, known[name][source]))
                  for name in places_asked(scene.materials))
+    own += mirror_attributes(_by_later_mirrors(parts, share), places.tints, places.mirror)
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
     return MeshArrays(origin, (positions - origin).astype(np.float32), triangles.astype(np.int32), own + shown,
                       scene.materials)
 
 
-def _light(lit: list[tuple[Eye, Tint, CausticMesh]]) -> tuple[np.ndarray, np.ndarray]:
-    """Irradiance (m, 3) in W/m2, the mean of the colours, and of each colour (m, 3, 3), at the corners."""
-    coloured = []
-    for eye, tint, mesh in lit:
-        coloured.append(mesh.irradiance[:, :, None] * eye.power * tint.at(mesh.cosine, mesh.bounces))
-    light = np.concatenate(coloured)
-    return light.mean(axis=2), light
+def _by_later_mirrors(parts: list[tuple[MirrorPart, np.ndarray, CausticMesh]],
+                      share: np.ndarray) -> list[tuple[MirrorPart, np.ndarray, CausticMesh]]:
+    """Parts of a mirror, the `share` (m, 3) of the light (m, 3, 3) sent by each that is shown, as later mirrors leave
+    it, and their faces."""
+    start = np.cumsum([0] + [len(sent) for _, sent, _ in parts])
+    return [(part, sent * part.colours.left(mesh.met[:, 1:], mesh.cosine[:, :, 1:])
+             * share[first:first + len(sent), :, None], mesh) for (part, sent, mesh), first in zip(parts, start)]
 
 
 def _shading(scene: DiffuseScene, together: dict) -> np.ndarray:

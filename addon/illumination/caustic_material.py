@@ -8,7 +8,9 @@ import bpy
 from .. import compat
 from ..faults import AllOrNothing
 from ..reading.materials import surface_shader
+from ..writing.nodes.shader_builder import ShaderBuilder
 from .diffuse_share import SHARES, diffuse_share
+from .mirrors import PER_COLOUR, Tint
 from .receiver_places import MARK, asks_for_more, forget_groups, show_by_places
 
 LIGHT = "caustic_light"
@@ -16,9 +18,11 @@ LIGHT = "caustic_light"
 COLOURS = {"BSDF_PRINCIPLED": "Base Color", "BSDF_DIFFUSE": "Color"}
 
 
-def adds_light(receiver: bpy.types.Material | None, whole: AllOrNothing) -> tuple[bpy.types.Material, bool]:
+def adds_light(receiver: bpy.types.Material | None, stains: list[tuple[Tint, bpy.types.NodeTree]],
+               whole: AllOrNothing) -> tuple[bpy.types.Material, bool]:
     """A material that is transparent and emits what the receiver's diffuse colour sends back of the light, and whether
-    it knows that colour all over: it is read from the nodes of a Principled or Diffuse BSDF, of which it has a copy."""
+    it knows that colour all over: it is read from the nodes of a Principled or Diffuse BSDF, of which it has a copy.
+    The light is that of a mirror with `stains`, textured tints and the groups that tell their colours."""
     name = f"{receiver.name if receiver else 'Default'} Caustics"
     if receiver is None or not compat.uses_nodes(receiver):
         material, known = bpy.data.materials.new(name), True
@@ -44,7 +48,7 @@ def adds_light(receiver: bpy.types.Material | None, whole: AllOrNothing) -> tupl
         known = known and not (any(one.is_linked for one in asked) and asks_for_more(tree))
         share = diffuse_share(tree, shader)
         show_by_places(tree, whole)
-    _show(tree, albedo, colour, share)
+    _show(tree, albedo, colour, share, _thrown(tree, stains))
     material.surface_render_method = "BLENDED"
     material.use_transparency_overlap = True
     material.use_backface_culling = False
@@ -60,8 +64,20 @@ def forget_added_light(materials: list) -> None:
     forget_groups()
 
 
+def _thrown(tree: bpy.types.NodeTree, stains: list[tuple[Tint, bpy.types.NodeTree]]) -> bpy.types.NodeSocket:
+    """The light: as if each tint were one colour, and what the true colour adds to it."""
+    build = ShaderBuilder(tree)
+    light = build.add("ShaderNodeAttribute", attribute_name=LIGHT).outputs["Vector"]
+    for number, (tint, group) in enumerate(stains):
+        true = build.add("ShaderNodeGroup", node_tree=group).outputs[0]
+        more = build.vector("SUBTRACT", true, tuple(tint.colour))
+        grown = build.add("ShaderNodeAttribute", attribute_name=PER_COLOUR.format(number)).outputs["Vector"]
+        light = build.vector("ADD", light, build.vector("MULTIPLY", more, grown))
+    return light
+
+
 def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket | None,
-          share: float | bpy.types.NodeSocket) -> None:
+          share: float | bpy.types.NodeSocket, light: bpy.types.NodeSocket) -> None:
     """Let a tree emit its colour times the light's, times a share, over pi, and show what lies behind; to the side that
     is lit alone, or the receiver would be lit by what it sends back."""
     def add(kind: str, place: tuple[float, float]) -> bpy.types.Node:
@@ -70,11 +86,11 @@ def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket 
         return node
     for node in [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL"]:
         tree.nodes.remove(node)
-    light, product = add("ShaderNodeAttribute", (0.0, -300.0)), add("ShaderNodeVectorMath", (200.0, -300.0))
-    light.attribute_name, product.operation = LIGHT, "MULTIPLY"
+    product = add("ShaderNodeVectorMath", (200.0, -300.0))
+    product.operation = "MULTIPLY"
     emission, clear = add("ShaderNodeEmission", (400.0, -300.0)), add("ShaderNodeBsdfTransparent", (400.0, -450.0))
     both, output = add("ShaderNodeAddShader", (600.0, -300.0)), add("ShaderNodeOutputMaterial", (800.0, -300.0))
-    tree.links.new(light.outputs["Vector"], product.inputs[0])
+    tree.links.new(light, product.inputs[0])
     if colour is None:
         product.inputs[1].default_value = albedo[:3]
     else:

@@ -5,6 +5,8 @@ are given those of what is lit, in a copy of its material.
 """
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import bpy
 
 from .. import compat
@@ -21,27 +23,36 @@ OF_THE_OBJECT = {"OBJECT_INFO": None, "TEX_COORD": {"Normal"}, "HAIR_INFO": None
 
 def places_asked(materials: list) -> list[str]:
     """Outputs of Texture Coordinate that materials ask for, as they are or as what textures take without being told."""
-    found: set = set()
-    for material in materials:
-        if material is not None and compat.uses_nodes(material):
-            for node in all_nodes(material.node_tree):
-                found |= _asked(node)
+    found = {name for material in materials if material is not None and compat.uses_nodes(material)
+             for name in asked_by(all_nodes(material.node_tree))}
     return [name for name in PLACES if name in found]
 
 
-def show_by_places(tree: bpy.types.NodeTree, whole: AllOrNothing) -> None:
-    """Let the nodes of a tree, which is our own, ask for the attributes; groups that ask for any are copied."""
+def asked_by(nodes: Iterable[bpy.types.Node]) -> set[str]:
+    """Coordinates of the object that nodes ask for, those of its UV maps as `uv` and the map's name."""
+    return {name for node in nodes for name in _asked(node)}
+
+
+def uv(name: str) -> str:
+    """What the coordinates of a UV map are called, those of the active one where it has no name."""
+    return f"UV {name}"
+
+
+def show_by_places(tree: bpy.types.NodeTree, whole: AllOrNothing, places: dict = PLACES) -> None:
+    """Let the nodes of a tree, which is our own, ask for the attributes that stand for `places`; groups that ask for
+    any are copied."""
     for node in list(tree.nodes):
-        if node.type == "GROUP" and node.node_tree is not None and any(map(_asked, all_nodes(node.node_tree))):
+        if node.type == "GROUP" and node.node_tree is not None and any(
+                name in places for one in all_nodes(node.node_tree) for name in _asked(one)):
             node.node_tree = node.node_tree.copy()
             node.node_tree[MARK] = True
             whole.undo(bpy.data.node_groups.remove, node.node_tree)
-            show_by_places(node.node_tree, whole)
-        for name in _asked(node):
-            targets = ([link.to_socket for link in node.outputs[name].links] if node.type == "TEX_COORD"
-                       else [node.inputs["Vector"]])
+            show_by_places(node.node_tree, whole, places)
+        for name, targets in _asked(node).items():
+            if name not in places:
+                continue
             place = tree.nodes.new("ShaderNodeAttribute")
-            place.attribute_name, place.location = PLACES[name], (node.location[0] - 200.0, node.location[1])
+            place.attribute_name, place.location = places[name], (node.location[0] - 200.0, node.location[1])
             for socket in targets:
                 tree.links.new(place.outputs["Vector"], socket)
 
@@ -66,8 +77,17 @@ def forget_groups() -> None:
             bpy.data.node_groups.remove(group)
 
 
-def _asked(node: bpy.types.Node) -> set[str]:
+def _asked(node: bpy.types.Node) -> dict[str, list]:
+    """The coordinates that a node stands for or takes without being told, and the sockets that they go to."""
+    def fed(output: bpy.types.NodeSocket) -> list:
+        return [link.to_socket for link in output.links]
     if node.type == "TEX_COORD" and not node.from_instancer:
-        return {name for name in PLACES if node.outputs[name].is_linked and (name != "Object" or node.object is None)}
-    vector = node.inputs.get("Vector") if node.type.startswith("TEX_") and node.type != "TEX_IMAGE" else None
-    return {"Generated"} if vector is not None and vector.enabled and not vector.is_linked else set()
+        found = {name: fed(node.outputs[name]) for name in PLACES if name != "Object" or node.object is None}
+        return {name: sockets for name, sockets in (found | {uv(""): fed(node.outputs["UV"])}).items() if sockets}
+    if node.type == "UVMAP" and not node.from_instancer:
+        sockets = fed(node.outputs[0])
+        return {uv(node.uv_map): sockets} if sockets else {}
+    vector = node.inputs.get("Vector") if node.type.startswith("TEX_") else None
+    if vector is None or not vector.enabled or vector.is_linked:
+        return {}
+    return {uv("") if node.type == "TEX_IMAGE" else "Generated": [vector]}

@@ -10,6 +10,7 @@ from mathutils import Matrix
 from ..faults import AllOrNothing, keep_data, keep_object
 from ..writing import RAYS, MeshArrays, new_beside, write_mesh
 from .caustic_material import adds_light, forget_added_light
+from .mirrors import stains
 
 SHOWN_BY = {"visible_glossy", "visible_transmission"}
 
@@ -33,7 +34,9 @@ class Caustic:
     eyes : int
         Places on the lamp that it comes from.
     plain : bool
-        Whether each of the mirror's materials is one colour.
+        Whether each of the mirrors' materials is one colour, but for the textured ones.
+    textured : list of Tint
+        Of the mirror, whose colour changes over it.
     """
 
     name: str
@@ -45,6 +48,7 @@ class Caustic:
     layers: int
     eyes: int
     plain: bool
+    textured: list
 
 
 def results_with(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.types.Object) -> list:
@@ -93,12 +97,12 @@ def write_caustics(context: bpy.types.Context, made: Caustic, whole: AllOrNothin
     kept = [list(obj.data.materials) for obj in earlier
             if [entry.material for entry in obj.reflection_mesh.materials] == made.arrays.materials]
     obj = caustics_object(context, made.name, (made.mirror, made.lamp), made.sources, whole)
-    materials, unknown = [], []
+    materials, unknown, colours = [], [], stains(made.textured, whole)
     for receiver in made.arrays.materials:
-        if keep_materials and kept and len(kept[0]) == len(made.arrays.materials):
+        if keep_materials and not made.textured and kept and len(kept[0]) == len(made.arrays.materials):
             materials = kept[0]
             break
-        material, known = adds_light(receiver, whole)
+        material, known = adds_light(receiver, colours, whole)
         materials.append(material)
         if not known:
             unknown.append(receiver)

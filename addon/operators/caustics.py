@@ -8,6 +8,7 @@ from functools import partial
 from itertools import chain, product
 
 import bpy
+import numpy as np
 
 from ... import core
 from ...core.caustics import most_layers
@@ -15,7 +16,10 @@ from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
 from ..frames import stop_playing
 from ..illumination import (
     Caustic,
+    MirrorPart,
+    MirrorPlaces,
     NoLight,
+    Tint,
     blockers_of,
     blocking,
     caustic_arrays,
@@ -26,9 +30,11 @@ from ..illumination import (
     leave_out,
     light_of_nodes,
     parts_of,
+    places_on_mirror,
+    textured,
     write_caustics,
 )
-from ..reading import DiffuseScene, MirrorSurface, Participants, choose, read_mirror, read_scene
+from ..reading import DiffuseScene, Participants, choose, read_mirror, read_scene
 from ..settings import SettingsOfMirrors, UsesSettings, option
 from . import polls
 
@@ -110,6 +116,7 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     if not chosen.diffuse:
         raise core.ReflectionError(NOTHING_LIT)
     surfaces = {mirror: read_mirror(depsgraph, mirror) for mirror in chosen.mirrors}
+    places = {mirror: MirrorPlaces(textured(mirror), places_on_mirror(depsgraph, mirror)) for mirror in surfaces}
     scene = read_scene(depsgraph, chosen.diffuse)
     standing = blocking(context, chosen)
     blockers = {lamp: blockers_of(depsgraph, [obj for obj in standing if obj != lamp]) for lamp in lamps}
@@ -117,8 +124,8 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     for number, (mirror, lamp) in enumerate(pairs):
         name = name_of(mirror, lamp, lamps)
         eyes = partial(eyes_of, depsgraph, lamp, wanted.places(mirror, lamp))
-        others = [surfaces[other].mesh for other in chosen.mirrors if other != mirror]
-        steps = _lit(eyes, surfaces[mirror], scene.mesh, (others, blockers[lamp]), wanted.settings(mirror))
+        parts = parts_of(surfaces[mirror], [surfaces[other] for other in chosen.mirrors if other != mirror])
+        steps = _lit(eyes, parts, scene.mesh, blockers[lamp], wanted.settings(mirror))
         try:
             lit = yield from part(steps, READING + (1.0 - READING) * number / len(pairs), (1.0 - READING) / len(pairs),
                                   name)
@@ -128,8 +135,9 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
                 dark.append((mirror, lamp))
             continue
         done = READING + (1.0 - READING) * (number + 1) / len(pairs)
-        made = _made(context, name, (mirror, lamp), lit, scene, wanted.places(mirror, lamp))
-        prepared.append((yield from part(made, done, 0.0, name)))
+        steps = _made(context, name, (mirror, lamp), lit, scene, places[mirror])
+        made = yield from part(steps, done, 0.0, name)
+        prepared.append(replace(made, eyes=wanted.places(mirror, lamp)))
     if not prepared:
         raise (NothingThrown if len(dark) == len(pairs) else core.ReflectionError)(refused[-1])
     yield 1.0, "Writing"
@@ -144,24 +152,18 @@ def name_of(mirror: bpy.types.Object, lamp: bpy.types.Object, lamps: list) -> st
     return f"{mirror.name} Caustics{f' {lamp.name}' if len(lamps) > 1 else ''}"
 
 
-def _lit(eyes_of_lamp: Callable, surface: MirrorSurface, receivers: core.TriangleMesh, standing: tuple,
-         settings: core.Settings) -> Steps[list]:
-    """The light (eye, tint, mesh) of each of a lamp's places that each part of a mirror throws; where none throws any,
-    the error of the last.
-
-    Parameters
-    ----------
-    standing : tuple of (list of core.TriangleMesh, core.TriangleMesh or None)
-        Other mirrors, and what else is in the way.
-    """
-    lit, told, (others, blockers) = [], None, standing
-    eyes, parts = eyes_of_lamp(surface.mesh.positions[surface.mesh.triangles].reshape(-1, 3)), parts_of(surface)
+def _lit(eyes_of_lamp: Callable, parts: list[MirrorPart], receivers: core.TriangleMesh,
+         blockers: core.TriangleMesh | None, settings: core.Settings) -> Steps[list]:
+    """The light (eye, part, mesh) of each of a lamp's places that each part of a mirror throws; where none throws any,
+    the error of the last."""
+    lit, told = [], None
+    eyes = eyes_of_lamp(np.concatenate([own.mesh.positions[own.mesh.triangles.ravel()] for own in parts]))
     for number, (eye, own) in enumerate(product(eyes, parts)):
-        steps = core.caustic_steps(eye.shining, own.mesh, receivers, settings, _joined([*others, own.rest]),
+        steps = core.caustic_steps(eye.shining, own.mesh, receivers, settings, own.others,
                                    _joined([blockers, eye.body]))
         share = 1.0 / (len(eyes) * len(parts))
         try:
-            lit.append((eye, own.tint, (yield from part(steps, number * share, share))))
+            lit.append((eye, own, (yield from part(steps, number * share, share))))
         except core.ReflectionError as error:
             told = error
     if not lit:
@@ -176,14 +178,21 @@ def _joined(meshes: list) -> core.TriangleMesh | None:
 
 
 def _made(context: bpy.types.Context, name: str, pair: tuple, lit: list, scene: DiffuseScene,
-          places: int) -> Steps[Caustic]:
+          places: MirrorPlaces) -> Steps[Caustic]:
     yield 0.0, "irradiance"
     counts = {key: sum(mesh.counts.get(key, 0) for *_, mesh in lit) for key in lit[0][-1].counts}
-    arrays = caustic_arrays(lit, scene, context.scene.camera)
+    arrays = caustic_arrays(lit, scene, places, context.scene.camera)
     source_face = next(one.values for one in arrays.attributes if one.name == "source_face")
     layers = yield from core.in_steps(partial(most_layers, arrays.positions, arrays.triangles, source_face))
-    plain = all(tint.constant for _, tint, _ in lit)
-    return Caustic(name, *pair, scene.sources, arrays, counts, layers, places, plain)
+    plain = all(_plain(own, mesh, places.tints) for _, own, mesh in lit)
+    return Caustic(name, *pair, scene.sources, arrays, counts, layers, 1, plain, places.tints)
+
+
+def _plain(own: MirrorPart, mesh: core.CausticMesh, textured: list[Tint]) -> bool:
+    """Whether the colours of the mirrors that light has met are known all over: those of the first by its textures."""
+    known = own.tint.constant or any(own.tint.same(tint) for tint in textured)
+    later = np.unique(own.colours.tint_of[mesh.met[:, 1:][mesh.met[:, 1:] >= 0]])
+    return known and all(own.colours.tints[index].constant for index in later.tolist())
 
 
 def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tuple[list, list]) -> Thrown:
@@ -209,7 +218,8 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
             remarks.append(f"The nodes of '{lamp.name}' tell more than one colour and one strength: its light counts "
                            "as if the rest were plugged off.")
     if not all(made.plain for made in prepared):
-        remarks.append("A mirror's colour that changes over it counts as one: plug it off to choose which.")
+        remarks.append("A mirror's colour that changes over it in a way that only the mirror knows, or that light "
+                       "meets after another mirror, counts as one: plug it off to choose which.")
     return Thrown(objects, receivers, layers, remarks, dark)
 
 

@@ -109,8 +109,10 @@ LACKS = {
         "aus mehreren Shadern gemischt ist: sein Licht kann eine andere Farbe haben.",
     "The nodes of '{}' tell more than one colour and one strength: its light counts as if the rest were plugged off.":
         "Die Nodes von '{}' sagen mehr als eine Farbe und eine Stärke: sein Licht zählt, als wäre der Rest abgezogen.",
-    "A mirror's colour that changes over it counts as one: plug it off to choose which.":
-        "Die Farbe eines Spiegels, die sich über ihn ändert, zählt als eine: ziehe sie ab, um zu wählen, welche.",
+    "A mirror's colour that changes over it in a way that only the mirror knows, or that light meets after another "
+    "mirror, counts as one: plug it off to choose which.":
+        "Die Farbe eines Spiegels, die sich über ihn auf eine Weise ändert, die nur der Spiegel kennt, oder auf die "
+        "Licht nach einem anderen Spiegel trifft, zählt als eine: ziehe sie ab, um zu wählen, welche.",
     "Cycles followed {} transparent layers, and {} or more of light have to be passed: Light Paths > Max Bounces > "
     "Transparent is {} until the light is cleared.":
         "Cycles folgte durch {} durchsichtige Schichten, und {} oder mehr vom Licht sind zu durchqueren: Lichtpfade > "

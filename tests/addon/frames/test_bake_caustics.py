@@ -21,6 +21,8 @@ def thrown(blank, tmp_path) -> Path:
     """A mirror that turns before a floor of two materials, and a lamp that goes out in frame 3, saved."""
     floor, mirror, lamp = scene_of(shadow_soft_size=0.1)
     floor.data.materials.append(parts.material("Second", "DIFFUSE"))
+    tree = mirror.active_material.node_tree
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], tree.nodes[0].inputs["Color"])
     other = parts.add("plane", "Ledge", size=0.5, location=(0.2, 0.4, 0.3))
     other.data.materials.append(floor.data.materials[1])
     for frame, turn, power in ((1, -1.5, 100.0), (2, -1.45, 120.0), (3, -1.4, 0.0), (4, -1.35, 80.0)):
@@ -77,10 +79,12 @@ def test_a_lamp_that_goes_out_and_several_materials(thrown, room, tmp_path):
     # it can be rendered: the material of light is in the file, and Cycles' own is left out
     lamp = bpy.data.objects["Lamp"]
     assert [child.name for child in lamp.light_linking.receiver_collection.objects] == ["Mirror"]
+    assert bpy.data.node_groups["Metal Thrown"].users == 2
     bpy.ops.wm.open_mainfile(filepath=str(thrown))
     for frame in (1, 2, 4):
         wanted = expected(frame, "Mirror Caustics", eyes=2)
         assert set(wanted["materials"]) == {"Paint Caustics", "Second Caustics"}
+        assert {": CORNER FLOAT_VECTOR mirror_light_0", ": CORNER FLOAT_VECTOR mirror_generated"} <= set(wanted)
         assert_same(told, frame, "Mirror Caustics", wanted)
 
 

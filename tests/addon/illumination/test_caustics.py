@@ -64,7 +64,7 @@ def test_a_metal_is_whiter_at_a_grazing_angle(blank, room):
     tint = room("addon.illumination").Tint
     mirror = parts.add("plane", "Mirror")
     mirror.data.materials.append(paint("Metal", "PRINCIPLED", TINT, "Base Color"))
-    found = tint.of(mirror).at(np.array([[1.0, 0.5, 0.0]]), np.array([1]))
+    found = tint.of(mirror).at(np.array([[1.0, 0.5, 0.0]]))
     schlick = np.array(TINT) + (1.0 - np.array(TINT)) * 0.5**5
     assert np.allclose(found[0, 0], TINT) and np.allclose(found[0, 1], schlick) and np.allclose(found[0, 2], 1.0)
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from .. import compat
-from ..reading.materials import MIRRORS, is_mirror, is_sharp, surface_shader
+from ... import compat
+from ...reading.materials import MIRRORS, is_mirror, is_sharp, surface_shader
 
 F82 = 1.0 / 7.0  # cosine of the angle at which the edge tint is given
 
@@ -39,6 +39,22 @@ WHOLE = Coat()
 
 
 @dataclass(frozen=True)
+class Texture:
+    """What is plugged into a socket of a material's node, by their names: nodes may be gone at another moment."""
+
+    material: bpy.types.Material
+    node: str
+    socket: str
+
+    @property
+    def plugged_in(self) -> bpy.types.NodeSocket | None:
+        """It; None where nothing is any more."""
+        node = self.material.node_tree.nodes.get(self.node)
+        socket = None if node is None else next((one for one in node.inputs if one.identifier == self.socket), None)
+        return socket.links[0].from_socket if socket is not None and socket.is_linked else None
+
+
+@dataclass(frozen=True)
 class Tint:
     """Reflectance by the cosine of the angle of incidence.
 
@@ -52,6 +68,8 @@ class Tint:
         Whether the material is one colour all over, as far as its nodes tell.
     coat : Coat
         How much of the light the mirror sends back where it is mixed with something else.
+    texture : Texture, optional
+        Where the colour alone changes over the material, what tells it.
     """
 
     colour: np.ndarray
@@ -59,6 +77,7 @@ class Tint:
     fresnel: bool
     constant: bool
     coat: Coat = WHOLE
+    texture: Texture | None = None
 
     @classmethod
     def of(cls, mirror: bpy.types.Object) -> Tint:
@@ -85,28 +104,34 @@ class Tint:
         sockets = [shader.inputs.get("Base Color") or shader.inputs.get("Color"), shader.inputs.get(edge or "")]
         colours = [white if socket is None else np.array(socket.default_value[:3], dtype=np.float64)
                    for socket in sockets]
-        plain = not any(socket is not None and socket.is_linked for socket in sockets)
-        return cls(*colours, metal, known and plain and getattr(shader, "fresnel_type", "F82") == "F82", coat)
+        linked = [socket is not None and socket.is_linked for socket in sockets]
+        known = known and not linked[1] and getattr(shader, "fresnel_type", "F82") == "F82"
+        texture = Texture(material, shader.name, sockets[0].identifier) if known and linked[0] else None
+        return cls(*colours, metal, known and not linked[0], coat, texture)
 
     def same(self, other: Tint) -> bool:
         """Whether both make the same of light."""
         return (np.array_equal(self.colour, other.colour) and np.array_equal(self.edge, other.edge)
-                and (self.fresnel, self.constant, self.coat) == (other.fresnel, other.constant, other.coat))
+                and (self.fresnel, self.constant, self.coat, self.texture)
+                == (other.fresnel, other.constant, other.coat, other.texture))
 
-    def at(self, cosine: np.ndarray, bounces: np.ndarray) -> np.ndarray:
-        """(m, 3, 3): what is left of red, green and blue at corners that light came to over `bounces` (m,) mirrors, the
-        first of them met at `cosine` (m, 3); the later ones are taken as met straight on.
+    def at(self, cosine: np.ndarray) -> np.ndarray:
+        """What is left of red, green and blue, (..., 3), where light meets the mirror at `cosine` (...).
 
         N. Hoffman, "Fresnel Equations Considered Harmful", MAM 2019.
         """
-        first = np.broadcast_to(self.colour, (*cosine.shape, 3))
+        left = np.broadcast_to(self.colour, (*cosine.shape, 3))
         if self.fresnel:
             grazing = (1.0 - np.clip(cosine, 0.0, 1.0))[..., None]
             schlick = self.colour + (1.0 - self.colour) * (1.0 - F82)**5
             fall = schlick * (7.0 / (1.0 - F82)**6) * (1.0 - self.edge)
-            first = self.colour + (1.0 - self.colour) * grazing**5 - fall * (1.0 - grazing) * grazing**6
-        later = self.colour * float(self.coat.at(np.ones(1))[0])
-        return self.coat.at(cosine)[..., None] * np.clip(first, 0.0, 1.0) * later**(bounces[:, None, None] - 1.0)
+            left = self.colour + (1.0 - self.colour) * grazing**5 - fall * (1.0 - grazing) * grazing**6
+        return self.coat.at(cosine)[..., None] * np.clip(left, 0.0, 1.0)
+
+    def by_colour(self, cosine: np.ndarray) -> np.ndarray:
+        """By how much what is left, (..., 3), grows with the colour, of which it is linear."""
+        white, black = (replace(self, colour=np.full(3, value)).at(cosine) for value in (1.0, 0.0))
+        return white - black
 
 
 def _coated(material: bpy.types.Material) -> tuple[bpy.types.Node, Coat, bool] | None:

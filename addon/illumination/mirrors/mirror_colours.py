@@ -1,0 +1,65 @@
+"""What mirrors leave of light that has met several of them, each of its triangles in the colour of its material."""
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....core import breathe
+from ...reading import MirrorSurface
+from .tint import Tint
+
+
+@dataclass(frozen=True)
+class MirrorColours:
+    """The colours of mirrors.
+
+    Attributes
+    ----------
+    tints : list of Tint
+        Of all their materials.
+    tint_of : (k,) int64
+        Which of them each triangle of the mirrors has, one behind another.
+    """
+
+    tints: list
+    tint_of: np.ndarray
+
+    @classmethod
+    def of(cls, surfaces: Iterable[MirrorSurface]) -> MirrorColours:
+        """Of mirrors, the triangles of one behind those of another."""
+        tints: list[Tint] = []
+        tint_of = [np.zeros(0, dtype=np.int64)]
+        for surface in surfaces:
+            tint_of.append(len(tints) + surface.material.astype(np.int64))
+            tints += [Tint.of_material(material) for material in surface.materials]
+        return cls(tints, np.concatenate(tint_of))
+
+    def ordered(self, triangle: np.ndarray) -> MirrorColours:
+        """Of these triangles (n,)."""
+        return MirrorColours(self.tints, self.tint_of[triangle])
+
+    def left(self, met: np.ndarray, cosine: np.ndarray) -> np.ndarray:
+        """What is left of red, green and blue.
+
+        Parameters
+        ----------
+        met : (n, b) int64
+            Triangles that light meets, in its order; -1 where it meets no more.
+        cosine : (n, ..., b) float64
+            At which it meets them.
+
+        Returns
+        -------
+        (n, ..., 3) float64
+        """
+        left = np.ones((*cosine.shape[:-1], 3))
+        for bounce in range(met.shape[1]):
+            tint = np.where(met[:, bounce] >= 0, np.append(self.tint_of, -1)[met[:, bounce]], -1)
+            for index, one in enumerate(self.tints):
+                breathe()
+                own = np.flatnonzero(tint == index)
+                if len(own):
+                    left[own] *= one.at(cosine[own, ..., bounce])
+        return left

@@ -1,0 +1,147 @@
+"""Colours that change over a mirror, in the light that it throws, shown by nodes that know where it comes from."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ....core import CausticMesh
+from ...faults import AllOrNothing
+from ...reading import DiffuseScene, all_nodes, materials_of, read_scene
+from ...writing import Attribute
+from ...writing.nodes.copied_nodes import copied
+from ..receiver_places import MARK, PLACES, asked_by, show_by_places, uv
+from .mirror_parts import MirrorPart
+from .tint import Texture, Tint
+
+PER_COLOUR = "mirror_light_{}"
+"""The attribute that tells by how much light grows with the colour of the textured tint of that number, in W/m2."""
+BY_PLACE = {"RGB", "VALUE", "VALTORGB", "CURVE_RGB", "CURVE_VEC", "CURVE_FLOAT", "MIX", "MIX_RGB", "MATH", "VECT_MATH",
+            "MAPPING", "INVERT", "HUE_SAT", "GAMMA", "BRIGHTCONTRAST", "CLAMP", "MAP_RANGE", "SEPARATE_COLOR",
+            "COMBINE_COLOR", "SEPRGB", "COMBRGB", "SEPXYZ", "COMBXYZ", "RGBTOBW", "BLACKBODY", "VECTOR_ROTATE", "GROUP",
+            "GROUP_INPUT", "GROUP_OUTPUT", "REROUTE", "FRAME", "TEX_COORD", "UVMAP", "TEX_BRICK", "TEX_CHECKER",
+            "TEX_GABOR", "TEX_GRADIENT", "TEX_IMAGE", "TEX_MAGIC", "TEX_MUSGRAVE", "TEX_NOISE", "TEX_VORONOI",
+            "TEX_WAVE", "TEX_WHITE_NOISE"}
+"""Nodes that tell a colour by a place on the object alone."""
+
+
+def textured(mirror: bpy.types.Object) -> list[Tint]:
+    """The tints of a mirror whose colour changes over it in a way that is known, in the order of its materials."""
+    found: list[Tint] = []
+    for material in materials_of(mirror):
+        tint = Tint.of_material(material)
+        if tint.texture is not None and _by_place(tint.texture) and not any(tint.same(other) for other in found):
+            found.append(tint)
+    return found
+
+
+def places_on_mirror(depsgraph: bpy.types.Depsgraph, mirror: bpy.types.Object) -> DiffuseScene | None:
+    """The mirror with its coordinates, where any of its tints is textured."""
+    return read_scene(depsgraph, [mirror]) if textured(mirror) else None
+
+
+def stains(tints: list[Tint], whole: AllOrNothing) -> list[tuple[Tint, bpy.types.NodeTree]]:
+    """Textured tints, each with a group that tells its colour where light comes from."""
+    return [(tint, _colour_group(tint.texture, whole)) for tint in tints if tint.texture is not None]
+
+
+def _colour_group(texture: Texture, whole: AllOrNothing) -> bpy.types.NodeTree:
+    group = bpy.data.node_groups.new(f"{texture.material.name} Thrown", "ShaderNodeTree")
+    whole.undo(bpy.data.node_groups.remove, group)
+    group[MARK] = True
+    group.interface.new_socket("Color", in_out="OUTPUT", socket_type="NodeSocketColor")
+    output, colour = group.nodes.new("NodeGroupOutput"), texture.plugged_in
+    if colour is None:  # any more
+        return group
+    made = copied([colour.node, *_behind(colour.node)], group)
+    group.links.new(made[colour.node].outputs[list(colour.node.outputs).index(colour)], output.inputs[0])
+    show_by_places(group, whole, {name: _attribute(name) for name in _asked(texture)})
+    return group
+
+
+def mirror_attributes(lit: list[tuple[MirrorPart, np.ndarray, CausticMesh]], tints: list[Tint],
+                      mirror: DiffuseScene | None) -> tuple[Attribute, ...]:
+    """What nodes of textured tints ask for at the corners of faces of light.
+
+    Parameters
+    ----------
+    lit : list of (MirrorPart, (m, 3, 3) float64, CausticMesh)
+        With the light that a perfect mirror would throw by the first mirror, in W/m2.
+    """
+    if mirror is None or not tints:
+        return ()
+    grown = [[light * tint.by_colour(mesh.cosine[:, :, 0]) if part.tint.same(tint) else np.zeros(light.shape)
+              for part, light, mesh in lit] for tint in tints]
+    found = [Attribute(PER_COLOUR.format(number), "FLOAT_VECTOR", "CORNER", np.concatenate(one).astype(np.float32))
+             for number, one in enumerate(grown)]
+    triangle = np.concatenate([part.triangle[mesh.met[:, 0]] for part, _, mesh in lit])
+    places = np.concatenate([mesh.mirror_position[mesh.triangles] for *_, mesh in lit])
+    weights = _weights(mirror.mesh.positions[mirror.mesh.triangles[triangle]], places).astype(np.float32)
+    for name in sorted({name for tint in tints for name in _asked(tint.texture)}):
+        values = np.matmul(weights, _values(mirror, name)[triangle])
+        if values.shape[2] == 2:
+            values = np.pad(values, ((0, 0), (0, 0), (0, 1)))
+        found.append(Attribute(_attribute(name), "FLOAT_VECTOR", "CORNER", values))
+    return tuple(found)
+
+
+def _values(mirror: DiffuseScene, name: str):
+    """Coordinates at the corners of a mirror's triangles."""
+    if name in PLACES:
+        return {"Generated": mirror.generated, "Object": mirror.own_places}[name]
+    map_name = name.removeprefix(uv("")) or mirror.active_uv
+    return mirror.uv_maps.get(map_name, np.zeros((len(mirror.mesh.triangles), 3, 2), dtype=np.float32))
+
+
+def _weights(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates (m, 3, 3) of places (m, 3, 3) in triangles with `corners` (m, 3, 3)."""
+    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    normal, away = np.cross(first, second), places - corners[:, :1]
+    squared = np.maximum((normal**2).sum(axis=1), 1e-300)[:, None]
+    v = (np.cross(away, second[:, None]) * normal[:, None]).sum(axis=2) / squared
+    w = (np.cross(first[:, None], away) * normal[:, None]).sum(axis=2) / squared
+    return np.stack((1.0 - v - w, v, w), axis=2)
+
+
+def _attribute(name: str) -> str:
+    if name in PLACES:
+        return f"mirror_{name.lower()}"
+    return f"mirror_uv {name.removeprefix(uv(''))}".strip()
+
+
+def _by_place(texture: Texture) -> bool:
+    """Whether a texture tells its colour by a place on the mirror alone."""
+    colour = texture.plugged_in
+    return colour is not None and all(
+        node.type in BY_PLACE and not (node.type in {"TEX_COORD", "UVMAP"} and _elsewhere(node))
+        for node in _nodes(colour.node))
+
+
+def _elsewhere(node: bpy.types.Node) -> bool:
+    """Whether a node tells coordinates of something else than the mirror, or such as depend on the eye."""
+    known = {"Generated", "UV"} | ({"Object"} if getattr(node, "object", None) is None else set())
+    return node.from_instancer or (node.type == "TEX_COORD"
+                                   and any(one.is_linked and one.name not in known for one in node.outputs))
+
+
+def _asked(texture: Texture) -> set[str]:
+    colour = texture.plugged_in
+    return set() if colour is None else asked_by(_nodes(colour.node))
+
+
+def _nodes(node: bpy.types.Node) -> list[bpy.types.Node]:
+    """A node, those that feed it, and those of the groups among them."""
+    found = [node, *_behind(node)]
+    return found + [inner for one in found if one.type == "GROUP" for inner in all_nodes(one.node_tree)]
+
+
+def _behind(node: bpy.types.Node) -> list[bpy.types.Node]:
+    """The nodes that feed a node, and those that feed these."""
+    found: list[bpy.types.Node] = []
+    left = [node]
+    while left:
+        for socket in left.pop().inputs:
+            for link in socket.links:
+                if link.from_node not in found:
+                    found.append(link.from_node)
+                    left.append(link.from_node)
+    return found
