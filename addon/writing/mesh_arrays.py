@@ -9,7 +9,7 @@ import numpy as np
 from ...core import ReflectionMesh, TriangleMesh, View, breathe
 from .. import compat
 from ..reading.join_meshes import DiffuseScene, MirrorSurface
-from .mesh_edges import Edges, edges_of
+from .mesh_edges import Edges
 from .shown_attributes import shown_attributes
 from .single_precision import in_single_precision
 
@@ -108,7 +108,7 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
     # corners of the result's faces are interpolated in their source triangles
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
     breathe()
-    edges = edges_of(result.triangles)
+    edges = Edges.of(result.triangles)
     return MeshArrays(origin, (result.positions - origin).astype(np.float32), result.triangles.astype(np.int32),
                       own + shown, scene.materials, _lines(result, scene, edges), edges)
 

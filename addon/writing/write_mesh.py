@@ -6,7 +6,7 @@ import numpy as np
 
 from .. import compat
 from .mesh_arrays import Lines, MeshArrays
-from .mesh_edges import Edges, edges_of
+from .mesh_edges import Edges
 
 # where the values of an attribute lie, by its type; all others call it "value"
 FIELDS = {"FLOAT_VECTOR": "vector", "FLOAT2": "vector", "FLOAT_COLOR": "color", "BYTE_COLOR": "color"}
@@ -18,7 +18,7 @@ def write_mesh(mesh: bpy.types.Mesh, arrays: MeshArrays) -> None:
     mesh.vertices.add(len(arrays.positions))
     mesh.attributes["position"].data.foreach_set("vector", arrays.positions.reshape(-1))
     if len(arrays.triangles):
-        _write_faces(mesh, arrays.triangles, arrays.edges or edges_of(arrays.triangles))
+        _write_faces(mesh, arrays.triangles, arrays.edges or Edges.of(arrays.triangles))
     mesh.materials.clear()
     for material in arrays.materials:
         mesh.materials.append(material)

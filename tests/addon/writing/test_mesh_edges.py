@@ -58,28 +58,25 @@ def test_they_are_blenders(name):
 
 
 def test_sides_and_borders_by_hand(room):
-    """Two triangles that share a side, in both directions, and one beside them, worked out in parts of two sides."""
-    module = room("addon.writing.mesh_edges")
-    triangles = np.array([[7, 2, 4], [4, 2, 9], [1, 0, 3]], dtype=np.int32)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "PART", 2)
-        edges = module.edges_of(triangles)
+    """Two triangles that share a side, in both directions, and one beside them."""
+    kind = room("addon.writing.mesh_edges").Edges
+    edges = kind.of(np.array([[7, 2, 4], [4, 2, 9], [1, 0, 3]], dtype=np.int32))
     assert edges.ends.tolist() == [[0, 1], [0, 3], [1, 3], [2, 4], [2, 7], [2, 9], [4, 7], [4, 9]]
     assert edges.of_side.tolist() == [4, 3, 6, 3, 5, 7, 0, 1, 2]
     assert edges.borders.tolist() == [True, True, True, False, True, True, True, True]
     chosen = np.zeros(9, dtype=bool)
     chosen[[1, 3, 8]] = True
     assert np.flatnonzero(edges.among(chosen)).tolist() == [2, 3]
-    none = module.edges_of(np.zeros((0, 3), dtype=np.int32))
+    none = kind.of(np.zeros((0, 3), dtype=np.int32))
     assert none.ends.shape == (0, 2) and none.of_side.shape == (0,) and none.borders.shape == (0,)
 
 
 def test_a_million_faces_are_written_in_short_steps(blank, room):
     """Edges in steps, and all of writing in one that no window waits for: half a second is the most, with UV maps,
     colours, sharp edges and marks."""
-    writing, edges = room("addon.writing.mesh_arrays"), room("addon.writing.mesh_edges")
+    writing, edges = room("addon.writing.mesh_arrays"), room("addon.writing.mesh_edges").Edges
     positions, triangles = square()
-    longest, steps, begun = 0.0, room("core").in_steps(lambda: edges.edges_of(triangles)), now()
+    longest, steps, begun = 0.0, room("core").in_steps(lambda: edges.of(triangles)), now()
     try:
         while True:
             next(steps)
