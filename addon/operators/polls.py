@@ -37,8 +37,8 @@ def has_camera(context: bpy.types.Context) -> str:
 
 
 def has_mirror(context: bpy.types.Context) -> str:
-    """Something is selected, or else active as a result or a mirror, or has the role of a mirror, or a material says that
-    something is one."""
+    """Something is selected, or else active as a result or a mirror, or has the role of a mirror, or a material is that
+    of a mirror."""
     objects = context.view_layer.objects
     active = objects.active
     if objects.selected or (active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}):

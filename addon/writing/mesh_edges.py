@@ -1,7 +1,7 @@
 """The edges of a mesh of triangles: which there are, and which of them each corner begins.
 
-Blender finds them too, but in one call that cannot be divided, 0.3 s for 900,000 faces; so they are found beside it, and
-what is known of the sides of faces is brought to them at once.
+Blender finds them too, but in one call that cannot be divided, 0.3 s for 900,000 faces; so they are found beside it,
+and what is known of the sides of faces is brought to them at once.
 """
 from __future__ import annotations
 

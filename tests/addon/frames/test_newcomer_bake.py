@@ -1,4 +1,4 @@
-"""A newcomer's animation: an own scene, lit and textured, in which nothing was prepared; one command makes 24 frames."""
+"""A newcomer's animation: an own scene, lit and textured, nothing of it prepared; one command makes 24 frames."""
 from __future__ import annotations
 
 import bpy

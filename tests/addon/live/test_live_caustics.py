@@ -9,7 +9,6 @@ import pytest
 from caustic_scene import add_lamp, scene_of
 from live_scene import PAUSE, TICK, moved, switched_on
 
-
 MOST_LOOKS = 500    # a light of this scene is made in some twenty
 
 
