@@ -2,7 +2,7 @@
 from .caustics import CausticMesh, Lamp, caustic_steps, caustics
 from .culling import PointTree, SceneTree
 from .following import FollowedImages
-from .geometry import TriangleMesh, View, draw, shared_edges
+from .geometry import TriangleMesh, View, draw
 from .reflection import ReflectionError, reflect, reflection_steps
 from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
 from .solver import Images, project
@@ -12,4 +12,4 @@ from .support import METHODS, PLACEMENTS, NothingInView, Settings, breathe, in_s
 __all__ = ["CausticMesh", "Discs", "FollowedImages", "Images", "Lamp", "METHODS", "NothingInView", "PLACEMENTS",
            "PicturePieces", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "Standing",
            "TriangleMesh", "View", "breathe", "caustic_steps", "caustics", "draw", "in_steps", "picture_pieces",
-           "project", "reflect", "reflecting_normals", "reflection_steps", "shared_edges"]
+           "project", "reflect", "reflecting_normals", "reflection_steps"]

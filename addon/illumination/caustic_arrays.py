@@ -4,10 +4,10 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core import CausticMesh
+from ...core import CausticMesh, breathe
 from ...core.geometry import areas
 from ..reading import DiffuseScene
-from ..writing import Attribute, MeshArrays, shown_layers
+from ..writing import Attribute, Edges, MeshArrays, shown_layers
 from .caustic_material import LIGHT
 from .eye import Eye
 from .receiver_places import PLACES, places_asked
@@ -35,17 +35,21 @@ def caustic_arrays(lit: list[tuple[Eye, Tint, CausticMesh]], scene: DiffuseScene
     triangles = np.concatenate([mesh.triangles + first for mesh, first in zip(meshes, start)])
     together = {name: np.concatenate([getattr(mesh, name) for mesh in meshes]) for name in (
         "mirror_position", "image_parity", "source_face", "source_weights", "direction", "bounces")}
+    breathe()
     irradiance, light = _light(lit)
+    breathe()
     light *= _shading(scene, together)[..., None]
     low, high = positions.min(axis=0), positions.max(axis=0)
     origin = (0.5 * (low + high)).astype(np.float32).astype(np.float64)
     size = float((high - low).max())
+    breathe()
     place = np.repeat(np.arange(len(meshes)), [len(mesh.positions) for mesh in meshes])
     lift = _lift(positions, size, float(np.abs(positions).max()), camera)
     lift *= _layers(together["mirror_position"], together["image_parity"], place)
     flat, positions = areas(positions[triangles]), positions + lift[:, None] * _normals(positions, triangles)
     # where layers meet on a caustic slivers stand upright between them, and have many times their area
     light *= (flat / np.maximum(areas(positions[triangles]), np.maximum(flat, 1e-300)))[:, None, None]
+    breathe()
     source, weights = together["source_face"], together["source_weights"].astype(np.float32)
     own = (
         Attribute("material_index", "INT", "FACE", scene.material[source].astype(np.int32)),
@@ -56,12 +60,14 @@ def caustic_arrays(lit: list[tuple[Eye, Tint, CausticMesh]], scene: DiffuseScene
         Attribute("source_object", "INT", "FACE", scene.source_object[source].astype(np.int32)),
         Attribute("source_face", "INT", "FACE", scene.source_face[source].astype(np.int32)),
         Attribute("bounces", "INT", "FACE", together["bounces"].astype(np.int32)))
+    breathe()
     places = {"Generated": scene.generated, "Object": scene.own_places}
     own += tuple(Attribute(PLACES[name], "FLOAT_VECTOR", "CORNER", np.matmul(weights, places[name][source]))
                  for name in places_asked(scene.materials))
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
+    breathe()
     return MeshArrays(origin, (positions - origin).astype(np.float32), triangles.astype(np.int32), own + shown,
-                      scene.materials)
+                      scene.materials, edges=Edges.of(triangles))
 
 
 def _light(lit: list[tuple[Eye, Tint, CausticMesh]]) -> tuple[np.ndarray, np.ndarray]:
