@@ -96,7 +96,7 @@ def baked(screen: Screen):
         stand_in_for_usd()
 
     def done() -> int:
-        return len(list(folder.glob("**/Frame.*.json")))
+        return len(list(folder.glob("reflection frames/Frame.*.json")))
     yield from bake_into(screen, folder, "8_bake")
     yield from waiting(done, "a frame", 120.0)
     shot("9_baking")
@@ -144,6 +144,7 @@ def bake_into(screen: Screen, folder: Path, name: str):
     screen.press("RET")
     yield from waiting(lambda: browser(screen) is not None, "a file browser", 20.0)
     area = browser(screen)
+    assert area.spaces.active.params.filename == "reflection frames", area.spaces.active.params.filename
     area.spaces.active.params.directory = str(folder).encode() + b"/"
     yield 1.0
     shot(name)
