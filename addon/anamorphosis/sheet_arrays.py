@@ -9,7 +9,7 @@ import numpy as np
 from ...core import breathe
 from ...core.geometry import distinct, first_of
 from ..reading import DiffuseScene
-from ..writing import MOST_UV_MAPS, Attribute, MeshArrays, shown_layers
+from ..writing import MOST_UV_MAPS, Attribute, Edges, MeshArrays, shown_layers
 from .cut_triangles import Parts
 from .frame import Frame
 
@@ -57,7 +57,7 @@ def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
     maps = [layer.name for layer in layers if layer.kind == "FLOAT2"]
     layers = tuple(layer for layer in layers if layer.name not in maps[MOST_UV_MAPS - 1:])
     arrays = MeshArrays(np.zeros(3), positions, triangles.astype(np.int32), own_attributes + layers,
-                        [scene.materials[entry] for entry in used])
+                        [scene.materials[entry] for entry in used], edges=Edges.of(triangles))
     breathe()
     # normals turn as the inverse's transpose does: back to the object's space as the matrix's transpose
     turned = weights @ scene.normals[face] @ matrix[:3, :3]

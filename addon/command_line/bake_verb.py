@@ -17,7 +17,7 @@ from ..reading import candidates
 from ..settings import Wanted
 from ..writing import show_in_layer
 from .options import given, whole_number
-from .place import camera_of, layer_of
+from .place import camera_of, forget_chance, layer_of
 from .progress import announced
 
 INTERRUPTED = "Interrupted: the frames that are done stay, and the same command goes on with the others."
@@ -73,6 +73,7 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
     plans, sequences = [], []
     for layer in layers:
         with context.temp_override(scene=scene, view_layer=layer):
+            forget_chance(context)
             plan = plan_of(context, folder, options.frames, wanted, cameras=cameras, overwrite=options.overwrite,
                            layer=layer.name if len(layers) > 1 else "", eyes=options.eyes or 0,
                            lamps=tuple(meant_lamps(context)) if thrown else (), leave_out=options.leave_out)

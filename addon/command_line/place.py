@@ -8,6 +8,7 @@ from contextlib import ExitStack, contextmanager
 import bpy
 
 from ...core import ReflectionError
+from ..reading import candidates
 
 
 def add_place(parser: argparse.ArgumentParser, frame: bool = True) -> None:
@@ -43,7 +44,16 @@ def placed(context: bpy.types.Context, options: argparse.Namespace) -> Iterator[
             scene.frame_set(options.frame)
         if isinstance(getattr(options, "camera", None), str):
             scene.camera = camera_of(scene, options.camera)
+        forget_chance(context)
         yield
+
+
+def forget_chance(context: bpy.types.Context) -> None:
+    """Let go of a selection that chooses no mirror: what was clicked last before the file was saved is not meant, and
+    without it the materials say which objects are mirrors."""
+    if not candidates(context)[0]:
+        for obj in context.selected_objects:
+            obj.select_set(False)
 
 
 def camera_of(scene: bpy.types.Scene, name: str) -> bpy.types.Object:

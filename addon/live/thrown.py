@@ -132,11 +132,13 @@ class ThrownLight:
 
     def _go_on(self) -> str:
         work, started = self._work, time.perf_counter()
-        while work.waiting and time.perf_counter() - started < BUDGET:
+        while work.waiting:
             try:
                 next(work.waiting[0])
             except StopIteration:
                 del work.waiting[0]
+            if time.perf_counter() - started >= BUDGET:
+                break
         work.seconds += time.perf_counter() - started
         if work.waiting:
             return "working"

@@ -181,7 +181,7 @@ def _made(context: bpy.types.Context, name: str, pair: tuple, lit: list, scene: 
           places: MirrorPlaces) -> Steps[Caustic]:
     yield 0.0, "irradiance"
     counts = {key: sum(mesh.counts.get(key, 0) for *_, mesh in lit) for key in lit[0][-1].counts}
-    arrays = caustic_arrays(lit, scene, places, context.scene.camera)
+    arrays = yield from core.in_steps(partial(caustic_arrays, lit, scene, places, context.scene.camera))
     source_face = next(one.values for one in arrays.attributes if one.name == "source_face")
     layers = yield from core.in_steps(partial(most_layers, arrays.positions, arrays.triangles, source_face))
     plain = all(_plain(own, mesh, places.tints) for _, own, mesh in lit)

@@ -10,7 +10,7 @@ import bpy
 from bpy.app.translations import pgettext_tip
 
 from ..illumination import is_glint, leaves_out_any, raises_layers
-from ..reading import NO_CAMERA, NO_MIRROR, RESULTS
+from ..reading import NO_CAMERA, NO_MIRROR, RESULTS, is_mirror
 
 LOOKED_THROUGH = 500    # objects: to look for roles in more takes longer than a redraw may
 Obstacle = Callable[[bpy.types.Context], str]
@@ -37,12 +37,14 @@ def has_camera(context: bpy.types.Context) -> str:
 
 
 def has_mirror(context: bpy.types.Context) -> str:
-    """Something is selected, or else active as a result or a mirror, or has the role of a mirror."""
+    """Something is selected, or else active as a result or a mirror, or has the role of a mirror, or a material is that
+    of a mirror."""
     objects = context.view_layer.objects
     active = objects.active
     if objects.selected or (active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}):
         return ""
-    return "" if _any(objects, lambda obj: obj.reflection_mesh.role == "MIRROR") else NO_MIRROR
+    there = _any(objects, lambda obj: obj.reflection_mesh.role == "MIRROR") or _any(bpy.data.materials, is_mirror)
+    return "" if there else NO_MIRROR
 
 
 def has_mirror_or_caustics(context: bpy.types.Context) -> str:
@@ -76,8 +78,8 @@ def has_active(sentence: str) -> Obstacle:
     return lambda context: "" if context.view_layer.objects.active is not None else sentence
 
 
-def _any(objects, asked: Callable[[bpy.types.Object], bool]) -> bool:
-    """Whether one of the objects is as asked; of too many to look through, one may be."""
+def _any(objects, asked: Callable) -> bool:
+    """Whether one of the objects, or of the materials, is as asked; of too many to look through, one may be."""
     return len(objects) > LOOKED_THROUGH or any(map(asked, objects))
 
 

@@ -47,8 +47,9 @@ def choose(context: bpy.types.Context, all_seen: bool = True) -> Participants:
 
     The selection decides by role. Where it gives no mirror or no diffuse object, the mirrors and sources of the results
     in it, and of the mirrors in it that have results, take part; else the objects of the view layer whose role is
-    explicit. Mirrors that are selected alone, where no object is said to be reflected, show `all_seen`: whatever is
-    there, as mirrors do; without that, nothing.
+    explicit. Where nothing is selected and no object is said to be a mirror, those take part that their materials say
+    are. Mirrors that are selected alone or found so, where no object is said to be reflected, show `all_seen`: whatever
+    is there, as mirrors do; without that, nothing.
     """
     return visible(context, *candidates(context, all_seen))
 
@@ -66,6 +67,9 @@ def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list,
         return of_results(results)
     explicit = [obj for obj in objects if obj.reflection_mesh.role in {"MIRROR", "DIFFUSE"}]
     mirrors = [obj for obj in chosen if _says_mirror(obj)]
+    if not chosen and not any(obj.reflection_mesh.role == "MIRROR" for obj in explicit):
+        is_seen = seen_in(context)
+        mirrors = [obj for obj in objects if _says_mirror(obj) and is_seen(obj)]
     if mirrors:
         # what is a mirror without any doubt is meant, and the roles say what it shows
         said = [obj for obj in explicit if obj.reflection_mesh.role == "DIFFUSE" and obj not in mirrors]

@@ -3,6 +3,7 @@ from .cameras import as_shown, show_for_camera
 from .kept_changes import place_of, put_back_materials
 from .light_layer import UV_MAP, light_layer
 from .mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, mesh_arrays, shown_layers, vertices_written
+from .mesh_edges import Edges
 from .nodes import Builder, disc_nodes, forget_nodes, hide_discs
 from .point_arrays import point_arrays
 from .records import LONGEST as LONGEST_RECORD
@@ -22,8 +23,8 @@ from .write_object import (
     write_object,
 )
 
-__all__ = ["Attribute", "Builder", "LONGEST_RECORD", "MOST_UV_MAPS", "MeshArrays", "RAYS", "Reflection", "UV_MAP",
-           "Written", "as_shown", "close_abandoned_windows", "disc_nodes", "forget_collection", "forget_mesh",
+__all__ = ["Attribute", "Builder", "Edges", "LONGEST_RECORD", "MOST_UV_MAPS", "MeshArrays", "RAYS", "Reflection",
+           "UV_MAP", "Written", "as_shown", "close_abandoned_windows", "disc_nodes", "forget_collection", "forget_mesh",
            "forget_nodes", "gather", "hide_discs", "light_layer", "link_beside", "mesh_arrays", "mesh_bytes",
            "new_beside", "new_object", "place_of", "point_arrays", "put_back_materials", "set_window",
            "show_for_camera", "show_in_layer", "show_own_materials", "shown_layers", "size_text", "vertices_written",

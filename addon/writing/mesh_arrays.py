@@ -9,6 +9,7 @@ import numpy as np
 from ...core import ReflectionMesh, TriangleMesh, View, breathe
 from .. import compat
 from ..reading.join_meshes import DiffuseScene, MirrorSurface
+from .mesh_edges import Edges
 from .shown_attributes import shown_attributes
 from .single_precision import in_single_precision
 
@@ -29,7 +30,7 @@ class Attribute:
 
 @dataclass(frozen=True)
 class Lines:
-    """Vertices (e, 2) of edges that are sharp, and of those marked for Freestyle; faces (m,) marked for Freestyle."""
+    """Which edges (e,) are sharp, and which are marked for Freestyle; faces (m,) marked for Freestyle."""
 
     sharp_edges: np.ndarray
     marked_edges: np.ndarray
@@ -53,6 +54,8 @@ class MeshArrays:
     materials : list of bpy.types.Material or None
     lines : Lines or None
         None of loose points.
+    edges : Edges or None
+        Of the triangles; None where writing is to find them.
     """
 
     origin: np.ndarray
@@ -61,6 +64,7 @@ class MeshArrays:
     attributes: tuple[Attribute, ...]
     materials: list
     lines: Lines | None = None
+    edges: Edges | None = None
 
     def seen_in(self, materials: list) -> MeshArrays:
         """The same with no more attributes than `materials` read."""
@@ -104,8 +108,9 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
     # corners of the result's faces are interpolated in their source triangles
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
     breathe()
+    edges = Edges.of(result.triangles)
     return MeshArrays(origin, (result.positions - origin).astype(np.float32), result.triangles.astype(np.int32),
-                      own + shown, scene.materials, _lines(result, scene))
+                      own + shown, scene.materials, _lines(result, scene, edges), edges)
 
 
 def vertices_written(result: ReflectionMesh, mirror: TriangleMesh, view: View) -> tuple[ReflectionMesh, np.ndarray]:
@@ -123,40 +128,23 @@ def _normals(result: ReflectionMesh, scene: DiffuseScene) -> tuple[Attribute, ..
     return (Attribute("custom_normal", "FLOAT_VECTOR", "CORNER", normals.astype(np.float32)),)
 
 
-def _lines(result: ReflectionMesh, scene: DiffuseScene) -> Lines:
+def _lines(result: ReflectionMesh, scene: DiffuseScene, edges: Edges) -> Lines:
     """What are images of lines. Freestyle has more of them marked: sharp edges, since it knows none and finds no crease
     between faces that both lie on the mirror, and where the surface ends, since it takes gaps for such borders too
     where it leaves out slivers."""
-    side, triangles = result.source_sides, result.triangles
-    edges = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).astype(np.int32)
-    ends = _once(edges.reshape(-1, 2)).reshape(side.shape)
-    breathe()
+    side = result.source_sides
     on_side = side >= 0
     # of each face's source all sides at once
     shown = np.nonzero(on_side)[0], side[on_side]
-    edges, ends = edges[on_side], ends[on_side]
-    sharp = scene.sharp_side[result.source_face][shown]
-    marked = sharp | scene.marked_side[result.source_face][shown] | ends
-    return Lines(edges[sharp], edges[marked], scene.marked_face[result.source_face])
-
-
-def _once(edges: np.ndarray) -> np.ndarray:
-    """Which edges (e, 2) are there once."""
-    key = edge_keys(edges)
+    sharp, marked = np.zeros(side.shape, dtype=bool), np.zeros(side.shape, dtype=bool)
+    sharp[on_side] = scene.sharp_side[result.source_face][shown]
     breathe()
-    order = np.argsort(key)
+    marked[on_side] = scene.marked_side[result.source_face][shown]
     breathe()
-    new = np.append(np.diff(key[order], prepend=-1) != 0, True)
-    once = np.empty(len(key), dtype=bool)
-    once[order] = new[:-1] & new[1:]
-    return once
-
-
-def edge_keys(edges: np.ndarray) -> np.ndarray:
-    """A number (e,) for each of the edges (e, 2), the same from both its ends."""
-    one, other = edges.T
-    key = np.minimum(one, other).astype(np.int64) << 32
-    return np.bitwise_or(key, np.maximum(one, other), out=key)
+    sharp_edges = edges.among(sharp.reshape(-1))
+    marked_edges = (sharp_edges | edges.among(marked.reshape(-1))
+                    | edges.among(on_side.reshape(-1)) & edges.borders)
+    return Lines(sharp_edges, marked_edges, scene.marked_face[result.source_face])
 
 
 def origin_of(mirror: TriangleMesh) -> np.ndarray:

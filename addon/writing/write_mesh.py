@@ -5,7 +5,8 @@ import bpy
 import numpy as np
 
 from .. import compat
-from .mesh_arrays import Lines, MeshArrays, edge_keys
+from .mesh_arrays import Lines, MeshArrays
+from .mesh_edges import Edges
 
 # where the values of an attribute lie, by its type; all others call it "value"
 FIELDS = {"FLOAT_VECTOR": "vector", "FLOAT2": "vector", "FLOAT_COLOR": "color", "BYTE_COLOR": "color"}
@@ -17,7 +18,7 @@ def write_mesh(mesh: bpy.types.Mesh, arrays: MeshArrays) -> None:
     mesh.vertices.add(len(arrays.positions))
     mesh.attributes["position"].data.foreach_set("vector", arrays.positions.reshape(-1))
     if len(arrays.triangles):
-        _write_faces(mesh, arrays.triangles)
+        _write_faces(mesh, arrays.triangles, arrays.edges or Edges.of(arrays.triangles))
     mesh.materials.clear()
     for material in arrays.materials:
         mesh.materials.append(material)
@@ -28,34 +29,26 @@ def write_mesh(mesh: bpy.types.Mesh, arrays: MeshArrays) -> None:
         mesh.uv_layers[0].active = mesh.uv_layers[0].active_render = True
     if len(mesh.color_attributes):
         mesh.color_attributes.active_color_index = mesh.color_attributes.render_color_index = 0
-    mesh.update(calc_edges=len(arrays.triangles) > 0)
     if arrays.lines is not None:
         _write_lines(mesh, arrays.lines)
+    mesh.update()
 
 
-def _write_faces(mesh: bpy.types.Mesh, triangles: np.ndarray) -> None:
+def _write_faces(mesh: bpy.types.Mesh, triangles: np.ndarray, edges: Edges) -> None:
+    mesh.edges.add(len(edges.ends))
     mesh.loops.add(triangles.size)
     mesh.polygons.add(len(triangles))
-    mesh.attributes[".corner_vert"].data.foreach_set("value", triangles.reshape(-1))
+    # by these names, as one block each: by the elements' own properties it takes a hundred times as long
+    for name, values in ((".edge_verts", edges.ends), (".corner_vert", triangles), (".corner_edge", edges.of_side)):
+        mesh.attributes[name].data.foreach_set("value", values.reshape(-1))
     mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
 
 
 def _write_lines(mesh: bpy.types.Mesh, lines: Lines) -> None:
-    if not len(lines.sharp_edges) and not len(lines.marked_edges):
-        edges = np.zeros((0, 2), dtype=np.int32)
-    else:
-        edges = np.empty((len(mesh.edges), 2), dtype=np.int32)
-        mesh.edges.foreach_get("vertices", edges.reshape(-1))
-    if len(lines.sharp_edges):
+    if lines.sharp_edges.any():
         sharp = mesh.attributes.get("sharp_edge") or mesh.attributes.new("sharp_edge", "BOOLEAN", "EDGE")
-        sharp.data.foreach_set("value", _among(edges, lines.sharp_edges))
-    if len(lines.marked_edges):
-        compat.mark_for_freestyle(mesh, "EDGE", _among(edges, lines.marked_edges))
+        sharp.data.foreach_set("value", lines.sharp_edges)
+    if lines.marked_edges.any():
+        compat.mark_for_freestyle(mesh, "EDGE", lines.marked_edges)
     if lines.marked_faces.any():
         compat.mark_for_freestyle(mesh, "FACE", lines.marked_faces)
-
-
-def _among(edges: np.ndarray, pairs: np.ndarray) -> np.ndarray:
-    """Which edges (e, 2) join one of the `pairs` (n, 2) of vertices, at least one."""
-    own, chosen = edge_keys(edges), np.sort(edge_keys(pairs))
-    return chosen[np.minimum(np.searchsorted(chosen, own), len(chosen) - 1)] == own

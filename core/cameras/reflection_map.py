@@ -11,6 +11,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 
 from ..geometry import View, cross, dot, norm, solve
+from ..support import breathe
 from .mirror_surface import ALONG_UV, MirrorSurface, Way
 
 SETTLED = 1e-9  # of a triangle's side, or of s: after a shorter step of Newton's method the next is rounding alone
@@ -138,6 +139,7 @@ class ReflectionMap(ABC):
         way = end - start
         found, going = np.stack((t, s, np.zeros_like(t))), np.arange(len(t))
         for _ in range(steps):
+            breathe()
             t, s, r = found[:, going]
             origin, ray, ((move, change),) = self.linearise(face, start + t * way, way)
             moved = solve(move + s * change, ray, -edge, point - origin - s * ray)

@@ -26,6 +26,7 @@ def in_squares(cameras: Cameras, size: float) -> ConvexPolygons:
     parts = ConvexPolygons.whole(len(cameras))
     for axis, end in enumerate((width, height)):
         for values in (across[axis], end * depth - across[axis]):
+            breathe()
             parts = parts.cut(values[:, parts.owner], Line.HIDDEN)
             parts = parts.select(parts.size >= 3)
     across -= first_side(size) * depth
@@ -34,13 +35,16 @@ def in_squares(cameras: Cameras, size: float) -> ConvexPolygons:
         low, high = _reaches(parts, across, depth)
         first, last = np.floor(low / size + TOUCHING) + 1.0, np.ceil(high / size - TOUCHING) - 1.0
         sides = last - first + 1.0
+        breathe()
         axis = np.argmax(sides, axis=0)
         chosen = np.flatnonzero(sides.max(axis=0, initial=0.0) > 0.0)
         if not len(chosen):
             break
         axis, of = axis[chosen], parts.owner[chosen]
         side = size * np.floor(0.5 * (first + last))[axis, chosen]
+        breathe()
         parts = parts.halved(chosen, across[axis, :, of].T - side * depth[:, of])
+        breathe()
         parts = parts.select(parts.size >= 3)
     return parts
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..cameras import MirrorMap
 from ..culling import SceneAndMirrors, SceneTree, first_crossed
-from ..geometry import TriangleMesh, View, dot, following, ranges, shares, unit
+from ..geometry import TriangleMesh, View, dot, following, largest, ranges, shares, smallest, unit
 from ..support import breathe
 
 ACROSS = 16  # probes along each side of the box round the mirror in the picture
@@ -64,10 +64,12 @@ def _covered(corners: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarr
     """Which probes a face with corners (m, 3, 2) in the picture covers."""
     places = (corners - low) / step - 0.5
     breathe()
-    first, last = (np.clip(np.nan_to_num(bound), -1, ACROSS).astype(np.int64) for bound in
-                   (np.ceil(places.min(axis=1) - MARGIN / step), np.floor(places.max(axis=1) + MARGIN / step)))
+    first = _numbers(np.ceil(smallest(places.swapaxes(0, 1)) - MARGIN / step))
+    breathe()
+    last = _numbers(np.floor(largest(places.swapaxes(0, 1)) + MARGIN / step))
     breathe()
     first, count = np.maximum(first, 0), np.minimum(last, ACROSS - 1) + 1 - np.maximum(first, 0)
+    breathe()
     face, covered = np.flatnonzero((count > 0).all(axis=1)), np.zeros(ACROSS * ACROSS, dtype=bool)
     for part in shares(count[face].prod(axis=1), PAIRS_AT_ONCE):
         breathe()
@@ -84,3 +86,8 @@ def _covered(corners: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarr
         if covered.all():
             break
     return covered
+
+
+def _numbers(bound: np.ndarray) -> np.ndarray:
+    """Of the probes, where they are any, along both axes."""
+    return np.clip(np.nan_to_num(bound), -1, ACROSS).astype(np.int64)

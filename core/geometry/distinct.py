@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..support import breathe
+
 DENSE = 8  # times the keys: numbers up to so many are marked in a table
 
 
@@ -18,6 +20,7 @@ def distinct(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return values, group
     table = np.zeros(most + 1, dtype=bool)
     table[key] = True
+    breathe()
     number = np.cumsum(table)
     number -= 1
     return np.flatnonzero(table), number.take(key, mode="wrap")
@@ -30,7 +33,9 @@ def first_of(key: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     np.not_equal(rising[1:], rising[:-1], out=new[1:])
     number, group = np.cumsum(new), np.empty(len(key), dtype=np.int64)
     number -= 1
+    breathe()
     group[order] = number
+    breathe()
     at = np.flatnonzero(new)
     return rising[at], order[at], group
 
@@ -48,7 +53,9 @@ def _sorted(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return order, key[order]
     both = key.astype(np.int64) << bits
     both |= np.arange(len(key))
+    breathe()
     both.sort()
+    breathe()
     order = both & ((1 << bits) - 1)
     both >>= bits
     return order, both

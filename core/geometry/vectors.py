@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..support import breathe
 from .distinct import distinct, first_of
 
 
@@ -84,6 +85,7 @@ def groups(*keys: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     group = keys[0]
     for key in keys[1:]:
         _, group = distinct(group)
+        breathe()
         group = group * (int(key.max(initial=0)) + 1) + key
     _, first, group = first_of(group)
     return first, group

@@ -32,7 +32,9 @@ class Faces:
         return len(self.camera)
 
     def select(self, chosen: np.ndarray) -> Faces:
-        return Faces(self.nodes[chosen], self.camera[chosen], self.column[chosen], self.on_scene_edge[chosen])
+        nodes, camera = self.nodes[chosen], self.camera[chosen]
+        breathe()
+        return Faces(nodes, camera, self.column[chosen], self.on_scene_edge[chosen])
 
     def split(self, middle: np.ndarray) -> tuple[Faces, np.ndarray]:
         """Faces split at the nodes `middle` (f, 3) of their edges, -1 for none.
@@ -94,6 +96,8 @@ def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Face
     edges = np.stack((scene[corner[0]] & first, scene[corner[1]], scene[corner[2]] & last), axis=1)
     breathe()
     nodes = node_of[corner].T
+    breathe()
     faces = Faces(nodes, polygons.camera[fan], polygons.column[fan], edges)
     a, b, c = faces.nodes.T
+    breathe()
     return faces.select((a != b) & (b != c) & (c != a))

@@ -2,38 +2,9 @@
 from __future__ import annotations
 
 import bpy
-import numpy as np
 import parts
-from lamp_scenes import SIZE, patterned, picture, principled, psnr
-
-
-def room_of(context: bpy.types.Context, balls: int) -> bpy.types.Object:
-    """A tiled room with as many balls on its floor, two lamps, a curved mirror of metal, and a camera that moves."""
-    floor = parts.add("plane", "Floor", size=12.0)
-    floor.data.materials.append(patterned("Object"))
-    back = parts.add("plane", "Wall", size=12.0, location=(0.0, -7.0, 3.0), rotation=(np.pi / 2, 0.0, 0.0))
-    back.data.materials.append(principled("Plaster", (0.3, 0.5, 0.8)))
-    rng = np.random.default_rng(5)
-    for number in range(balls):
-        ball = parts.add("uv_sphere", f"Ball {number}", segments=16, ring_count=8, radius=0.25,
-                         location=(*rng.uniform((-3.0, -5.5), (3.0, -1.5)), 0.25))
-        ball.data.materials.append(principled(f"Paint {number}", rng.uniform(0.1, 0.9, 3)))
-    mirror = parts.add("uv_sphere", "Metal", segments=48, ring_count=24, radius=1.4, location=(0.0, 0.6, 1.4))
-    mirror.data.shade_smooth()
-    mirror.data.materials.append(principled("Metal", (0.95, 0.8, 0.6), Metallic=1.0, Roughness=0.0))
-    for kind, place, energy in (("POINT", (2.0, -4.0, 4.0), 400.0), ("AREA", (-2.0, -3.0, 5.0), 300.0)):
-        bpy.ops.object.light_add(type=kind, location=place)
-        bpy.context.object.data.energy = energy
-    camera = context.scene.camera
-    camera.keyframe_insert("location", frame=1)
-    camera.location.x += 1.0
-    camera.keyframe_insert("location", frame=24)
-    scene = context.scene
-    scene.frame_set(1)
-    scene.render.engine, scene.view_settings.view_transform = "CYCLES", "Standard"
-    scene.render.resolution_x = scene.render.resolution_y = SIZE
-    scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.use_adaptive_sampling = 64, False, False
-    return mirror
+from lamp_scenes import picture, psnr
+from newcomer import room_of
 
 
 def test_the_mirror_clicked_and_two_buttons(blank, room):
@@ -50,3 +21,19 @@ def test_the_mirror_clicked_and_two_buttons(blank, room):
     assert result.reflection_mesh.light_map is None
     lit, noise = psnr(picture(room), reference), psnr(other, reference)
     assert lit > min(38.0, noise - 2.0) and lit > before + 3.0
+
+
+def test_with_nothing_selected_the_material_says_it(blank):
+    """The button is not grey, and what it makes is what the mirror clicked would have made."""
+    mirror = room_of(blank, 3)
+    parts.select()
+    bpy.context.view_layer.objects.active = None
+    assert bpy.ops.reflection_mesh.generate.poll()
+    assert bpy.ops.reflection_mesh.generate("INVOKE_DEFAULT") == {"FINISHED"}
+    result = bpy.context.view_layer.objects.active
+    assert result.reflection_mesh.mirror == mirror and len(result.reflection_mesh.sources) == 5
+    bpy.ops.reflection_mesh.clear()
+    mirror.active_material.node_tree.nodes["Principled BSDF"].inputs["Roughness"].default_value = 0.5
+    parts.select()
+    bpy.context.view_layer.objects.active = None
+    assert not bpy.ops.reflection_mesh.generate.poll()

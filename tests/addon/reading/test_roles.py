@@ -1,4 +1,6 @@
 """Who takes part: every rule of the roles, and which materials are mirrors."""
+from types import SimpleNamespace
+
 import bpy
 import parts
 import pytest
@@ -55,6 +57,43 @@ def test_active_diffuse_object_is_no_mirror(four, room):
     parts.select(four[0], four[1])
     with pytest.raises(room("core").ReflectionError, match="mirror"):
         room("addon.reading.roles").participants(bpy.context)
+
+
+def test_materials_without_a_selection(four, room):
+    """Whatever is a mirror by its material shows the rest, and what is hidden takes no part; what is selected, or said
+    to be a mirror, is meant instead."""
+    for obj in four[:3]:
+        obj.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    four[2].hide_render = True
+    parts.select()
+    assert names(room) == (["A", "B"], ["D"])
+    assert names_without_all(room) == (["A", "B"], [])
+    four[3].reflection_mesh.role = "DIFFUSE"
+    parts.add("cube", "E")
+    parts.select()
+    assert names(room) == (["A", "B"], ["D"])
+    four[3].reflection_mesh.role = "AUTO"
+    parts.select(four[3])
+    with pytest.raises(room("core").ReflectionError, match="No mirror"):
+        names(room)
+
+
+def names_without_all(room) -> tuple[list, list]:
+    mirrors, diffuse = room("addon.reading.roles").candidates(bpy.context, all_seen=False)
+    return sorted(obj.name for obj in mirrors), sorted(obj.name for obj in diffuse)
+
+
+def test_the_command_line_forgets_a_selection_by_chance(four, room):
+    """One that chooses no mirror; one that does is kept, though it leaves out a mirror."""
+    place, options = room("addon.command_line.place"), SimpleNamespace(scene=None, view_layer=None)
+    for obj in four[:2]:
+        obj.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    parts.select(four[3])
+    with place.placed(bpy.context, options):
+        assert names(room) == (["A", "B"], ["C", "D"])
+    parts.select(four[0], four[3])
+    with place.placed(bpy.context, options):
+        assert names(room) == (["A"], ["D"])
 
 
 def test_a_result_knows_its_own(four, room):

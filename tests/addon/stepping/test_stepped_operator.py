@@ -1,8 +1,10 @@
 """Operators in a window, with stand-ins for it: what is shown before which step, ESC, errors, and the file browser."""
 from __future__ import annotations
 
+from pathlib import Path
 from types import FunctionType, SimpleNamespace
 
+import bpy
 import pytest
 
 TIMER, ESC, MOVED = (SimpleNamespace(type=kind, value="PRESS") for kind in ("TIMER", "ESC", "MOUSEMOVE"))
@@ -70,11 +72,25 @@ class Header:
         pass
 
 
+class Properties:
+    """Those of an operator that writes to a folder beside the open file, unless it is given another one."""
+
+    bl_rna = SimpleNamespace(properties={"filepath": SimpleNamespace(default="//frames")})
+
+    def __init__(self, *given: str) -> None:
+        self.given = given
+
+    def is_property_set(self, name: str, ghost: bool = True) -> bool:
+        # what is remembered from the last time, maybe of another file, counts as set but for `ghost=False`
+        return ghost or name in self.given
+
+
 @pytest.fixture
 def place(room, monkeypatch):
     """The module of stepped operators, as if there were a window."""
     module = room("addon.faults.stepped_operator")
-    monkeypatch.setattr(module, "bpy", SimpleNamespace(app=SimpleNamespace(background=False)))
+    monkeypatch.setattr(module, "bpy", SimpleNamespace(app=SimpleNamespace(background=False), path=bpy.path,
+                                                       data=SimpleNamespace(filepath="")))
     return module
 
 
@@ -84,6 +100,7 @@ def started(place, told: list, kind: str = "SteppedOperator", error: Exception |
 
     class Job(getattr(place, kind)):
         bl_label = "Job"
+        properties, filepath = Properties(), ""
 
         def steps(self, context):
             try:
@@ -152,6 +169,27 @@ def test_the_file_browser_comes_first_and_calls_execute(place):
     assert job.execute(window) == {"FINISHED"} and "timer" not in notes and "browser" not in notes
 
 
+def test_the_browser_begins_with_the_operators_own_place(place, tmp_path):
+    """Blender would propose the open file's name, as the name of a folder even."""
+    job, window, _ = started(place, ["one"], "BrowsingOperator")
+    job.invoke(window, None)
+    assert job.filepath == "frames"
+    job, window, _ = started(place, ["one"], "BrowsingOperator")
+    job.properties, job.filepath = Properties("filepath"), "/elsewhere"
+    job.invoke(window, None)
+    assert job.filepath == "/elsewhere"
+
+
+def test_places_beside_the_open_file(blank, room, tmp_path):
+    proposed = room("addon.faults.stepped_operator").proposed
+    assert proposed("//sheet.png") == "sheet.png"
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "mine.blend"))
+    assert Path(proposed("//sheet.png")) == tmp_path / "sheet.png"
+    for operator in ("bake", "compare", "print_sheet"):
+        kind = getattr(bpy.ops.reflection_mesh, operator).get_rna_type()
+        assert kind.properties["filepath"].default.startswith("//")
+
+
 def test_executed_or_without_a_window_it_runs_to_its_end(place):
     for kind in ("SteppedOperator", "BrowsingOperator"):
         job, window, notes = started(place, ["one", place.Undivided("whole")], kind)
@@ -170,7 +208,6 @@ def test_time_left(room, passed, fraction, told):
 
 def test_blender_has_what_the_status_bar_draws(room, monkeypatch):
     # layouts exist in windows only: their functions by Blender's own description of them
-    import bpy
     functions = bpy.types.UILayout.bl_rna.functions
     assert {"factor", "text", "translate"} <= set(functions["progress"].parameters.keys())
     assert {"label", "row", "separator_spacer"} <= set(functions.keys())
