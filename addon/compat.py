@@ -51,10 +51,10 @@ def smooth_faces_take_vertex_normals(mesh: bpy.types.Mesh) -> bool:
     return not sharp.any()
 
 
-def has_free_normals() -> bool:
-    """Whether a mesh takes any vectors as its corners' normals, by an attribute `custom_normal`; from 4.5 on. Before,
-    normals of its own make edges of a mesh sharp."""
-    return bpy.app.version >= (4, 5, 0)
+def normals_attribute() -> str:
+    """The name by which a mesh keeps any vectors as its corners' normals: from 4.5 on it takes them for its own.
+    Before, normals of its own make edges of a mesh sharp, and no more than nodes can ask for them."""
+    return "custom_normal" if bpy.app.version >= (4, 5, 0) else "image_normal"
 
 
 def places_in_texels() -> tuple[tuple[float, float], ...]:

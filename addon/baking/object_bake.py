@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core import ReflectionError, View, breathe, in_steps
 from ..faults import Steps, Undivided, part
-from ..reading import DiffuseScene, is_opaque
+from ..reading import DiffuseScene, is_opaque, materials_of
 from ..reading.read_meshes import read_meshes
 from .atlas import arranged, packed
 from .bake_scene import bake_scene
@@ -17,6 +17,7 @@ from .levels import FINER, levels_of
 from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
 from .stand_ins import new_meshes, stand_ins
 from .undeformed import is_deformed, undeformed_positions
+from .whole_texels import is_glossy, is_metal
 
 LARGEST = 4096  # texels along a side of all maps together
 FEWER = 0.5     # of the samples are enough where a picture is denoised
@@ -37,11 +38,14 @@ class ObjectLight:
         Where in it the corners of triangles lie, sheet by sheet.
     sheets : list of (int, bool)
         Which triangles: all of a source in their own order, and whether it is their backs.
+    dull : tuple of str
+        The names of those sources that have gloss, and are not seen as from one place.
     """
 
     texels: np.ndarray
     uv: np.ndarray
     sheets: list
+    dull: tuple
 
 
 def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseScene, samples: int,
@@ -70,8 +74,14 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
         area[..., :3] = pictures[sheet][..., :3]
         area[..., 3] = pictures[sheet[0], None][..., 0] if open_[sheet[0]] else 1.0
     uv = {number: atlas.uv for number, atlas in atlases.items()}
-    return ObjectLight(texels, np.concatenate([(uv[sheet[0]] * atlases[sheet[0]].size + start) / side for sheet, start
-                                               in zip(sheets, at, strict=True)]).astype(np.float32), sheets)
+    spots = np.concatenate([(uv[sheet[0]] * atlases[sheet[0]].size + start) / side for sheet, start
+                            in zip(sheets, at, strict=True)])
+    return ObjectLight(texels, spots.astype(np.float32), sheets, _dull(scene, seen))
+
+
+def _dull(scene: DiffuseScene, seen: SeenSources) -> tuple:
+    return tuple(source.name for source, one_eye in zip(scene.sources, seen.one_eye, strict=True)
+                 if not one_eye and any(map(is_glossy, materials_of(source))))
 
 
 def _sheets(scene: DiffuseScene, seen: SeenSources) -> tuple[list, list, list]:
@@ -115,8 +125,8 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
                 share = (FEWER if denoised else 1.0) / FINER ** 2
                 width, height = own.window(level, back)[1].tolist()
                 few = max(round(samples * share), 1)
-                picture = stage.bake(number, (width, height), seen.seen_from[number], bool(seen.one_eye[number]), few,
-                                     denoised)
+                gloss = bool(seen.one_eye[number]) or any(map(is_metal, materials_of(scene.sources[number])))
+                picture = stage.bake(number, (width, height), seen.seen_from[number], gloss, few, denoised)
                 colours = stage.colours(number, (width, height), few) if denoised else None
                 found[number, back] = yield from part(
                     in_steps(partial(own.picture, level, back, picture, found.get((number, back)), colours)),

@@ -19,10 +19,11 @@ WRITING = "Writing"
 @dataclass(frozen=True)
 class KeptMap:
     """Where light lies in a picture, as `ObjectLight` has it: a mesh whose points are the corners of triangles keeps
-    it, and is saved with the file, and appended with a result."""
+    it, and is saved with the file, and appended with a result; `dull` are names as `ObjectLight` has them."""
 
     mesh: bpy.types.Mesh
     sheets: list
+    dull: tuple = ()
 
     @property
     def uv(self) -> np.ndarray:

@@ -9,6 +9,9 @@ import numpy as np
 
 from ..writing import UV_MAP
 
+METALS, GLASSES = {"BSDF_GLOSSY", "BSDF_METALLIC"}, {"BSDF_GLASS", "BSDF_REFRACTION"}
+MATTE = 0.5       # of a metal, up to which a Principled BSDF is seen without
+DULL = 0.5        # roughness of a Principled BSDF from which on it hardly shows where it is looked at from
 UNTOUCHED = -1.0  # of a texel that nothing was baked into; light is never below zero
 
 
@@ -22,6 +25,24 @@ def shines(material: bpy.types.Material | None) -> bool:
     strengths = [node.inputs["Emission Strength"] for node in _nodes(material) if node.type == "BSDF_PRINCIPLED"]
     return (any(node.type == "EMISSION" for node in _nodes(material))
             or any(strength.is_linked or strength.default_value > 0.0 for strength in strengths))
+
+
+def is_metal(material: bpy.types.Material | None) -> bool:
+    """Whether a material would be black without its gloss, in places at least."""
+    return any(node.type in METALS or node.type == "BSDF_PRINCIPLED" and _exceeds(node.inputs["Metallic"], MATTE)
+               for node in _nodes(material))
+
+
+def is_glossy(material: bpy.types.Material | None) -> bool:
+    """Whether a material looks otherwise from elsewhere, to an eye that sees no measurements."""
+    return any(node.type in METALS | GLASSES or node.type == "BSDF_PRINCIPLED" and (
+        _exceeds(node.inputs["Metallic"], 0.0) or _exceeds(node.inputs["Transmission Weight"], 0.0)
+        or node.inputs["Roughness"].is_linked or node.inputs["Roughness"].default_value < DULL)
+        for node in _nodes(material))
+
+
+def _exceeds(socket: bpy.types.NodeSocket, value: float) -> bool:
+    return socket.is_linked or socket.default_value > value
 
 
 def _nodes(holder: bpy.types.Material | bpy.types.ShaderNodeTree | None) -> list[bpy.types.Node]:

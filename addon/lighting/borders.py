@@ -9,17 +9,19 @@ from ..rendering import sum_around
 SEEN_WHOLE = 0.995  # of a pixel: coverage from which it shows nothing else
 SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
 UNSEEN = 0.002
+UNSURE = 0.04     # of a pixel: by how much coverage, and the light beside, may be wrong
 BRIGHTEST_GAP = 2.0  # times what results show beside a gap that is thinner than a pixel
 
 
 def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: np.ndarray,
                              rings: int) -> tuple[np.ndarray, np.ndarray]:
     """What results show in pixels that they cover in part, where the light beside them, continued for a filter's width
-    of `rings`, tells; and which pixels (height, width) are known so.
+    of `rings`, tells, as near to what they show within as that leaves open: beside a lamp it leaves much; and which
+    pixels (height, width) are known so.
 
-    In a gap that is thinner than a pixel no such light is near, and what lies on the other side of the next piece of a
-    result may be very different: there what results show goes on as it is within, as far as something between
-    darkness and twice as bright a light in the gap allows.
+    In a gap that is thinner than a pixel, be it one before a lamp, no such light is near, and what lies on its other
+    side may be very different: there what results show goes on as it is within, as far as something between darkness
+    and twice as bright a light in the gap allows.
     """
     border = (coverage > UNSEEN) & (coverage < SEEN_WHOLE)
     apart = (coverage <= UNSEEN) & (opacity > UNSEEN)
@@ -28,7 +30,7 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
     breathe()
     beside, told = _continued(both, apart, border, rings)
     breathe()
-    within = _continued(light, coverage >= SEEN_WHOLE, border & ~told, rings)[0]
+    within, inner = _continued(light, coverage >= SEEN_WHOLE, border, rings)
     breathe()
     alone = light.copy()
     # row after row: few have a border, and a row stays in the cache
@@ -36,10 +38,14 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
         breathe()
         share = np.maximum(coverage[row], SEEN_PARTLY)[:, None]
         other = np.maximum(opacity[row, :, None] - share, 0.0)
-        rest = other * beside[row, :, :3] / np.maximum(beside[row, :, 3:], UNSEEN)
+        bright = beside[row, :, :3] / np.maximum(beside[row, :, 3:], UNSEEN)
         most = light[row] / share
         guess = np.clip(within[row], most - BRIGHTEST_GAP * other / share * within[row], most)
-        shown = np.where(told[row, :, None], np.maximum(most - rest / share, 0.0), guess)
+        exact, open_ = most - other * bright / share, UNSURE * bright / share
+        near = np.where(inner[row, :, None], np.clip(within[row], exact - open_, exact + open_), exact)
+        # what is brighter than all of the pixel is not what lies beside in it
+        sound = told[row] & (exact + open_ >= 0.0).all(axis=1)
+        shown = np.where(sound[:, None], np.maximum(near, 0.0), guess)
         alone[row, border[row]] = shown[border[row]]
     return alone, coverage > SEEN_PARTLY
 

@@ -29,7 +29,7 @@ def show_light(result: bpy.types.Object, material: bpy.types.Material, view: Vie
 def show_object_light(result: bpy.types.Object, material: bpy.types.Material, view: View, scene: DiffuseScene,
                       light_map: KeptMap, whole: AllOrNothing) -> Steps[None]:
     """Let a result show light that stays with the objects of `scene`."""
-    told = json.dumps({"kind": "OBJECTS", **_identity(scene), "sheets": light_map.sheets})
+    told = json.dumps({"kind": "OBJECTS", **_identity(scene), "sheets": light_map.sheets, "dull": light_map.dull})
     yield from _show(result, material, told, light_map.mesh, lay_out(result, view, scene, light_map), whole)
 
 
@@ -77,13 +77,23 @@ def forget_map(mesh: bpy.types.Mesh) -> None:
         bpy.data.meshes.remove(mesh)
 
 
+def dull_objects(result: bpy.types.Object) -> list[str]:
+    """The names of the objects whose gloss a result shows as from elsewhere, or not at all."""
+    try:
+        names = json.loads(result.reflection_mesh.light[:LONGEST_RECORD] or "{}").get("dull", [])
+    except (ValueError, RecursionError, AttributeError):
+        return []
+    return [name for name in names if isinstance(name, str)] if isinstance(names, list) else []
+
+
 def light_lines(result: bpy.types.Object) -> list[str]:
     """What there is to say of a result's light, in short sentences."""
     record = result.reflection_mesh
     if record.light_stale:
         return ["The scene has changed since it was lit:", "press Light Reflection again."]
     if record.light_material is not None:
-        return ["Lit."]
+        return ["Lit; gloss is seen as from one place:", "in the picture it would be exact."] if dull_objects(result) \
+            else ["Lit."]
     return ["Its light is still to come:", "press Light Reflection."] if needs_light(result) else []
 
 

@@ -94,7 +94,7 @@ class _Builder(ShaderBuilder):
         """A colour that shines, less where the surface turns away from the eye."""
         at = self.add("ShaderNodeNewGeometry")
         facing = self.add("ShaderNodeVectorMath", operation="DOT_PRODUCT")
-        self.feed(at.outputs["Normal"], facing.inputs[0])
+        self.feed(self.normal(at), facing.inputs[0])
         self.feed(at.outputs["Incoming"], facing.inputs[1])
         share = self.add("ShaderNodeMapRange")
         self.feed(self.calculated("ABSOLUTE", facing.outputs["Value"], 0.0), share.inputs["Value"])
@@ -102,6 +102,16 @@ class _Builder(ShaderBuilder):
         shown = self.glow(self.tinted(colour))
         self.feed(share.outputs[0], shown.node.inputs["Strength"])
         return shown
+
+    def normal(self, at: bpy.types.Node) -> bpy.types.NodeSocket:
+        """The normal of what is shown, in world space; `at` tells that of the mesh."""
+        name = compat.normals_attribute()
+        if name == "custom_normal":
+            return at.outputs["Normal"]
+        known = self.add("ShaderNodeAttribute", attribute_name=name)
+        turned = self.add("ShaderNodeVectorTransform", vector_type="NORMAL", convert_from="OBJECT", convert_to="WORLD")
+        self.feed(known.outputs["Vector"], turned.inputs[0])
+        return turned.outputs[0]
 
     def with_lamps(self, surface: bpy.types.NodeSocket, lamps: tuple[ShownLamp, ...], opacity) -> bpy.types.NodeSocket:
         """A surface with the light of what lamps stand before it; what is open leaves its share to what lies behind,

@@ -23,6 +23,7 @@ from ..faults import AllOrNothing, SteppedOperator, Steps, Undivided, part, tell
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
     Window,
+    dull_objects,
     is_plain,
     light_scene,
     needs_light,
@@ -42,6 +43,7 @@ from . import polls
 from .clear import chosen_results
 
 NAME = "Reflection Light"
+NAMED = 3
 IN_OBJECT_MODE = "Reflections are lit in Object Mode: leave the present mode first."
 FOR_THIS_FRAME = ("So many objects are reflected that their light was made for this frame alone: bake frames for an "
                   "animation, or choose Light: Objects to keep it while things move.")
@@ -201,7 +203,8 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int,
                                   LaterMirrors.of(result, context.scene.objects))
             material = new_object_material(NAME, image, _mirror_material(result), opaque, around)
             whole.undo(bpy.data.materials.remove, material)
-            yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets), whole)
+            yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets, light.dull),
+                                         whole)
     return show
 
 
@@ -210,6 +213,15 @@ def _mirror_material(result: bpy.types.Object) -> bpy.types.Material | None:
     slots = [material for material in materials_of(result.reflection_mesh.mirror) if material is not None]
     reflecting = next(iter([material for material in slots if is_mirror(material)] + slots), None)
     return None if reflecting is None or is_plain(reflecting) else reflecting
+
+
+def gloss_left_out(lit: list) -> list[str]:
+    """A sentence on the objects whose gloss `lit` do not show as it is, if there are any."""
+    names = sorted({name for result in lit for name in dull_objects(result)})
+    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
+    listed = ", ".join(f"'{name}'" for name in names[:NAMED]) + more
+    return [f"The gloss of {listed} is not what so close a curved mirror shows: choose Light: Picture for a still."
+            ] * bool(names)
 
 
 def summary(lit: list, seconds: float) -> str:
@@ -248,6 +260,8 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
                for group, _, kind in lights):
             tell(self, {"INFO"}, FOR_THIS_FRAME)
         self.show_used(wanted, [result.reflection_mesh.mirror for result in results])
+        for sentence in gloss_left_out(lit):
+            tell(self, {"INFO"}, sentence)
         tell(self, {"INFO"}, summary(lit, time.perf_counter() - started))
 
 

@@ -121,11 +121,9 @@ def vertices_written(result: ReflectionMesh, mirror: TriangleMesh, view: View) -
 
 def _normals(result: ReflectionMesh, scene: DiffuseScene) -> tuple[Attribute, ...]:
     """The shading normals of the sources as the mirrors show them."""
-    if not compat.has_free_normals():
-        return ()
     normals = result.image_normals(scene.normals)
     normals[(normals[..., 0] == 0.0) & (normals[..., 1] == 0.0) & (normals[..., 2] == 0.0)] = UP
-    return (Attribute("custom_normal", "FLOAT_VECTOR", "CORNER", normals.astype(np.float32)),)
+    return (Attribute(compat.normals_attribute(), "FLOAT_VECTOR", "CORNER", normals.astype(np.float32)),)
 
 
 def _lines(result: ReflectionMesh, scene: DiffuseScene, edges: Edges) -> Lines:

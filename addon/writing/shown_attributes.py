@@ -32,7 +32,7 @@ def shown_attributes(attributes: tuple, materials: list) -> tuple:
     if nameless:
         unread -= set(colours[:1])
     if not types & READS_NORMALS and all(map(emits, materials)):
-        unread |= {"custom_normal"}
+        unread |= {compat.normals_attribute()}
     return tuple(entry for entry in attributes if entry.name in asked or entry.name not in unread)
 
 

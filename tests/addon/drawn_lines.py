@@ -111,6 +111,28 @@ def cube_edges(box: bpy.types.Object, kind: str) -> tuple[list, list]:
     return lines, seen
 
 
+def meeting(box: bpy.types.Object, other: bpy.types.Object, kind: str) -> np.ndarray:
+    """Points (n, 2), in pixels, of the curve where two cubes that pass through each other meet, as the mirror shows it:
+    where steps along one cube's faces enter the other or leave it, and the mirror sees both faces from before."""
+    matrix, inverse = np.array(other.matrix_world), np.array(box.matrix_world.inverted())
+    half = 0.5 * other.dimensions.x / other.scale.x
+    steps, found = half * np.linspace(-1.0, 1.0, 301), []
+    for axis, side in ((axis, side) for axis in range(3) for side in (-1.0, 1.0)):
+        grid = np.stack(np.meshgrid(steps, steps, [side * half], indexing="ij"), axis=-1)[:, :, 0]
+        places = np.roll(grid, axis + 1, axis=-1) @ matrix[:3, :3].T + matrix[:3, 3]
+        inside = np.abs(places @ inverse[:3, :3].T + inverse[:3, 3]).max(axis=-1) < 0.5
+        for before, after in ((np.s_[:-1], np.s_[1:]), (np.s_[:, :-1], np.s_[:, 1:])):
+            middle = 0.5 * (places[before] + places[after])[inside[before] != inside[after]]
+            eye = seen_at(kind, middle)
+            near = middle @ inverse[:3, :3].T + inverse[:3, 3]
+            facing = np.abs(near).argmax(axis=1)
+            outside = np.sign(np.take_along_axis(near, facing[:, None], axis=1)) * inverse[facing, :3]
+            seen = (((eye - middle) @ (side * matrix[:3, axis]) > 0.0)
+                    & (((eye - middle) * outside).sum(axis=1) > 0.0))
+            found.append(eye[seen])
+    return pixels(np.concatenate(found))
+
+
 def apart(strokes: list, others: list) -> float:
     """The farthest that a point of strokes lies from the segments of others; light may cut faces, and lines with
     them."""

@@ -18,6 +18,9 @@ DONE = {
     "choose Light: Objects to keep it while things move.":
         "So viele Objekte werden gespiegelt, dass ihr Licht nur für dieses Bild gemacht ist: backe Einzelbilder für "
         "eine Animation, oder wähle Licht: Objekte, damit es bleibt, während sich etwas bewegt.",
+    "The gloss of {} is not what so close a curved mirror shows: choose Light: Picture for a still.":
+        "Der Glanz von {} ist nicht der, den ein so naher gekrümmter Spiegel zeigt: wähle Licht: Bild für ein "
+        "Standbild.",
     "{}: {} faces of light, {} s": "{}: {} Flächen aus Licht, {} s",
     "{} of {} frame{} baked into '{}', {} s": "{0} von {1} Einzelbildern gebacken, in '{3}', {4} s",
     "{}: UV map '{}', {} faces, those that are seen marked '{}', {} s":

@@ -213,6 +213,8 @@ PANELS = {
     "press Generate Reflection again.": "drücke noch einmal Spiegelung erzeugen.",
     "The scene has changed since it was lit:": "Die Szene ist anders, als sie beleuchtet wurde:",
     "press Light Reflection again.": "drücke noch einmal Spiegelung beleuchten.",
+    "Lit; gloss is seen as from one place:": "Beleuchtet; Glanz ist wie von einer Stelle aus gesehen:",
+    "in the picture it would be exact.": "im Bild wäre er genau.",
     "Its light is still to come:": "Ihr Licht fehlt noch:",
     "press Light Reflection.": "drücke Spiegelung beleuchten.",
     "Lit.": "Beleuchtet.",

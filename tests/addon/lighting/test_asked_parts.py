@@ -80,6 +80,32 @@ def test_gloss_is_seen_as_a_ball_shows_it(blank, room):
     assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+@pytest.mark.parametrize(("floor", "told"), [({"Roughness": 0.2}, ["Floor"]), ({"Roughness": 0.8}, []),
+                                             ({"Roughness": 0.8, "Metallic": 1.0}, ["Floor"])])
+def test_where_gloss_is_left_out_that_is_said(blank, room, monkeypatch, capsys, floor, told):
+    """As if the ball were so close to it that no one place sees it as the ball does."""
+    ball_scene(blank, **floor)
+    monkeypatch.setattr(room("addon.baking.seen_sources"), "ONE_EYE", 0.0)
+    result = parts.generate()
+    light(1)
+    lighting = room("addon.lighting")
+    assert lighting.dull_objects(result) == told
+    assert lighting.light_lines(result)[0].startswith("Lit; gloss" if told else "Lit.")
+    assert ("The gloss of 'Floor' is not what so close a curved mirror shows" in capsys.readouterr().out) == bool(told)
+    bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
+    assert lighting.light_lines(result) == ["Lit."]
+
+
+def test_metal_close_to_a_curved_mirror_is_not_black(blank, room, monkeypatch):
+    """Not even where no one place sees it as the mirror does."""
+    ball_scene(blank, Metallic=1.0, Roughness=0.4)
+    reference = picture(room)
+    parts.generate()
+    monkeypatch.setattr(room("addon.baking.seen_sources"), "ONE_EYE", 0.0)
+    light(16)
+    assert psnr(picture(room), reference) > 25.0
+
+
 def test_what_two_mirrors_show_is_seen_from_where_the_one_sees_it_that_shows_most_of_it(blank, room):
     """In closed form: the mirror image of the eye in that mirror, and no place between both."""
     wall = scene_of(blank)

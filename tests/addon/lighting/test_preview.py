@@ -33,6 +33,30 @@ def test_it_shows_colours_in_the_mirrors_tint_whatever_lamps_there_are(blank, ro
     assert np.abs(shown - expected).max() < 0.01
 
 
+def test_a_flat_mirror_shows_how_what_is_round_is_round(blank, room):
+    """In closed form: a ball under a light at the eye's image in the mirror, which shows it far away."""
+    wall = scene_of(blank)
+    for name in ("Box", "Floor"):
+        bpy.data.objects.remove(bpy.data.objects[name])
+    ball = parts.add("uv_sphere", "Ball", radius=2.4, segments=96, ring_count=48, location=(0.0, -28.0, 1.0))
+    ball.data.shade_smooth()
+    ball.data.materials.append(principled("Paint", (0.8, 0.0, 0.0)))
+    blank.scene.camera.data.lens = 150.0
+    blank.scene.camera.rotation_euler = (np.pi / 2, 0.0, 0.0)
+    parts.select(ball, wall)
+    parts.generate(preview=True)
+    shown = picture(room)
+    red = shown[..., 0] ** 2.2
+    rows, columns = np.nonzero((shown[..., 1] < 0.02) & (red > 0.1))
+    middle, radius = np.array((rows.mean(), columns.mean())), 0.5 * np.ptp(columns)
+    off = np.hypot(rows - middle[0], columns - middle[1]) / radius
+    inner = off < 0.9
+    # the share of a ball's light that comes from the side is told where the preview is
+    sideways = room("addon.lighting.preview").SIDEWAYS
+    expected = 0.8 * (sideways + (1.0 - sideways) * np.sqrt(1.0 - off[inner] ** 2))
+    assert radius > 15.0 and np.abs(red[rows, columns][inner] / expected - 1.0).max() < 0.1
+
+
 @pytest.mark.parametrize("kind", ["Fresnel", "Layer weight", "Water"])
 @pytest.mark.parametrize("turned", [False, True])
 def test_a_mirror_shows_as_much_of_what_shines_as_it_reflects(blank, room, kind, turned):

@@ -58,6 +58,32 @@ def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):
     assert np.abs(found[:, 8:] - own).max() < 0.02 and (found[:, :5] == 0.0).all()
 
 
+def test_beside_a_lamp_a_result_ends_as_it_is_within(room):
+    """What is taken out of a pixel that holds both is a hundred times brighter: a hundredth more is all that there is,
+    and a hundredth less is a spark."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
+    own, lamp = np.array((0.6, 0.5, 0.3)), np.array((80.0, 60.0, 40.0))
+    light = coverage[..., None] * own + (1.0 - coverage[..., None]) * lamp
+    for wrong in (0.01, -0.01):
+        told = np.where((coverage > 0.0) & (coverage < 1.0), coverage + wrong, coverage)
+        found = finished(texels.texels_of(light.astype(np.float32), told.astype(np.float32),
+                                          texels.pixel_kernel("BOX", 1.0)))
+        assert np.abs(found[:, 9:] - own).max() < 0.05
+
+
+def test_a_gap_before_a_lamp_is_no_part_of_the_lamp(room):
+    """Thinner than a pixel: in what lies beside it is the lamp alone that is seen whole."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
+    own, gap, lamp = np.array((0.6, 0.5, 0.3)), np.array((0.1, 0.1, 0.1)), np.array((80.0, 60.0, 40.0))
+    light = coverage[..., None] * own + (1.0 - coverage[..., None]) * gap
+    light[:, :10] = lamp
+    found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
+                                      texels.pixel_kernel("BOX", 1.0)))
+    assert np.abs(found[:, 9:] - own).max() < 0.1
+
+
 def test_a_gap_between_results_shows_nothing_of_what_lies_farther_away(room):
     """Two pieces of a result with a dark gap between them, thinner than a pixel; what is bright lies behind the second,
     and every pixel up to there holds a little that is no result."""
