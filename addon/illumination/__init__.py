@@ -4,15 +4,24 @@ In come lamps, a mirror's material and faces with irradiance; out come objects t
 """
 from .caustic_arrays import MirrorPlaces, caustic_arrays
 from .caustic_material import adds_light, forget_added_light
-from .cycles_caustics import leave_out
-from .eye import Eye
-from .glint import follow_lamp, is_glint
 from .in_the_way import blockers_of, blocking
-from .lamps import NoLight, chosen_lamps, eyes_of, has_a_size, light_of_nodes, lights_renders, meant_lamps
-from .mesh_lamps import radiance_of
+from .light_sources import (
+    Eye,
+    NoLight,
+    chosen_lamps,
+    eyes_of,
+    has_a_size,
+    is_glint,
+    light_of_nodes,
+    lights_renders,
+    meant_lamps,
+    radiance_of,
+)
 from .mirrors import MirrorColours, MirrorPart, Tint, parts_of, places_on_mirror, stains, textured
-from .own_caustics import (
+from .not_twice import (
     bring_back_abandoned,
+    follow_lamp,
+    leave_out,
     leave_out_own_caustics,
     leaves_out,
     leaves_out_any,

@@ -11,7 +11,7 @@ from ...core.geometry import areas
 from ..reading import DiffuseScene
 from ..writing import Attribute, Edges, MeshArrays, shown_layers
 from .caustic_material import LIGHT
-from .eye import Eye
+from .light_sources import Eye
 from .mirrors import MirrorPart, Tint, mirror_attributes
 from .receiver_places import PLACES, places_asked
 

@@ -12,6 +12,7 @@ LAMPS = {"POINT": {"shadow_soft_size": 0.0}, "SPOT": {"shadow_soft_size": 0.0, "
          "SUN": {"angle": 0.0}, "AREA": {"size": 0.02}, "ELLIPSE": {"shape": "ELLIPSE", "size": 0.02, "size_y": 0.04},
          "SPREAD": {"size": 0.02, "spread": 1.2}}
 AIM = Vector((1.2, 0.0, 0.7))
+GLOW = (12.0, 9.0, 6.0)
 
 
 def paint(name: str, kind: str, colour, socket: str = "Color") -> bpy.types.Material:
@@ -51,6 +52,28 @@ def scene_of(kind: str = "POINT", **values) -> tuple:
     lamp = add_lamp("Lamp", kind, (-0.9, 0.1, 1.8), **{**LAMPS[kind], **values})
     parts.select(floor, lamp, mirror)
     return floor, mirror, lamp
+
+
+def glowing(name: str = "Glow", strength: float = 1.0) -> bpy.types.Material:
+    made = parts.material(name)
+    made.node_tree.nodes["Emission"].inputs["Color"].default_value = (*(value / 12.0 for value in GLOW), 1.0)
+    made.node_tree.nodes["Emission"].inputs["Strength"].default_value = 12.0 * strength
+    return made
+
+
+def add_mesh_lamp(kind: str) -> bpy.types.Object:
+    """A panel, a ball, or a box whose sides are dark, 0.3 wide."""
+    if kind == "ball":
+        lamp = parts.add("uv_sphere", "Lamp Mesh", radius=0.15, segments=16, ring_count=8)
+    else:
+        lamp = parts.add("plane" if kind == "panel" else "cube", "Lamp Mesh", size=0.3)
+    lamp.data.materials.append(glowing())
+    if kind == "box":
+        lamp.data.materials.append(parts.material("Case", "DIFFUSE"))
+        for face in lamp.data.polygons:
+            face.material_index = 0 if face.normal.z < -0.9 else 1
+    aim(lamp, (-0.9, 0.1, 1.8))
+    return lamp
 
 
 def rendered(tmp_path, samples: int = 16) -> np.ndarray:

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from caustic_scene import AIM, aim, rendered, scene_of
+from caustic_scene import AIM, add_mesh_lamp, aim, rendered, scene_of
 from mathutils import Vector
 
 SIZES = {"POINT": {"shadow_soft_size": 0.2}, "SPOT": {"shadow_soft_size": 0.2, "spot_size": 1.0},
@@ -14,7 +14,7 @@ SIZES = {"POINT": {"shadow_soft_size": 0.2}, "SPOT": {"shadow_soft_size": 0.2, "
 
 def looked_into(kind: str = "POINT") -> tuple:
     """The scene of `scene_of`, seen so that the mirror shows the lamp."""
-    floor, mirror, lamp = scene_of(kind, **SIZES[kind])
+    floor, mirror, lamp = scene_of(kind, **SIZES[kind]) if kind in SIZES else with_mesh(kind)
     scene, camera = bpy.context.scene, bpy.context.scene.camera
     behind = Vector((2.0 * AIM.x - lamp.location.x, *lamp.location[1:]))
     camera.location = AIM + 1.2 * (AIM - behind).normalized()  # just above the floor
@@ -25,12 +25,24 @@ def looked_into(kind: str = "POINT") -> tuple:
     return floor, mirror, lamp
 
 
+def with_mesh(kind: str) -> tuple:
+    """The scene of `scene_of` with a mesh that emits; a sheet shows its back."""
+    floor, mirror, lamp = scene_of()
+    bpy.data.objects.remove(lamp)
+    lamp = add_mesh_lamp(kind.removesuffix(" back"))
+    lamp.scale = (2.0, 2.0, 2.0)
+    if kind.endswith("back"):
+        lamp.rotation_euler.rotate_axis("X", np.pi)
+    parts.select(floor, lamp, mirror)
+    return floor, mirror, lamp
+
+
 def of_lamp(picture: np.ndarray) -> np.ndarray:
     """Pixels that show a lamp."""
     return picture[..., 0] > 0.5 * picture.max()
 
 
-@pytest.mark.parametrize("kind", SIZES)
+@pytest.mark.parametrize("kind", [*SIZES, "panel", "panel back", "ball", "box"])
 def test_the_mirror_shows_the_lamp_and_throws_no_light_of_it(blank, tmp_path, kind):
     floor, mirror, lamp = looked_into(kind)
     before = rendered(tmp_path)
@@ -40,7 +52,7 @@ def test_the_mirror_shows_the_lamp_and_throws_no_light_of_it(blank, tmp_path, ki
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
     bpy.data.objects["Mirror Caustics"].hide_render = True
     found = rendered(tmp_path)
-    shown = of_lamp(before)
+    shown = of_lamp(without)
     assert 10 < shown.sum() < 1000
     assert np.abs(found[shown].mean(axis=0) / before[shown].mean(axis=0) - 1.0).max() < 0.01
     # what Cycles finds by chance is not little
@@ -154,3 +166,73 @@ def test_one_whose_mirrors_were_unlinked_by_hand_is_made_anew_and_goes(blank):
         assert list(glint.light_linking.receiver_collection.objects) == [mirror]
         bpy.data.collections.remove(glint.light_linking.receiver_collection)
     assert bpy.ops.reflection_mesh.clear() == {"FINISHED"} and parts.state()["data"] == before
+
+
+def test_the_shell_of_a_mesh_is_made_anew_and_follows_it(blank, room):
+    floor, mirror, lamp = with_mesh("ball")
+    other = parts.add("plane", "Other", size=1.2, location=(-AIM.x, 0.0, 1.0), rotation=(0.0, np.pi / 2, 0.0))
+    other.data.materials.append(mirror.active_material)
+    before = parts.state()["data"]
+    parts.select(floor, lamp, other, mirror)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    made = parts.state()["data"]
+    shell, = lamp.children
+    strength = lamp.active_material.node_tree.nodes["Emission"].inputs["Strength"]
+    strength.default_value = 3.0
+    parts.select(floor, lamp, other, mirror)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", leave_out=False) == {"FINISHED"}
+    shines = [node.inputs["Strength"].default_value for node in shell.active_material.node_tree.nodes
+              if node.name == room("addon.illumination.not_twice.shining_shell").SHINE]
+    assert shines == [3.0]
+    lamp.modifiers.new("Finer", "SUBSURF")
+    lamp.keyframe_insert("location")
+    parts.select(floor, lamp, other, mirror)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert all(parts.state()["data"][kind] == names for kind, names in made.items() if kind != "actions")
+    shell, = lamp.children
+    bpy.context.view_layer.update()
+    assert [one.type for one in shell.modifiers] == ["SUBSURF", "SOLIDIFY"]
+    assert np.array(shell.matrix_world) == pytest.approx(np.array(lamp.matrix_world))
+    assert set(shell.light_linking.receiver_collection.objects) == {mirror, other}
+    lamp.animation_data_clear()
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"} and not lamp.children
+    assert {kind: names for kind, names in parts.state()["data"].items() if kind != "actions"} == {
+        kind: names for kind, names in before.items() if kind != "actions"}
+
+
+def test_nothing_but_the_mirror_sees_the_shell(blank, tmp_path):
+    """The camera, another mirror and a diffuse floor see the mesh as before; no reflection shows its shell."""
+    floor, mirror, lamp = with_mesh("box")
+    camera = bpy.context.scene.camera
+    camera.location, camera.data.type = (2.4, 0.0, 2.2), "PERSP"
+    camera.rotation_euler = (Vector((-1.2, 0.0, 1.2)) - camera.location).to_track_quat("-Z", "Y").to_euler()
+    other = parts.add("plane", "Other", size=2.4, location=(-2.0, 0.0, 1.2), rotation=(0.0, np.pi / 2, 0.0))
+    other.data.materials.append(mirror.active_material.copy())
+    parts.select(floor, lamp, mirror)
+    bpy.context.scene.cycles.caustics_reflective = False
+    before = rendered(tmp_path, 64)
+    bpy.context.scene.cycles.caustics_reflective = True
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"} and len(lamp.children) == 1
+    bpy.data.objects["Mirror Caustics"].hide_render = True
+    bpy.context.scene.cycles.caustics_reflective = False
+    after = rendered(tmp_path, 64)
+    assert (before > 5.0).sum() > 10
+    assert np.abs(after - before).max() < 0.02 * before.max()
+    parts.select(other)
+    assert bpy.ops.reflection_mesh.generate("EXEC_DEFAULT") == {"FINISHED"}
+    shown = next(obj for obj in bpy.data.objects if obj.reflection_mesh.role == "REFLECTION")
+    assert lamp.children[0] not in [source.object for source in shown.reflection_mesh.sources]
+
+
+def test_a_mesh_whose_materials_come_of_nodes_has_no_shell(blank):
+    floor, mirror, lamp = with_mesh("ball")
+    group = bpy.data.node_groups.new("Paint", "GeometryNodeTree")
+    for direction in ("INPUT", "OUTPUT"):
+        group.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+    painted = group.nodes.new("GeometryNodeSetMaterial")
+    painted.inputs["Material"].default_value = lamp.active_material
+    group.links.new(group.nodes.new("NodeGroupInput").outputs[0], painted.inputs[0])
+    group.links.new(painted.outputs[0], group.nodes.new("NodeGroupOutput").inputs[0])
+    lamp.modifiers.new("Paint", "NODES").node_group = group
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert "Mirror Caustics" in bpy.data.objects and not lamp.children

@@ -5,32 +5,8 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from caustic_scene import AIM, TINT, aim, inner, rendered, scene_of
+from caustic_scene import AIM, GLOW, TINT, add_mesh_lamp, aim, glowing, inner, rendered, scene_of
 from live_scene import switched_on
-
-GLOW = (12.0, 9.0, 6.0)
-
-
-def glowing(name: str = "Glow", strength: float = 1.0) -> bpy.types.Material:
-    made = parts.material(name)
-    made.node_tree.nodes["Emission"].inputs["Color"].default_value = (*(value / 12.0 for value in GLOW), 1.0)
-    made.node_tree.nodes["Emission"].inputs["Strength"].default_value = 12.0 * strength
-    return made
-
-
-def add_mesh_lamp(kind: str) -> bpy.types.Object:
-    """A panel, a ball, or a box whose sides are dark, 0.3 wide."""
-    if kind == "ball":
-        lamp = parts.add("uv_sphere", "Lamp Mesh", radius=0.15, segments=16, ring_count=8)
-    else:
-        lamp = parts.add("plane" if kind == "panel" else "cube", "Lamp Mesh", size=0.3)
-    lamp.data.materials.append(glowing())
-    if kind == "box":
-        lamp.data.materials.append(parts.material("Case", "DIFFUSE"))
-        for face in lamp.data.polygons:
-            face.material_index = 0 if face.normal.z < -0.9 else 1
-    aim(lamp, (-0.9, 0.1, 1.8))
-    return lamp
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...core import Lamp, TriangleMesh
+from ....core import Lamp, TriangleMesh
 
 AT_ONCE = 1 << 22
 NARROWEST = 4e-3  # radians: what a lamp's light is split for, as if its cone were no narrower

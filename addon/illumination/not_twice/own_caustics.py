@@ -2,7 +2,7 @@
 
 The mirror is taken out of what the lamp lights, so that no ray finds the lamp in it. It goes on to shade, to reflect
 everything else, and to be lit by all other lamps. The lamp's own image in the mirror, which goes with it, is brought
-back by a second lamp, but for meshes that emit.
+back by a second lamp, or a shell that shines.
 """
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from contextlib import ExitStack
 
 import bpy
 
-from .. import compat
-from ..faults import AllOrNothing
-from ..reading import is_mirror
-from ..reading.materials import MIRRORS, all_nodes, is_sharp
+from ... import compat
+from ...faults import AllOrNothing
+from ...reading import is_mirror
+from ...reading.materials import MIRRORS, all_nodes, is_sharp
 from .glint import forget_lost_glints, glint_of, hide_from_mirror, show_in_mirror
 
 
@@ -46,8 +46,7 @@ def leave_out_own_caustics(scene: bpy.types.Scene, lamp: bpy.types.Object, mirro
     for entry, child in zip(collection.collection_objects, collection.objects):
         if child == mirror:
             entry.light_linking.link_state = "EXCLUDE"
-    if lamp.type == "LIGHT":
-        show_in_mirror(scene, lamp, mirror, whole)
+    show_in_mirror(scene, lamp, mirror, whole)
     return True
 
 

@@ -8,13 +8,16 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core import Lamp, ReflectionError
-from .. import compat
+from ....core import Lamp, ReflectionError
+from ... import compat
 from .eye import Eye, across
-from .glint import is_glint
 from .mesh_lamps import eyes_of_mesh, is_mesh_lamp
 
 SPREAD_LEAST = 1e-3  # radians: narrower area lamps are taken for as wide
+
+
+GLINT = "reflection_mesh_glint"
+"""Marks the image of a lamp in mirrors, and what is made for it."""
 
 
 class NoLight(ReflectionError):
@@ -45,6 +48,11 @@ def meant_lamps(context: bpy.types.Context) -> list:
     """
     lamps = _meant(context, list(context.view_layer.objects))
     return lamps or chosen_lamps(context)
+
+
+def is_glint(obj: bpy.types.Object) -> bool:
+    """Whether an object is the image of a lamp in mirrors, not a lamp of its own."""
+    return GLINT in obj
 
 
 def lights_renders(lamp: bpy.types.Object) -> bool:

@@ -7,10 +7,10 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core import Lamp, TriangleMesh
-from .. import compat
-from ..reading import is_mirror, read_scene
-from ..reading.materials import surface_shader
+from ....core import Lamp, TriangleMesh
+from ... import compat
+from ...reading import is_mirror, read_scene
+from ...reading.materials import surface_shader
 from .eye import Eye, across
 
 EMISSION = {"EMISSION": ("Color", "Strength"), "BSDF_PRINCIPLED": ("Emission Color", "Emission Strength")}

@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import bpy
 
-from ..faults import AllOrNothing
-from .lamps import has_a_size
+from ...faults import AllOrNothing
+from ..light_sources import has_a_size
 from .own_caustics import leave_out_own_caustics, makes_own_caustics
 
 

@@ -1,4 +1,5 @@
 """A lamp's own image in the mirrors that it does not light any more: a second lamp for these alone, in the same place.
+Of a mesh that emits a shell round it.
 
 Where light has met a diffuse surface on its way from the camera the second lamp is dark: mirrors show it, and throw no
 light of it. Cycles asks a lamp's nodes about each path (Light Path > Diffuse Depth); other engines ask none.
@@ -9,20 +10,16 @@ from collections.abc import Callable
 
 import bpy
 
-from .. import compat
-from ..faults import AllOrNothing
-from ..writing import link_beside
+from ... import compat
+from ...faults import AllOrNothing
+from ...writing import link_beside
+from ..light_sources import GLINT, is_glint
+from .shining_shell import follow_materials, forget_materials, has_shell, shell_of
 
-_MARK = "reflection_mesh_glint"
 RAYS = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter",
         "visible_shadow")
 VALUES = {"BOOLEAN", "INT", "FLOAT", "ENUM"}
 FACTORS = ("diffuse_factor", "specular_factor", "transmission_factor", "volume_factor")  # that EEVEE knows alone
-
-
-def is_glint(obj: bpy.types.Object) -> bool:
-    """Whether an object is the image of a lamp in mirrors, not a lamp of its own."""
-    return _MARK in obj
 
 
 def glint_of(lamp: bpy.types.Object) -> bpy.types.Object | None:
@@ -33,10 +30,20 @@ def glint_of(lamp: bpy.types.Object) -> bpy.types.Object | None:
 def show_in_mirror(scene: bpy.types.Scene, lamp: bpy.types.Object, mirror: bpy.types.Object,
                    whole: AllOrNothing) -> None:
     """Let a mirror that a lamp does not light show it all the same."""
-    name, glint = f"{lamp.name} Glint", glint_of(lamp)
+    glint = _of_light(scene, lamp, whole) if lamp.type == "LIGHT" else _of_mesh(scene, lamp, whole)
+    if glint is None:
+        return
+    lit = glint.light_linking.receiver_collection
+    if mirror.name not in lit.objects:
+        lit.objects.link(mirror)
+        whole.undo(lit.objects.unlink, mirror)
+
+
+def _of_light(scene: bpy.types.Scene, lamp: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
+    name, glint = _name(lamp), glint_of(lamp)
     data = lamp.data.copy()
     whole.undo(bpy.data.lights.remove, data)
-    data.name, data[_MARK] = name, True
+    data.name, data[GLINT] = name, True
     _darken_behind_diffuse(data)
     if not compat.eevee_links_light():
         for factor in FACTORS:
@@ -46,21 +53,43 @@ def show_in_mirror(scene: bpy.types.Scene, lamp: bpy.types.Object, mirror: bpy.t
         whole.after(_remove, glint)
         glint = None
     if glint is None:
-        glint = _made(scene, lamp, data, whole)
+        glint = bpy.data.objects.new(name, data)
+        whole.undo(bpy.data.objects.remove, glint)
+        for rays in RAYS:
+            setattr(glint, rays, getattr(lamp, rays))
+        glint.parent = lamp
+        _link(scene, lamp, glint, whole)
     else:
         whole.undo(setattr, glint, "data", glint.data)
         whole.after(_replace, glint.data, data)
         glint.data = data
-    lit = glint.light_linking.receiver_collection
-    if mirror.name not in lit.objects:
-        lit.objects.link(mirror)
-        whole.undo(lit.objects.unlink, mirror)
+    return glint
+
+
+def _of_mesh(scene: bpy.types.Scene, lamp: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object | None:
+    if not has_shell(lamp):
+        return None
+    # modifiers may be others than they were
+    old = glint_of(lamp)
+    glint = shell_of(lamp, _name(lamp), whole)
+    _link(scene, lamp, glint, whole)
+    if old is not None:
+        for mirror in old.light_linking.receiver_collection.objects if old.light_linking.receiver_collection else ():
+            glint.light_linking.receiver_collection.objects.link(mirror)
+        del old[GLINT]
+        whole.undo(old.__setitem__, GLINT, True)
+        whole.after(_name_again, lamp)
+        whole.after(_remove, old)
+    return glint
 
 
 def follow_lamp(lamp: bpy.types.Object) -> None:
     """Let the image of a lamp, if there is one, be as bright and as large as the lamp is now."""
     glint = glint_of(lamp)
     if glint is None:
+        return
+    if lamp.type != "LIGHT":
+        follow_materials(lamp, glint)
         return
     for prop in lamp.data.bl_rna.properties:
         name = prop.identifier
@@ -92,22 +121,29 @@ def forget_lost_glints(leaves_out: Callable[[bpy.types.Object], bool]) -> bool:
     return bool(lost)
 
 
-def _made(scene: bpy.types.Scene, lamp: bpy.types.Object, data: bpy.types.Light,
-          whole: AllOrNothing) -> bpy.types.Object:
-    glint = bpy.data.objects.new(data.name, data)
-    whole.undo(bpy.data.objects.remove, glint)
-    glint[_MARK] = True
-    lit = bpy.data.collections.new(data.name)
+def _link(scene: bpy.types.Scene, lamp: bpy.types.Object, glint: bpy.types.Object, whole: AllOrNothing) -> None:
+    """Give the image of a lamp its place in the file, and no mirror yet that it lights."""
+    glint[GLINT] = True
+    lit = bpy.data.collections.new(_name(lamp))
     whole.undo(bpy.data.collections.remove, lit)
-    lit[_MARK] = True
+    lit[GLINT] = True
     glint.light_linking.receiver_collection = lit
     glint.light_linking.blocker_collection = lamp.light_linking.blocker_collection
-    for rays in RAYS:
-        setattr(glint, rays, getattr(lamp, rays))
     glint.lightgroup = lamp.lightgroup
-    glint.parent, glint.hide_select = lamp, True
+    glint.hide_select = True
     link_beside(scene, glint, lamp)
-    return glint
+
+
+def _name(lamp: bpy.types.Object) -> str:
+    return f"{lamp.name} Glint"
+
+
+def _name_again(lamp: bpy.types.Object) -> None:
+    glint = glint_of(lamp)
+    if glint is not None:
+        materials = (slot.material for slot in glint.material_slots)
+        for one in (glint, glint.light_linking.receiver_collection, *materials):
+            one.name = _name(lamp)
 
 
 def _replace(old: bpy.types.Light, data: bpy.types.Light) -> None:
@@ -138,8 +174,10 @@ def _plain_nodes(data: bpy.types.Light) -> bpy.types.NodeTree:
 
 def _remove(glint: bpy.types.Object) -> None:
     data, lit = glint.data, glint.light_linking.receiver_collection
+    materials = [slot.material for slot in glint.material_slots]
     bpy.data.objects.remove(glint)
-    if data.users == 0:
+    if GLINT in data and data.users == 0:
         bpy.data.lights.remove(data)
+    forget_materials(materials)
     if lit is not None and lit.users == 0:
         bpy.data.collections.remove(lit)

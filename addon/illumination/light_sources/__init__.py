@@ -1,0 +1,20 @@
+"""Blender's lamps, and meshes that emit, as places that light comes from, each with its share of the power.
+
+In come objects; out come eyes that look where light goes, with their power in Cycles' units.
+"""
+from .eye import Eye
+from .lamps import (
+    GLINT,
+    NoLight,
+    chosen_lamps,
+    eyes_of,
+    has_a_size,
+    is_glint,
+    light_of_nodes,
+    lights_renders,
+    meant_lamps,
+)
+from .mesh_lamps import EMISSION, radiance_of
+
+__all__ = ["EMISSION", "Eye", "GLINT", "NoLight", "chosen_lamps", "eyes_of", "has_a_size", "is_glint", "light_of_nodes",
+           "lights_renders", "meant_lamps", "radiance_of"]
