@@ -28,7 +28,7 @@ from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
 from .standing import Standing
 from .support import NothingInView, Progress, ReflectionError, Settings, in_steps
-from .visibility import cut_at_borders, cut_before_eye, with_shades, without_hidden, without_occluded
+from .visibility import cut_at_borders, cut_before_eye, lit, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces
 
 INSIDE_WHOLE = 1.1  # of whole faces, which are judged in their middles too
@@ -176,7 +176,7 @@ def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settin
     cameras = cut_at_borders(cut_before_eye(cameras))
     cameras, grid = without_hidden(cameras)
     cameras, occluded, overlaid = without_occluded(body, cameras, grid)
-    cameras = cut_at_horizon(_seen(cameras.select(cameras.face < len(mirror.triangles))))
+    cameras = cut_at_horizon(_seen(cameras.select(lit(cameras) & (cameras.face < len(mirror.triangles)))))
     progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
                   overlaid=overlaid)
     return cameras, uncut, (grid.mirror_pixels, overlaid)

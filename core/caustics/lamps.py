@@ -27,6 +27,8 @@ class Lamp:
         How much light goes towards places (..., 3) in world space; 1 everywhere where there is none.
     narrow : float
         In radians: what the pattern holds is not narrower.
+    cone : (3,) float64 and float, optional
+        Axis, a unit vector in world space, and half angle in radians of a cone beyond which the pattern is zero.
 
     Examples
     --------
@@ -39,6 +41,7 @@ class Lamp:
     sun: bool = False
     pattern: Callable[[np.ndarray], np.ndarray] | None = None
     narrow: float = np.inf
+    cone: tuple[np.ndarray, float] | None = None
 
     def __post_init__(self) -> None:
         wrong = "The lamp's place must be three finite numbers up to 1e40; move the lamp nearer."
@@ -90,7 +93,7 @@ class Lamp:
             across = (corners - middle) @ view.camera_to_world[:3, :2]
             width = 2.0 * MARGIN * np.abs(across).max()
             view = View.looking_at(middle + back * self.place, middle, size, orthographic_scale=max(width, 1e-30))
-            return [_lamp_view(view, shades, screens)]
+            return [self._view(view, shades, screens)]
         ways = corners - self.place
         length = np.linalg.norm(ways, axis=1)
         if not (length > 0.0).all():
@@ -104,9 +107,12 @@ class Lamp:
             if (local[:, 2] < -np.cos(WIDEST)).all():
                 width = 2.0 * np.arctan(MARGIN * np.abs(local[:, :2] / local[:, 2:]).max())
                 view = View.looking_at(self.place, self.place + ahead * length.max(), size, field_of_view=width)
-                return [_lamp_view(view, shades, screens)]
-        return [_lamp_view(_side(self.place, axis, sign, size), shades, screens)
+                return [self._view(view, shades, screens)]
+        return [self._view(_side(self.place, axis, sign, size), shades, screens)
                 for axis in range(3) for sign in (1.0, -1.0)]
+
+    def _view(self, view: View, shades: TriangleMesh | None, screens: TriangleMesh | None) -> LampView:
+        return LampView(view.camera_to_world, view.projection, view.resolution, shades, screens, self.cone)
 
 
 def mean_of_seven(corners: np.ndarray, middles: np.ndarray, middle: np.ndarray) -> np.ndarray:
@@ -134,5 +140,3 @@ def _side(place: np.ndarray, axis: int, sign: float, size: tuple[int, int]) -> V
     return View(placement, projection, size)
 
 
-def _lamp_view(view: View, shades: TriangleMesh | None, screens: TriangleMesh | None) -> LampView:
-    return LampView(view.camera_to_world, view.projection, view.resolution, shades, screens)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh, cross, dot, following, norm, parent_side, rows, shared_edges, split, unit
+from ..geometry import TriangleMesh, cross, dot, following, in_cone, norm, parent_side, rows, shared_edges, split, unit
 from ..support import breathe
 from .corners import Corners, light_at
 from .lamps import Lamp
@@ -22,6 +22,7 @@ STRAYING = 0.02  # of the irradiance in the middle of a side: by how much that o
 AT_ONCE = 1 << 14
 STEPS = 8  # of Newton's method
 BESIDE = 1e-9  # barycentric: what lies that little beside a triangle lies in it
+OFF = 0.02  # barycentric: by how much more than its ends a side's middle may lie beside the mirror's triangle
 
 
 @dataclass(frozen=True)
@@ -118,8 +119,10 @@ def _wide(faces: LitFaces, asked: np.ndarray, lamp: Lamp) -> np.ndarray:
     """Which sides (k, 3) of the faces asked span more of the lamp's picture than what its pattern may hold."""
     if not np.isfinite(lamp.narrow):
         return np.zeros((len(asked), 3), dtype=bool)
-    ways = unit(faces.light.place.reshape(3, 3, -1)[:, :, asked] - lamp.place[:, None, None])
-    return norm(ways - following(ways)).T > 2.0 * np.sin(0.5 * min(lamp.narrow, np.pi))
+    ways = faces.light.place.reshape(3, 3, -1)[:, :, asked] - lamp.place[:, None, None]
+    lit = np.ones(len(asked), dtype=bool) if lamp.cone is None else in_cone(lamp.cone, ways)
+    ways = unit(ways)
+    return lit[:, None] & (norm(ways - following(ways)).T > 2.0 * np.sin(0.5 * min(lamp.narrow, np.pi)))
 
 
 def _beside(faces: LitFaces, asked: np.ndarray, middles: Corners, points: np.ndarray, found: np.ndarray) -> np.ndarray:
@@ -181,10 +184,17 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within:
         # beyond its face Newton's method may have found another image
         size = np.tile(np.ptp(uv, axis=1).max(axis=0), 3)
         good &= light.arrived & (np.abs(place - start).max(axis=0) <= 0.5 * size + 1e-12)
+        # nor does light come from beyond the mirror's triangle, but for what corners may lie beside it
+        good &= _off(place) <= np.maximum(_off(uv), _off(following(uv))).ravel() + OFF
         parts.append(light)
         points.append(point.reshape(3, 3, -1))
         found.append(good.reshape(3, -1).T)
     return Corners.joined(parts, 3), np.concatenate(points, axis=2), np.concatenate(found)
+
+
+def _off(uv: np.ndarray) -> np.ndarray:
+    """How far places (2, ...) lie beside their triangles, in barycentric coordinates; 0 within."""
+    return -np.minimum(np.minimum(np.minimum(uv[0], uv[1]), 1.0 - uv[0] - uv[1]), 0.0)
 
 
 def _split(faces: LitFaces, edge: np.ndarray, chosen: np.ndarray,

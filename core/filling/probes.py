@@ -9,7 +9,7 @@ import numpy as np
 
 from ..cameras import MirrorMap
 from ..culling import SceneAndMirrors, SceneTree, first_crossed
-from ..geometry import TriangleMesh, View, dot, following, largest, ranges, shares, smallest, unit
+from ..geometry import LampView, TriangleMesh, View, dot, following, largest, ranges, shares, smallest, unit
 from ..support import breathe
 
 ACROSS = 16  # probes along each side of the box round the mirror in the picture
@@ -44,7 +44,11 @@ def missed_probes(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, met: 
     leaving = mirror_map.rays(face, mirror_map.coordinates(face, place))
     flat = mirror_map.surface.face_normal[:, face]
     shown = met.first_met((place, flat * np.sign(dot(leaving, flat))), place, unit(leaving))
-    expected = seen[(shown >= 0) & (shown < met.diffuse)]
+    wanted = (shown >= 0) & (shown < met.diffuse)
+    if isinstance(view, LampView):
+        # nor is what no light falls on
+        wanted &= view.lights(np.repeat(place[:, None], 3, axis=1))
+    expected = seen[wanted]
     covered = _covered(view.pixels(mirror_position)[triangles], low, step)
     return len(expected), int((~covered[expected]).sum())
 

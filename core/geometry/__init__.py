@@ -7,7 +7,7 @@ from .adjacency import connected, corners_beyond
 from .canonical_order import TURNS, Order, ordered
 from .column_arrays import ColumnArrays
 from .distinct import distinct, first_of, in_order
-from .lamp_view import LampView
+from .lamp_view import LampView, in_cone
 from .near_triangles import meeting
 from .scene_frames import SceneFrames, falling
 from .subdivision import (
@@ -29,5 +29,5 @@ from .z_buffer import Drawn, draw
 __all__ = ["ColumnArrays", "Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View",
            "area_normals", "areas", "columns", "connected", "corners_beyond", "cross", "distinct", "dot",
            "doubled_areas", "draw", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups",
-           "has_area", "in_order", "largest", "meeting", "norm", "ordered", "others", "parent_side", "ranges", "rows",
-           "shared_edges", "shares", "smallest", "solve", "split", "unit"]
+           "has_area", "in_cone", "in_order", "largest", "meeting", "norm", "ordered", "others", "parent_side",
+           "ranges", "rows", "shared_edges", "shares", "smallest", "solve", "split", "unit"]

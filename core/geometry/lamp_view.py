@@ -3,8 +3,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from .triangle_mesh import TriangleMesh
+from .vectors import norm
 from .view import View
+
+SURE = 1e-6  # radians
 
 
 @dataclass(frozen=True)
@@ -18,7 +23,28 @@ class LampView(View):
     screens : TriangleMesh, optional
         What may stand behind the mirror on the light's way: it hides what lies behind it, as mirrors do, and reflects
         nothing. The diffuse scene may be a part of it.
+    cone : (3,) float64 and float, optional
+        Axis, a unit vector, and half angle in radians of a cone round all of the light.
     """
 
     shades: TriangleMesh | None = None
     screens: TriangleMesh | None = None
+    cone: tuple[np.ndarray, float] | None = None
+
+    def lights(self, corners: np.ndarray) -> np.ndarray:
+        """Which triangles with `corners` (3, 3, m), as [component, corner, triangle], light may fall on."""
+        if self.cone is None:
+            return np.ones(corners.shape[2], dtype=bool)
+        return in_cone(self.cone, corners - self.eye[:, None, None])
+
+
+def in_cone(cone: tuple[np.ndarray, float], ways: np.ndarray) -> np.ndarray:
+    """Which triangles may lie within a cone, by axis and half angle, to whose corners `ways` (3, 3, m) lead from its
+    apex, as [component, corner, triangle]."""
+    axis, half = cone
+    middle = ways.mean(axis=1)
+    radius = norm(ways - middle[:, None]).max(axis=0)
+    distance = norm(middle)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        off = np.arccos(np.clip(np.tensordot(axis, middle, 1) / distance, -1.0, 1.0))
+        return ~(off > half + np.arcsin(np.minimum(radius / distance, 1.0)) + SURE) | (distance <= radius)

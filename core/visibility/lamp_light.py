@@ -18,6 +18,13 @@ def with_shades(view: View, mirror: TriangleMesh, faces: np.ndarray) -> tuple[Tr
     return TriangleMesh.joined((mirror, shades)), np.concatenate((faces, len(mirror.triangles) + chosen))
 
 
+def lit(cameras: Cameras) -> np.ndarray:
+    """Which cameras (n,) a lamp's light may fall on, if the view is a lamp's."""
+    if not isinstance(cameras.view, LampView):
+        return np.ones(len(cameras), dtype=bool)
+    return cameras.view.lights(np.take(cameras.places, cameras.corners.T, axis=1))
+
+
 def cut_at_borders(cameras: Cameras) -> Cameras:
     """The cameras; of a lamp's view those across the borders of its picture without what lies beyond."""
     view = cameras.view

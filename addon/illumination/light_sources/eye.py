@@ -46,12 +46,12 @@ class Eye:
         """The lamp with its pattern."""
         if self.kind in {"POINT", "SUN"} and self.facets is None:
             return self.lamp
-        narrow = np.inf
-        if self.kind == "SPOT":
-            narrow = 0.5 * float(np.arccos(np.clip(self.cone[0], -1.0, 1.0)))
-        elif self.facets is None and self.cone[0] > 0.0:
-            narrow = 0.5 * float(np.arctan(1.0 / self.cone[0]))
-        return replace(self.lamp, pattern=self.share, narrow=max(narrow, NARROWEST))
+        if self.facets is not None:
+            return replace(self.lamp, pattern=self.share)
+        half = float(np.arccos(np.clip(self.cone[0], -1.0, 1.0)) if self.kind == "SPOT"
+                     else np.arctan2(1.0, max(self.cone[0], 0.0)))
+        narrow = 0.5 * half if self.kind == "SPOT" or self.cone[0] > 0.0 else np.inf
+        return replace(self.lamp, pattern=self.share, narrow=max(narrow, NARROWEST), cone=(-self.axes[:, 2], half))
 
     def share(self, places: np.ndarray) -> np.ndarray:
         """How much of the power goes towards `places` (..., 3)."""

@@ -100,10 +100,10 @@ def _patterned(seed: tuple[int, int], kind: str, lamp: Lamp, mirror: TriangleMes
         def spot(places: np.ndarray) -> np.ndarray:
             t = np.clip((ahead(places) - np.cos(half)) / blend, 0.0, 1.0)
             return t * t * (3.0 - 2.0 * t)
-        return f"spot of {half:g}, {kind}", Lamp(place, False, spot, max(0.5 * half, 4e-3))
+        return f"spot of {half:g}, {kind}", Lamp(place, False, spot, max(0.5 * half, 4e-3), (axis, half))
 
     def square(places: np.ndarray) -> np.ndarray:
         cosine = np.maximum(ahead(places), 0.0)
         tangent = np.sqrt(np.maximum(1.0 - cosine**2, 0.0)) / np.maximum(cosine, 1e-12)
         return cosine * np.maximum(1.0 - tangent / np.tan(half), 0.0)
-    return f"square of {half:g}, {kind}", Lamp(place, False, square, max(0.5 * half, 4e-3))
+    return f"square of {half:g}, {kind}", Lamp(place, False, square, max(0.5 * half, 4e-3), (axis, half))
