@@ -129,11 +129,11 @@ def ways_in():
     screen.point(**screen.centre)
     with screen.context():
         bpy.ops.reflection_mesh.generate("INVOKE_DEFAULT")
-    yield 12.0
+    yield 7.0
     hands.shot("progress")
     screen.press("ESC")
     yield from hands.waiting(lambda: not screen.window.modal_operators, "the end after ESC")
-    joined("ways_in", [part("menu", 60, screen.window.height - WAYS - 210, 460, WAYS),
+    joined("ways_in", [part("menu", 0, screen.window.height - WAYS - 280, 460, WAYS),
                        part("search", 640, 405, 540, WAYS)],
            below=part("progress", 0, screen.window.height - STATUS, 460 + GAP + 540, STATUS))
 
@@ -156,7 +156,7 @@ def sidebar(screen: hands.Screen, name: str, height: int = PANELS) -> list[str]:
 
 def part(name: str, x: int, y: int, width: int, height: int) -> list[str]:
     """What ImageMagick is told to take this part of a screenshot; y counts from above."""
-    return ["(", str(hands.SHOTS / f"{name}.png"), "-crop", f"{width}x{height}+{x}+{y}", "+repage", ")"]
+    return ["(", str(hands.SHOTS / f"{name}.png"), "+gravity", "-crop", f"{width}x{height}+{x}+{y}", "+repage", ")"]
 
 
 def joined(name: str, parts: list[list[str]], below: list[str] | None = None) -> None:
