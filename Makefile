@@ -19,7 +19,7 @@ READY = $(VENV)/.ready
 
 .DEFAULT_GOAL := help
 .PHONY: help environment demo measure report report-plots numerics rate work pictures \
-        test test-fast lint test-core test-addon test-window live-picture fuzz zip samples clean
+        test test-fast lint test-core test-addon test-window live-picture window-pictures fuzz zip samples clean
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
@@ -36,6 +36,7 @@ help:
 	@echo "make zip      the extension as a zip in dist/, to install in Blender"
 	@echo "make pictures the pictures of the documents, in docs/pictures/"
 	@echo "make live-picture  the picture of Live, docs/pictures/live.gif, made in a window as test-window is"
+	@echo "make window-pictures  the documents' pictures of panels, menus and progress, made in a window too"
 	@echo "make samples  write sample_blends/*.blend anew"
 	@echo "PYTHON=... chooses the Python, 3.11 or 3.13 (now: $(PYTHON))"
 
@@ -115,6 +116,9 @@ test-window:
 
 live-picture:
 	BLENDER_USER_RESOURCES=$$(mktemp -d) $(BLENDER) --enable-event-simulate --python tools/live_picture.py
+
+window-pictures:
+	BLENDER_USER_RESOURCES=$$(mktemp -d) $(BLENDER) --enable-event-simulate --python tools/window_pictures.py
 
 fuzz: environment
 	$(RUN) -m tests.fuzz --seconds $(SECONDS) $(if $(FIRST),--first $(FIRST))

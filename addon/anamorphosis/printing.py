@@ -15,7 +15,7 @@ INCH = 0.0254
 FINER = 2               # samples along a pixel's side
 ROUNDING = 0.01         # pixels: a sheet of 10 cm may be a little longer in single precision
 MOST_PIXELS = 200e6
-AT_ONCE = 2_000_000     # samples
+AT_ONCE = 400_000       # samples
 
 
 def print_size(sheet: FlatSheet, dpi: float) -> tuple[int, int]:
@@ -40,32 +40,41 @@ def printed(sheet: FlatSheet, picture: np.ndarray, dpi: float) -> Steps[np.ndarr
     the mirror does not show it; yields (fraction, stage)."""
     width, height = print_size(sheet, dpi)
     corners, uv = sheet.corners[sheet.seen] / INCH * dpi * FINER, sheet.uv[sheet.seen]
-    places = np.concatenate((corners.reshape(-1, 2), np.zeros((3 * len(corners), 1))), axis=1)
-    triangles = np.arange(len(places)).reshape(-1, 3)
     low, high = corners[:, :, 1].min(axis=1), corners[:, :, 1].max(axis=1)
-    rows = max(1, AT_ONCE // (FINER * FINER * width))
-    bands = []
-    for start in range(0, height, rows):
-        yield start / height, "Drawing the sheet"
-        lines, across, bottom = min(rows, height - start) * FINER, width * FINER, start * FINER
-        middle = (0.5 * across, bottom + 0.5 * lines)
-        view = View.looking_at((*middle, 1.0), (*middle, 0.0), (across, lines), up=(0.0, 1.0, 0.0),
-                               orthographic_scale=float(max(across, lines)))
-        near = (high > bottom) & (low < bottom + lines)
-        drawn = draw(view, places, triangles[near])
-        pixel = np.flatnonzero(drawn.triangle >= 0)
-        spot = np.einsum("kn,nkc->nc", drawn.weights[:, pixel], uv[near][drawn.triangle[pixel]])
-        band = np.ones((lines * across, 3), dtype=np.float32)
-        band[pixel] = _looked_up(picture, spot)
-        bands.append(band.reshape(lines // FINER, FINER, width, FINER, 3).mean(axis=(1, 3)))
-    return np.round(np.concatenate(bands)[::-1] * 255.0).astype(np.uint8)
-
-
-def _looked_up(picture: np.ndarray, uv: np.ndarray) -> np.ndarray:
-    """Colours (n, 3) on white of a picture (h, w, 4) at `uv` (n, 2), between its pixels' centres, clear beside it."""
-    height, width = picture.shape[:2]
+    # clear beside it
     framed = np.pad(picture, ((1, 1), (1, 1), (0, 0)), mode="edge")
     framed[[0, -1], :, 3] = framed[:, [0, -1], 3] = 0.0
+    rows = max(1, AT_ONCE // (FINER * FINER * width))
+    pixels = np.empty((height, width, 3), dtype=np.uint8)
+    for start in range(0, height, rows):
+        yield start / height, "Drawing the sheet"
+        end = min(start + rows, height)
+        near = (high > start * FINER) & (low < end * FINER)
+        pixels[height - end:height - start] = _band(corners[near], uv[near], framed, width, (start, end))[::-1]
+    return pixels
+
+
+def _band(corners: np.ndarray, uv: np.ndarray, framed: np.ndarray, width: int, rows: tuple[int, int]) -> np.ndarray:
+    """The rows of pixels from the first to before the last of `rows`, counted from below, (rows, width, 3) uint8."""
+    start, end = rows
+    places = np.concatenate((corners.reshape(-1, 2), np.zeros((3 * len(corners), 1))), axis=1)
+    lines, across, bottom = (end - start) * FINER, width * FINER, start * FINER
+    middle = (0.5 * across, bottom + 0.5 * lines)
+    view = View.looking_at((*middle, 1.0), (*middle, 0.0), (across, lines), up=(0.0, 1.0, 0.0),
+                           orthographic_scale=float(max(across, lines)))
+    drawn = draw(view, places, np.arange(len(places)).reshape(-1, 3))
+    pixel = np.flatnonzero(drawn.triangle >= 0)
+    spot = np.einsum("kn,nkc->nc", drawn.weights[:, pixel], uv[drawn.triangle[pixel]])
+    band = np.ones((lines * across, 3), dtype=np.float32)
+    band[pixel] = _looked_up(framed, spot)
+    shown = band.reshape(lines // FINER, FINER, width, FINER, 3).mean(axis=(1, 3))
+    return np.round(shown * 255.0).astype(np.uint8)
+
+
+def _looked_up(framed: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """Colours (n, 3) on white at `uv` (n, 2), between the centres of the pixels, of a picture in a frame of one pixel,
+    (h + 2, w + 2, 4)."""
+    height, width = framed.shape[0] - 2, framed.shape[1] - 2
     place = np.clip(uv * (width, height) + 0.5, 0.0, (width + 0.999, height + 0.999))
     column, row = place.astype(np.int64).T
     right, up = (place - np.floor(place)).astype(np.float32).T[..., None]

@@ -7,6 +7,7 @@ from bpy.app.translations import pgettext_iface
 from ..faults import translated
 from ..freshness import why_stale
 from ..live import kept_results, present
+from .draw_lines import draw_sentence
 
 
 def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
@@ -19,13 +20,12 @@ def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
         column.operator("reflection_mesh.live", text="Stop Live", icon="PAUSE")
     column.prop(live, "eye")
     if updater is not None:
-        layout.label(text=state_of(updater), icon="TIME", translate=False)
+        draw_sentence(layout, context, state_of(updater), icon="TIME")
         return
     stale = [(obj, why) for obj in kept_results(context) if (why := why_stale(context, obj))]
     for obj, why in stale:
-        # Blender leaves out the middle of what is longer than the sidebar is wide
         layout.label(text=pgettext_iface("'{name}' is stale:").format(name=obj.name), icon="ERROR", translate=False)
-        layout.label(text=f"{pgettext_iface(why)}.", icon="BLANK1", translate=False)
+        draw_sentence(layout, context, f"{pgettext_iface(why)}.")
     if stale:
         layout.operator("reflection_mesh.update", icon="FILE_REFRESH")
 

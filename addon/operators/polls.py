@@ -37,14 +37,17 @@ def has_camera(context: bpy.types.Context) -> str:
 
 
 def has_mirror(context: bpy.types.Context) -> str:
-    """Something is selected, or else active as a result or a mirror, or has the role of a mirror, or a material is that
-    of a mirror."""
+    """Something is selected, or else active as a result or a mirror, or an object's role or material is that of a
+    mirror."""
     objects = context.view_layer.objects
     active = objects.active
     if objects.selected or (active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}):
         return ""
-    there = _any(objects, lambda obj: obj.reflection_mesh.role == "MIRROR") or _any(bpy.data.materials, is_mirror)
-    return "" if there else NO_MIRROR
+    if len(bpy.data.materials) > LOOKED_THROUGH:
+        return ""
+    # each is asked once, however many objects have it
+    mirrors = set(filter(is_mirror, bpy.data.materials))
+    return "" if _any(objects, lambda obj: _says_mirror(obj, mirrors)) else NO_MIRROR
 
 
 def has_mirror_or_caustics(context: bpy.types.Context) -> str:
@@ -79,8 +82,13 @@ def has_active(sentence: str) -> Obstacle:
 
 
 def _any(objects, asked: Callable) -> bool:
-    """Whether one of the objects, or of the materials, is as asked; of too many to look through, one may be."""
+    """Whether one of the objects is as asked; of too many to look through, one may be."""
     return len(objects) > LOOKED_THROUGH or any(map(asked, objects))
+
+
+def _says_mirror(obj: bpy.types.Object, mirrors: set) -> bool:
+    role = obj.reflection_mesh.role
+    return role == "MIRROR" or role == "AUTO" and any(slot.material in mirrors for slot in obj.material_slots)
 
 
 def _is_result(obj: bpy.types.Object) -> bool:

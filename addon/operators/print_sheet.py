@@ -5,7 +5,7 @@ import os
 
 import bpy
 
-from ...core import ReflectionError
+from ...core import ReflectionError, in_steps
 from .. import compat
 from ..anamorphosis import encoded, flat_sheet, load_picture, picture_of, pixels_of, print_size, printed
 from ..faults import AllOrNothing, BrowsingOperator, Steps, part, tell
@@ -41,11 +41,13 @@ def printing(context: bpy.types.Context, obj: bpy.types.Object | None, path: str
         image = load_picture(picture, whole) if picture else picture_of(obj)
         if image is None:
             raise ReflectionError(f"'{obj.name}' shows no picture: choose one to print.")
-        pixels = yield from part(printed(sheet, pixels_of(image), dpi), 0.05, 0.9)
+        pixels = yield from part(printed(sheet, pixels_of(image), dpi), 0.05, 0.75)
+        svg = path.lower().endswith(".svg")
+        data = yield from part(in_steps(lambda: encoded(pixels, sheet, dpi, svg)), 0.8, 0.15, "Packing the picture")
         yield 0.95, "Writing"
         with staged(os.path.dirname(path)) as scratch:
             with open(os.path.join(scratch, os.path.basename(path)), "wb") as file:
-                file.write(encoded(pixels, sheet, dpi, path.lower().endswith(".svg")))
+                file.write(data)
     size = " x ".join(f"{100.0 * side:.1f}" for side in sheet.size)
     return f"{path}: {size} cm, {width} x {height} pixels; print it at 100 %"
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import struct
 import zlib
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -38,19 +39,20 @@ def png_picture(pixels: np.ndarray, dots_per_metre: int) -> bytes:
 def _file(pixels: np.ndarray, kind: int, told: tuple[bytes, bytes]) -> bytes:
     """A file of colour type `kind`, with what is `told` before the pixels."""
     height, width = pixels.shape[:2]
-    # each row starts with its filter: none
-    rows = np.concatenate((np.zeros((height, 1), np.uint8), pixels.reshape(height, -1)), axis=1)
     header = struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)
-    parts = (b"IHDR", header), told, (b"IDAT", _packed(rows.tobytes())), (b"IEND", b"")
+    parts = (b"IHDR", header), told, (b"IDAT", b"".join(_packed(pixels.reshape(height, -1)))), (b"IEND", b"")
     return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*part) for part in parts)
 
 
-def _packed(data: bytes) -> bytes:
-    packer, packed = zlib.compressobj(9), []
-    for start in range(0, len(data), AT_ONCE):
+def _packed(rows: np.ndarray) -> Iterator[bytes]:
+    """The rows (height, bytes) packed, in parts."""
+    packer, at_once = zlib.compressobj(9), max(1, AT_ONCE // rows.shape[1])
+    for start in range(0, len(rows), at_once):
         breathe()
-        packed.append(packer.compress(data[start:start + AT_ONCE]))
-    return b"".join((*packed, packer.flush()))
+        part = rows[start:start + at_once]
+        # each row starts with its filter: none
+        yield packer.compress(np.pad(part, ((0, 0), (1, 0))).tobytes())
+    yield packer.flush()
 
 
 def _chunk(kind: bytes, data: bytes) -> bytes:

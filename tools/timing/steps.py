@@ -1,6 +1,6 @@
 """The longest step of every operator, and of Live, on the samples: for as long the window neither draws nor hears ESC.
 
-    python -m tools.timing.steps [sample or operator ...]
+    python -m tools.timing.steps [sample, or a .blend, or operator ...]
 
 Seconds are the lesser of the clock's and the processor's, so that what runs beside it counts as little as it can, and
 several cores at work count once. Renders are counted apart: Blender cannot divide one, and says so before it.
@@ -34,6 +34,7 @@ REFLECTIONS = (
     ("bake", (), {"frames": "1", "samples": 4}),
     ("live", ("generate",), {}),
     ("clear", ("generate",), {}))
+SHEET = (("print_sheet", ("mirror_uvs",), {"picture": "Compass", "dpi": 600.0}),)   # where one lies flat
 CAUSTICS = (
     ("caustics", (), {}),
     ("compare", ("caustics",), {"samples": 1, "what": "CAUSTICS", "converged": 8}),
@@ -76,9 +77,12 @@ def main(names: list[str]) -> int:
         quietly(lambda: extension_zip.install(extension_zip.build(scratch)))
         steps = Steps()
         print(f"| {' | '.join(ROWS)} |\n|{'---|' * len(ROWS)}", flush=True)
-        asked = set(names) - set(SAMPLES)
-        for sample in [name for name in names if name in SAMPLES] or SAMPLES:
-            jobs = CAUSTICS if sample in CAUSTIC else REFLECTIONS
+        scenes = [name for name in names if name in SAMPLES or name.endswith(".blend")]
+        asked = set(names) - set(scenes)
+        for sample in scenes or SAMPLES:
+            # of other files those of caustics where that operator is named
+            caustic = sample in CAUSTIC or sample not in SAMPLES and "caustics" in asked
+            jobs = CAUSTICS if caustic else REFLECTIONS + (SHEET if sample == "anamorphosis" else ())
             for job in [job for job in jobs if not asked or job[0] in asked]:
                 print(f"| {' | '.join(quietly(partial(measured, sample, job, steps, scratch)))} |", flush=True)
         quietly(extension_zip.switch_off)
@@ -89,11 +93,12 @@ def measured(sample: str, job: tuple, steps: Steps, scratch: Path) -> tuple[str,
     """One row."""
     import bpy
     name, before, options = job
-    bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{sample}.blend"))
+    path = sample if sample.endswith(".blend") else extension_zip.ROOT / "sample_blends" / f"{sample}.blend"
+    bpy.ops.wm.open_mainfile(filepath=str(path))
     for operator in before:
         getattr(bpy.ops.reflection_mesh, operator)("EXEC_DEFAULT")
-    if name in ("compare", "bake"):
-        options = {**options, "filepath": str(scratch / f"{sample} {name}")}
+    if name in ("compare", "bake", "print_sheet"):
+        options = {**options, "filepath": str(scratch / f"{Path(sample).stem} {name}")}
     steps.taken.clear()
     begun = time.perf_counter()
     try:
@@ -103,13 +108,13 @@ def measured(sample: str, job: tuple, steps: Steps, scratch: Path) -> tuple[str,
             getattr(bpy.ops.reflection_mesh, name)("EXEC_DEFAULT", **options)
     except RuntimeError as refused:
         # as maps of one mirror where there are several
-        return sample, name, str(len(steps.taken)), "–", str(refused).strip().splitlines()[0], "–"
+        return Path(sample).stem, name, str(len(steps.taken)), "–", str(refused).strip().splitlines()[0], "–"
     if not steps.taken:
         steps.taken.append((time.perf_counter() - begun, False, "all of it"))
     (seconds, stage), (render, _) = steps.longest(False), steps.longest(True)
     what = " ".join([name, *(str(value).lower() for key, value in options.items()
                              if key in ("kind", "target", "what"))])
-    return sample, what, str(len(steps.taken)), f"{seconds:.2f}", stage, f"{render:.2f}" if render else "–"
+    return Path(sample).stem, what, str(len(steps.taken)), f"{seconds:.2f}", stage, f"{render:.2f}" if render else "–"
 
 
 def live_steps() -> list[tuple[float, bool, str]]:

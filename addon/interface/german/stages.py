@@ -54,6 +54,7 @@ ENDING = {
     "Drawing the maps": "Karten werden gezeichnet",
     "Drawing what is round the mirror": "Umgebung des Spiegels wird gezeichnet",
     "Drawing the sheet": "Bogen wird gezeichnet",
+    "Packing the picture": "Bild wird gepackt",
     "Writing": "Schreiben",
     "Writing {}": "{} wird geschrieben",
     "Writing the light": "Licht wird geschrieben",

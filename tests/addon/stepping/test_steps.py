@@ -200,6 +200,35 @@ def test_no_step_of_packing_a_picture_keeps_the_window_waiting(room):
     assert least(lambda: room("core").in_steps(lambda: report.heat_map(values, 1e-3, 1.0))) < 0.5
 
 
+@pytest.fixture
+def sheet(room):
+    """A strip of A3, of triangles over all of it."""
+    size, cells = np.array((0.42, 0.015)), 40
+    at = np.stack(np.meshgrid(np.arange(cells), np.arange(cells), indexing="ij"), axis=-1).reshape(-1, 1, 2)
+    corners = np.concatenate([at + half for half in (((0, 0), (1, 0), (1, 1)), ((0, 0), (1, 1), (0, 1)))]) / cells
+    return room("addon.anamorphosis.flat_sheet").FlatSheet(corners * size, corners, np.ones(len(corners), bool), size)
+
+
+def test_no_step_of_drawing_a_sheet_keeps_the_window_waiting(room, sheet):
+    """Each band of it took a second."""
+    picture = np.random.default_rng(3).random((1500, 1500, 4), dtype=np.float32)
+    assert least(lambda: room("addon.anamorphosis").printed(sheet, picture, 300.0)) < 0.5
+
+
+def test_no_step_of_packing_a_sheet_keeps_the_window_waiting(room, sheet, blank, monkeypatch, tmp_path):
+    """A4 at 300 dots an inch, with a rich picture: that was one."""
+    place = room("addon.operators.print_sheet")
+    pixels = np.random.default_rng(3).integers(0, 255, (3508, 2480, 3), np.uint8)
+    bpy.data.images.new("Rich", 4, 4)
+
+    def drawn(*asked):
+        yield 0.0, "Drawing the sheet"
+        return pixels
+    monkeypatch.setattr(place, "flat_sheet", lambda *asked: sheet)
+    monkeypatch.setattr(place, "printed", drawn)
+    assert least(lambda: place.printing(blank, blank.scene.camera, str(tmp_path / "sheet.png"), "Rich", 300.0)) < 0.5
+
+
 def test_no_step_of_light_but_its_renders_keeps_the_window_waiting(room):
     """Bright lamps in a large picture: bringing their borders nearer took two seconds at once."""
     texels = room("addon.lighting.texels")

@@ -1,0 +1,36 @@
+"""Sentences in panels, which are as narrow as the user made them."""
+from __future__ import annotations
+
+import bpy
+import blf
+
+# pixels beside a line, at the resolution scale of 1: icon, margins, and the tabs of a sidebar
+BESIDE, LEAST = 96, 80
+
+
+def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "BLANK1") -> None:
+    """A sentence in as many lines as it needs here: of what is wider than the panel Blender leaves out a part."""
+    for number, line in enumerate(_lines(text, *_room(context))):
+        layout.label(text=line, icon="BLANK1" if number else icon, translate=False)
+
+
+def _room(context: bpy.types.Context) -> tuple[float, float]:
+    """The width of a line and the size of its letters, in pixels; without a region nothing is too wide."""
+    preferences, region = context.preferences, getattr(context, "region", None)
+    # which is 0 where there is no window
+    scale = preferences.system.ui_scale or 1.0
+    width = float("inf") if region is None else max(region.width - BESIDE * scale, LEAST * scale)
+    return width, preferences.ui_styles[0].widget.points * scale
+
+
+def _lines(text: str, width: float, size: float) -> list[str]:
+    """The text in lines that are no wider; a word that is wider by itself has one of its own."""
+    blf.size(0, size)
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and blf.dimensions(0, longer)[0] <= width:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines
