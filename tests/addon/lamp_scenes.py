@@ -40,7 +40,7 @@ def patterned(output: str, node: str = "ShaderNodeTexCoord") -> bpy.types.Materi
 
 def source_material(kind: str, box: bpy.types.Object) -> bpy.types.Material:
     """What the reflected object shows."""
-    if kind in ("Generated", "Object", "Normal", "UV"):
+    if kind in ("Generated", "Object", "Normal", "UV", "Camera", "Reflection"):
         return patterned(kind)
     if kind == "Gloss":
         return principled("Glossy", (0.7, 0.1, 0.1), Roughness=0.25)
@@ -53,12 +53,41 @@ def source_material(kind: str, box: bpy.types.Object) -> bpy.types.Material:
         bump.inputs["Distance"].default_value = 0.6
         link(tree, noise.outputs[0], bump.inputs["Height"])
         link(tree, bump.outputs[0], shader.inputs["Normal"])
+    elif kind == "Normal map":
+        # a field of domes
+        dome, place = tree.nodes.new("ShaderNodeNormalMap"), tree.nodes.new("ShaderNodeTexCoord")
+        waves = tree.nodes.new("ShaderNodeTexWave")
+        waves.wave_profile, waves.inputs["Scale"].default_value = "SIN", 2.0
+        tilt = tree.nodes.new("ShaderNodeCombineXYZ")
+        tilt.inputs[1].default_value, tilt.inputs[2].default_value = 0.5, 0.8
+        for output, socket in ((place.outputs["UV"], waves.inputs["Vector"]), (waves.outputs["Fac"], tilt.inputs[0]),
+                               (tilt.outputs[0], dome.inputs["Color"]), (dome.outputs[0], shader.inputs["Normal"])):
+            link(tree, output, socket)
+    elif kind == "View distance":
+        # fog: what is far away is pale
+        fog = tree.nodes.new("ShaderNodeMapRange")
+        fog.inputs["From Min"].default_value, fog.inputs["From Max"].default_value = 4.0, 9.0
+        link(tree, tree.nodes.new("ShaderNodeCameraData").outputs["View Distance"], fog.inputs["Value"])
+        link(tree, fog.outputs[0], shader.inputs["Base Color"])
     elif kind == "Light path":
         # dark but in mirrors
         link(tree, tree.nodes.new("ShaderNodeLightPath").outputs["Is Glossy Ray"], shader.inputs["Base Color"])
+    elif kind == "Window":
+        # bright in one half of the picture, dark in the other: the box is in both
+        half = tree.nodes.new("ShaderNodeMath")
+        half.operation, half.inputs[1].default_value = "GREATER_THAN", 0.7
+        where = tree.nodes.new("ShaderNodeSeparateXYZ")
+        link(tree, tree.nodes.new("ShaderNodeTexCoord").outputs["Window"], where.inputs[0])
+        link(tree, where.outputs["X"], half.inputs[0])
+        link(tree, half.outputs[0], shader.inputs["Base Color"])
     elif kind == "Random":
         ramp = tree.nodes.new("ShaderNodeCombineColor")
         link(tree, tree.nodes.new("ShaderNodeObjectInfo").outputs["Random"], ramp.inputs[1])
+        link(tree, ramp.outputs[0], shader.inputs["Base Color"])
+    elif kind == "Instances":
+        ramp = tree.nodes.new("ShaderNodeCombineColor")
+        ramp.mode, ramp.inputs[1].default_value, ramp.inputs[2].default_value = "HSV", 1.0, 1.0
+        link(tree, random_number_in_group(tree), ramp.inputs[0])
         link(tree, ramp.outputs[0], shader.inputs["Base Color"])
     elif kind == "Attribute":
         heat = box.data.attributes.new("warmth", "FLOAT", "POINT")
@@ -77,6 +106,16 @@ def source_material(kind: str, box: bpy.types.Object) -> bpy.types.Material:
         link(tree, side.outputs["Backfacing"], mixed.inputs[0])
         link(tree, mixed.outputs[2], shader.inputs["Base Color"])
     return made
+
+
+def random_number_in_group(tree: bpy.types.NodeTree) -> bpy.types.NodeSocket:
+    """Object Info's, in a group of its own."""
+    group = bpy.data.node_groups.new("Any", "ShaderNodeTree")
+    group.interface.new_socket("Number", in_out="OUTPUT", socket_type="NodeSocketFloat")
+    link(group, group.nodes.new("ShaderNodeObjectInfo").outputs["Random"], group.nodes.new("NodeGroupOutput").inputs[0])
+    held = tree.nodes.new("ShaderNodeGroup")
+    held.node_tree = group
+    return held.outputs[0]
 
 
 def mirror_material(kind: str) -> bpy.types.Material:
@@ -114,6 +153,8 @@ def scene_of(context: bpy.types.Context, source: str = "", mirror: str = "") -> 
     else:
         box = parts.add("cube", "Box", size=1.3, location=(1.9, -1.2, 1.0), rotation=(0.3, 0.2, 0.5))
     box.data.materials.append(source_material(source, box))
+    if source == "Instances":
+        box = _instanced(box)
     floor = parts.add("plane", "Floor", size=8.0, location=(0.0, -1.0, -0.6))
     floor.data.materials.append(principled("Floor", (0.5, 0.5, 0.6)))
     wall = parts.add_wall_mirror()
@@ -129,6 +170,26 @@ def scene_of(context: bpy.types.Context, source: str = "", mirror: str = "") -> 
     scene.cycles.samples = SAMPLES
     parts.select(box, floor, wall)
     return wall
+
+
+def _instanced(box: bpy.types.Object) -> bpy.types.Object:
+    """Three smaller copies of a box as instances of one collection; returns what instances them: an object with
+    Geometry Nodes would make instances of its own, told from each other in the same way."""
+    library = bpy.data.collections.new("Library")
+    bpy.context.scene.collection.objects.unlink(box)
+    library.objects.link(box)
+    box.name, box.scale = "Inner", (0.6, 0.6, 0.6)
+    row = bpy.data.collections.new("Row")
+    for number in range(3):
+        placed = bpy.data.objects.new(f"Placed {number}", None)
+        placed.instance_type, placed.instance_collection = "COLLECTION", library
+        placed.location = (-1.2 * number + 0.4, 0.3 * number, 0.2)
+        row.objects.link(placed)
+    whole = bpy.data.objects.new("Box", None)
+    whole.instance_type, whole.instance_collection = "COLLECTION", row
+    bpy.context.scene.collection.objects.link(whole)
+    bpy.context.view_layer.update()
+    return whole
 
 
 def shine(scene, width: int = 0, kind: str = "ShaderNodeTexEnvironment") -> bpy.types.World:

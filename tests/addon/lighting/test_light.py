@@ -22,8 +22,8 @@ from lamp_scenes import (
     shine,
 )
 
-SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Glass", "Alpha",
-           "Backfacing", "Light path")
+SOURCES = ("Generated", "Object", "Normal", "UV", "Camera", "Window", "Reflection", "Bump", "Normal map", "Random",
+           "Instances", "View distance", "Attribute", "Gloss", "Glass", "Alpha", "Backfacing", "Light path")
 MIRRORS = ("Tint", "Textured tint", "Rough", "Fresnel", "Layer weight")
 
 
