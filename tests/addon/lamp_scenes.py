@@ -248,11 +248,23 @@ def lit_state() -> dict:
                           sorted(obj.data.attributes.keys()), obj.reflection_mesh.light,
                           obj.reflection_mesh.light_stale)
                for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"}
-    cycles = bpy.context.scene.cycles
-    return {**parts.state(), "results": results, "lights": sorted(bpy.data.lights.keys()),
-            "cycles": (cycles.samples, cycles.seed, cycles.use_denoising, cycles.max_bounces, cycles.film_exposure),
-            "layers": [(layer.name, layer.use, [branch.holdout for branch in layer.layer_collection.children])
-                       for layer in bpy.context.scene.view_layers]}
+    scene = bpy.context.scene
+    worlds = {world.name: (_settings(world), world.cycles.sampling_method, world.cycles.sample_map_resolution)
+              for world in bpy.data.worlds}
+    lights = {lamp.name: (_settings(lamp), _settings(lamp.cycles)) for lamp in bpy.data.lights}
+    rays = {obj.name: _settings(obj) for obj in scene.objects}
+    return {**parts.state(), "results": results, "lights": lights, "worlds": worlds, "rays": rays,
+            "cycles": _settings(scene.cycles), "eevee": _settings(scene.eevee), "bake": _settings(scene.render.bake),
+            "film": _settings(scene.render.image_settings), "view": _settings(scene.view_settings),
+            "layers": [(_settings(layer), _settings(layer.cycles), layer.material_override,
+                        [_settings(branch) for branch in layer.layer_collection.children])
+                       for layer in scene.view_layers]}
+
+
+def _settings(item) -> dict:
+    """All numbers, switches and words of a block of settings, render passes among them."""
+    return {name: getattr(item, name) for name in item.bl_rna.properties.keys()
+            if isinstance(getattr(item, name, None), int | float | str | bool)}
 
 
 def leaves_no_trace(blank, room, monkeypatch, failing: tuple[str, str], kind: str) -> None:
