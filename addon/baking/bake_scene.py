@@ -9,13 +9,14 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ...core import ReflectionError
+from ...core import ReflectionError, View
 from .. import compat
 from ..faults import interrupt_held, still_there
 from ..rendering import copied_scene, denoise, look_through, put_swift_world
 from ..writing import UV_MAP
 from .opacity import as_mirrors_see, show_opacity, turn_over, without_openings
 from .stand_ins import StandIn, new_object, swap_names
+from .true_answers import answer_truly, own_groups
 from .whole_texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved, shines
 
 
@@ -124,12 +125,13 @@ class BakeScene:
 
 
 @contextmanager
-def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn], meshes: list, *, opacity: bool,
-               backs: bool) -> Iterator[BakeScene]:
+def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: list[tuple[StandIn, bpy.types.Mesh]], *,
+               opacity: bool, backs: bool) -> Iterator[BakeScene]:
     """The user's scene as a copy, with stand-ins, each with its mesh, in place of `sources`; with `opacity` they glow
-    by how opaque they are, and with `backs` what is baked is turned over. The meshes go with the scene."""
+    by how opaque they are, and with `backs` what is baked is turned over. What materials ask of the camera is answered
+    as to `view`. The meshes go with the scene."""
     with copied_scene(context, UV_MAP) as (scene, back):
-        made = list(meshes)
+        made = [mesh for _, mesh in stands]
         back.callback(lambda: bpy.data.batch_remove(still_there(made)))
         _prepare(scene)
         if opacity:
@@ -141,17 +143,16 @@ def bake_scene(context: bpy.types.Context, sources: list, stands: list[StandIn],
         for source in sources:
             back.callback(setattr, source, "hide_render", source.hide_render)
             source.hide_render = True
-        materials = dict.fromkeys(material for stand in stands for material in stand.mesh.materials or (None,))
-        targets = {material: _target(material, opacity, backs) for material in materials}
-        made += targets.values()
+        materials = dict.fromkeys(material for stand, _ in stands for material in stand.mesh.materials or (None,))
+        targets = {material: _target(material, view, opacity, backs, made) for material in materials}
         objects = []
-        for stand, mesh in zip(stands, meshes, strict=True):
+        for stand, mesh in stands:
             obj = new_object(sources[stand.owner], stand, mesh)
             made.append(obj)
             scene.collection.objects.link(obj)
             objects.append((stand.owner, obj))
             # linked objects keep their names
-            if stand.own and sources[stand.owner].library is None:
+            if stand.told is None and sources[stand.owner].library is None:
                 swap_names(sources[stand.owner], obj)
                 back.callback(swap_names, sources[stand.owner], obj)
         # Cycles clamps a lamp's body one bounce later than what lamps light
@@ -174,18 +175,24 @@ def _prepare(scene: bpy.types.Scene) -> None:
     cycles.film_exposure = 1.0
 
 
-def _target(material: bpy.types.Material | None, opacity: bool, backs: bool) -> bpy.types.Material:
-    """A copy of a material that bakes into the image: its light, as if nothing went through, or how opaque it is."""
-    made = bpy.data.materials.new(UV_MAP) if material is None else material.copy()
-    if not compat.uses_nodes(made):
-        compat.use_nodes(made)
-    tree = made.node_tree
-    if backs:
-        turn_over(tree)
-    as_mirrors_see(tree)
+def _target(material: bpy.types.Material | None, view: View, opacity: bool, backs: bool, made: list,
+            ) -> bpy.types.Material:
+    """A copy of a material that bakes into the image: its light, as if nothing went through, or how opaque it is; it
+    and its groups are `made`."""
+    target = bpy.data.materials.new(UV_MAP) if material is None else material.copy()
+    made.append(target)
+    if not compat.uses_nodes(target):
+        compat.use_nodes(target)
+    tree, groups = target.node_tree, own_groups(target.node_tree)
+    made += groups
+    for part in (tree, *groups):
+        answer_truly(part, view)
+        if backs:
+            turn_over(part)
+        as_mirrors_see(part)
     (show_opacity if opacity else without_openings)(tree)
     node = tree.nodes.new("ShaderNodeTexImage")
     for other in tree.nodes:
         other.select = other == node
     tree.nodes.active = node
-    return made
+    return target

@@ -116,7 +116,8 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
         yield done / whole, PREPARING
         stands = stand_ins(placed, divisions, places, set(chosen) if turned else set(), undeformed)
         meshes = yield from part(new_meshes(stands), done / whole, 0.0, PREPARING)
-        with bake_scene(context, scene.sources, stands, meshes, opacity=opacity, backs=turned) as stage:
+        with bake_scene(context, seen.view, scene.sources, list(zip(stands, meshes, strict=True)), opacity=opacity,
+                        backs=turned) as stage:
             for number in chosen:
                 yield done / whole, Undivided(f"Cycles bakes the light on '{scene.sources[number].name}'")
                 own = levels[number]

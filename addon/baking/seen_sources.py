@@ -26,6 +26,8 @@ class SeenSources:
 
     Attributes
     ----------
+    view : View
+        By which.
     density : (k,) float64
         Pixels per unit of length at which a source is seen.
     seen_from : (k, 3) float64
@@ -40,6 +42,7 @@ class SeenSources:
         Of which sources more than that is seen of both sides.
     """
 
+    view: View
     density: np.ndarray
     seen_from: np.ndarray
     one_eye: np.ndarray
@@ -57,7 +60,7 @@ def seen_sources(results: list, view: View, scene: DiffuseScene) -> SeenSources:
     fronts = np.bincount(owner, weights=area * facing, minlength=count)
     whole = np.bincount(owner, weights=area, minlength=count)
     seen_from, angle = _sight(faces, view, scene)
-    return SeenSources(_densities(owner, density, area, count), seen_from, angle <= ONE_EYE,
+    return SeenSources(view, _densities(owner, density, area, count), seen_from, angle <= ONE_EYE,
                        fronts < SOLID * whole, (fronts > HAIR * whole) & (fronts < (1.0 - HAIR) * whole))
 
 

@@ -13,6 +13,7 @@ from ..reading.read_meshes import LocalMesh, Placed
 from ..writing import UV_MAP, write_mesh
 from ..writing.mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
 from .division import Division, divided
+from .true_answers import RANDOM
 from .undeformed import keep_undeformed
 
 
@@ -32,8 +33,9 @@ class StandIn:
         Of the corners of these parts.
     turned : bool
         Whether its back is asked for: a bake shades the front.
-    own : bool
-        Whether it is the participant itself, and not an instance.
+    told : (6,) float64 or None
+        What Object Info tells of it where it is an instance, as `Placed` has it; None where it is the participant
+        itself.
     undeformed : (n, 3) float32 or None
         Where the vertices of the mesh are for Generated coordinates; None: where they are.
     """
@@ -44,7 +46,7 @@ class StandIn:
     count: np.ndarray
     uv: np.ndarray
     turned: bool
-    own: bool
+    told: np.ndarray | None
     undeformed: np.ndarray | None = None
 
 
@@ -55,12 +57,14 @@ def stand_ins(placed: list[Placed], divisions: dict, uv: dict, turned: set, unde
     ends = {owner: np.concatenate(([0], np.cumsum(division.count**2))) for owner, division in divisions.items()}
     for item in placed:
         count = len(item.mesh.triangles)
-        for owner, matrix, instance in zip(item.owners.tolist(), item.matrices, item.instances.tolist(), strict=True):
+        for owner, matrix, instance, told in zip(item.owners.tolist(), item.matrices, item.instances.tolist(),
+                                                 item.told, strict=True):
             part = slice(counted[owner], counted[owner] + count)
             counted[owner] += count
             first, last = ends[owner][[part.start, part.stop]]
             made.append(StandIn(owner, item.mesh, matrix, divisions[owner].count[part], uv[owner][first:last],
-                                owner in turned, not instance, _of_its_own(undeformed, owner, item.mesh, instance)))
+                                owner in turned, told if instance else None,
+                                _of_its_own(undeformed, owner, item.mesh, instance)))
     return made
 
 
@@ -71,7 +75,7 @@ def _of_its_own(undeformed: dict, owner: int, mesh: LocalMesh, instance: bool) -
 
 def new_object(source: bpy.types.Object, stand: StandIn, mesh: bpy.types.Mesh) -> bpy.types.Object:
     """The object with that mesh, standing where the source stands and told from others as it is."""
-    if stand.own and source.type == "MESH":
+    if stand.told is None and source.type == "MESH":
         obj = source.copy()
         obj.animation_data_clear()
         obj.modifiers.clear()
@@ -86,7 +90,11 @@ def new_object(source: bpy.types.Object, stand: StandIn, mesh: bpy.types.Mesh) -
         obj.is_shadow_catcher = False
     else:
         obj = bpy.data.objects.new(UV_MAP, mesh)
-        obj.pass_index, obj.color = source.pass_index, source.color
+        if stand.told is None:
+            obj.pass_index, obj.color = source.pass_index, source.color
+        else:
+            number, index, *colour = stand.told.tolist()
+            obj.pass_index, obj.color, obj[RANDOM] = int(index), colour, 1.0 + number
     obj.matrix_world = Matrix(stand.matrix.tolist())
     if stand.undeformed is not None:
         triangles = stand.mesh.triangles[:, _joined(stand)]

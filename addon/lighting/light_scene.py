@@ -13,11 +13,13 @@ from ...core import View
 from .. import compat
 from ..faults import still_there
 from ..reading import is_opaque, materials_of
+from ..reading.materials import is_exact
 from ..rendering import copied_scene, denoise, look_through, put_swift_world, rendered
 
 MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
 COVERAGE_SAMPLES = 64  # where a result ends; elsewhere as few tell that it does not
 INNER_SAMPLES, UNEVEN = 8, 0.01
+STEADY_SAMPLES = 64  # from which on what sharp mirrors show has albedo and normals with hardly any noise
 PLAIN_WHITE, ROLLED_OFF_WHITE = 1.0, 8.0
 
 
@@ -48,16 +50,19 @@ class Window:
 @dataclass(frozen=True)
 class LightScene:
     """A copy of the user's scene that renders one window of its picture; `alone` where the camera sees no more in it
-    than the mirrors."""
+    than the mirrors, `exact` where these have no roughness."""
 
     scene: bpy.types.Scene
     results: list
     alone: bool
+    exact: bool
 
     def light(self, samples: int) -> np.ndarray:
         """What the mirrors show in the window, (height, width, 4) float32 in linear light from the lowest row up; where
         they are alone, with how much of each pixel they cover, else with nothing in the fourth place."""
         self.scene.cycles.samples = samples
+        # to filter albedo and normals first takes twice as long as all else that the denoiser does
+        denoise(self.scene.cycles, "NONE" if self.exact and samples >= STEADY_SAMPLES else "ACCURATE")
         self.scene.render.film_transparent = self.alone
         # for the other render, if there is one: what is kept for none outlives the scene
         self.scene.render.use_persistent_data = True
@@ -116,7 +121,8 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         for obj in hidden if alone else itertools.filterfalse(_is_opaque, hidden):
             back.callback(setattr, obj, "visible_camera", True)
             obj.visible_camera = False
-        yield LightScene(scene, results, alone)
+        exact = all(is_exact(material) for mirror in mirrors for material in materials_of(mirror))
+        yield LightScene(scene, results, alone, exact)
 
 
 def _seen_others(context: bpy.types.Context, lit: set) -> tuple[list, set]:
@@ -144,7 +150,7 @@ def white_of(scene: bpy.types.Scene) -> float:
 
 
 def _prepare(scene: bpy.types.Scene, window: Window) -> None:
-    """One window of the picture, nothing after the render; sampling that denoises well."""
+    """One window of the picture, nothing after the render."""
     render, cycles = scene.render, scene.cycles
     for name in ("use_compositing", "use_sequencer", "use_motion_blur", "use_freestyle", "use_multiview", "use_stamp",
                  "film_transparent"):
@@ -154,7 +160,6 @@ def _prepare(scene: bpy.types.Scene, window: Window) -> None:
     render.border_min_x, render.border_max_x = window.column / width, (window.column + window.width) / width
     render.border_min_y, render.border_max_y = window.row / height, (window.row + window.height) / height
     cycles.film_exposure, cycles.film_transparent_glass = 1.0, False
-    denoise(cycles)
 
 
 def _sharp_camera(camera: bpy.types.Object) -> bpy.types.Object:

@@ -66,12 +66,14 @@ class LocalMesh:
 @dataclass(frozen=True)
 class Placed:
     """A mesh and where it stands: `owners` (k,) are indices of participants, `matrices` (k, 4, 4) float64 to world;
-    `instances` (k,) tells where it is not the participant's own."""
+    `instances` (k,) tells where it is not the participant's own, and `told` (k, 6) float64 what Object Info tells
+    there: a number from 0 to 1 that is random by the instance, its object's index and its colour."""
 
     mesh: LocalMesh
     owners: np.ndarray
     matrices: np.ndarray
     instances: np.ndarray
+    told: np.ndarray
 
     @cached_property
     def turned_over(self) -> np.ndarray:
@@ -106,7 +108,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool,
         Where a coordinate, a normal or a transform is not a finite number, or too large for Blender.
     """
     owner_of = {obj: index for index, obj in enumerate(objects)}
-    meshes, owners, matrices, instances = {}, {}, {}, {}
+    meshes, owners, matrices, instances, told = {}, {}, {}, {}, {}
     asked: dict[tuple, frozenset] = {}
     for instance in depsgraph.object_instances:
         evaluated = instance.object
@@ -124,9 +126,10 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool,
                 meshes[key] = read()
             else:
                 meshes[key] = known(*_name(instance, materials, mirror, asked), read)
-            owners[key], matrices[key], instances[key] = [], [], []
+            owners[key], matrices[key], instances[key], told[key] = [], [], [], []
         owners[key].append(owner)
         instances[key].append(instance.is_instance)
+        told[key].append((instance.random_id % 2**32 / (2**32 - 1), evaluated.pass_index, *evaluated.color))
         matrices[key].append(np.array(instance.matrix_world, dtype=np.float64))
     placed = []
     for key, mesh in meshes.items():
@@ -140,7 +143,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool,
         if (np.abs(matrix[:, :3, :3]) @ reach + np.abs(matrix[:, :3, 3])).max() > FARTHEST:
             raise ReflectionError(f"'{objects[owners[key][0]].name}' reaches further than 1e17 units from the origin, "
                                   "where Blender's numbers end: make it smaller or move it nearer.")
-        placed.append(Placed(mesh, np.array(owners[key]), matrix, np.array(instances[key])))
+        placed.append(Placed(mesh, np.array(owners[key]), matrix, np.array(instances[key]), np.array(told[key])))
     return placed
 
 

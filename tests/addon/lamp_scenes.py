@@ -5,13 +5,10 @@ import bpy
 import numpy as np
 import parts
 import pytest
+from shown_nodes import fog, grooves, link, random_number_in_group, right_of_the_picture
 
 SIZE = 96
 SAMPLES = 128
-
-
-def link(tree: bpy.types.NodeTree, output, socket) -> None:
-    tree.links.new(output, socket)
 
 
 def principled(name: str, colour=(0.8, 0.8, 0.8), **values) -> bpy.types.Material:
@@ -40,7 +37,7 @@ def patterned(output: str, node: str = "ShaderNodeTexCoord") -> bpy.types.Materi
 
 def source_material(kind: str, box: bpy.types.Object) -> bpy.types.Material:
     """What the reflected object shows."""
-    if kind in ("Generated", "Object", "Normal", "UV"):
+    if kind in ("Generated", "Object", "Normal", "UV", "Camera", "Reflection"):
         return patterned(kind)
     if kind == "Gloss":
         return principled("Glossy", (0.7, 0.1, 0.1), Roughness=0.25)
@@ -53,12 +50,24 @@ def source_material(kind: str, box: bpy.types.Object) -> bpy.types.Material:
         bump.inputs["Distance"].default_value = 0.6
         link(tree, noise.outputs[0], bump.inputs["Height"])
         link(tree, bump.outputs[0], shader.inputs["Normal"])
+    elif kind == "Normal map":
+        link(tree, grooves(tree), shader.inputs["Normal"])
+    elif kind == "View distance":
+        # fog: what is far away is pale
+        link(tree, fog(tree), shader.inputs["Base Color"])
     elif kind == "Light path":
         # dark but in mirrors
         link(tree, tree.nodes.new("ShaderNodeLightPath").outputs["Is Glossy Ray"], shader.inputs["Base Color"])
+    elif kind == "Window":
+        link(tree, right_of_the_picture(tree), shader.inputs["Base Color"])
     elif kind == "Random":
         ramp = tree.nodes.new("ShaderNodeCombineColor")
         link(tree, tree.nodes.new("ShaderNodeObjectInfo").outputs["Random"], ramp.inputs[1])
+        link(tree, ramp.outputs[0], shader.inputs["Base Color"])
+    elif kind == "Instances":
+        ramp = tree.nodes.new("ShaderNodeCombineColor")
+        ramp.mode, ramp.inputs[1].default_value, ramp.inputs[2].default_value = "HSV", 1.0, 1.0
+        link(tree, random_number_in_group(tree), ramp.inputs[0])
         link(tree, ramp.outputs[0], shader.inputs["Base Color"])
     elif kind == "Attribute":
         heat = box.data.attributes.new("warmth", "FLOAT", "POINT")
@@ -114,6 +123,8 @@ def scene_of(context: bpy.types.Context, source: str = "", mirror: str = "") -> 
     else:
         box = parts.add("cube", "Box", size=1.3, location=(1.9, -1.2, 1.0), rotation=(0.3, 0.2, 0.5))
     box.data.materials.append(source_material(source, box))
+    if source == "Instances":
+        box = _instanced(box)
     floor = parts.add("plane", "Floor", size=8.0, location=(0.0, -1.0, -0.6))
     floor.data.materials.append(principled("Floor", (0.5, 0.5, 0.6)))
     wall = parts.add_wall_mirror()
@@ -129,6 +140,26 @@ def scene_of(context: bpy.types.Context, source: str = "", mirror: str = "") -> 
     scene.cycles.samples = SAMPLES
     parts.select(box, floor, wall)
     return wall
+
+
+def _instanced(box: bpy.types.Object) -> bpy.types.Object:
+    """Three smaller copies of a box as instances of one collection; returns what instances them: an object with
+    Geometry Nodes would make instances of its own, told from each other in the same way."""
+    library = bpy.data.collections.new("Library")
+    bpy.context.scene.collection.objects.unlink(box)
+    library.objects.link(box)
+    box.name, box.scale = "Inner", (0.6, 0.6, 0.6)
+    row = bpy.data.collections.new("Row")
+    for number in range(3):
+        placed = bpy.data.objects.new(f"Placed {number}", None)
+        placed.instance_type, placed.instance_collection = "COLLECTION", library
+        placed.location = (-1.2 * number + 0.4, 0.3 * number, 0.2)
+        row.objects.link(placed)
+    whole = bpy.data.objects.new("Box", None)
+    whole.instance_type, whole.instance_collection = "COLLECTION", row
+    bpy.context.scene.collection.objects.link(whole)
+    bpy.context.view_layer.update()
+    return whole
 
 
 def shine(scene, width: int = 0, kind: str = "ShaderNodeTexEnvironment") -> bpy.types.World:
@@ -187,11 +218,24 @@ def lit_state() -> dict:
                           sorted(obj.data.attributes.keys()), obj.reflection_mesh.light,
                           obj.reflection_mesh.light_stale)
                for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"}
-    cycles = bpy.context.scene.cycles
-    return {**parts.state(), "results": results, "lights": sorted(bpy.data.lights.keys()),
-            "cycles": (cycles.samples, cycles.seed, cycles.use_denoising, cycles.max_bounces, cycles.film_exposure),
-            "layers": [(layer.name, layer.use, [branch.holdout for branch in layer.layer_collection.children])
-                       for layer in bpy.context.scene.view_layers]}
+    scene = bpy.context.scene
+    worlds = {world.name: (_settings(world), world.cycles.sampling_method, world.cycles.sample_map_resolution)
+              for world in bpy.data.worlds}
+    lights = {lamp.name: (_settings(lamp), _settings(lamp.cycles)) for lamp in bpy.data.lights}
+    rays = {obj.name: _settings(obj) for obj in scene.objects}
+    return {**parts.state(), "results": results, "lights": lights, "worlds": worlds, "rays": rays,
+            "cycles": _settings(scene.cycles), "eevee": _settings(scene.eevee), "bake": _settings(scene.render.bake),
+            "film": _settings(scene.render.image_settings), "view": _settings(scene.view_settings),
+            "layers": [(_settings(layer), _settings(layer.cycles), layer.material_override,
+                        [_settings(branch) for branch in layer.layer_collection.children])
+                       for layer in scene.view_layers]}
+
+
+def _settings(item) -> dict:
+    """All numbers, switches and words of a block of settings, render passes among them."""
+    # Blender 4.2 counts a user too many of what a copied scene held
+    return {name: getattr(item, name) for name in item.bl_rna.properties.keys() if name != "users"
+            and isinstance(getattr(item, name, None), int | float | str | bool)}
 
 
 def leaves_no_trace(blank, room, monkeypatch, failing: tuple[str, str], kind: str) -> None:

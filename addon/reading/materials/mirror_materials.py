@@ -4,11 +4,13 @@ from __future__ import annotations
 import bpy
 
 from ... import compat
+from .material_nodes import all_nodes
 
 SHARP_ROUGHNESS = 0.1
 FULL_METALLIC = 0.9
 MIRRORS = {"BSDF_GLOSSY", "BSDF_METALLIC"}
 """Shaders that are nothing but a mirror where they are sharp."""
+ROUGHENED = {"BSDF_PRINCIPLED", "BSDF_GLASS", "BSDF_REFRACTION"}
 
 
 def is_mirror(material: bpy.types.Material | None) -> bool:
@@ -40,6 +42,14 @@ def shines(material: bpy.types.Material | None) -> bool:
 def is_sharp(shader: bpy.types.Node) -> bool:
     """Whether a shader's roughness is near 0 all over."""
     return _constant(shader, "Roughness", at_most=SHARP_ROUGHNESS)
+
+
+def is_exact(material: bpy.types.Material | None) -> bool:
+    """Whether all that mirrors in a material does so without any roughness."""
+    if material is None or not compat.uses_nodes(material):
+        return False
+    shaders = [node for node in all_nodes(material.node_tree) if node.type in MIRRORS | ROUGHENED]
+    return bool(shaders) and all(_constant(shader, "Roughness", at_most=0.0) for shader in shaders)
 
 
 def surface_shader(tree: bpy.types.NodeTree) -> bpy.types.Node | None:

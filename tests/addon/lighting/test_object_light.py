@@ -9,8 +9,8 @@ import pytest
 from lamp_scenes import leaves_no_trace, link, lit_state, picture, principled, psnr, scene_of, shine
 
 # gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
-SOURCES = ("Generated", "Object", "Normal", "UV", "Bump", "Random", "Attribute", "Gloss", "Alpha", "Backfacing",
-           "Light path")
+SOURCES = ("Generated", "Object", "Normal", "UV", "Camera", "Window", "Reflection", "Bump", "Normal map", "Random",
+           "Instances", "View distance", "Attribute", "Gloss", "Alpha", "Backfacing", "Light path")
 MIRRORS = ("Tint", "Textured tint", "Fresnel", "Layer weight")
 
 
@@ -30,7 +30,7 @@ def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
     assert lit > before + 6.0
 
 
-@pytest.mark.parametrize("by", ["modifier", "shape key"])
+@pytest.mark.parametrize("by", ["modifier", "shape key", "armature"])
 def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflected(blank, room, by):
     """A box that is bent, with a pattern that lies on it as before."""
     scene_of(blank, "Generated")
@@ -41,6 +41,18 @@ def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflect
         fine.subdivision_type, fine.levels, fine.render_levels = "SIMPLE", 3, 3
         stretched = box.modifiers.new("Stretched", "SIMPLE_DEFORM")
         stretched.deform_method, stretched.factor, stretched.deform_axis = "TWIST", 3.0, "Z"
+    elif by == "armature":
+        frame = bpy.data.objects.new("Frame", bpy.data.armatures.new("Frame"))
+        blank.scene.collection.objects.link(frame)
+        blank.view_layer.objects.active = frame
+        bpy.ops.object.mode_set(mode="EDIT")
+        frame.data.edit_bones.new("Bone").tail = (0.0, 0.0, 1.0)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        frame.pose.bones["Bone"].scale = (1.0, 0.4, 1.5)
+        frame.matrix_world = box.matrix_world
+        box.vertex_groups.new(name="Bone").add([0, 2, 3, 4, 7], 1.0, "REPLACE")
+        box.modifiers.new("Bent", "ARMATURE").object = frame
+        parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
     else:
         box.shape_key_add(name="Basis")
         key = box.shape_key_add(name="Larger")
