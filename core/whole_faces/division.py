@@ -62,20 +62,25 @@ class Division:
             breathe()
             # short edges and such as leave the patch beside whole faces are what they are
             asked = self._asked(images, pieces)
+            breathe()
             some = asked[0] | asked[1] | asked[2]
             finished.append(pieces.select(~some))
             pieces, asked = pieces.select(some), asked[:, some]
+            breathe()
             if not len(pieces):
                 continue
             side, face = np.nonzero(asked)
             one, other = pieces.nodes[side, face], pieces.nodes[(side + 1) % 3, face]
             count = len(images)
             keys, edge = distinct(edge_numbers(one, other, count))
+            breathe()
             over = np.zeros(len(keys), dtype=bool)
             over[edge[~whole(self.patch, images, pieces)[face]]] = True
+            breathe()
             outline = _outlines(images, pieces, face, edge, len(keys))
             ends = keys // count, keys % count
             images = images.moved(self.patch, *ends)
+            breathe()
             marked, lost, straying, middles = self._judged(images, *ends, over, outline)
             left.append(straying)
             if sum(map(len, finished)) + len(pieces) + 2 * len(middles) > self.most:
@@ -85,6 +90,7 @@ class Division:
             new = np.full(len(keys), -1)
             new[marked] = count + np.arange(len(middles))
             images = Images.joined((images, middles))
+            breathe()
             middle = np.full(pieces.nodes.shape, -1)
             middle[side, face] = new[edge]
             pieces.lost[side, face] |= lost[edge]
@@ -102,6 +108,7 @@ class Division:
         chosen = np.flatnonzero(images.several(nodes))
         corners = nodes[:, chosen]
         images = images.moved(self.patch, *corners)
+        breathe()
         bent = np.zeros(len(chosen))
         for a, b in sides(corners):
             bent = np.maximum(bent, self._seems(images, a, b)[0])
@@ -144,11 +151,13 @@ class Division:
         a, b = np.where(images.found[a], (a, b), (b, a))
         both = images.found[b]
         straying, chord, moved, share = self._seems(images, a, b)
+        breathe()
         length = np.hypot(*np.where(both, chord, moved))
         diced = over & (length > DICED)
         sunk = both & (length > DEEP) & self.sinking.too_deep(self.patch, images, a, b)
         asked = np.flatnonzero(diced | sunk | (both & (length > SHORTEST) & (straying > DOUBT * tolerance)))
         middles = images.between(self.patch, a[asked], b[asked])
+        breathe()
         halfway = images.pixel[:, a[asked]] + share[asked] * chord[:, asked]
         found = middles.found & both[asked]
         straying[asked] = np.where(found, np.hypot(*(middles.pixel - halfway)), np.inf)

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..geometry import ColumnArrays
 from ..patches import Patch, Starts, find, jacobians
+from ..support import breathe
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,9 @@ class Images(ColumnArrays):
     def near(cls, patch: Patch, points: np.ndarray, member: np.ndarray, uv: np.ndarray, s: np.ndarray) -> Images:
         """Images of points (3, n) from the eye, looked for from starts."""
         member, uv, s, found = find(patch, member, uv, s, points)
+        breathe()
         place = patch.places(member, uv)
+        breathe()
         pixel = patch.pixels(place)
         found &= np.isfinite(pixel).all(axis=0)
         return cls(points, member, uv, s, found, place, pixel, np.full((2, 3, len(s)), np.nan))

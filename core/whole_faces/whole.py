@@ -9,7 +9,7 @@ from ..cameras import Cameras, picture_areas
 from ..culling import Cones, ScenePieces, SceneTree
 from ..geometry import TriangleMesh, norm
 from ..patches import Patch, speck
-from ..support import FACE_SHARE, Settings
+from ..support import FACE_SHARE, Settings, breathe
 from .contacts import contacts
 from .coverage import box
 from .division import Division
@@ -189,15 +189,21 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, tree: SceneTree, reach: 
     sinking = Sinking(settings.placement == "LAYERED", size, reach)
     division = Division(patch, FACE_SHARE * settings.tolerance, sinking, settings.placement == "VIRTUAL", most)
     pieces = Pieces.of(triangles[areal], areal)
+    breathe()
     pieces = _without_hidden(patch, images, pieces, sinking)
+    breathe()
     images, pieces, straying, limited = division.divided(images, pieces)
+    breathe()
     shown = np.flatnonzero(whole(patch, images, pieces))
+    breathe()
     if sinking.layered:
         shown = shown[~sinking.sunk(patch, images, pieces.nodes[:, shown])]
     shown = shown[~division.strays_inside(images, pieces.nodes[:, shown])]
+    breathe()
     found = images.found[pieces.nodes]
     found = np.flatnonzero(found[0] & found[1] & found[2])
     found = found[~_beyond(patch, images, pieces.nodes[:, found])]
+    breathe()
     drawn, left = np.zeros(len(pieces), dtype=bool), np.ones(len(pieces), dtype=bool)
     drawn[shown] = True
     left[shown] = False
@@ -205,10 +211,12 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, tree: SceneTree, reach: 
     layers = Layers(patch, images, sinking)
     corners = np.moveaxis(positions[triangles[near]], 2, 0).swapaxes(1, 2)
     hidden, close = layers.hidden_and_close(pieces.nodes[:, found], drawn[found], corners)
+    breathe()
     drawn[found] &= ~hidden & ~close
     left[found] |= close
     over = np.flatnonzero(drawn)
     over = over[_over_what_goes_through(patch, images, pieces.nodes, over)]
+    breathe()
     drawn[over], left[over] = False, True
     gone = len(areal) - len(np.unique(pieces.source))
     return WholeFaces(positions, patch, images, pieces, drawn, left, gone + int((~drawn & ~left).sum()), straying,
