@@ -52,11 +52,13 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     view = view or read_view(context)
     depsgraph = context.evaluated_depsgraph_get()
     kept = Kept.of(depsgraph)
-    stage = kept.read(depsgraph, chosen.mirrors, chosen.diffuse)
-    scene, surfaces = stage.scene, stage.surfaces
+    meshes = kept.looked_at(depsgraph, chosen.mirrors, chosen.diffuse)
     sources = chosen.diffuse + chosen.waiting
     origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources), settings_of(context.scene, mirror))
                for mirror in chosen.mirrors}
+    joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
+    stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
+    scene, surfaces = stage.scene, stage.surfaces
     if not all(map(is_opaque, scene.materials)):
         own = [replace(one, hidden_faces=True) for one in own]
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...core import ReflectionError, TriangleMesh
+from ...core import ReflectionError, TriangleMesh, breathe
 from .join_layers import join_layers
 from .materials import is_mirror
 from .placed_values import PlacedValues, generated_places, lines_of, normals_of, own_places
@@ -135,14 +135,17 @@ def _join(placed: list[Placed], count: int) -> tuple:
     counted = np.zeros(count, dtype=np.int64)
     vertex_start = 0
     for item in placed:
+        breathe()
         mesh, places = item.mesh, len(item.owners)
         world = np.matmul(mesh.positions.astype(np.float64), item.matrices[:, :3, :3].swapaxes(1, 2))
         world += item.matrices[:, None, :3, 3]
         positions.append(world.reshape(-1, 3))
+        breathe()
         vertices, count = len(mesh.positions), len(mesh.triangles)
         turned = np.where(item.turned_over[:, None], (0, 2, 1), (0, 1, 2))
         triangles.append(_repeated(mesh.triangles, turned, vertices, vertex_start))
         vertex_start += places * vertices
+        breathe()
         owners.append(np.repeat(item.owners.astype(np.int32), count))
         faces.append((_counted_on(item.owners, counted, count)[:, None] + np.arange(count, dtype=np.int32)).ravel())
         slots = mesh.materials or (None,)
@@ -156,6 +159,7 @@ def _join(placed: list[Placed], count: int) -> tuple:
 
 
 def _in_one(parts: list) -> np.ndarray:
+    breathe()
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 

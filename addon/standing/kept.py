@@ -99,6 +99,11 @@ class Kept:
         ------
         ReflectionError
         """
+        return self.joined(mirrors, diffuse, *self.looked_at(depsgraph, mirrors, diffuse))
+
+    def looked_at(self, depsgraph: bpy.types.Depsgraph, mirrors: list,
+                  diffuse: list) -> tuple[list[list[Placed]], list[Placed]]:
+        """Where the meshes of each mirror stand, and those of the diffuse objects: all that Blender is asked for."""
         used: dict[tuple, tuple[LocalMesh, frozenset]] = {}
 
         def known(name: tuple, depends: frozenset, read: Callable[[], LocalMesh | None]) -> LocalMesh | None:
@@ -107,20 +112,25 @@ class Kept:
             if mesh is not None:
                 used[name] = mesh, depends
             return mesh
-        surfaces = {mirror.session_uid: self._surface(mirror, read_meshes(depsgraph, [mirror], True, known))
-                    for mirror in mirrors}
+        found = [read_meshes(depsgraph, [mirror], True, known) for mirror in mirrors]
         placed = read_meshes(depsgraph, diffuse, False, known)
-        self.meshes, self.surfaces = used, surfaces
+        self.meshes = used
+        return found, placed
+
+    def joined(self, mirrors: list, diffuse: list, of_mirrors: list[list[Placed]], placed: list[Placed]) -> Stage:
+        """What `read` returns, of what was looked at."""
+        surfaces = {mirror.session_uid: self._surface(mirror, own) for mirror, own in zip(mirrors, of_mirrors)}
+        self.surfaces = surfaces
         before, own = self.stage, [surface for *_, surface in surfaces.values()]
         same = before is not None and list(map(id, own)) == list(map(id, before.surfaces))
-        mirrors = before.mirrors if same else TriangleMesh.joined([surface.mesh for surface in own])
+        together = before.mirrors if same else TriangleMesh.joined([surface.mesh for surface in own])
         if before is not None and not (before.scene.sources == diffuse and _same(placed, self.placed)):
             # what is let go makes room for what comes
             before = self.stage = None
         if before is None:
-            self.placed, self.stage = placed, Stage(join_scene(placed, diffuse), own, mirrors)
+            self.placed, self.stage = placed, Stage(join_scene(placed, diffuse), own, together)
         elif not same:
-            self.stage = Stage(before.scene, own, mirrors, before.trees)
+            self.stage = Stage(before.scene, own, together, before.trees)
         return self.stage
 
     def within(self, gigabytes: float) -> None:

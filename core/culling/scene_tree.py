@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from ..geometry import Order, TriangleMesh, columns, dot, in_order, ordered, ranges, rows, shares
+from ..support import breathe
 from .box_tree import BoxTree
 from .cones import Balls, Cones
 from .node_tree import NODES_AT_ONCE, NodeTree, curve_leaves, depth_for, node_spheres
@@ -56,12 +57,15 @@ class SceneTree(NodeTree):
         """The tree of a mesh that is in its canonical order."""
         positions = rows(mesh.positions)
         a, b, c = (columns(positions, corner) for corner in mesh.triangles.T)
+        breathe()
         # as three arrays: minima along an axis of three are several times slower
         low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+        breathe()
         centre = 0.5 * (low + high)
         radius = np.sqrt(np.maximum(np.maximum(*(dot(away, away) for away in (a - centre, b - centre))),
                                     dot(c - centre, c - centre)))
         areal = np.flatnonzero(mesh.areal)
+        breathe()
         some = np.zeros(len(mesh.positions), dtype=bool)
         some[mesh.triangles[areal].ravel()] = True
         used = np.flatnonzero(some)
@@ -70,9 +74,11 @@ class SceneTree(NodeTree):
         if len(used):
             leaf_of_vertex[used] = curve_leaves(mesh.positions[used], depth)
         leaf = leaf_of_vertex[mesh.triangles[areal, 0]]
+        breathe()
         order = in_order(leaf)
         leaf_start = np.searchsorted(leaf[order], np.arange(2**depth + 1))
         order = areal[order]
+        breathe()
         spheres = node_spheres(low[:, order], high[:, order], leaf_start, depth)
         return cls(mesh, Order.unchanged(mesh) if given is None else given, depth, spheres, leaf_start, order,
                    np.concatenate((centre, radius[None])))

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..support import breathe
 from .subdivision import following
 from .triangle_mesh import TriangleMesh
 
@@ -61,13 +62,16 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
     positions = mesh.positions + 0.0  # there is but one zero
     count = len(positions)
     by_place, new = _sorted_rows(list(positions.T))
+    breathe()
     rank = np.empty(count, dtype=np.int64)
     rank[by_place] = np.cumsum(new)
+    breathe()
 
     corner = rank[mesh.triangles]
     # of two corners in one place, that which the other follows
     first = np.argmin(corner * count + following(corner), axis=1)
     corner = np.take_along_axis(corner, TURNS[first], axis=1)
+    breathe()
     if count < _ONE_KEY:
         keys = [(corner[:, 0] * count + corner[:, 1]) * count + corner[:, 2]]
     else:
@@ -77,8 +81,10 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
         normals = np.take_along_axis(mesh.corner_normals, TURNS[first][:, :, None], axis=1) + 0.0
         keys += list(normals.reshape(-1, 9).T)
     triangle, _ = _sorted_rows(keys)
+    breathe()
     first = first[triangle]
     named = np.take_along_axis(mesh.triangles[triangle], TURNS[first], axis=1)
+    breathe()
 
     # vertices in one place come in the order in which the triangles name them
     vertex, number = by_place, np.full(count, named.size)
@@ -86,6 +92,7 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
         np.minimum.at(number, named.ravel(), np.arange(named.size))
         vertex = np.lexsort((number, rank))
     number[vertex] = np.arange(count)
+    breathe()
     mesh = mesh.like(positions[vertex], number[named], None if normals is None else normals[triangle])
     return mesh, Order(vertex, triangle, first)
 
@@ -94,6 +101,7 @@ def _sorted_rows(keys: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Order by the first key, of equals by the second and so on, and which rows in that order differ from the one
     before; a later key is looked at only where all before are equal."""
     order = np.argsort(keys[0], kind="stable")
+    breathe()
     values = keys[0][order]
     new = np.empty(len(order), dtype=bool)
     new[:1] = False
@@ -103,6 +111,7 @@ def _sorted_rows(keys: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
         again[:1] = False
         again[:-1] |= again[1:]
         at = np.flatnonzero(again)
+        breathe()
         if not len(at):
             break
         run, values = np.cumsum(new)[at], key[order[at]]
