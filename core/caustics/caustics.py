@@ -99,7 +99,9 @@ def _near_origin(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, sett
                  mirrors: TriangleMesh | None, blockers: TriangleMesh | None) -> CausticMesh:
     body, scene, standing = (TriangleMesh.joined([mesh for mesh in meshes if mesh is not None]) for meshes in (
         (mirror, mirrors), (receivers, blockers), (receivers, blockers, mirrors)))
-    screens, shades = screens_of(body, receivers, scene), shades_of(lamp, mirror, standing)
+    # on its way light may end at other mirrors too
+    ends = receivers if settings.depth == 1 else TriangleMesh.joined((receivers, body))
+    screens, shades = screens_of(body, ends, scene), shades_of(lamp, mirror, standing)
     settings = replace(settings, hidden_faces=True, method="GENERAL", placement="SURFACE")
     parts = []
     for view in lamp.views(mirror, shades, screens, DETAIL):

@@ -33,10 +33,10 @@ class Sides:
     count: int
 
 
-def screens_of(mirrors: TriangleMesh, receivers: TriangleMesh, scene: TriangleMesh) -> TriangleMesh | None:
-    """What of the `scene` may stand between mirrors and receivers; None where nothing does."""
-    room = _room(mirrors, receivers)
-    return _between(scene, _sides_of(mirrors, room), _sides_of(receivers, room), room)
+def screens_of(mirrors: TriangleMesh, ends: TriangleMesh, scene: TriangleMesh) -> TriangleMesh | None:
+    """What of the `scene` may stand between mirrors and the `ends` of light; None where nothing does."""
+    room = _room(mirrors, ends)
+    return _between(scene, _sides_of(mirrors, room), _sides_of(ends, room), room)
 
 
 def shades_of(lamp: Lamp, mirror: TriangleMesh, scene: TriangleMesh) -> TriangleMesh | None:
