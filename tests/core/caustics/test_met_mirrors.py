@@ -2,8 +2,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from core import Lamp, Settings, TriangleMesh, caustics
+from core.rivals.tracing import LightRays
+from tests.core.caustics.test_caustics import level, quad, upright
 
 
 def square(origin, first, second) -> TriangleMesh:
@@ -45,3 +48,18 @@ def test_light_tells_the_mirrors_that_it_has_met_and_how_steeply():
     turned = way[twice] * (-1.0, 1.0, 1.0)
     expected = np.abs((turned * normal[:, None]).sum(axis=2))
     np.testing.assert_allclose(mesh.cosine[twice, :, 1], expected, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("lean", [-0.3, 0.3])
+def test_a_floor_hides_from_a_second_mirror_what_reaches_below_it(lean):
+    """A mirror that leans back sends up what comes to it above the floor; through the floor it would send the rest to
+    its underside. Against rays, leaning either way."""
+    lamp, first, floor = Lamp((-0.4, 0.1, 1.4)), upright(1.2, 0.7, 0.6), level(0.0, 0.0, 0.0, 10.0)
+    up, along = np.array((-np.sin(lean), 0.0, -np.cos(lean))), np.array((0.0, 1.0, 0.0))
+    second = quad(*((-2.2, 0.0, 2.0) + 3.0 * (sx * up + sy * along) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))))
+    mesh, rays = caustics(lamp, first, floor, Settings(depth=2), second), LightRays(first, floor, second)
+    landed = rays.thrown(lamp, 200_000, depth=2)
+    twice = landed.met[1] >= 0
+    for number, chosen in ((1, ~twice), (2, twice)):
+        assert abs(mesh.flux[mesh.bounces == number].sum() - landed.flux[chosen].sum()) < 1e-3 * landed.flux.sum()
+    assert twice.any() == (lean > 0.0)
