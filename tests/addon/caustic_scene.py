@@ -91,14 +91,25 @@ def rendered(tmp_path, samples: int = 16) -> np.ndarray:
 
 def light_and_lamp_behind(mirror: bpy.types.Object, lamp: bpy.types.Object, tmp_path) -> tuple[np.ndarray, np.ndarray]:
     """Generate the mirror's light: its picture, and that of the lamp mirrored behind the mirror, which is gone then."""
+    light = light_of_mirror(tmp_path)
+    mirror.hide_render = True
+    aim(lamp, (2.0 * AIM.x + 0.9, 0.1, 1.8))
+    return light, rendered(tmp_path, 64) * TINT
+
+
+def light_of_mirror(tmp_path) -> np.ndarray:
+    """Generate the mirror's light: its picture alone; it is hidden then."""
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
     result = bpy.data.objects["Mirror Caustics"]
     with_light = rendered(tmp_path)
     result.hide_render = True
-    light = with_light - rendered(tmp_path)
-    mirror.hide_render = True
-    aim(lamp, (2.0 * AIM.x + 0.9, 0.1, 1.8))
-    return light, rendered(tmp_path, 64) * TINT
+    return with_light - rendered(tmp_path)
+
+
+def ratios(light: np.ndarray, expected: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """How much brighter pixels within the light (n, 3) are than expected, and what is expected there."""
+    patch = inner(light)
+    return (light / np.maximum(expected, 1e-12))[patch], expected[patch]
 
 
 def inner(light: np.ndarray) -> np.ndarray:
