@@ -31,12 +31,12 @@ class Caustic:
     counts : dict
     layers : int
         The most faces over each other.
-    eyes : int
-        Places on the lamp that it comes from.
     plain : bool
         Whether each of the mirrors' materials is one colour, but for the textured ones.
     textured : list of Tint
         Of the mirror, whose colour changes over it.
+    eyes : int
+        Places on the lamp that it comes from.
     """
 
     name: str
@@ -46,9 +46,9 @@ class Caustic:
     arrays: MeshArrays
     counts: dict
     layers: int
-    eyes: int
     plain: bool
     textured: list
+    eyes: int = 1
 
 
 def results_with(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.types.Object) -> list:

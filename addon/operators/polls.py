@@ -10,7 +10,7 @@ import bpy
 from bpy.app.translations import pgettext_tip
 
 from ..illumination import is_glint, leaves_out_any, raises_layers
-from ..reading import NO_CAMERA, NO_MIRROR, RESULTS, is_mirror
+from ..reading import NO_CAMERA, NO_MIRROR, RESULTS, is_mirror, says_mirror
 
 LOOKED_THROUGH = 500    # objects: to look for roles in more takes longer than a redraw may
 Obstacle = Callable[[bpy.types.Context], str]
@@ -47,7 +47,7 @@ def has_mirror(context: bpy.types.Context) -> str:
         return ""
     # each is asked once, however many objects have it
     mirrors = set(filter(is_mirror, bpy.data.materials))
-    return "" if _any(objects, lambda obj: _says_mirror(obj, mirrors)) else NO_MIRROR
+    return "" if _any(objects, lambda obj: says_mirror(obj, mirrors.__contains__)) else NO_MIRROR
 
 
 def has_mirror_or_caustics(context: bpy.types.Context) -> str:
@@ -84,11 +84,6 @@ def has_active(sentence: str) -> Obstacle:
 def _any(objects, asked: Callable) -> bool:
     """Whether one of the objects is as asked; of too many to look through, one may be."""
     return len(objects) > LOOKED_THROUGH or any(map(asked, objects))
-
-
-def _says_mirror(obj: bpy.types.Object, mirrors: set) -> bool:
-    role = obj.reflection_mesh.role
-    return role == "MIRROR" or role == "AUTO" and any(slot.material in mirrors for slot in obj.material_slots)
 
 
 def _is_result(obj: bpy.types.Object) -> bool:

@@ -16,6 +16,7 @@ from .roles import (
     choose,
     participants,
     rendered_collections,
+    says_mirror,
     seen_in,
     visible,
 )
@@ -24,5 +25,5 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "Placed", "RESULTS", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
            "every_result_of", "forget_known", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results",
            "materials_of", "moves", "participants", "read_meshes", "read_mirror", "read_scene", "read_view", "register",
-           "render_size", "rendered_collections", "rendered_otherwise", "results_of", "seen_in", "unregister",
-           "visible", "with_copies"]
+           "render_size", "rendered_collections", "rendered_otherwise", "results_of", "says_mirror", "seen_in",
+           "unregister", "visible", "with_copies"]

@@ -66,10 +66,10 @@ def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list,
     if results:
         return of_results(results)
     explicit = [obj for obj in objects if obj.reflection_mesh.role in {"MIRROR", "DIFFUSE"}]
-    mirrors = [obj for obj in chosen if _says_mirror(obj)]
+    mirrors = [obj for obj in chosen if says_mirror(obj)]
     if not chosen and not any(obj.reflection_mesh.role == "MIRROR" for obj in explicit):
         is_seen = seen_in(context)
-        mirrors = [obj for obj in objects if _says_mirror(obj) and is_seen(obj)]
+        mirrors = [obj for obj in objects if says_mirror(obj) and is_seen(obj)]
     if mirrors:
         # what is a mirror without any doubt is meant, and the roles say what it shows
         said = [obj for obj in explicit if obj.reflection_mesh.role == "DIFFUSE" and obj not in mirrors]
@@ -83,10 +83,10 @@ def _others_seen(context: bpy.types.Context, objects: list, mirrors: list) -> li
     return [obj for obj in objects if obj not in mirrors and is_seen(obj) and obj.visible_glossy]
 
 
-def _says_mirror(obj: bpy.types.Object) -> bool:
-    """Whether an object is a mirror by its role or its material."""
+def says_mirror(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | None], bool] = is_mirror) -> bool:
+    """Whether an object is a mirror by its role or its material, as far as `is_one` tells of materials."""
     return obj.reflection_mesh.role == "MIRROR" or (
-        obj.reflection_mesh.role == "AUTO" and any(is_mirror(slot.material) for slot in obj.material_slots))
+        obj.reflection_mesh.role == "AUTO" and any(is_one(slot.material) for slot in obj.material_slots))
 
 
 def can_take_part(obj: bpy.types.Object) -> bool:
@@ -99,7 +99,7 @@ def can_take_part(obj: bpy.types.Object) -> bool:
 def _by_role(objects: list, active: bpy.types.Object | None) -> tuple[list, list]:
     automatic = [obj for obj in objects if obj.reflection_mesh.role == "AUTO"]
     mirrors = [obj for obj in objects if obj.reflection_mesh.role == "MIRROR"]
-    mirrors += [obj for obj in automatic if _says_mirror(obj)]
+    mirrors += [obj for obj in automatic if says_mirror(obj)]
     if not mirrors and active in automatic:
         mirrors = [active]
     reflecting = set(mirrors)
