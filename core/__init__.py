@@ -2,12 +2,13 @@
 from .caustics import CausticMesh, Lamp, caustic_steps, caustics
 from .culling import PointTree, SceneTree
 from .following import FollowedImages
-from .geometry import TriangleMesh, View, draw
+from .geometry import TriangleMesh
 from .reflection import ReflectionError, reflect, reflection_steps
 from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
 from .solver import Images, project
 from .standing import Standing
 from .support import METHODS, PLACEMENTS, NothingInView, Settings, breathe, in_steps
+from .views import View, draw
 
 __all__ = ["CausticMesh", "Discs", "FollowedImages", "Images", "Lamp", "METHODS", "NothingInView", "PLACEMENTS",
            "PicturePieces", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "Standing",

@@ -12,21 +12,11 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import MirrorMap, brought_back, distance_from
 from .culling import SceneAndMirrors
-from .geometry import (
-    LampView,
-    SceneFrames,
-    area_normals,
-    distinct,
-    dot,
-    doubled_areas,
-    groups,
-    in_order,
-    norm,
-    rows,
-)
+from .geometry import SceneFrames, area_normals, distinct, dot, doubled_areas, groups, in_order, norm, rows
 from .polygons import Faces
 from .result import ReflectionMesh, halfway, place
 from .support import breathe
+from .views import LampView
 from .whole_faces import Seamed
 
 BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it

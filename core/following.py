@@ -11,9 +11,10 @@ import numpy as np
 
 from .cameras import INSIDE, MirrorMap, drawn_in, settle
 from .culling import SceneTree, first_crossed
-from .geometry import TriangleMesh, View, norm, rows, unit
+from .geometry import TriangleMesh, norm, rows, unit
 from .result import ReflectionMesh, place
 from .support import breathe
+from .views import View
 
 STEPS = 3  # of Newton's method, before an image is looked for on other triangles of the mirror
 LOOKS = 4  # times that images are followed between two looks for one that is lost

@@ -4,8 +4,9 @@ from __future__ import annotations
 import numpy as np
 
 from .culling import PointTree, SceneTree
-from .geometry import TriangleMesh, View, area_normals, cross, dot, norm, rows
+from .geometry import TriangleMesh, area_normals, cross, dot, norm, rows
 from .support import LARGEST, ReflectionError, Settings
+from .views import View
 
 
 def check_given(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,

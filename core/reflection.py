@@ -20,7 +20,7 @@ from .cameras import (
 )
 from .culling import PointTree, SceneAndMirrors, SceneTree
 from .filling import Limits, missed_probes
-from .geometry import LampView, Order, TriangleMesh, View, ordered
+from .geometry import Order, TriangleMesh, ordered
 from .given import check_given
 from .patches import Patch, speck
 from .points import reflected_points
@@ -28,6 +28,7 @@ from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
 from .standing import Standing
 from .support import NothingInView, Progress, ReflectionError, Settings, in_steps
+from .views import LampView, View
 from .visibility import cut_at_borders, cut_before_eye, lit, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces
 

@@ -12,12 +12,12 @@ from mathutils import Matrix
 from ...core import ReflectionError, View
 from .. import compat
 from ..faults import interrupt_held, still_there
+from ..mirror_part import as_mirrors_see, show_opacity, turn_over, without_openings
 from ..rendering import copied_scene, denoise, look_through, put_swift_world
 from ..writing import UV_MAP
-from .opacity import as_mirrors_see, show_opacity, turn_over, without_openings
 from .stand_ins import StandIn, new_object, swap_names
+from .texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved, shines
 from .true_answers import answer_truly, own_groups
-from .whole_texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved, shines
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,7 @@ from ...core import View, breathe
 from ..reading import DiffuseScene
 from ..rendering import grown, sum_around
 from .asked_parts import asked_densities, sides_before_mirrors
-from .atlas import Atlas, packed
-from .division import Division, divided, enlarged, parts_along
-from .whole_texels import UNTOUCHED
+from .texels import UNTOUCHED, Atlas, Division, divided, enlarged, packed, parts_along
 
 COARSER = (4, 2, 1)  # times, of the pictures in which an object is baked that is worth it
 WIDE = 32.0     # texels across triangles from which on what lies side by side in a picture does in the scene too

@@ -10,14 +10,13 @@ import numpy as np
 from ...core import ReflectionError, View, breathe, in_steps
 from ..faults import Steps, Undivided, part
 from ..reading import DiffuseScene, is_opaque, materials_of
-from ..reading.read_meshes import read_meshes
-from .atlas import arranged, packed
+from ..reading.meshes import read_meshes
 from .bake_scene import bake_scene
 from .levels import FINER, levels_of
 from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
 from .stand_ins import new_meshes, stand_ins
+from .texels import arranged, is_glossy, is_metal, packed
 from .undeformed import is_deformed, undeformed_positions
-from .whole_texels import is_glossy, is_metal
 
 LARGEST = 4096  # texels along a side of all maps together
 FEWER = 0.5     # of the samples are enough where a picture is denoised

@@ -8,9 +8,9 @@ import numpy as np
 
 from ...core import View, reflecting_normals
 from ..faults import Steps
+from ..mirror_part import NORMAL
 from ..reading import DiffuseScene
 from ..writing import light_layer
-from .mirror_share import NORMAL
 from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, vectors, weights_of
 
 WRITING = "Writing"

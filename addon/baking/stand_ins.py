@@ -9,10 +9,10 @@ from mathutils import Matrix
 
 from ...core.geometry import first_of
 from ..faults import Steps, still_there
-from ..reading.read_meshes import LocalMesh, Placed
+from ..reading.meshes import LocalMesh, Placed
 from ..writing import UV_MAP, write_mesh
-from ..writing.mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
-from .division import Division, divided
+from ..writing.arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
+from .texels import Division, divided
 from .true_answers import RANDOM
 from .undeformed import keep_undeformed
 

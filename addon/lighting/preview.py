@@ -7,9 +7,10 @@ import bpy
 
 from ...core import View
 from .. import compat
-from ..baking import WHITE, LaterMirrors, Share, opacity_of, write_mirror_normals
+from ..baking import write_mirror_normals
 from ..faults import AllOrNothing
 from ..lamps import ShownLamp, lamp_light, lamps_before
+from ..mirror_part import WHITE, LaterMirrors, Share, opacity_of
 from ..reading.materials import surface_shader
 from ..writing.kept_changes import PREVIEW as MARK
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind

@@ -8,17 +8,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, View
-from ..baking import (
-    KeptMap,
-    LaterMirrors,
-    Surroundings,
-    are_few,
-    baked,
-    can_be_baked,
-    kept_map,
-    new_object_material,
-    vectors,
-)
+from ..baking import KeptMap, are_few, baked, can_be_baked, kept_map, vectors
 from ..faults import AllOrNothing, SteppedOperator, Steps, Undivided, part, tell
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
@@ -36,6 +26,7 @@ from ..lighting import (
     texels_of,
     white_of,
 )
+from ..mirror_part import LaterMirrors, Surroundings, new_object_material
 from ..reading import camera_of, is_mirror, is_opaque, materials_of, moves, read_scene, read_view, seen_in, with_copies
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
 from ..writing import forget_mesh, place_of

@@ -1,9 +1,19 @@
 """Blender's data as arrays: who takes part, meshes with their layers, materials, the view."""
-from .join_meshes import DiffuseScene, MirrorSurface, join_mirror, join_scene, read_mirror, read_scene
 from .known_results import forget_known, known_results, register, unregister
 from .materials import all_nodes, is_mirror, is_opaque, materials_of
+from .meshes import (
+    SURFACES,
+    DiffuseScene,
+    LocalMesh,
+    MirrorSurface,
+    Placed,
+    join_mirror,
+    join_scene,
+    read_meshes,
+    read_mirror,
+    read_scene,
+)
 from .moves import moves
-from .read_meshes import SURFACES, LocalMesh, Placed, read_meshes
 from .read_view import NO_CAMERA, read_view, render_size
 from .rendered_otherwise import rendered_otherwise
 from .results import RESULTS, camera_of, every_result_of, results_of, with_copies

@@ -1,14 +1,23 @@
 """Arrays as Blender's data: meshes, points, the objects that carry them, windows, and records of the making."""
+from .arrays import (
+    MOST_UV_MAPS,
+    UV_MAP,
+    Attribute,
+    Edges,
+    MeshArrays,
+    light_layer,
+    mesh_arrays,
+    mesh_bytes,
+    point_arrays,
+    shown_layers,
+    size_text,
+    vertices_written,
+)
 from .cameras import as_shown, show_for_camera
 from .kept_changes import place_of, put_back_materials
-from .light_layer import UV_MAP, light_layer
-from .mesh_arrays import MOST_UV_MAPS, Attribute, MeshArrays, mesh_arrays, shown_layers, vertices_written
-from .mesh_edges import Edges
 from .nodes import Builder, disc_nodes, forget_nodes, hide_discs
-from .point_arrays import point_arrays
 from .records import LONGEST as LONGEST_RECORD
 from .result_collection import forget_collection, gather, show_in_layer
-from .result_size import mesh_bytes, size_text
 from .windows import close_abandoned_windows, set_window, what_is_in_the_way
 from .write_mesh import write_mesh
 from .write_object import (

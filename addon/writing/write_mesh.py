@@ -5,8 +5,7 @@ import bpy
 import numpy as np
 
 from .. import compat
-from .mesh_arrays import Lines, MeshArrays
-from .mesh_edges import Edges
+from .arrays import Edges, Lines, MeshArrays
 
 # where the values of an attribute lie, by its type; all others call it "value"
 FIELDS = {"FLOAT_VECTOR": "vector", "FLOAT2": "vector", "FLOAT_COLOR": "color", "BYTE_COLOR": "color"}

@@ -9,9 +9,9 @@ import bpy
 from ...core import ReflectionMesh
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object, still_there
 from ..reading.results import every_result_of, results_of
+from .arrays import MeshArrays
 from .cameras import bring_back
 from .kept_changes import Changes, changes_of, place
-from .mesh_arrays import MeshArrays
 from .nodes import hide_discs, show_discs
 from .windows import set_window
 from .write_mesh import write_mesh

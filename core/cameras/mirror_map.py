@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View, unit
+from ..geometry import TriangleMesh, unit
+from ..views import View
 from .mirror_surface import LEAST_RISE, MirrorSurface, Way, along
 from .reflection_map import ReflectionMap
 

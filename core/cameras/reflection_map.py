@@ -10,8 +10,9 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
-from ..geometry import View, cross, dot, norm, solve
+from ..geometry import cross, dot, norm, solve
 from ..support import breathe
+from ..views import View
 from .mirror_surface import ALONG_UV, MirrorSurface, Way
 
 SETTLED = 1e-9  # of a triangle's side, or of s: after a shorter step of Newton's method the next is rounding alone

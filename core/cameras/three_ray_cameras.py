@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View, connected, following
+from ..geometry import TriangleMesh, connected, following
+from ..views import View
 from .mirror_map import MirrorMap
 from .reflection_map import ReflectionMap
 

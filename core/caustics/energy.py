@@ -3,7 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import View, in_order, shared_edges
+from ..geometry import in_order, shared_edges
+from ..views import View
 
 MOST = 2.0  # of a face's mean: how much more a corner may have, near a caustic, where the map tells infinity
 LOST = 0.9  # of its flux: the most that falls beside a face with straight sides

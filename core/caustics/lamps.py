@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..geometry import LampView, TriangleMesh, View
+from ..geometry import TriangleMesh
 from ..support import LARGEST, ReflectionError, numbers
+from ..views import LampView, View
 
 WIDEST = 0.9  # radians off the view's middle; a mirror that spans more is seen by six views round the lamp
 MARGIN = 1.01  # of the mirror's picture, so that it lies within the borders

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh, cross, dot, following, in_cone, norm, parent_side, rows, shared_edges, split, unit
+from ..geometry import TriangleMesh, cross, dot, following, norm, parent_side, rows, shared_edges, split, unit
 from ..support import breathe
+from ..views import in_cone
 from .corners import Corners, light_at
 from .lamps import Lamp
 

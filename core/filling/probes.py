@@ -9,8 +9,9 @@ import numpy as np
 
 from ..cameras import MirrorMap
 from ..culling import SceneAndMirrors, SceneTree, first_crossed
-from ..geometry import LampView, TriangleMesh, View, dot, following, largest, ranges, shares, smallest, unit
+from ..geometry import TriangleMesh, dot, following, largest, ranges, shares, smallest, unit
 from ..support import breathe
+from ..views import LampView, View
 
 ACROSS = 16  # probes along each side of the box round the mirror in the picture
 MARGIN = 1.0  # pixels that a face may end before a place that it covers

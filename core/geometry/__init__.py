@@ -1,13 +1,12 @@
-"""Views, triangle meshes and vectors: plain geometry on arrays, component-first (3, n) inside the method.
+"""Triangle meshes and vectors: plain geometry on arrays, component-first (3, n) inside the method.
 
-In come a camera's matrices and meshes as they were given; out come pixels, directions, meshes in an order that only
-their places decide, and which triangles lie beyond each other's sides.
+In come meshes as they were given; out come meshes in an order that only their places decide, and which triangles lie
+beyond each other's sides.
 """
 from .adjacency import connected, corners_beyond
 from .canonical_order import TURNS, Order, ordered
 from .column_arrays import ColumnArrays
 from .distinct import distinct, first_of, in_order
-from .lamp_view import LampView, in_cone
 from .near_triangles import meeting
 from .scene_frames import SceneFrames, falling
 from .subdivision import (
@@ -23,11 +22,9 @@ from .subdivision import (
 )
 from .triangle_mesh import TriangleMesh, area_normals, has_area
 from .vectors import columns, cross, dot, groups, largest, norm, ranges, rows, shares, smallest, solve, unit
-from .view import View
-from .z_buffer import Drawn, draw
 
-__all__ = ["ColumnArrays", "Drawn", "LampView", "Order", "SceneFrames", "TURNS", "TriangleMesh", "View",
+__all__ = ["ColumnArrays", "Order", "SceneFrames", "TURNS", "TriangleMesh",
            "area_normals", "areas", "columns", "connected", "corners_beyond", "cross", "distinct", "dot",
-           "doubled_areas", "draw", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups",
-           "has_area", "in_cone", "in_order", "largest", "meeting", "norm", "ordered", "others", "parent_side",
+           "doubled_areas", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups",
+           "has_area", "in_order", "largest", "meeting", "norm", "ordered", "others", "parent_side",
            "ranges", "rows", "shared_edges", "shares", "smallest", "solve", "split", "unit"]

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, MirrorMap, PictureCells, may_fold, picture_areas
-from ..geometry import View, connected, corners_beyond, dot, norm, others, rows
+from ..geometry import connected, corners_beyond, dot, norm, others, rows
+from ..views import View
 
 MARGIN = 8.0  # pixels: by how much the picture's grid is larger than the patch
 SPECK = 1e-6  # of the distance from the eye

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import View, dot, norm, unit
+from ..geometry import dot, norm, unit
+from ..views import View
 
 SMALLEST = 0.75  # pixels: a disc of half a pixel's diagonal holds the middle of a pixel wherever it lies
 LARGEST = 16.0  # pixels: no disc stands for more

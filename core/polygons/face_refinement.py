@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import ALONG_UV, Cameras, ReflectionMap
-from ..geometry import SceneFrames, View, columns, dot, falling, norm, shared_edges
+from ..geometry import SceneFrames, columns, dot, falling, norm, shared_edges
 from ..support import breathe
+from ..views import View
 from .polygon_corners import Nodes
 from .triangulation import Faces
 

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View, cross, draw, rows
+from ..geometry import cross, rows
 from ..support import breathe
+from ..views import View, draw
 from .placement import place
 from .reflection_mesh import ReflectionMesh
 

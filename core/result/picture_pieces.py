@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View, connected, distinct, doubled_areas, following, split
+from ..geometry import connected, distinct, doubled_areas, following, split
 from ..support import breathe
+from ..views import View
 from .hidden_images import FrontImages
 from .piece_location import holders
 from .reflection_mesh import ReflectionMesh

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import View, norm
+from ..geometry import norm
+from ..views import View
 
 GAP = 2e-4  # share of the viewing distance kept free before the mirror
 DEPTH = 2e-3  # share of the viewing distance over which the layers spread

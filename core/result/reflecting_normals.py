@@ -3,7 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import View, unit
+from ..geometry import unit
+from ..views import View
 
 
 def reflecting_normals(view: View, mirror_position: np.ndarray, reflected_position: np.ndarray) -> np.ndarray:

@@ -9,7 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from ..geometry import TriangleMesh, View
+from ..geometry import TriangleMesh
+from ..views import View
 from .billboards import billboarded
 from .clustering import clustered
 from .environment import boxed, mapped

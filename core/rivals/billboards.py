@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View, connected, dot
+from ..geometry import TriangleMesh, connected, dot
+from ..views import View
 from .environment import centre_of
 from .primary_hits import PrimaryHits
 from .rival_picture import NOTHING, RivalPicture, Work

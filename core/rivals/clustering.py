@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..culling import BoxTree, SceneTree, meet
-from ..geometry import TriangleMesh, View, groups, ranges
+from ..geometry import TriangleMesh, groups, ranges
+from ..views import View
 from .primary_hits import TOUCHING, PrimaryHits
 from .rival_picture import ITSELF, RivalPicture, Work
 from .tracing import cones_around

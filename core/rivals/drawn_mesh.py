@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import View, draw
+from ..views import View, draw
 
 
 @dataclass(frozen=True)

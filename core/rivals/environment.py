@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View
+from ..geometry import TriangleMesh
+from ..views import View
 from .primary_hits import PrimaryHits
 from .rival_picture import RivalPicture, Work
 from .textures import Texture, looked_up, texture_of

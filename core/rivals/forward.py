@@ -3,10 +3,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View
+from ..geometry import TriangleMesh
 from ..reflection import reflect
 from ..result import ReflectionMesh
 from ..support import Settings
+from ..views import View
 from .drawn_mesh import DrawnMesh
 from .primary_hits import PrimaryHits
 from .rival_picture import RivalPicture, Work

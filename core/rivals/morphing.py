@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View, dot, norm, shared_edges, solve, split
+from ..geometry import TriangleMesh, dot, norm, shared_edges, solve, split
+from ..views import View
 from .drawn_mesh import DrawnMesh
 from .primary_hits import PrimaryHits
 from .rival_picture import RivalPicture, Work

@@ -7,8 +7,9 @@ import numpy as np
 
 from ..cameras import MirrorMap
 from ..culling import SceneTree
-from ..geometry import TriangleMesh, View, dot, draw, unit
+from ..geometry import TriangleMesh, dot, unit
 from ..reflection import ReflectionError
+from ..views import View, draw
 from .rival_picture import Work
 from .tracing import cones_around
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..culling import BoxTree, first_hits
-from ..geometry import TriangleMesh, View
+from ..geometry import TriangleMesh
+from ..views import View
 from .pixel_blocks import cast_by_blocks
 from .primary_hits import TOUCHING, PrimaryHits
 from .rival_picture import ITSELF, RivalPicture, Work

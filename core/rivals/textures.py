@@ -3,7 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import TriangleMesh, View, draw
+from ..geometry import TriangleMesh
+from ..views import View, draw
 
 Texture = tuple[np.ndarray, np.ndarray]
 

@@ -10,8 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import Cameras, with_pieces
-from ..geometry import TriangleMesh, View, cross, dot, norm, rows
+from ..geometry import TriangleMesh, cross, dot, norm, rows
 from ..polygons import ConvexPolygons, Line
+from ..views import View
 
 ON_PLANE = 1e-12  # of the distance from an orthographic eye: nearer to its plane is on it by rounding
 LEAST = 0.5  # of what a perspective eye can see: as near to its plane are triangles cut

@@ -4,8 +4,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import Cameras, not_edge_on, with_pieces
-from ..geometry import LampView, TriangleMesh, View
+from ..geometry import TriangleMesh
 from ..polygons import ConvexPolygons, Line
+from ..views import LampView, View
 
 
 def with_shades(view: View, mirror: TriangleMesh, faces: np.ndarray) -> tuple[TriangleMesh, np.ndarray]:

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import View, ranges, shares
+from ..geometry import ranges, shares
 from ..support import breathe
+from ..views import View
 
 SAMPLES = 256  # across the wider side of the picture
 SAMPLES_AT_ONCE = 1 << 19

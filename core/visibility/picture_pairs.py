@@ -6,8 +6,9 @@ from collections.abc import Generator, Iterable
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import TriangleMesh, View, in_order, ranges, rows, shares
+from ..geometry import TriangleMesh, in_order, ranges, rows, shares
 from ..support import breathe
+from ..views import View
 
 COARSER = 9  # times that the cells may be doubled
 MOST_PAIRS = 1 << 26

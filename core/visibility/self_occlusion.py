@@ -8,8 +8,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import Cameras, picture_areas
-from ..geometry import LampView, SceneFrames, TriangleMesh, cross, norm
+from ..geometry import SceneFrames, TriangleMesh, cross, norm
 from ..support import breathe, crowded
+from ..views import LampView
 from .eye_plane import triangles_before_eye
 from .hidden_parts import DEEPER, PAIRS_AT_ONCE, HiddenParts
 from .mirror_visibility import DepthGrid

@@ -23,7 +23,7 @@ from scipy.sparse.csgraph import connected_components
 
 from tools import extension_zip
 
-WRITING = "addon.writing.mesh_arrays"
+WRITING = "addon.writing.arrays.mesh_arrays"
 WHOLE = 1e-6  # by how much the areas of a triangle's faces may miss the triangle's
 TILE, GAP, LABEL = 396, 6, 26
 CLOSE = 28  # pixels across the place where filling helps most

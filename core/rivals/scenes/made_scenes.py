@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import TriangleMesh, View
+from ...geometry import TriangleMesh
+from ...views import View
 from .shapes import combine, icosphere, sheet, torus
 from .tessellation import tessellated
 

@@ -126,7 +126,7 @@ def bytes_by_hand(mesh) -> int:
                                             (9_940_000, "9.9 MB"), (12_000_000, "12 MB"), (3_210_000_000, "3.2 GB"),
                                             (4 * 10 ** 12, "4000 GB")])
 def test_sizes_are_read_easily(room, size, told):
-    assert room("addon.writing.result_size").size_text(size) == told
+    assert room("addon.writing.arrays.result_size").size_text(size) == told
 
 
 def test_the_report_tells_the_size_that_the_file_grows_by(scene, room, tmp_path):

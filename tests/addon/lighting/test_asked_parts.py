@@ -150,7 +150,7 @@ def test_lines_of_sight_meet_where_they_come_from(room):
 
 def test_parts_tile_their_triangles(room):
     """Against areas, and against every part of a brute force search."""
-    division = room("addon.baking.division").divided(np.array([1, 4, 2, 8]))
+    division = room("addon.baking.texels.division").divided(np.array([1, 4, 2, 8]))
     sides = division.weights[:, 1:] - division.weights[:, :1]
     area = np.abs(np.cross(sides[:, 0, 1:], sides[:, 1, 1:]))
     assert np.allclose(np.bincount(division.owner, area), 1.0)
@@ -170,14 +170,14 @@ def test_parts_tile_their_triangles(room):
 
 
 def test_a_large_face_asks_for_all_that_it_shows(room):
-    division = room("addon.baking.division").divided(np.array([32]))
+    division = room("addon.baking.texels.division").divided(np.array([32]))
     whole = division.greatest(np.array([0]), np.eye(3)[None], np.array([2.0]))
     assert (whole == 2.0).all()
 
 
 def test_a_finer_picture_takes_what_it_lacks_from_the_coarser(room):
     """Exactly, where light is linear on a triangle."""
-    module = room("addon.baking.division")
+    module = room("addon.baking.texels.division")
     small, large = np.full((16, 16, 4), np.nan, np.float32), np.zeros((48, 48, 4), np.float32)
     rows, columns = np.mgrid[:16, :16] + 0.5
     small[...] = (0.2 + 0.03 * columns - 0.01 * rows)[..., None]
@@ -195,7 +195,7 @@ def test_a_finer_picture_takes_what_it_lacks_from_the_coarser(room):
 
 def test_long_strips_take_the_room_that_they_have(room):
     """Kerbs and rails are thousands of texels long and a few wide: squares around them filled 20 GB."""
-    module, size = room("addon.baking.division"), 2048
+    module, size = room("addon.baking.texels.division"), 2048
     small, large = np.ones((64, 64, 1), np.float32), np.zeros((size, size, 1), np.float32)
     known = np.zeros((size, size), bool)
     first = np.arange(12)[:, None] * (0.0, 8.0)

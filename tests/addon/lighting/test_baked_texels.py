@@ -105,7 +105,7 @@ def test_halves_of_a_quad_lie_side_by_side(room):
     for corners in (quads, kites):
         split = np.array(((0, 1, 2), (2, 3, 0)))
         triangles = corners[:, split].reshape(-1, 3, 3)
-        places = room("addon.baking.atlas").packed(triangles, 20.0)
+        places = room("addon.baking.texels.atlas").packed(triangles, 20.0)
         one, other = places.spots[::2], places.spots[1::2]
         # corners 0 and 2 are ends of the diagonal
         apart = np.linalg.norm(one[:, (0, 2)] - other[:, (2, 0)], axis=2).max(axis=1)

@@ -333,7 +333,7 @@ def interpolated(picture: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 def test_triangles_have_room_of_their_own(room):
     """Against every texel: none is of two triangles, and none is without."""
-    atlas = room("addon.baking.atlas")
+    atlas = room("addon.baking.texels.atlas")
     rng = np.random.default_rng(3)
     corners = rng.normal(size=(90, 1, 3)) + rng.normal(size=(90, 3, 3)) * np.exp(0.7 * rng.normal(size=(90, 1, 1)))
     corners[:6, 2] = corners[:6, 0] + 1e-4 * rng.normal(size=(6, 3))
@@ -363,7 +363,7 @@ def test_triangles_have_room_of_their_own(room):
 
 
 def test_pictures_of_objects_lie_beside_one_another(room):
-    arranged = room("addon.baking.atlas").arranged
+    arranged = room("addon.baking.texels.atlas").arranged
     sizes = np.array([4, 64, 16, 16, 64, 4, 128, 32])
     at, side = arranged(sizes)
     taken = np.zeros((side, side), dtype=int)

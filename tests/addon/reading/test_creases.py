@@ -40,7 +40,7 @@ def test_places_that_keep_angles_have_the_creases_that_each_has_by_itself(room, 
     # behind them edges with one face, which are no creases
     meeting_of = np.append(np.arange(EDGES), (-1, -1)).astype(np.int32)
     cofactors = np.stack(list(map(cofactor, linear)))
-    creases = room("addon.reading.creases").Creases.of(meeting, meeting_of, normals, cofactors)
+    creases = room("addon.reading.meshes.creases").Creases.of(meeting, meeting_of, normals, cofactors)
     assert creases.even.tolist() == [not stretched or index % 2 == 1 for index in range(12)]
     edge = np.tile(np.arange(EDGES + 2), 12)
     found = creases.among(np.stack((edge, edge, edge), axis=1), np.repeat(np.arange(12), EDGES + 2))
@@ -54,7 +54,7 @@ def test_places_that_keep_angles_have_the_creases_that_each_has_by_itself(room, 
 
 
 def test_no_more_than_the_doubtful_edges_are_asked_in_each_place(room, monkeypatch):
-    module, rng = room("addon.reading.creases"), np.random.default_rng(5)
+    module, rng = room("addon.reading.meshes.creases"), np.random.default_rng(5)
     normals, asked, plain = hinges(rng), [], module._products
     monkeypatch.setattr(module, "_products", lambda one, *given: asked.append(len(one)) or plain(one, *given))
     meeting = np.stack((np.arange(EDGES), EDGES + np.arange(EDGES))).astype(np.int32)

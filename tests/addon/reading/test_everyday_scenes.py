@@ -104,7 +104,7 @@ def test_rows_are_found_by_any_index(blank, room):
 
 
 def test_each_mesh_is_read_once(blank, room, monkeypatch):
-    module = room("addon.reading.read_meshes")
+    module = room("addon.reading.meshes.read_meshes")
     seen, plain = [], module._read
     monkeypatch.setattr(module, "_read", lambda *given: seen.append(given[0].name) or plain(*given))
     cube, plane = parts.add("cube", "Box", size=0.1), parts.add("grid", "Field", x_subdivisions=31, y_subdivisions=31)

@@ -23,12 +23,12 @@ def plain_triangles(obj: bpy.types.Object, of_vertices: bool = False) -> tuple[n
 
 def read_mirror(room, obj: bpy.types.Object):
     bpy.context.view_layer.update()
-    return room("addon.reading.join_meshes").read_mirror(bpy.context.evaluated_depsgraph_get(), obj)
+    return room("addon.reading.meshes.join_meshes").read_mirror(bpy.context.evaluated_depsgraph_get(), obj)
 
 
 def read_scene(room, *objects: bpy.types.Object):
     bpy.context.view_layer.update()
-    return room("addon.reading.join_meshes").read_scene(bpy.context.evaluated_depsgraph_get(), list(objects))
+    return room("addon.reading.meshes.join_meshes").read_scene(bpy.context.evaluated_depsgraph_get(), list(objects))
 
 
 def suzanne(shading: str) -> bpy.types.Object:

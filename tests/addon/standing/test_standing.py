@@ -42,7 +42,7 @@ def scene(blank):
 @pytest.fixture
 def read(room, monkeypatch):
     """Names of the objects whose meshes were read, and the trees that were built."""
-    module, core = room("addon.reading.read_meshes"), room("core")
+    module, core = room("addon.reading.meshes.read_meshes"), room("core")
     seen, plain, build = [], module._read, core.SceneTree.build.__func__
     monkeypatch.setattr(module, "_read", lambda *given: seen.append(given[0].name) or plain(*given))
     monkeypatch.setattr(core.SceneTree, "build", classmethod(lambda *given: seen.append("tree") or build(*given)))

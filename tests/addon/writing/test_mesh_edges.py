@@ -59,7 +59,7 @@ def test_they_are_blenders(name):
 
 def test_sides_and_borders_by_hand(room):
     """Two triangles that share a side, in both directions, and one beside them."""
-    kind = room("addon.writing.mesh_edges").Edges
+    kind = room("addon.writing.arrays.mesh_edges").Edges
     edges = kind.of(np.array([[7, 2, 4], [4, 2, 9], [1, 0, 3]], dtype=np.int32))
     assert edges.ends.tolist() == [[0, 1], [0, 3], [1, 3], [2, 4], [2, 7], [2, 9], [4, 7], [4, 9]]
     assert edges.of_side.tolist() == [4, 3, 6, 3, 5, 7, 0, 1, 2]
@@ -74,7 +74,7 @@ def test_sides_and_borders_by_hand(room):
 def test_a_million_faces_are_written_in_short_steps(blank, room):
     """Edges in steps, and all of writing in one that no window waits for: half a second is the most, with UV maps,
     colours, sharp edges and marks."""
-    writing, edges = room("addon.writing.mesh_arrays"), room("addon.writing.mesh_edges").Edges
+    writing, edges = room("addon.writing.arrays.mesh_arrays"), room("addon.writing.arrays.mesh_edges").Edges
     positions, triangles = square()
     longest, steps, begun = 0.0, room("core").in_steps(lambda: edges.of(triangles)), now()
     try:

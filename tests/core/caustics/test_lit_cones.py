@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from core import Lamp, caustics
-from core.geometry import in_cone
+from core.views import in_cone
 from tests.core.caustics.test_caustics import graph, level
 
 AXIS, HALF = np.array((0.6, 0.0, -0.8)), 0.08

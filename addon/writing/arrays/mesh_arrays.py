@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...core import ReflectionMesh, TriangleMesh, View, breathe
-from .. import compat
-from ..reading.join_meshes import DiffuseScene, MirrorSurface
+from ....core import ReflectionMesh, TriangleMesh, View, breathe
+from ... import compat
+from ...reading.meshes import DiffuseScene, MirrorSurface
 from .mesh_edges import Edges
 from .shown_attributes import shown_attributes
 from .single_precision import in_single_precision

@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 
 from core import TriangleMesh, View
-from core.geometry import draw
 from core.rivals.scenes import quartered, tessellated
+from core.views import draw
 from tests.inputs import shapes
 from tests.oracles.raster import rasterise
 from tests.oracles.true_map import case_of, mesh_of

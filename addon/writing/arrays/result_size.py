@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from .. import compat
+from ... import compat
 
 # bytes of one value of an attribute, by its type
 BYTES = {"FLOAT": 4, "INT": 4, "INT8": 1, "BOOLEAN": 1, "FLOAT2": 8, "FLOAT_VECTOR": 12, "FLOAT_COLOR": 16,

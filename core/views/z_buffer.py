@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry import cross, dot, ranges
 from ..support import breathe
-from .vectors import cross, dot, ranges
-from .view import View
+from ..views.view import View
 
 FRAGMENTS_AT_ONCE = 1_000_000
 

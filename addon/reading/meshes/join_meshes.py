@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...core import ReflectionError, TriangleMesh, breathe
+from ....core import ReflectionError, TriangleMesh, breathe
+from ..materials import is_mirror
 from .join_layers import join_layers
-from .materials import is_mirror
 from .placed_values import PlacedValues, generated_places, lines_of, normals_of, own_places
 from .read_meshes import Placed, read_meshes
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import breathe
-from ...core.geometry import ranges, shares
+from ....core import breathe
+from ....core.geometry import ranges, shares
 
 ACROSS = 8.0    # texels along a part's legs at the most
 MOST_ALONG = 256  # parts along a triangle's side

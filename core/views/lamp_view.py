@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .triangle_mesh import TriangleMesh
-from .vectors import norm
+from ..geometry import TriangleMesh, norm
 from .view import View
 
 SURE = 1e-6  # radians

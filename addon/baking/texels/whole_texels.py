@@ -7,7 +7,7 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 
-from ..writing import UV_MAP
+from ...writing import UV_MAP
 
 METALS, GLASSES = {"BSDF_GLOSSY", "BSDF_METALLIC"}, {"BSDF_GLASS", "BSDF_REFRACTION"}
 MATTE = 0.5       # of a metal, up to which a Principled BSDF is seen without

@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core import ReflectionMesh, View
-from ..reading.join_meshes import DiffuseScene, MirrorSurface
+from ....core import ReflectionMesh, View
+from ...reading.meshes import DiffuseScene, MirrorSurface
 from .mesh_arrays import Attribute, MeshArrays, origin_of, point_attributes, shown_layers
 
 

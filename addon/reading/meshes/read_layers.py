@@ -6,7 +6,7 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 
-from .materials import asked_attributes
+from ..materials import asked_attributes
 
 # attributes that Blender itself makes something of, and only where they have the type that it expects
 BLENDERS_OWN = {"position", "material_index", "sharp_face", "sharp_edge", "custom_normal", "freestyle_edge",

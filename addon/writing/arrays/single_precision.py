@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core import ReflectionMesh, View, breathe
-from ...core.geometry import distinct
+from ....core import ReflectionMesh, View, breathe
+from ....core.geometry import distinct
 
 SPACING = 2.0 ** -22  # of a coordinate: numbers that differ by less are next to each other, or next but one
 SLIVER = 8.0 * SPACING  # of a coordinate: what is no wider has been a line

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 import bpy
 
-from .. import compat
-from ..reading.materials import all_nodes, asked_attributes, emits
+from ... import compat
+from ...reading.materials import all_nodes, asked_attributes, emits
 
 # what results know of how they came about, and nothing that is seen asks for
 OF_METHOD = frozenset({"reflected_position", "mirror_position", "path_length", "image_parity", "source_object",

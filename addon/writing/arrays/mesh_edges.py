@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import breathe
-from ...core.geometry import shared_edges
+from ....core import breathe
+from ....core.geometry import shared_edges
 
 
 @dataclass(frozen=True)

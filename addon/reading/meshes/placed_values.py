@@ -8,7 +8,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from ...core import breathe
+from ....core import breathe
 from .read_meshes import LocalMesh, Placed
 
 AT_ONCE = 1 << 17  # triangles: what is worked out on the way takes little memory beside the values themselves

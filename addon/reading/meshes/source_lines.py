@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from .. import compat
+from ... import compat
 from .creases import Creases
 
 

@@ -8,10 +8,10 @@ from functools import cached_property, partial
 import bpy
 import numpy as np
 
-from ...core import ReflectionError
-from .. import compat
+from ....core import ReflectionError
+from ... import compat
+from ..materials import asked_attributes
 from .creases import Creases
-from .materials import asked_attributes
 from .read_layers import NO_LAYERS, read_layers
 from .source_lines import SourceLines
 

@@ -7,8 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
+from ..geometry import dot
 from ..support import LARGEST, number, numbers
-from .vectors import dot
 from .view_checks import LOOSE, check_placement, check_projection, picture_size
 
 _NARROWEST = 1e-12

@@ -1,0 +1,8 @@
+"""What mirrors make of the light that they show: their shaders, with light in place of what is glossy in them."""
+from .later_mirrors import LaterMirrors
+from .mirror_part import Surroundings, new_object_material
+from .mirror_share import NORMAL, WHITE, Share
+from .opacity import as_mirrors_see, opacity_of, show_opacity, turn_over, without_openings
+
+__all__ = ["LaterMirrors", "NORMAL", "Share", "Surroundings", "WHITE", "as_mirrors_see", "new_object_material",
+           "opacity_of", "show_opacity", "turn_over", "without_openings"]

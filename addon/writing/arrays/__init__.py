@@ -1,0 +1,18 @@
+"""What is to be written into meshes, as arrays in Blender's own types: faces, points, edges, layers and their sizes."""
+from .light_layer import UV_MAP, light_layer
+from .mesh_arrays import (
+    MOST_UV_MAPS,
+    Attribute,
+    Lines,
+    MeshArrays,
+    in_order,
+    mesh_arrays,
+    shown_layers,
+    vertices_written,
+)
+from .mesh_edges import Edges
+from .point_arrays import point_arrays
+from .result_size import mesh_bytes, size_text
+
+__all__ = ["Attribute", "Edges", "Lines", "MOST_UV_MAPS", "MeshArrays", "UV_MAP", "in_order", "light_layer",
+           "mesh_arrays", "mesh_bytes", "point_arrays", "shown_layers", "size_text", "vertices_written"]
