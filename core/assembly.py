@@ -129,10 +129,11 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     breathe()
 
     face = bounce.cameras.face[faces.camera]
+    corner_face = _corner_faces(bounce, faces, seen[:, triangles])
     owner = np.zeros(len(used), dtype=np.int64)
-    owner[triangles.ravel()] = np.repeat(face, 3)
+    owner[triangles.ravel()] = corner_face.ravel()
     breathe()
-    seen = _on_mirror(first_map, mirror_map.first(face), triangles, seen)
+    seen = _on_mirror(first_map, mirror_map.first(corner_face.ravel()), triangles, seen)
     breathe()
     uv = mirror_map.coordinates(owner, seen)
     breathe()
@@ -155,7 +156,22 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
         "image_parity": np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8),
         "mirror_normals": _mirror_normals(first_map, seen, mirror_map.leaving(owner, uv)),
         "source_face": frames.triangle[faces.column],
-        "source_weights": weights, "mirror_face": mirror_map.first(face), "map_face": face}, used
+        "source_weights": weights,
+        "mirror_face": np.where((corner_face == face[:, None]).all(axis=1), mirror_map.first(face), -1),
+        "map_face": face}, used
+
+
+def _corner_faces(bounce: Bounce, faces: Faces, seen: np.ndarray) -> np.ndarray:
+    """The face of the map (f, 3) that each corner of the faces lies on, seen at (3, f, 3) places."""
+    cameras, spanning = bounce.cameras, len(bounce.corner_face)
+    face = np.repeat(cameras.face[faces.camera][:, None], 3, axis=1)
+    chosen = np.flatnonzero(faces.camera >= len(cameras) - spanning)
+    if len(chosen):
+        camera = faces.camera[chosen]
+        # their corners are those of their cameras, in whatever order
+        same = (seen[:, chosen, :, None] == cameras.places[:, cameras.corners[camera]][:, :, None]).all(axis=0)
+        face[chosen] = np.take_along_axis(bounce.corner_face[camera - len(cameras)], np.argmax(same, axis=2), axis=1)
+    return face
 
 
 def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np.ndarray,
@@ -225,12 +241,12 @@ def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, 
 
 
 def _on_mirror(mirror_map: MirrorMap, face: np.ndarray, triangles: np.ndarray, seen: np.ndarray) -> np.ndarray:
-    """Places (3, n) of vertices, those that lie on the mirror triangle of no face (f,) that has them brought back to
-    it: an image may lie beside the mirror by as much as straight outlines may miss."""
+    """Places (3, n) of vertices, those that lie on the mirror triangle of no corner, `face` (3 f,), that is there
+    brought back to it: an image may lie beside the mirror by as much as straight outlines may miss."""
     if not len(face):
         return seen
     owner = np.zeros(seen.shape[1], dtype=np.int64)
-    owner[triangles.ravel()] = np.repeat(face, 3)
+    owner[triangles.ravel()] = face
     room = OFF_MIRROR * np.ptp(seen, axis=1).max()
     breathe()
     off = distance_from(mirror_map, owner, seen) > room
@@ -239,7 +255,7 @@ def _on_mirror(mirror_map: MirrorMap, face: np.ndarray, triangles: np.ndarray, s
     if not len(corner):
         return seen
     vertex = triangles.ravel()[corner]
-    moved, away = brought_back(mirror_map, face[corner // 3], seen[:, vertex])
+    moved, away = brought_back(mirror_map, face[corner], seen[:, vertex])
     order = np.lexsort((away, vertex))
     order = order[np.flatnonzero(np.diff(vertex[order], prepend=-1))]
     order = order[away[order] > room]

@@ -1,7 +1,7 @@
 """One bounce: from cameras on the last mirror to the faces of all that they see, step by step as in docs/method.md."""
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -69,6 +69,8 @@ class Bounce:
     faces : Faces
     left : (2, e) float64
         Displacements estimated on the edges, and the lengths of the edges, in pixels.
+    corner_face : (k, 3) int64
+        Of the last k cameras, which span triangles of the mirror: the one that each of their corners lies on.
     """
 
     cameras: Cameras
@@ -76,18 +78,19 @@ class Bounce:
     nodes: Nodes
     faces: Faces
     left: np.ndarray
+    corner_face: np.ndarray = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int64))
 
 
 def bounced(cameras: Cameras, task: Task, showing: np.ndarray) -> Bounce:
     """All that the cameras see; faces of their map that may show a mirror are told by `showing`."""
-    crowds = Crowds(task.met, task.limits)
+    crowds = Crowds(task.met, task.limits, task.last)
     cameras = crowds.without_most(cameras)
     cameras = refined(cameras, task, None if task.last else showing)
     candidates = _culled(cameras, task, showing, crowds)
     images = _projected(candidates, task)
-    candidates, by_rays = _filled(candidates, task, crowds)
+    candidates, by_rays, corner_face = _filled(candidates, task, crowds)
     polygons = _hidden(_clipped(candidates, task), task, by_rays)
-    return _triangulated(polygons, images, task, by_rays)
+    return replace(_triangulated(polygons, images, task, by_rays), corner_face=corner_face)
 
 
 def refined(cameras: Cameras, task: Task, showing: np.ndarray | None) -> Cameras:
@@ -171,15 +174,16 @@ def _projected(candidates: Candidates, task: Task) -> VertexImages:
     return images
 
 
-def _filled(candidates: Candidates, task: Task, crowds: Crowds) -> tuple[Candidates, np.ndarray]:
-    """The candidates, and behind them the cells that rays have filled; which cameras (n,) are such cells."""
+def _filled(candidates: Candidates, task: Task, crowds: Crowds) -> tuple[Candidates, np.ndarray, np.ndarray]:
+    """The candidates, and behind them the cells that rays have filled; which cameras (n,) are such cells; and the
+    mirror's triangles of the corners of those in whole squares."""
     exact = len(candidates.cameras)
-    candidates, rays, pixels, less = crowds.filled(candidates)
-    crowded = crowds.given_up if less else 0
-    by_rays = np.arange(len(candidates.cameras)) >= exact
-    task.progress.done("filling", filled=by_rays.sum(), rays=rays, filled_pixels=pixels,
+    filled = crowds.filled(candidates)
+    crowded = crowds.given_up if filled.less else 0
+    by_rays = np.arange(len(filled.candidates.cameras)) >= exact
+    task.progress.done("filling", filled=by_rays.sum(), rays=filled.rays, filled_pixels=filled.pixels,
                        crowded=crowded, dense=crowds.dense + crowds.given_up - crowded)
-    return candidates, by_rays
+    return filled.candidates, by_rays, filled.corner_face
 
 
 def _clipped(candidates: Candidates, task: Task) -> Polygons:

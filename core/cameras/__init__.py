@@ -4,20 +4,20 @@ In come a view and a mirror; out come cameras whose interpolated rays stray from
 than the tolerance. C. Mei, V. Popescu, E. Sacks, GRAPP 2007; normals are kept above the surface as Cycles does.
 """
 from .bounced_map import BouncedMap
-from .camera_splitting import in_picture, split_cameras, with_pieces
+from .camera_splitting import in_picture, split_cameras, true_rays, with_pieces
 from .folding import may_fold
 from .mirror_map import MirrorMap
 from .mirror_refinement import refine_mirror
 from .mirror_surface import ALONG_UV, MirrorSurface, drawn_in, least_weight
-from .picture_areas import covered_pixels, picture_areas, pixels_around_faces, pixels_of
+from .picture_areas import covered_pixels, picture_areas, pixels_around_faces, pixels_of, places_at
 from .picture_cells import PictureCells
 from .reflection_map import ReflectionMap, grown
 from .shading_horizon import beyond_horizon, cut_at_horizon
 from .three_ray_cameras import Cameras, not_edge_on, three_ray_cameras, visible_triangles
 from .triangle_walk import INSIDE, brought_back, distance_from, settle
 
-__all__ = ["ALONG_UV", "BouncedMap", "Cameras", "INSIDE", "MirrorMap", "MirrorSurface", "PictureCells",
-           "ReflectionMap", "beyond_horizon", "brought_back", "covered_pixels", "cut_at_horizon", "distance_from",
-           "drawn_in", "grown", "in_picture", "least_weight", "may_fold", "not_edge_on", "picture_areas",
-           "pixels_around_faces", "pixels_of", "refine_mirror", "settle", "split_cameras", "three_ray_cameras",
+__all__ = ["ALONG_UV", "BouncedMap", "Cameras", "INSIDE", "MirrorMap", "MirrorSurface", "PictureCells", "ReflectionMap",
+           "beyond_horizon", "brought_back", "covered_pixels", "cut_at_horizon", "distance_from", "drawn_in", "grown",
+           "in_picture", "least_weight", "may_fold", "not_edge_on", "picture_areas", "pixels_around_faces", "pixels_of",
+           "places_at", "refine_mirror", "settle", "split_cameras", "three_ray_cameras", "true_rays",
            "visible_triangles", "with_pieces"]

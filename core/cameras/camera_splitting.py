@@ -4,6 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry import groups, shared_edges, split, unit
+from .reflection_map import ReflectionMap
 from .three_ray_cameras import Cameras
 
 WELD = 1e-9  # of the mirror's size: corners closer than this are one
@@ -65,11 +66,7 @@ def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
     number, piece = own // max(len(parent), 1), own % max(len(parent), 1)
     corner[own] = cameras.corners[parent[piece], np.argmax(weights[:, number, piece], axis=0)]
     places, face = places[:, new], face[new]
-    origins, rays = np.empty_like(places), np.empty_like(places)
-    for start in range(0, len(face), CORNERS_AT_ONCE):
-        part = slice(start, start + CORNERS_AT_ONCE)
-        origins[:, part], rays[:, part] = mirror_map.leave(face[part],
-                                                           mirror_map.coordinates(face[part], places[:, part]))
+    origins, rays = true_rays(mirror_map, face, places)
     low = cameras.places.min(axis=1, keepdims=True)
     size = np.ptp(cameras.places, axis=1).max()
     first, group = groups(*np.rint((places - low) / (WELD * size)).astype(np.int64),
@@ -79,6 +76,16 @@ def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
     return cameras.replaced(np.concatenate((kept.corners, corner.reshape(3, -1).T)),
                             np.concatenate((kept.face, cameras.face[parent])), places[:, first], origins[:, first],
                             rays[:, first]), parent
+
+
+def true_rays(mirror_map: ReflectionMap, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Origins and directions (3, n) of the rays that leave the mirror where places (3, n) on its faces are seen."""
+    origins, rays = np.empty_like(places), np.empty_like(places)
+    for start in range(0, len(face), CORNERS_AT_ONCE):
+        part = slice(start, start + CORNERS_AT_ONCE)
+        origins[:, part], rays[:, part] = mirror_map.leave(face[part],
+                                                           mirror_map.coordinates(face[part], places[:, part]))
+    return origins, rays
 
 
 def in_picture(cameras: Cameras) -> np.ndarray:

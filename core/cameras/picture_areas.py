@@ -1,4 +1,4 @@
-"""How much of the picture cameras cover: what they are worth where not all can be looked at."""
+"""Where cameras lie in the picture, and how much they cover: what they are worth where not all can be looked at."""
 from __future__ import annotations
 
 import numpy as np
@@ -36,6 +36,22 @@ def covered_pixels(cameras: Cameras) -> int:
     pixels = np.floor(np.clip(view.pixels(places.T), 0.0, np.subtract(view.resolution, 1))).astype(np.int64)
     _, pixel = distinct(pixels[:, 0] + view.resolution[0] * pixels[:, 1])
     return round(float(np.minimum(np.bincount(pixel, pixels_of(cameras)), 1.0).sum()))
+
+
+def places_at(cameras: Cameras, spots: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Places (3, n) that the eye sees on the planes of cameras at spots (n, 2) of the picture, not numbers on cameras
+    without an area, and whether they lie in the cameras."""
+    view = cameras.view
+    ways = view.pixels(cameras.places.T)[cameras.corners] - spots[:, None]
+    after = np.roll(ways, -1, axis=1)
+    areas = np.roll(ways[..., 0] * after[..., 1] - ways[..., 1] * after[..., 0], -1, axis=1)
+    turn = np.sign(areas.sum(axis=1, keepdims=True))
+    # straight lines in the picture are straight on the mirror, but not as long
+    weights = areas / view.clip(cameras.places.T)[cameras.corners, 3]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        weights /= weights.sum(axis=1, keepdims=True)
+    return ((cameras.places[:, cameras.corners] * weights).sum(axis=2),
+            ((areas * turn >= 0.0) & (turn != 0.0)).all(axis=1))
 
 
 def _corners(cameras: Cameras) -> np.ndarray:

@@ -178,6 +178,11 @@ class SceneAndMirrors:
                                        lambda own, triangle: self._above(sides, own, triangle))
         return np.where(nearer < near, mirror + self.diffuse, diffuse)
 
+    def hidden_within(self, origin: np.ndarray, ray: np.ndarray, reach: np.ndarray) -> np.ndarray:
+        """Which rays (3, n), unit vectors, meet the diffuse scene within `reach` (n,) of where they begin, on a
+        mirror."""
+        return first_crossed(self.tree, origin, ray, ABOVE * self.size, limit=reach)[0] >= 0
+
     def first_distances(self, origin: np.ndarray, ray: np.ndarray, diffuse: bool) -> np.ndarray:
         """How far along rays (3, n), unit vectors, the diffuse scene, or this and the mirrors lie, infinite where not
         at all."""

@@ -8,16 +8,19 @@ where too many lie in the squares, these are the pixels, and all faces that lie 
 """
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..cameras import Cameras, covered_pixels, picture_areas, pixels_around_faces, pixels_of, with_pieces
+from ..cameras import Cameras, covered_pixels, picture_areas, pixels_around_faces, pixels_of, places_at, with_pieces
 from ..culling import Candidates, SceneAndMirrors
 from ..geometry import SceneFrames, distinct, edge_lengths, groups
 from ..support import crowded
+from ..views import LampView
 from .limits import Limits
-from .picture_squares import first_side, in_squares
+from .picture_squares import SquareGrid, first_side, in_squares
+from .shown_triangles import shown_triangles
+from .whole_squares import WholeSquares
 
 HIDING = 1.0 / 4.0  # of the work for a candidate: that of asking whether a mirror hides it
 OVERLAPPING = 24  # of the mirrors in a camera: more hardly lie over one and the same polygon
@@ -33,6 +36,8 @@ class Crowds:
     ----------
     met : SceneAndMirrors
     limits : Limits
+    last : bool
+        Light which meets a mirror goes no further.
 
     Attributes
     ----------
@@ -42,8 +47,8 @@ class Crowds:
         Cameras beyond the limits.
     """
 
-    def __init__(self, met: SceneAndMirrors, limits: Limits) -> None:
-        self.met, self.limits = met, limits
+    def __init__(self, met: SceneAndMirrors, limits: Limits, last: bool) -> None:
+        self.met, self.limits, self.last = met, limits, last
         self._cameras: list[Cameras] = []
         self.dense = self.given_up = 0
 
@@ -82,19 +87,18 @@ class Crowds:
         self.dense += int(dense.sum())
         return dense
 
-    def filled(self, candidates: Candidates) -> tuple[Candidates, int, int, bool]:
+    def filled(self, candidates: Candidates) -> Filled:
         """The candidates, and behind their cameras the cells of the crowds, each with the one triangle that it shows as
-        its candidate; how many rays were traced, how many pixels they have filled with the diffuse scene, and whether
-        that is less than was asked for: more coarsely than the tolerance, or instead of all of the geometry."""
+        its candidate."""
         if not len(self):
-            return candidates, 0, 0, False
+            return Filled(candidates, np.zeros((0, 3), dtype=np.int64), 0, 0, False)
         # all lie on corners that the cameras have too: whoever splits cameras adds corners behind those there are
         cameras, frames = candidates.cameras, candidates.frames
         corners, face = (np.concatenate([getattr(crowd, name) for crowd in self._cameras])
                          for name in ("corners", "face"))
         crowds = replace(cameras, corners=corners, face=face)
         size = _side(crowds, self.limits)
-        cells, triangle, rays = _cells_and_triangles(crowds, self.met, size)
+        cells, triangle, rays, corner_face = _shown(crowds, self.met, size, self.last)
         seen = np.union1d(frames.triangle, triangle)
         frames, column = SceneFrames.of(self.met, seen), np.searchsorted(seen, frames.triangle)
         whole = replace(cells, corners=np.concatenate((cameras.corners, cells.corners)),
@@ -103,7 +107,45 @@ class Crowds:
         exact = replace(candidates, cameras=whole, frames=frames, column=column[candidates.column])
         pixels = covered_pixels(cells.select(~self.met.are_mirrors(pairs)))
         less = size > self.limits.square or bool(np.isinf(self.limits.dense))
-        return Candidates.joined((exact, pairs)), rays, pixels, less
+        return Filled(Candidates.joined((exact, pairs)), corner_face, rays, pixels, less)
+
+
+@dataclass(frozen=True)
+class Filled:
+    """Candidates behind which stand cells that rays have filled.
+
+    Attributes
+    ----------
+    candidates : Candidates
+    corner_face : (k, 3) int64
+        Of the last k cameras, which lie in whole squares: the mirror's triangle that each of their corners lies on.
+    rays : int
+        That were traced.
+    pixels : int
+        That they have filled with the diffuse scene.
+    less : bool
+        Whether that is less than was asked for: more coarsely than the tolerance, or instead of all of the geometry.
+    """
+
+    candidates: Candidates
+    corner_face: np.ndarray
+    rays: int
+    pixels: int
+    less: bool
+
+
+def _shown(crowds: Cameras, met: SceneAndMirrors, size: float,
+           last: bool) -> tuple[Cameras, np.ndarray, int, np.ndarray]:
+    """Cells of crowded cameras in squares of `size` pixels, the triangle (m,) that each shows, how many rays were
+    traced, and the mirror's triangles (k, 3) of the corners of the last k, which lie in whole squares."""
+    if crowds.mirror_map.bounce > 1 or isinstance(crowds.view, LampView):
+        return *_cells_and_triangles(crowds, met, size, None), np.zeros((0, 3), dtype=np.int64)
+    squares = WholeSquares.of(crowds, met, SquareGrid.over(crowds, size), last)
+    cells, triangle, rays = _cells_and_triangles(crowds, met, size, squares)
+    cells = cells.replaced(np.concatenate((cells.corners, squares.corners + cells.places.shape[1])),
+                           np.concatenate((cells.face, squares.face)), squares.places, squares.origins, squares.rays)
+    return (cells, np.concatenate((triangle, squares.triangle)), rays + squares.traced,
+            squares.corner_face[squares.corners])
 
 
 def _side(cameras: Cameras, limits: Limits) -> float:
@@ -119,33 +161,28 @@ def _side(cameras: Cameras, limits: Limits) -> float:
     return max(1.0, np.ceil(2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300)))
 
 
-def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, size: float) -> tuple[Cameras, np.ndarray, int]:
-    """Cells of crowded cameras, in squares of `size` pixels, that show something, the triangle (m,) that each shows,
-    and how many rays were traced for it."""
-    cells, square, places = _cells(cameras, size)
+def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, size: float,
+                         squares: WholeSquares | None) -> tuple[Cameras, np.ndarray, int]:
+    """Cells of crowded cameras, in those squares of `size` pixels that are not whole, that show something, the triangle
+    (m,) that each shows, and how many rays were traced for it."""
+    cells, square, places = _cells(cameras, size, squares)
     first, group = groups(*square)
-    triangle = met.shown_at(cells.select(first), places[:, first])[group]
+    triangle = shown_triangles(met, cells.select(first), places[:, first])[group]
     shown = np.flatnonzero(triangle >= 0)
     return cells.select(shown), triangle[shown], len(first)
 
 
-def _cells(cameras: Cameras, size: float) -> tuple[Cameras, np.ndarray, np.ndarray]:
+def _cells(cameras: Cameras, size: float,
+           squares: WholeSquares | None) -> tuple[Cameras, np.ndarray, np.ndarray]:
     """The parts of the cameras in squares of `size` pixels of the picture, in which square (2, n) each lies, and places
     (3, n) to look at: where the middle of the square is seen, and those first, the nearest ahead; else their own
     middles."""
     view = cameras.view
-    parent, weights = in_squares(cameras, size).triangles(0.0)
+    parent, weights = in_squares(cameras, size, None if squares is None else squares.holds).triangles(0.0)
     cells, _ = with_pieces(cameras, np.zeros(len(cameras), dtype=bool), parent, weights)
     cells = cells.select(pixels_of(cells) > SMALLEST)
-    corners = view.pixels(cells.places.T)[cells.corners]
-    square = np.floor((corners.mean(axis=1) - first_side(size)) / size)
-    ways = corners - (first_side(size) + (square + 0.5) * size)[:, None]
-    after = np.roll(ways, -1, axis=1)
-    areas = np.roll(ways[..., 0] * after[..., 1] - ways[..., 1] * after[..., 0], -1, axis=1)
-    turn = np.sign(areas.sum(axis=1, keepdims=True))
-    holds = ((areas * turn >= 0.0) & (turn != 0.0)).all(axis=1)
-    # straight lines in the picture are straight on the mirror, but not as long
-    weights = np.where(holds[:, None], areas / view.clip(cells.places.T)[cells.corners, 3], 1.0)
-    places = (cells.places[:, cells.corners] * (weights / weights.sum(axis=1, keepdims=True))).sum(axis=2)
+    square = np.floor((view.pixels(cells.places.T)[cells.corners].mean(axis=1) - first_side(size)) / size)
+    places, holds = places_at(cells, first_side(size) + (square + 0.5) * size)
+    places = np.where(holds, places, cells.places[:, cells.corners].mean(axis=2))
     order = np.lexsort((view.depths(places.T), ~holds))
     return cells.select(order), square[order].T.astype(np.int64), places[:, order]

@@ -18,7 +18,7 @@ CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES, PIECE_BYTES, TRIANGLE_BYTES = 1400, 160
 LEAST = 1.0 / 4.0  # of the memory, whatever else takes it
 LATER = 1.0 / 2.0  # of the limits of a bounce: those of the next
 SQUARE = 0.5  # pixels, where the tolerance is no less: there the ray through a pixel's middle is one of them
-DENSE = 8.0  # candidates that take about as long as a ray
+DENSE = 2.0  # candidates that take about as long as a ray and what it shows
 
 
 @dataclass(frozen=True)

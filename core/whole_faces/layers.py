@@ -8,8 +8,9 @@ import numpy as np
 from ..geometry import distinct, rows
 from ..patches import Patch
 from ..result import DEPTH, GAP
-from .coverage import Covered, Grid, least_around
+from ..views import Covered
 from .images import Images
+from .picture_samples import Grid, least_around
 from .sinking import Sinking
 
 INSIDE = 4.0 / 3.0  # what the inside of a triangle sinks by, to the most that its edges do

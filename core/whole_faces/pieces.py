@@ -10,7 +10,7 @@ import numpy as np
 
 from ..geometry import ColumnArrays, doubled_areas, parent_side, rows, split
 from ..patches import Patch
-from .coverage import box
+from ..views import box
 from .images import Images
 
 NEAR = 0.5  # pixels from the box of a face: where its bent edges may lie

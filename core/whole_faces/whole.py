@@ -10,8 +10,8 @@ from ..culling import Cones, ScenePieces, SceneTree
 from ..geometry import TriangleMesh, norm
 from ..patches import Patch, speck
 from ..support import FACE_SHARE, Settings, breathe
+from ..views import box
 from .contacts import contacts
-from .coverage import box
 from .division import Division
 from .images import Images
 from .layers import Layers

@@ -54,9 +54,9 @@ def test_rays_alone_show_the_right_thing_in_every_pixel(name):
 def test_ordinary_scenes_need_hardly_a_ray(name):
     counts = mesh_of(name).counts
     assert counts["crowded"] == counts["open"] == 0
-    # on the ring's rim all of the scene is seen in a thousandth of its pixels
-    assert (counts["filled"] > 0) == (counts["rays"] > 0) == (counts["dense"] > 0) == (name == "torus")
-    assert counts["filled_pixels"] < 0.001 * counts["mirror_pixels"]
+    # on the ring's rim all of the scene is seen in a few thousandths of its pixels, on a ball's in single ones
+    assert (counts["filled"] > 0) == (counts["rays"] > 0) == (counts["dense"] > 0)
+    assert counts["filled_pixels"] < (0.003 if name == "torus" else 0.0003) * counts["mirror_pixels"]
 
 
 @pytest.mark.parametrize("tolerance", [0.5, 0.25])

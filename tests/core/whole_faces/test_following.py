@@ -48,8 +48,9 @@ def test_in_a_flat_mirror_they_lie_before_their_twins(orthographic, known):
 
 def test_what_is_lost_is_looked_for_in_turns_and_as_good_as_ever(monkeypatch):
     """On a ball, whose rim takes images away: each is looked for every few times, and few are missed by that."""
-    case = scenes.sphere((160, 160))
-    images = FollowedImages.of(case.view, case.mirror, reflect(case.view, case.mirror, case.scene))
+    case = scenes.sphere((240, 240))
+    mesh = reflect(case.view, case.mirror, case.scene, Settings(tolerance=0.3))
+    images = FollowedImages.of(case.view, case.mirror, mesh)
     looked, look = [], following.settle
 
     def settle(mirror_map, face, *more):

@@ -1,0 +1,173 @@
+"""Squares of the picture that lie in crowds whole: a few faces each, not all parts of the mirror's triangles there.
+
+No border of the crowds crosses them. Their corners lie on whatever triangles of the mirror the eye sees there and have
+true rays. A ray through the middle tells what such a square shows. Two faces do where they show the middle in its
+place, else four lie round it. No edge of theirs goes through the middle itself, where pixels are looked at: corners
+that whole squares lie round are a little aside, and so is what the four have in common.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..cameras import Cameras, places_at, true_rays
+from ..culling import SceneAndMirrors
+from ..geometry import SceneFrames, distinct, groups, norm, rows, shared_edges
+from ..support import breathe
+from ..views import Covered
+from .picture_squares import TOUCHING, SquareGrid
+from .shown_triangles import shown_triangles
+
+WELD = 1e-9  # of the size of what is crowded: corners closer than this lie in one place
+ASIDE = np.array([0.06, -0.045])  # squares
+STRAYING = 0.25  # pixels: what the middle may be shown beside its place by
+TWO, FOUR = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+
+
+@dataclass(frozen=True)
+class WholeSquares:
+    """Cameras (m) in squares, on corners (c) of their own.
+
+    Attributes
+    ----------
+    grid : SquareGrid
+    before : (height + 1, width + 1) int64
+        How many squares in which nothing more is to be shown lie before each row and column.
+    corners : (m, 3) int64
+    face : (m,) int64
+        The mirror's triangle that the square's middle lies on.
+    triangle : (m,) int64
+        The diffuse triangle that they show.
+    places, origins, rays : (3, c) float64
+    corner_face : (c,) int64
+        The mirror's triangles that the corners lie on.
+    traced : int
+        Rays.
+    """
+
+    grid: SquareGrid
+    before: np.ndarray
+    corners: np.ndarray
+    face: np.ndarray
+    triangle: np.ndarray
+    places: np.ndarray
+    origins: np.ndarray
+    rays: np.ndarray
+    corner_face: np.ndarray
+    traced: int
+
+    @classmethod
+    def of(cls, cameras: Cameras, met: SceneAndMirrors, grid: SquareGrid, last: bool) -> WholeSquares:
+        """Squares of a grid in crowded cameras. Where light goes on, at no `last` bounce, those that show a mirror are
+        left out."""
+        holders = _Holders(cameras, grid)
+        square = np.flatnonzero(holders.inner())
+        row, column = np.divmod(square, max(grid.size[0], 1))
+        middle = holders.at(0.5, 0).ravel()[square]
+        triangle = shown_triangles(met, cameras.select(middle),
+                                   places_at(cameras.select(middle), grid.pixels(column + 0.5, row + 0.5))[0])
+        whole = np.zeros(grid.size[::-1], dtype=bool)
+        whole[row, column] = last | (triangle < met.diffuse)
+        shown = np.flatnonzero((triangle >= 0) & (triangle < met.diffuse))
+        row, column, triangle = row[shown], column[shown], triangle[shown]
+        point, corner = distinct(((row[:, None] + (0, 0, 1, 1)) * (grid.size[0] + 1)
+                                  + column[:, None] + (0, 1, 1, 0)).ravel())
+        holder, spots, moved = holders.corners(whole, point)
+        holder = np.concatenate((holder, holders.at(0.5 + ASIDE, 0)[row, column]))
+        spots = np.concatenate((spots, np.stack((column, row), axis=1) + 0.5 + ASIDE))
+        places, face = places_at(cameras.select(holder), grid.pixels(*spots.T))[0], cameras.face[holder]
+        origins, rays = true_rays(cameras.mirror_map, face, places)
+        corner, middle = corner.reshape(-1, 4), len(point) + np.arange(len(row))
+        five = np.column_stack((corner, middle))
+        straying = _straying(met, triangle, origins[:, five], rays[:, five], grid.side)
+        straying[:, ~moved[corner].all(axis=1)] = np.inf
+        corners, of_square = _faces(five, straying)
+        before = np.zeros(np.add(whole.shape, 1), dtype=np.int64)
+        np.cumsum(whole.cumsum(axis=0), axis=1, out=before[1:, 1:])
+        return cls(grid, before, corners, face[middle][of_square], triangle[of_square], places, origins, rays, face,
+                   len(square))
+
+    def holds(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """Whether boxes from `low` to `high` (2, n) of the picture lie in whole squares."""
+        width, height = self.grid.size
+        first = np.floor(self.grid.spots(low) + TOUCHING)
+        end = np.maximum(np.ceil(self.grid.spots(high) - TOUCHING), first + 1.0)
+        inside = ((first >= 0.0) & (end <= np.array([[width], [height]]))).all(axis=0)
+        (x0, y0), (x1, y1) = (np.where(inside, bound, 0.0).astype(np.int64) for bound in (first, end))
+        found = self.before[y1, x1] - self.before[y0, x1] - self.before[y1, x0] + self.before[y0, x0]
+        return inside & (found == (x1 - x0) * (y1 - y0))
+
+
+class _Holders:
+    """Which cameras hold what of a grid."""
+
+    def __init__(self, cameras: Cameras, grid: SquareGrid) -> None:
+        self.cameras, self.size = cameras, grid.size
+        self._spots = grid.spots(rows(cameras.view.pixels(cameras.places.T)))
+
+    def at(self, shift: np.ndarray | float, more: int) -> np.ndarray:
+        """The camera at the spots whole columns and rows and a `shift` (2,) from the first, -1 where there is none; as
+        many as there are squares and `more`."""
+        width, height = np.add(self.size, more)
+        spots = self._spots[:, self.cameras.corners.T] + np.reshape(0.5 - np.asarray(shift), (-1, 1, 1))
+        covered = Covered.of(spots, np.zeros(spots.shape[1:]), (width, height), False)
+        owner = np.full(width * height, -1)
+        owner[covered.pixel] = covered.face
+        breathe()
+        return owner.reshape(height, width)
+
+    def inner(self) -> np.ndarray:
+        """The squares (height, width) that the cameras cover and no border of them crosses."""
+        cameras, known = self.cameras, self.at(0.0, 1) >= 0
+        held = (self.at(0.5, 0) >= 0) & (self.at(0.5 + ASIDE, 0) >= 0)
+        held &= known[:-1, :-1] & known[1:, :-1] & known[:-1, 1:] & known[1:, 1:]
+        # at creases of the mirror cameras have corners of their own in one and the same place
+        used, corner = distinct(cameras.corners.ravel())
+        places = cameras.places[:, used]
+        grain = max(WELD * float(np.ptp(places, axis=1).max(initial=0.0)), 1e-300)
+        first, group = groups(*np.rint((places - places.min(axis=1, keepdims=True)) / grain).astype(np.int64))
+        ends, _, edge = shared_edges(group[corner].reshape(-1, 3))
+        border = used[first][ends[np.bincount(edge.ravel(), minlength=len(ends)) != 2]]
+        lines = self._spots[:, border[:, [0, 1, 1]].T]
+        held.reshape(-1)[Covered.of(lines, np.zeros(lines.shape[1:]), self.size, True).pixel] = False
+        return held
+
+    def corners(self, whole: np.ndarray, point: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The cameras (n,) at corners `point` (n,) of squares, the spots (n, 2) at which they hold them, and which of
+        these lie aside, since all squares round them are `whole` (height, width)."""
+        aside = self.at(ASIDE, 1)
+        padded = np.pad(whole, 1)
+        moved = padded[:-1, :-1] & padded[1:, :-1] & padded[:-1, 1:] & padded[1:, 1:] & (aside >= 0)
+        holder, moved = np.where(moved, aside, self.at(0.0, 1)).ravel()[point], moved.ravel()[point]
+        row, column = np.divmod(point, self.size[0] + 1)
+        return holder, np.stack((column, row), axis=1) + moved[:, None] * ASIDE, moved
+
+
+def _straying(met: SceneAndMirrors, triangle: np.ndarray, origins: np.ndarray, rays: np.ndarray,
+              side: float) -> np.ndarray:
+    """(2, n): by how many pixels the middle of a square is shown beside its place by faces on either side of the first
+    diagonal, and of the second; of squares with origins and rays (3, n, 5) at their corners and in their middles."""
+    seen, column = distinct(triangle)
+    frames, column = SceneFrames.of(met, seen), np.repeat(column, 5)
+    origins, rays = origins.reshape(3, -1), rays.reshape(3, -1)
+    points = origins + np.maximum(frames.distance(column, origins, rays), 0.0) * rays
+    # what lies beside its triangle is drawn onto it, as corners of faces are
+    weights = np.maximum(np.nan_to_num(frames.weights(column, points)), 0.0)
+    weights /= np.maximum(weights.sum(axis=0), 1e-300)
+    points = (rows(met.positions[frames.vertices[:, column]]) * weights).sum(axis=1).reshape(3, -1, 5)
+    diagonals = [(points[:, :, one], points[:, :, one + 2]) for one in (0, 1)]
+    motion = np.maximum(*(norm(end - start) for start, end in diagonals)) / (np.sqrt(2.0) * side)
+    return np.stack([norm(0.5 * (start + end) - points[:, :, 4]) / np.maximum(motion, 1e-300)
+                     for start, end in diagonals])
+
+
+def _faces(five: np.ndarray, straying: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Corners (m, 3) of the faces of squares with so many corners and a middle, `five` (n, 5), and the square of
+    each."""
+    turned = straying[1] < straying[0]
+    five[turned, :4] = five[turned][:, [1, 2, 3, 0]]
+    exact = straying.min(axis=0, initial=np.inf) <= STRAYING
+    parts = [(np.flatnonzero(chosen), pattern) for chosen, pattern in ((exact, TWO), (~exact, FOUR))]
+    return (np.concatenate([five[square][:, pattern].reshape(-1, 3) for square, pattern in parts]),
+            np.concatenate([np.repeat(square, len(pattern)) for square, pattern in parts]))
