@@ -2,8 +2,8 @@
 
 No border of the crowds crosses them. Their corners lie on whatever triangles of the mirror the eye sees there and have
 true rays. A ray through the middle tells what such a square shows. Two faces do where they show the middle in its
-place, else four lie round it. No edge of theirs goes through the middle itself, where pixels are looked at: corners
-that whole squares lie round are a little aside, and so is what the four have in common.
+place, else four lie round it. None of their corners and sides lies in the middle itself, where pixels are looked at:
+what four have in common is a little aside, and so are the corners that whole squares lie round.
 """
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ import numpy as np
 
 from ..cameras import Cameras, places_at, true_rays
 from ..culling import SceneAndMirrors
-from ..geometry import SceneFrames, distinct, groups, norm, rows, shared_edges
+from ..geometry import SceneFrames, distinct, dot, groups, norm, rows, shared_edges, unit
 from ..support import breathe
-from ..views import Covered
+from ..views import Covered, View
 from .picture_squares import TOUCHING, SquareGrid
 from .shown_triangles import shown_triangles
 
 WELD = 1e-9  # of the size of what is crowded: corners closer than this lie in one place
-ASIDE = np.array([0.06, -0.045])  # squares
+ASIDE = np.array([0.004, -0.003])  # squares: far more than single precision rounds by
 STRAYING = 0.25  # pixels: what the middle may be shown beside its place by
 TWO, FOUR = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
 
@@ -61,12 +61,12 @@ class WholeSquares:
     def of(cls, cameras: Cameras, met: SceneAndMirrors, grid: SquareGrid, last: bool) -> WholeSquares:
         """Squares of a grid in crowded cameras. Where light goes on, at no `last` bounce, those that show a mirror are
         left out."""
-        holders = _Holders(cameras, grid)
+        holders = Holders(cameras, grid)
         square = np.flatnonzero(holders.inner())
         row, column = np.divmod(square, max(grid.size[0], 1))
-        middle = holders.at(0.5, 0).ravel()[square]
-        triangle = shown_triangles(met, cameras.select(middle),
-                                   places_at(cameras.select(middle), grid.pixels(column + 0.5, row + 0.5))[0])
+        owner = holders.at(0.5, 0).ravel()[square]
+        middles = places_at(cameras.select(owner), grid.pixels(column + 0.5, row + 0.5))[0]
+        triangle = shown_triangles(met, cameras.select(owner), middles)
         whole = np.zeros(grid.size[::-1], dtype=bool)
         whole[row, column] = last | (triangle < met.diffuse)
         shown = np.flatnonzero((triangle >= 0) & (triangle < met.diffuse))
@@ -74,13 +74,13 @@ class WholeSquares:
         point, corner = distinct(((row[:, None] + (0, 0, 1, 1)) * (grid.size[0] + 1)
                                   + column[:, None] + (0, 1, 1, 0)).ravel())
         holder, spots, moved = holders.corners(whole, point)
-        holder = np.concatenate((holder, holders.at(0.5 + ASIDE, 0)[row, column]))
+        holder = np.concatenate((holder, owner[shown]))
         spots = np.concatenate((spots, np.stack((column, row), axis=1) + 0.5 + ASIDE))
         places, face = places_at(cameras.select(holder), grid.pixels(*spots.T))[0], cameras.face[holder]
         origins, rays = true_rays(cameras.mirror_map, face, places)
         corner, middle = corner.reshape(-1, 4), len(point) + np.arange(len(row))
         five = np.column_stack((corner, middle))
-        straying = _straying(met, triangle, origins[:, five], rays[:, five], grid.side)
+        straying = np.sqrt(2.0) * grid.side * _straying(met, triangle, (places[:, five], rays[:, five]), cameras.view)
         straying[:, ~moved[corner].all(axis=1)] = np.inf
         corners, of_square = _faces(five, straying)
         before = np.zeros(np.add(whole.shape, 1), dtype=np.int64)
@@ -99,7 +99,7 @@ class WholeSquares:
         return inside & (found == (x1 - x0) * (y1 - y0))
 
 
-class _Holders:
+class Holders:
     """Which cameras hold what of a grid."""
 
     def __init__(self, cameras: Cameras, grid: SquareGrid) -> None:
@@ -120,7 +120,7 @@ class _Holders:
     def inner(self) -> np.ndarray:
         """The squares (height, width) that the cameras cover and no border of them crosses."""
         cameras, known = self.cameras, self.at(0.0, 1) >= 0
-        held = (self.at(0.5, 0) >= 0) & (self.at(0.5 + ASIDE, 0) >= 0)
+        held = self.at(0.5, 0) >= 0
         held &= known[:-1, :-1] & known[1:, :-1] & known[:-1, 1:] & known[1:, 1:]
         # at creases of the mirror cameras have corners of their own in one and the same place
         used, corner = distinct(cameras.corners.ravel())
@@ -144,22 +144,34 @@ class _Holders:
         return holder, np.stack((column, row), axis=1) + moved[:, None] * ASIDE, moved
 
 
-def _straying(met: SceneAndMirrors, triangle: np.ndarray, origins: np.ndarray, rays: np.ndarray,
-              side: float) -> np.ndarray:
-    """(2, n): by how many pixels the middle of a square is shown beside its place by faces on either side of the first
-    diagonal, and of the second; of squares with origins and rays (3, n, 5) at their corners and in their middles."""
+def _straying(met: SceneAndMirrors, triangle: np.ndarray, five: tuple[np.ndarray, np.ndarray],
+              view: View) -> np.ndarray:
+    """(2, n): by what part of a diagonal the middle of a square is shown beside its place by faces on either side of
+    the first diagonal, and of the second; of squares with places and rays (3, n, 5) at corners and in the middle."""
+    places, rays = five
     seen, column = distinct(triangle)
     frames, column = SceneFrames.of(met, seen), np.repeat(column, 5)
-    origins, rays = origins.reshape(3, -1), rays.reshape(3, -1)
-    points = origins + np.maximum(frames.distance(column, origins, rays), 0.0) * rays
-    # what lies beside its triangle is drawn onto it, as corners of faces are
-    weights = np.maximum(np.nan_to_num(frames.weights(column, points)), 0.0)
+    # a diagonal moves a point by as much as in a flat mirror at the middle, or less: from one triangle of the mirror to
+    # the next a point may leap
+    ways = view.directions(places.reshape(3, -1).T).T.reshape(places.shape)
+    normal = unit(unit(rays[:, :, 4]) - unit(ways[:, :, 4]))[:, :, None]
+    flat = _points(met, frames, column, places, ways - 2.0 * dot(ways, normal) * normal)
+    points = _points(met, frames, column, places, rays)
+    motion = np.minimum.reduce([norm(some[:, :, one] - some[:, :, one + 2])
+                                for some in (flat, points) for one in (0, 1)])
+    return np.stack([norm(0.5 * (points[:, :, one] + points[:, :, one + 2]) - points[:, :, 4])
+                     / np.maximum(motion, 1e-300) for one in (0, 1)])
+
+
+def _points(met: SceneAndMirrors, frames: SceneFrames, column: np.ndarray, places: np.ndarray,
+            rays: np.ndarray) -> np.ndarray:
+    """The points (3, n, k) at which rays (3, n, k) meet triangles; what lies beside one is drawn onto it, as corners of
+    faces are."""
+    origins, ways = places.reshape(3, -1), rays.reshape(3, -1)
+    met_at = origins + np.maximum(frames.distance(column, origins, ways), 0.0) * ways
+    weights = np.maximum(np.nan_to_num(frames.weights(column, met_at)), 0.0)
     weights /= np.maximum(weights.sum(axis=0), 1e-300)
-    points = (rows(met.positions[frames.vertices[:, column]]) * weights).sum(axis=1).reshape(3, -1, 5)
-    diagonals = [(points[:, :, one], points[:, :, one + 2]) for one in (0, 1)]
-    motion = np.maximum(*(norm(end - start) for start, end in diagonals)) / (np.sqrt(2.0) * side)
-    return np.stack([norm(0.5 * (start + end) - points[:, :, 4]) / np.maximum(motion, 1e-300)
-                     for start, end in diagonals])
+    return (rows(met.positions[frames.vertices[:, column]]) * weights).sum(axis=1).reshape(places.shape)
 
 
 def _faces(five: np.ndarray, straying: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

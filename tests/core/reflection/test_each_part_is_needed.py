@@ -15,8 +15,10 @@ import core.bounce
 import core.reflection
 from core import PointTree, Settings, TriangleMesh, View, reflect
 from core.cameras import Cameras
-from core.culling import Magnification
+from core.culling import Magnification, SceneAndMirrors
 from core.filling import Crowds
+from core.filling.crowds import Filled
+from core.filling.whole_squares import Holders
 from core.points.beams import Beams
 from core.polygons import FaceRefinement, Overlaps
 from core.visibility.mirror_visibility import DepthGrid
@@ -35,6 +37,9 @@ BOXES = shapes.combine(*(shapes.box((x, y, 0.3), (0.4, 0.4, 1.0), 0.3) for x in 
 ROOM = shapes.combine(shapes.box((0.0, 4.0, 2.0), (9.0, 1.0, 6.0)), shapes.box((0.0, -8.0, 2.0), (9.0, 1.0, 6.0)),
                       shapes.box((-4.0, 0.0, 2.0), (1.0, 9.0, 6.0)), shapes.box((4.0, 0.0, 2.0), (1.0, 9.0, 6.0)))
 WIDE_FLOOR = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (30.0, 0.0, 0.0), (0.0, 30.0, 0.0)))
+FINE_BALL = shapes.combine(shapes.icosphere((0.0, 0.0, 1.0), 0.8, 5))
+SMALL = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (96, 96), field_of_view=0.5)
+RAYS = {"maximum_memory": 1e-4}  # holds hardly a candidate, and leaves everything to rays
 ALL = {"hidden_faces": True}  # so that no ray shows what would be cut
 VIEW = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (256, 256), field_of_view=0.5)
 LOW = View.looking_at((0.0, -2.0, 1.6), (0.0, 2.0, 0.4), (256, 256), field_of_view=0.9)
@@ -91,9 +96,12 @@ PARTS = {
     "what mirrors hide from whole cameras": Part(Overlaps, "in_sight", lambda self, last: self.candidates, "torus",
                                                  "candidates", 1.05, settings=ALL),
     "the eye's plane": Part(REFLECTION, "cut_before_eye", lambda cameras: cameras, (LOW, WIDE_FLOOR, ROOM), "faces"),
-    "filling by rays": Part(Crowds, "filled", lambda self, candidates: (candidates, 0, 0, False), "sphere", "uncovered",
-                            10.0,
-                            settings={"maximum_memory": 1e-4}),
+    "filling by rays": Part(Crowds, "filled", lambda self, candidates: Filled(
+        candidates, np.zeros((0, 3), dtype=np.int64), 0, 0, False), "sphere", "uncovered", 10.0, settings=RAYS),
+    "whole squares": Part(Holders, "inner", lambda self: np.zeros(self.size[::-1], dtype=bool), (SMALL, FINE_BALL, ROOM),
+                          "faces", settings=RAYS),
+    "what hides what rays show": Part(SceneAndMirrors, "hidden_within", lambda self, origin, ray, reach: np.zeros(
+        len(reach), dtype=bool), (VIEW, FLOOR, BOXES), "uncovered", above=0.1, settings=RAYS),
     "work beside the origin": Part(REFLECTION, "far_corner", lambda mirror: None, "far away", "maximum"),
     "images smaller than a pixel": Part(Magnification, "pixels", lambda self, cones, camera, sphere: np.full(
         len(camera), np.inf), "dust", "images", 10.0, settings={"method": "POINTS"}),
