@@ -54,7 +54,8 @@ def test_corners_lie_on_the_mirror_and_have_its_true_rays():
     triangle, _ = first_hits(SMOOTH, origins, directions, embree=False)
     place, leaving, _, _ = true_rays(SMOOTH, triangle, origins, directions)
     # a triangle may end a two-hundredth of a pixel before the corner that four faces have in common
-    assert np.abs(place - mesh.mirror_position[corner]).max() < 1e-5
+    beside = np.abs(place - mesh.mirror_position[corner]).max(axis=1)
+    assert (beside < 1e-9).mean() > 0.99 and beside.max() < 1e-5
     # and its ray meets the plane of what it shows there, or what it shows lies on its triangle's rim
     a, b, c = (ROOM.positions[ROOM.triangles[mesh.source_face[mesh.mirror_face < 0][source // 3], k]] for k in range(3))
     normal = np.cross(b - a, c - a)
@@ -62,7 +63,7 @@ def test_corners_lie_on_the_mirror_and_have_its_true_rays():
         s = np.einsum("ij,ij->i", a - place, normal) / np.einsum("ij,ij->i", leaving, normal)
     away = np.linalg.norm(place + s[:, None] * leaving - mesh.reflected_position[corner], axis=1)
     weights = mesh.source_weights[mesh.mirror_face < 0].reshape(-1, 3)[source]
-    assert ((away < 1e-9) | (weights.min(axis=1) < 1e-12)).all() and (away < 1e-9).mean() > 0.8
+    assert ((away < 1e-5) | (weights.min(axis=1) < 1e-12)).all() and (away < 1e-9).mean() > 0.8
 
 
 def test_squares_that_show_their_middle_beside_its_place_have_four_faces(monkeypatch):

@@ -98,8 +98,8 @@ PARTS = {
     "the eye's plane": Part(REFLECTION, "cut_before_eye", lambda cameras: cameras, (LOW, WIDE_FLOOR, ROOM), "faces"),
     "filling by rays": Part(Crowds, "filled", lambda self, candidates: Filled(
         candidates, np.zeros((0, 3), dtype=np.int64), 0, 0, False), "sphere", "uncovered", 10.0, settings=RAYS),
-    "whole squares": Part(Holders, "inner", lambda self: np.zeros(self.size[::-1], dtype=bool), (SMALL, FINE_BALL, ROOM),
-                          "faces", settings=RAYS),
+    "whole squares": Part(Holders, "inner", lambda self: np.zeros(self.size[::-1], dtype=bool),
+                          (SMALL, FINE_BALL, ROOM), "faces", settings=RAYS),
     "what hides what rays show": Part(SceneAndMirrors, "hidden_within", lambda self, origin, ray, reach: np.zeros(
         len(reach), dtype=bool), (VIEW, FLOOR, BOXES), "uncovered", above=0.1, settings=RAYS),
     "work beside the origin": Part(REFLECTION, "far_corner", lambda mirror: None, "far away", "maximum"),
