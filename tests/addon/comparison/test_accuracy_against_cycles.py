@@ -1,7 +1,7 @@
 """Pictures of samples against Cycles: bounds for each, pictures left behind where one fails, meshes that must fail.
 
 Where a sample exceeds a bound, its comparison (report.html, difference.png, displacement.png, holes.png and so on)
-stays in build/accuracy_against_cycles/<sample>.
+stays in build/accuracy_against_cycles, in a folder for each Blender and sample.
 """
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import pytest
 from mathutils import Matrix
 
 ROOT = Path(__file__).resolve().parents[3]
-LEFT_BEHIND = ROOT / "build" / "accuracy_against_cycles"
+LEFT_BEHIND = ROOT / "build" / "accuracy_against_cycles" / bpy.app.version_string.replace(" ", "_")
 SIZE, SAMPLES = 320, 4
 
 
