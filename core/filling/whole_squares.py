@@ -14,13 +14,15 @@ import numpy as np
 from ..cameras import Cameras, places_at, true_rays
 from ..culling import SceneAndMirrors
 from ..geometry import SceneFrames, distinct, dot, groups, norm, rows, shared_edges, unit
+from ..result import GAP
 from ..support import breathe
 from ..views import Covered, View
 from .picture_squares import TOUCHING, SquareGrid
 from .shown_triangles import shown_triangles
 
 WELD = 1e-9  # of the size of what is crowded: corners closer than this lie in one place
-ASIDE = np.array([0.004, -0.003])  # squares: far more than single precision rounds by
+ASIDE = np.array([0.005, 0.0])  # squares: far more than single precision rounds by
+HALF = 0.5  # of what layers slide at least, to be on the safe side
 STRAYING = 0.25  # pixels: what the middle may be shown beside its place by
 TWO, FOUR = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
 
@@ -81,7 +83,7 @@ class WholeSquares:
         corner, middle = corner.reshape(-1, 4), len(point) + np.arange(len(row))
         five = np.column_stack((corner, middle))
         straying = np.sqrt(2.0) * grid.side * _straying(met, triangle, (places[:, five], rays[:, five]), cameras.view)
-        straying[:, ~moved[corner].all(axis=1)] = np.inf
+        straying[_sunk(places[:, five], cameras) | ~(moved[corner[:, :2]] | moved[corner[:, 2:]]).T] = np.inf
         corners, of_square = _faces(five, straying)
         before = np.zeros(np.add(whole.shape, 1), dtype=np.int64)
         np.cumsum(whole.cumsum(axis=0), axis=1, out=before[1:, 1:])
@@ -159,8 +161,17 @@ def _straying(met: SceneAndMirrors, triangle: np.ndarray, five: tuple[np.ndarray
     points = _points(met, frames, column, places, rays)
     motion = np.minimum.reduce([norm(some[:, :, one] - some[:, :, one + 2])
                                 for some in (flat, points) for one in (0, 1)])
-    return np.stack([norm(0.5 * (points[:, :, one] + points[:, :, one + 2]) - points[:, :, 4])
-                     / np.maximum(motion, 1e-300) for one in (0, 1)])
+    away = np.stack([norm(0.5 * (points[:, :, one] + points[:, :, one + 2]) - points[:, :, 4]) for one in (0, 1)])
+    return np.divide(away, motion, out=np.where(away > 0.0, np.inf, 0.0), where=motion > 0.0)
+
+
+def _sunk(places: np.ndarray, cameras: Cameras) -> np.ndarray:
+    """(2, n): whether the middle of a diagonal of squares, with corners and a middle at (3, n, 5) places, lies deeper
+    behind the mirror than layers surely slide before it."""
+    view, middle = cameras.view, places[:, :, 4]
+    ahead = view.directions(middle.T).T
+    room = HALF * GAP * (np.ptp(cameras.places, axis=1).max() if view.orthographic else dot(ahead, ahead))
+    return np.stack([dot(0.5 * (places[:, :, one] + places[:, :, one + 2]) - middle, ahead) > room for one in (0, 1)])
 
 
 def _points(met: SceneAndMirrors, frames: SceneFrames, column: np.ndarray, places: np.ndarray,
