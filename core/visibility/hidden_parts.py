@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, with_pieces
-from ..geometry import SceneFrames, cross, distinct, dot, groups, in_order, norm, others, ranges, rows, shares
+from ..geometry import SceneFrames, columns, cross, distinct, dot, groups, in_order, norm, others, ranges, rows, shares
 from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
 from ..support import breathe
 
@@ -133,8 +133,12 @@ class HiddenParts:
             breathe()
             entry, piece = ranges(start[part], (stop - start)[part])
             piece += part.start
-            behind = ((self.sides[:, :, order[entry]] * middle[:, piece]).sum(axis=1) > 0.0).all(axis=0)
-            seen[piece[behind]] = False
+            hiding = columns(order, entry)
+            # most pairs are told apart by the first side or two
+            for side in self.sides:
+                behind = np.flatnonzero(dot(columns(side, hiding), columns(middle, piece)) > 0.0)
+                hiding, piece = hiding[behind], piece[behind]
+            seen[piece] = False
         seen &= pieces.areas > SMALLEST
         parent, weights = pieces.select(seen).triangles()
         return cut[parent], weights
