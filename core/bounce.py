@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .cameras import Cameras, beyond_horizon, picture_areas, refine_mirror
-from .culling import Candidates, SceneAndMirrors
+from .culling import Candidates, MirrorsShown, SceneAndMirrors
 from .filling import Crowds, Limits
 from .geometry import SceneFrames, distinct, edge_lengths, norm
 from .polygons import (
@@ -81,11 +81,11 @@ class Bounce:
     corner_face: np.ndarray = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int64))
 
 
-def bounced(cameras: Cameras, task: Task, showing: np.ndarray) -> Bounce:
-    """All that the cameras see; faces of their map that may show a mirror are told by `showing`."""
+def bounced(cameras: Cameras, task: Task, showing: MirrorsShown) -> Bounce:
+    """All that the cameras see; which may show a mirror is told by `showing`."""
     crowds = Crowds(task.met, task.limits, task.last)
     cameras = crowds.without_most(cameras)
-    cameras = refined(cameras, task, None if task.last else showing)
+    cameras = refined(cameras, task, None if task.last else showing.faces)
     candidates = _culled(cameras, task, showing, crowds)
     images = _projected(candidates, task)
     candidates, by_rays, corner_face = _filled(candidates, task, crowds)
@@ -108,15 +108,13 @@ def refined(cameras: Cameras, task: Task, showing: np.ndarray | None) -> Cameras
     return cameras
 
 
-def faces_showing_mirrors(cameras: Cameras, met: SceneAndMirrors, limits: Limits) -> tuple[np.ndarray, np.ndarray]:
-    """Which faces of the map may show a mirror, and which of them more than rounding. To look twice for mirrors pays
-    where few cameras see any: hardly after a bounce."""
-    if cameras.mirror_map.bounce == 1:
-        return met.showing_mirrors(cameras, limits.pairs // 4)
-    return (np.ones(int(cameras.face.max(initial=-1)) + 1, dtype=bool),) * 2
+def showing_mirrors(cameras: Cameras, met: SceneAndMirrors, limits: Limits) -> MirrorsShown:
+    """The mirrors that cameras may show. To look for them first pays where few see any: hardly after a bounce."""
+    return met.showing_mirrors(cameras, limits.pairs // 4) if cameras.mirror_map.bounce == 1 else \
+        MirrorsShown.unknown(cameras)
 
 
-def _culled(cameras: Cameras, task: Task, showing: np.ndarray, crowds: Crowds) -> Candidates:
+def _culled(cameras: Cameras, task: Task, showing: MirrorsShown, crowds: Crowds) -> Candidates:
     """Pairs of cameras and triangles that may be seen in them, the cameras cut until outlines in them are straight."""
     task.progress.next(0.1, "cones through the tree")
     met, limits = task.met, task.limits
@@ -139,11 +137,11 @@ def _culled(cameras: Cameras, task: Task, showing: np.ndarray, crowds: Crowds) -
     return candidates
 
 
-def _met(cameras: Cameras, task: Task, showing: np.ndarray,
+def _met(cameras: Cameras, task: Task, showing: MirrorsShown,
          crowds: Crowds) -> tuple[Candidates, np.ndarray, int, int]:
     """Pairs of cameras and triangles that may overlap; which cameras (n,) meet too much, how many pairs were looked at,
-    and how many tree nodes visited. Mirrors are looked for on the faces `showing` one, at the last bounce where they
-    may hide something."""
+    and how many tree nodes visited. Mirrors are looked for on the faces `showing` some, at the last bounce where
+    they may hide something."""
     met, most, worth = task.met, task.limits.pairs, picture_areas(cameras)
     camera, triangle, visited, crowd = met.diffuse_in(cameras, most, worth)
     count = len(camera)
@@ -152,11 +150,12 @@ def _met(cameras: Cameras, task: Task, showing: np.ndarray,
     camera, triangle = camera[left], triangle[left]
     seen, column = distinct(triangle)
     diffuse = Overlaps.of(cameras, SceneFrames.of(met, seen), (camera, column), met)
-    looking = showing[cameras.face] & ~crowd
+    looking = showing.faces[cameras.face] & ~crowd
     if task.last:
         looking &= np.bincount(diffuse.candidates.camera, minlength=len(cameras)) > 0
     looking = np.flatnonzero(looking)
-    mirror_camera, triangle, more, given_up = met.mirrors_in(cameras.select(looking), most, worth[looking])
+    mirror_camera, triangle, more, given_up = met.mirrors_in(cameras.select(looking), most, worth[looking],
+                                                                showing)
     crowd[looking[given_up]] = True
     mirrors, column = distinct(triangle)
     frames = SceneFrames.of(met, np.append(seen, mirrors + met.diffuse))

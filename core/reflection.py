@@ -7,7 +7,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from .assembly import assemble
-from .bounce import Bounce, Task, bounced, faces_showing_mirrors, refined
+from .bounce import Bounce, Task, bounced, refined, showing_mirrors
 from .bounced_cameras import bounced_cameras
 from .cameras import (
     Cameras,
@@ -18,7 +18,7 @@ from .cameras import (
     three_ray_cameras,
     visible_triangles,
 )
-from .culling import PointTree, SceneAndMirrors, SceneTree
+from .culling import MirrorsShown, PointTree, SceneAndMirrors, SceneTree
 from .filling import Limits, missed_probes
 from .geometry import Order, TriangleMesh, ordered
 from .given import check_given
@@ -132,7 +132,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     if isinstance(tree, PointTree):
         patch = None
         if not (overlaid or speck(view, tree.spheres[0][:, 0])):
-            _, plainly = faces_showing_mirrors(cameras, met, limits)
+            plainly = showing_mirrors(cameras, met, limits).plainly
             patch = Patch.largest(cameras, _entire(cameras, uncut) & ~plainly[cameras.face])
         rest = cameras if patch is None else cameras.select(~np.isin(cameras.face, patch.face))
         rest = refined(rest, Task(met, settings, limits, True, progress), None)
@@ -140,8 +140,8 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
         progress.done("points", **mesh.counts)
         return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds)
     task = Task(met, settings, limits, settings.depth == 1, progress)
-    showing, plainly = faces_showing_mirrors(cameras, met, limits)
-    whole, task = (None, task) if overlaid else _whole_first(cameras, uncut, task, plainly)
+    showing = showing_mirrors(cameras, met, limits)
+    whole, task = (None, task) if overlaid else _whole_first(cameras, uncut, task, showing.plainly)
     bounces, seams, error, reach = _bounces(cameras, task, showing), None, 0.0, 0.0
     if whole is not None and task.met.pieces is not None:
         seams, nodes = seamed(whole, bounces[0], task.met.pieces.on_patch)
@@ -231,7 +231,7 @@ def _entire(cameras: Cameras, uncut: int) -> np.ndarray:
     return (cameras.corners < uncut).all(axis=1) & (np.bincount(cameras.face)[cameras.face] == 1)
 
 
-def _bounces(cameras: Cameras, task: Task, showing: np.ndarray) -> list[Bounce]:
+def _bounces(cameras: Cameras, task: Task, showing: MirrorsShown) -> list[Bounce]:
     """What is seen after one mirror, after two, and so on to the depth asked for, or until nothing is left to see."""
     bounces: list[Bounce] = []
     met, settings, limits, progress = task.met, task.settings, task.limits, task.progress
@@ -251,7 +251,7 @@ def _bounces(cameras: Cameras, task: Task, showing: np.ndarray) -> list[Bounce]:
         progress.done("cameras", bounced_cameras=len(cameras), unfollowed=max(found - limits.bounced, 0))
         if not len(cameras):
             break
-        showing, _ = faces_showing_mirrors(cameras, met, limits)
+        showing = showing_mirrors(cameras, met, limits)
     return bounces
 
 

@@ -9,11 +9,12 @@ from .cones import Balls, Cones
 from .first_crossed import first_crossed
 from .first_hits import first_hits, meet
 from .magnification import Magnification
+from .mirrors_shown import MirrorsShown
 from .node_tree import median_leaves
 from .point_tree import PointTree
 from .scene_and_mirrors import ABOVE, SceneAndMirrors
 from .scene_pieces import ScenePieces
 from .scene_tree import SceneTree
 
-__all__ = ["ABOVE", "Balls", "BoxTree", "Candidates", "Cones", "Magnification", "PointTree", "SceneAndMirrors",
-           "ScenePieces", "SceneTree", "first_crossed", "first_hits", "median_leaves", "meet", "overlapping"]
+__all__ = ["ABOVE", "Balls", "BoxTree", "Candidates", "Cones", "Magnification", "MirrorsShown", "PointTree",
+           "SceneAndMirrors", "ScenePieces", "SceneTree", "first_crossed", "first_hits", "median_leaves", "meet", "overlapping"]

@@ -17,6 +17,7 @@ from .bounded_trace import bounded_trace
 from .candidates import Candidates
 from .cones import Cones
 from .first_crossed import first_crossed
+from .mirrors_shown import MirrorsShown
 from .node_tree import curve_leaves, depth_for
 from .point_tree import PointTree
 from .scene_pieces import ScenePieces
@@ -93,17 +94,12 @@ class SceneAndMirrors:
         sphere = self.tree.spheres[0][:, 0]
         return sphere[:3], float(sphere[3])
 
-    def showing_mirrors(self, cameras: Cameras, most: int) -> tuple[np.ndarray, np.ndarray]:
-        """Which faces of the map, by their number, may show a mirror in any of the cameras, those among them for which
-        more than `most` pairs of cameras and triangles would have to be looked at; and which may show more of one than
-        rises above them by the rounding of single precision."""
+    def showing_mirrors(self, cameras: Cameras, most: int) -> MirrorsShown:
+        """The mirrors that cameras may show; those for which more than `most` pairs of cameras and triangles would have to
+        be looked at may show any."""
         camera, triangle, _, given_up = self.mirrors_in(cameras, most, np.ones(len(cameras)))
         risen = self._above(self._upper_sides(cameras), camera, triangle, RISEN)
-        found, plainly = (np.zeros(int(cameras.face.max(initial=-1)) + 1, dtype=bool) for _ in range(2))
-        for showing, chosen in ((found, camera), (plainly, camera[risen])):
-            showing[cameras.face[chosen]] = True
-            showing[cameras.face[given_up]] = True
-        return found, plainly
+        return MirrorsShown.of(cameras, (camera, triangle), risen, given_up)
 
     def showing_scene(self, cameras: Cameras) -> np.ndarray:
         """Which cameras (n,) may show the diffuse scene."""
@@ -157,9 +153,18 @@ class SceneAndMirrors:
                 return 0.0
         return side
 
-    def mirrors_in(self, cameras: Cameras, most: int,
-                    worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
-        """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited; what was given up."""
+    def mirrors_in(self, cameras: Cameras, most: int, worth: np.ndarray,
+                   before: MirrorsShown | None = None) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+        """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited; what was given up.
+        What was found `before` is not looked for again."""
+        if before is not None:
+            camera, triangle, known = before.known(cameras)
+            asked = np.flatnonzero(~known)
+            more, others, visited, crowd = self.mirrors_in(cameras.select(asked), max(most - len(camera), 0),
+                                                           worth[asked])
+            given_up = np.zeros(len(cameras), dtype=bool)
+            given_up[asked[crowd]] = True
+            return np.concatenate((camera, asked[more])), np.concatenate((triangle, others)), visited, given_up
         # which side of its triangle the rays of a camera leave is asked once
         sides = self._upper_sides(cameras)
         if len(cameras) and self._outside and cameras.mirror_map.bounce == 1:
