@@ -152,7 +152,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
                 obj.select_set(True)
                 context.view_layer.objects.active = obj
         placements = [settings.placement for settings in map(of_each(wanted), chosen.mirrors)]
-        for remark in (outcome.remarks + render_shortcomings(context.scene, chosen.mirrors + chosen.diffuse)
+        for remark in (outcome.remarks + render_shortcomings(context, chosen.mirrors, chosen.diffuse)
                        + blur_shortcomings(context.scene, placements)):
             tell(self, {"WARNING"}, remark)
         for sentence in outcome.news:

@@ -25,6 +25,7 @@ from .roles import (
     candidates,
     choose,
     participants,
+    rendered_alone,
     rendered_collections,
     says_mirror,
     seen_in,
@@ -35,5 +36,5 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "Placed", "RESULTS", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
            "every_result_of", "forget_known", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results",
            "materials_of", "moves", "participants", "read_meshes", "read_mirror", "read_scene", "read_view", "register",
-           "render_size", "rendered_collections", "rendered_otherwise", "results_of", "says_mirror", "seen_in",
-           "unregister", "visible", "with_copies"]
+           "render_size", "rendered_alone", "rendered_collections", "rendered_otherwise", "results_of", "says_mirror",
+           "seen_in", "unregister", "visible", "with_copies"]

@@ -125,8 +125,8 @@ def _overlaps(candidates: Candidates, met: SceneAndMirrors) -> Overlaps:
 
 
 def _risen(candidates: Candidates) -> np.ndarray:
-    """Those (k,) whose camera rises above the triangle's plane, and not by rounding alone, as beside the line in which a
-    scene cuts through the mirror: what it would see there has no width, but its outline may have another image."""
+    """Those (k,) whose camera rises above the triangle's plane, and not by rounding alone, as beside the line in which
+    a scene cuts through the mirror: what it would see there has no width, but its outline may have another image."""
     return np.flatnonzero(largest(candidates.ahead) > -TOUCHING * smallest(candidates.ahead))
 
 
