@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ...core import ReflectionError, ReflectionMesh
-from ..reading import rendered_alone, rendered_otherwise
+from ..reading import rendered_alone, rendered_otherwise, without_surface
 from ..writing import what_is_in_the_way
 
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
@@ -62,8 +62,10 @@ def blur_shortcomings(scene: bpy.types.Scene, placements: list[str]) -> list[str
 
 def render_shortcomings(context: bpy.types.Context, mirrors: list, diffuse: list) -> list[str]:
     """Sentences on what renders show otherwise than viewports do, of which a reflection has what these show: meshes of
-    mirrors and diffuse objects, and what is hidden in the viewport alone."""
-    return _other_meshes(context.scene, mirrors + diffuse) + _hidden(rendered_alone(context, mirrors, diffuse))
+    mirrors and diffuse objects, and what is hidden in the viewport alone; and on what has no mesh."""
+    told = _other_meshes(context.scene, mirrors + diffuse) + _hidden(rendered_alone(context, mirrors, diffuse))
+    return told + [f"No reflection has hair, point clouds or volumes, as '{obj.name}' has: make meshes of them, or "
+                   "leave the mirror to Cycles." for obj in without_surface(context, mirrors, diffuse)[:1]]
 
 
 def _other_meshes(scene: bpy.types.Scene, objects: list) -> list[str]:

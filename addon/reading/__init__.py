@@ -14,6 +14,7 @@ from .meshes import (
     read_scene,
 )
 from .moves import moves
+from .not_reflected import rendered_alone, without_surface
 from .read_view import NO_CAMERA, read_view, render_size
 from .rendered_otherwise import rendered_otherwise
 from .results import RESULTS, camera_of, every_result_of, results_of, with_copies
@@ -25,7 +26,6 @@ from .roles import (
     candidates,
     choose,
     participants,
-    rendered_alone,
     rendered_collections,
     says_mirror,
     seen_in,
@@ -37,4 +37,5 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "every_result_of", "forget_known", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results",
            "materials_of", "moves", "participants", "read_meshes", "read_mirror", "read_scene", "read_view", "register",
            "render_size", "rendered_alone", "rendered_collections", "rendered_otherwise", "results_of", "says_mirror",
-           "seen_in", "unregister", "visible", "with_copies"]
+           "seen_in", "unregister", "visible", "with_copies",
+           "without_surface"]

@@ -158,22 +158,13 @@ def _why_unseen(obj: bpy.types.Object, there: set, hidden: str) -> str:
     return hidden if obj in there else f"'{obj.name}' is not in this scene: add it to one of the scene's collections."
 
 
-def rendered_alone(context: bpy.types.Context, mirrors: list, diffuse: list) -> list:
-    """What is hidden in the viewport but not from the mirrors in renders, and so is missing, where all else that is
-    seen takes part; nothing where the user chose what does."""
-    is_seen, rendered, taking = seen_in(context), _rendered_in(context), {*mirrors, *diffuse}
-    others = [obj for obj in context.view_layer.objects
-              if obj not in taking and obj.visible_glossy and can_take_part(obj)]
-    return [] if any(map(is_seen, others)) else list(filter(rendered, others))
-
-
 def seen_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
     """Tells of an object whether it is seen, in the viewport and in renders."""
-    in_layer, rendered = set(context.view_layer.objects), _rendered_in(context)
+    in_layer, rendered = set(context.view_layer.objects), rendered_in(context)
     return lambda obj: obj in in_layer and obj.visible_get() and rendered(obj)
 
 
-def _rendered_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
+def rendered_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
     """Tells of an object of the view layer whether it is in renders."""
     # what each object's own list of collections says, which is worked out anew whenever it is asked
     rendered = {obj for collection in rendered_collections(context.view_layer.layer_collection)

@@ -79,6 +79,9 @@ KEPT = {
         "mit --view-layer mehrere, jede für sich.",
 }
 LACKS = {
+    "No reflection has hair, point clouds or volumes, as '{}' has: make meshes of them, or leave the mirror to Cycles.":
+        "Keine Spiegelung hat Haare, Punktwolken oder Volumen wie '{}': mache Netze daraus, oder überlasse den Spiegel "
+        "Cycles.",
     "Renders show '{}', which is hidden in the viewport and so in no reflection: show it, or hide it in renders too.":
         "Gerendert ist '{}' zu sehen, in der Ansicht ausgeblendet und darum in keiner Spiegelung: zeige es, oder "
         "blende es auch im Render aus.",

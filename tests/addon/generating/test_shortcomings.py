@@ -108,3 +108,26 @@ def test_what_the_viewport_alone_hides_is_told(blank, capfd, hide):
     parts.generate()
     told = "Renders show 'Box', which is hidden in the viewport" in "".join(capfd.readouterr())
     assert told == (hide in {"eye", "collection"})
+
+
+def hairy(box):
+    box.modifiers.new("Fur", "PARTICLE_SYSTEM")
+    box.particle_systems[0].settings.type = "HAIR"
+
+
+@pytest.mark.parametrize(("change", "told"), [
+    (hairy, "Box"), (lambda box: bpy.ops.object.volume_add(), "Volume"), (lambda box: bpy.ops.object.empty_add(), "")])
+def test_what_has_no_mesh_is_told(blank, capfd, change, told):
+    """Renders show it in the mirror, and the reflection does not; where the user chose other things, it is meant."""
+    box, other = parts.add("cube", "Box"), parts.add("cube", "Other", location=(1.5, -1.5, 1.0))
+    mirror = parts.add_wall_mirror()
+    mirror.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    change(box)
+    parts.select(mirror)
+    parts.generate()
+    sentence = f"No reflection has hair, point clouds or volumes, as '{told}' has"
+    assert (sentence in "".join(capfd.readouterr())) == bool(told)
+    bpy.ops.reflection_mesh.clear()
+    parts.select(other, mirror)
+    parts.generate()
+    assert "No reflection has hair" not in "".join(capfd.readouterr())
