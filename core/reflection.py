@@ -140,7 +140,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
         progress.done("points", **mesh.counts)
         return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds)
     task = Task(met, settings, limits, settings.depth == 1, progress)
-    showing = showing_mirrors(cameras, met, limits)
+    showing = _showing_mirrors(cameras, task)
     whole, task = (None, task) if overlaid else _whole_first(cameras, uncut, task, showing.plainly)
     bounces, seams, error, reach = _bounces(cameras, task, showing), None, 0.0, 0.0
     if whole is not None and task.met.pieces is not None:
@@ -206,12 +206,24 @@ def _with_mirrors(view: View, tree: SceneTree | PointTree, mirror: TriangleMesh,
     return mirror, given, SceneAndMirrors(tree, met, given=order.triangle)
 
 
+def _draws_whole(settings: Settings) -> bool:
+    return settings.method == "GENERAL" and not settings.hidden_faces
+
+
+def _showing_mirrors(cameras: Cameras, task: Task) -> MirrorsShown:
+    """The mirrors that cameras of the first bounce may show. Where all is cut, and no light goes on, as with a lamp's,
+    they are looked for once, by the refined cameras: to know before which show none spares less than it takes."""
+    if task.last and not _draws_whole(task.settings):
+        return MirrorsShown.unknown(cameras)
+    return showing_mirrors(cameras, task.met, task.limits)
+
+
 def _whole_first(cameras: Cameras, uncut: int, task: Task,
                  showing: np.ndarray) -> tuple[WholeFaces | None, Task]:
     """The faces that a part of the mirror shows whole, drawn from the images of their vertices, and the task with what
     is left; cameras that have not been cut have no corners behind the first `uncut`."""
     settings, limits, tree = task.settings, task.limits, task.met.tree
-    if settings.method != "GENERAL" or settings.hidden_faces or not isinstance(tree, SceneTree):
+    if not isinstance(tree, SceneTree) or not _draws_whole(settings):
         return None, task
     task.progress.next(0.15, "whole faces")
     eligible = _entire(cameras, uncut) & ~showing[cameras.face]

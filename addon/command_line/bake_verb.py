@@ -79,7 +79,7 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
                            lamps=tuple(meant_lamps(context)) if thrown else (), leave_out=options.leave_out)
             sequences.append(announced(baking(context, plan, tell, remarks.append), options.progress))
             plans.append(plan)
-    told = remarks + render_shortcomings(scene, sum(candidates(context), [])) + blur_remarks(scene, cameras, thrown)
+    told = remarks + render_shortcomings(context, *candidates(context)) + blur_remarks(scene, cameras, thrown)
     told += layer_remarks(scene, layers)
     if not options.frames_only:
         for layer, plan, shown in zip(layers, plans, sequences):

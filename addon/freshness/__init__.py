@@ -11,6 +11,8 @@ from .made_from import (
     view_numbers,
     why_stale,
 )
+from .thrown_light import lamp_numbers, light_record, why_light_is_stale
 
-__all__ = ["COARSE", "Origin", "digest_of", "frame_difference", "frame_origin", "origin_of", "record_of", "register",
-           "same_view", "settings_of", "unregister", "view_numbers", "why_stale"]
+__all__ = ["COARSE", "Origin", "digest_of", "frame_difference", "frame_origin", "lamp_numbers", "light_record",
+           "origin_of", "record_of", "register", "same_view", "settings_of", "unregister", "view_numbers",
+           "why_light_is_stale", "why_stale"]

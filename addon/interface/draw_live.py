@@ -5,8 +5,8 @@ import bpy
 from bpy.app.translations import pgettext_iface
 
 from ..faults import translated
-from ..freshness import why_stale
-from ..live import kept_results, present
+from ..freshness import why_light_is_stale, why_stale
+from ..live import kept_light, kept_results, present
 from .draw_lines import draw_sentence
 
 
@@ -23,6 +23,7 @@ def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
         draw_sentence(layout, context, state_of(updater), icon="TIME")
         return
     stale = [(obj, why) for obj in kept_results(context) if (why := why_stale(context, obj))]
+    stale += [(obj, why) for obj in kept_light(context) if (why := why_light_is_stale(context, obj))]
     for obj, why in stale:
         layout.label(text=pgettext_iface("'{name}' is stale:").format(name=obj.name), icon="ERROR", translate=False)
         draw_sentence(layout, context, f"{pgettext_iface(why)}.")

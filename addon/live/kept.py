@@ -16,6 +16,12 @@ def kept_results(context: bpy.types.Context) -> list:
             and obj in results_of(context, obj.reflection_mesh.mirror, known)]
 
 
+def kept_light(context: bpy.types.Context) -> list:
+    """The light that mirrors of the scene throw, as far as it can be changed."""
+    return [obj for obj in known_results(context.scene, context.view_layer) if obj.reflection_mesh.role == "CAUSTICS"
+            and obj.type == "MESH" and obj.library is None and not plays(obj)]
+
+
 def groups(context: bpy.types.Context) -> list[Participants]:
     """The mirrors and objects of these results; what is hidden takes no part."""
     found: dict = {}

@@ -6,13 +6,12 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import bpy
-import numpy as np
 
 from ...core import ReflectionError, Settings
 from ..faults import Steps, sentence
 from ..frames import plays
-from ..freshness import digest_of
-from ..illumination import Tint, blocking, light_of_nodes, lights_renders, places_kept, radiance_of, results_with
+from ..freshness import COARSE, digest_of, lamp_numbers, light_record
+from ..illumination import Tint, blocking, lights_renders, places_kept, results_with
 from ..operators.caustics import Asked, NothingThrown, throwing
 from ..reading import NothingSeen, Participants, visible
 from ..settings import Wanted
@@ -20,7 +19,6 @@ from .pace import Pace
 
 PAUSE = 0.25    # seconds without a change after which all is made exact
 BUDGET = 0.05   # seconds of work between two looks at what has changed
-NUMBERS = {"FLOAT", "INT", "BOOLEAN", "ENUM"}
 
 
 class Group(NamedTuple):
@@ -103,7 +101,7 @@ class ThrownLight:
 
     def _look(self, context: bpy.types.Context, now: float) -> None:
         """How all stands now."""
-        self._noted, groups = False, _groups(context)
+        self._noted, groups = False, light_groups(context)
         self.is_there = bool(groups)
         if not groups:
             self._drop()
@@ -123,11 +121,12 @@ class ThrownLight:
         rests = now - self._changed >= PAUSE
         if not rests and self._coarse == self._looked:
             return False
-        groups, wanted = _groups(context), Wanted(context.scene)
+        groups, wanted = light_groups(context), Wanted(context.scene)
         exact = {mirror: wanted(mirror) for group in groups for mirror, _ in group.pairs}
         settings = exact if rests else {mirror: replace(own, tolerance=self._pace.coarse(own.tolerance))
                                         for mirror, own in exact.items()}
-        self._work = Work(self._looked, settings == exact, [_steps(context, group, settings) for group in groups])
+        self._work = Work(self._looked, settings == exact, [
+            made_anew(context, group, settings, settings == exact) for group in groups])
         return True
 
     def _go_on(self) -> str:
@@ -157,7 +156,7 @@ class ThrownLight:
                 steps.close()
 
 
-def _groups(context: bpy.types.Context) -> list[Group]:
+def light_groups(context: bpy.types.Context) -> list[Group]:
     """The caustics of the scene that are made anew, those on the same objects together."""
     layer, found = set(context.view_layer.objects), {}
     for obj in context.scene.objects:
@@ -188,7 +187,7 @@ def _record(context: bpy.types.Context, groups: list[Group]) -> Record:
         objects = [chosen.mirrors, chosen.diffuse, blocking(context, chosen)]
         places = places_kept(context, mirrors, group.lamps)
         digests.append((tuple(digest_of(depsgraph, some) for some in objects),
-                        tuple(_lamp_numbers(depsgraph, lamp) for lamp in group.lamps),
+                        tuple(lamp_numbers(depsgraph, lamp) for lamp in group.lamps),
                         tuple(repr(Tint.of_material(slot.material))
                               for mirror in mirrors for slot in mirror.material_slots)))
         settings.append((tuple(wanted(mirror) for mirror in mirrors), tuple(places.values())))
@@ -197,20 +196,8 @@ def _record(context: bpy.types.Context, groups: list[Group]) -> Record:
     return Record(tuple(digests), tuple(settings), tuple(members))
 
 
-def _lamp_numbers(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> tuple:
-    """Where a lamp stands and all that its data tells in numbers; of a mesh its shape and what it emits."""
-    if lamp.type != "LIGHT":
-        return digest_of(depsgraph, [lamp]), *(radiance_of(slot.material).tobytes() for slot in lamp.material_slots)
-    evaluated = lamp.evaluated_get(depsgraph)
-    data = evaluated.data
-    values = (getattr(data, prop.identifier) for prop in data.bl_rna.properties
-              if prop.type in NUMBERS and prop.identifier != "use_nodes")
-    return (np.array(evaluated.matrix_world, dtype=np.float32).tobytes(), light_of_nodes(data)[0].tobytes(),
-            *(tuple(value) if hasattr(value, "__len__") and not isinstance(value, str | set) else str(value)
-              for value in values))
-
-
-def _steps(context: bpy.types.Context, group: Group, settings: dict[bpy.types.Object, Settings]) -> Steps[None]:
+def made_anew(context: bpy.types.Context, group: Group, settings: dict[bpy.types.Object, Settings],
+              exact: bool = True) -> Steps[None]:
     """Make a group's light; of pairs that throw none at the moment, the mesh is empty."""
     dark = group.pairs
     if group.chosen is not None and group.lamps:
@@ -225,7 +212,12 @@ def _steps(context: bpy.types.Context, group: Group, settings: dict[bpy.types.Ob
             dark = {pair for pair in group.pairs - made if pair in thrown.dark or pair not in tried}
         except NothingThrown:
             pass
-    for pair in dark:
+    for pair in group.pairs:
         for obj in results_with(context, *pair)[:1]:
-            if len(obj.data.vertices):
+            record = obj.reflection_mesh
+            if pair in dark and len(obj.data.vertices):
                 obj.data.clear_geometry()
+            if pair in dark:
+                record.made_from = light_record(context, *pair, [source.object for source in record.sources])
+            if not exact:
+                record.made_from = COARSE

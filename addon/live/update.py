@@ -4,18 +4,19 @@ import time
 import bpy
 
 from ..faults import SteppedOperator, Steps, part, tell
-from ..freshness import why_stale
+from ..freshness import why_light_is_stale, why_stale
 from ..operators import polls
 from ..operators.generate import IN_OBJECT_MODE, generation
 from ..operators.write_results import Manners
 from ..settings import Wanted
-from .kept import groups, kept_results
+from .kept import groups, kept_light, kept_results
+from .thrown import light_groups, made_anew
 
 NOTHING_STALE = "No reflection is stale."
 
 
 class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
-    """Make the reflections anew that no longer show what there is, as the scene's camera sees it"""
+    """Make the reflections and the light of mirrors anew that no longer show what there is"""
 
     bl_idname = "reflection_mesh.update"
     bl_label = "Update Reflections"
@@ -36,7 +37,8 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
         started = time.perf_counter()
         stale = {obj.reflection_mesh.mirror for obj in kept_results(context) if why_stale(context, obj)}
         chosen = [group for group in groups(context) if stale.intersection(group.mirrors)]
-        if not chosen:
+        lit = [obj for obj in kept_light(context) if why_light_is_stale(context, obj)]
+        if not chosen and not lit:
             tell(self, {"INFO"}, NOTHING_STALE)
         for number, group in enumerate(chosen):
             steps = generation(context, group, Wanted(context.scene), manners=Manners(preview_unlit=self._pressed))
@@ -44,6 +46,19 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
             for remark in outcome.remarks:
                 tell(self, {"WARNING"}, remark)
             tell(self, {"INFO"}, outcome.summary(time.perf_counter() - started))
+        yield from self._light(context, lit)
+
+    def _light(self, context: bpy.types.Context, lit: list) -> Steps[None]:
+        """Make the light anew that is stale, with all that falls on the same objects."""
+        pairs, wanted = {(obj.reflection_mesh.mirror, obj.reflection_mesh.lamp) for obj in lit}, Wanted(context.scene)
+        for group in light_groups(context):
+            if pairs & group.pairs:
+                yield from made_anew(context, group, {mirror: wanted(mirror) for mirror, _ in group.pairs})
+        for obj in lit:
+            tell(self, {"INFO"}, self._summary(obj))
+
+    def _summary(self, light: bpy.types.Object) -> str:
+        return f"'{light.name}': {len(light.data.polygons)} faces of light, {light.reflection_mesh.seconds:.2f} s"
 
 
 def register() -> None:

@@ -14,6 +14,7 @@ from ... import core
 from ...core.caustics import most_layers
 from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
 from ..frames import stop_playing
+from ..freshness import light_record
 from ..illumination import (
     Caustic,
     MirrorPart,
@@ -120,6 +121,10 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     scene = read_scene(depsgraph, chosen.diffuse)
     standing = blocking(context, chosen)
     blockers = {lamp: blockers_of(depsgraph, [obj for obj in standing if obj != lamp]) for lamp in lamps}
+    origins = {}
+    for pair in pairs:
+        origins[pair] = light_record(context, *pair, scene.sources)
+        yield 0.0, "Reading the scene"
     prepared, dark, refused = [], [], [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
     for number, (mirror, lamp) in enumerate(pairs):
         name = name_of(mirror, lamp, lamps)
@@ -143,6 +148,7 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     yield 1.0, "Writing"
     thrown = _written(context, prepared, wanted, (refused, dark))
     for obj in thrown.objects:
+        obj.reflection_mesh.made_from = origins[obj.reflection_mesh.mirror, obj.reflection_mesh.lamp]
         obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(thrown.objects)
     return thrown
 

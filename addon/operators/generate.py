@@ -142,6 +142,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
         attributes = self.attributes if self.properties.is_property_set("attributes") else None
         outcome = yield from generation(context, chosen, wanted, self.preview, Manners(attributes, self.collect))
         self.show_used(wanted, chosen.mirrors)
+        lacks = render_shortcomings(context, chosen.mirrors, chosen.diffuse)    # of what is still selected
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
         if self.select_alone:
@@ -152,8 +153,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
                 obj.select_set(True)
                 context.view_layer.objects.active = obj
         placements = [settings.placement for settings in map(of_each(wanted), chosen.mirrors)]
-        for remark in (outcome.remarks + render_shortcomings(context.scene, chosen.mirrors + chosen.diffuse)
-                       + blur_shortcomings(context.scene, placements)):
+        for remark in outcome.remarks + lacks + blur_shortcomings(context.scene, placements):
             tell(self, {"WARNING"}, remark)
         for sentence in outcome.news:
             tell(self, {"INFO"}, sentence)

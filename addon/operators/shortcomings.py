@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ...core import ReflectionError, ReflectionMesh
-from ..reading import rendered_otherwise
+from ..reading import rendered_alone, rendered_otherwise, without_surface
 from ..writing import what_is_in_the_way
 
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
@@ -60,8 +60,15 @@ def blur_shortcomings(scene: bpy.types.Scene, placements: list[str]) -> list[str
     return told + [MOTION_BLUR] * scene.render.use_motion_blur
 
 
-def render_shortcomings(scene: bpy.types.Scene, objects: list) -> list[str]:
-    """A sentence on mirrors and diffuse objects of which renders show another mesh than the one that was read."""
+def render_shortcomings(context: bpy.types.Context, mirrors: list, diffuse: list) -> list[str]:
+    """Sentences on what renders show otherwise than viewports do, of which a reflection has what these show: meshes of
+    mirrors and diffuse objects, and what is hidden in the viewport alone; and on what has no mesh."""
+    told = _other_meshes(context.scene, mirrors + diffuse) + _hidden(rendered_alone(context, mirrors, diffuse))
+    return told + [f"No reflection has hair, point clouds or volumes, as '{obj.name}' has: make meshes of them, or "
+                   "leave the mirror to Cycles." for obj in without_surface(context, mirrors, diffuse)[:1]]
+
+
+def _other_meshes(scene: bpy.types.Scene, objects: list) -> list[str]:
     found = [(obj.name, why) for obj in objects if (why := rendered_otherwise(scene, obj))]
     if not found:
         return []
@@ -70,6 +77,16 @@ def render_shortcomings(scene: bpy.types.Scene, objects: list) -> list[str]:
                 "give both the same levels.".format(*found[0])]
     return ["Renders show other meshes of {} objects than viewports do, of '{}' by '{}', and the reflection has the "
             "viewport's: give both the same levels.".format(len(found), *found[0])]
+
+
+def _hidden(found: list) -> list[str]:
+    if not found:
+        return []
+    if len(found) == 1:
+        return [f"Renders show '{found[0].name}', which is hidden in the viewport and so in no reflection: show it, or "
+                "hide it in renders too."]
+    return [f"Renders show {len(found)} objects, '{found[0].name}' among them, which are hidden in the viewport and so "
+            "in no reflection: show them, or hide them in renders too."]
 
 
 def window_shortcomings(context: bpy.types.Context, mirror: bpy.types.Object, result: ReflectionMesh,

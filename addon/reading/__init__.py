@@ -14,6 +14,7 @@ from .meshes import (
     read_scene,
 )
 from .moves import moves
+from .not_reflected import rendered_alone, without_surface
 from .read_view import NO_CAMERA, read_view, render_size
 from .rendered_otherwise import rendered_otherwise
 from .results import RESULTS, camera_of, every_result_of, results_of, with_copies
@@ -35,5 +36,6 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "Placed", "RESULTS", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
            "every_result_of", "forget_known", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results",
            "materials_of", "moves", "participants", "read_meshes", "read_mirror", "read_scene", "read_view", "register",
-           "render_size", "rendered_collections", "rendered_otherwise", "results_of", "says_mirror", "seen_in",
-           "unregister", "visible", "with_copies"]
+           "render_size", "rendered_alone", "rendered_collections", "rendered_otherwise", "results_of", "says_mirror",
+           "seen_in", "unregister", "visible", "with_copies",
+           "without_surface"]

@@ -85,8 +85,22 @@ def _others_seen(context: bpy.types.Context, objects: list, mirrors: list) -> li
 
 def says_mirror(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | None], bool] = is_mirror) -> bool:
     """Whether an object is a mirror by its role or its material, as far as `is_one` tells of materials."""
-    return obj.reflection_mesh.role == "MIRROR" or (
-        obj.reflection_mesh.role == "AUTO" and any(is_one(slot.material) for slot in obj.material_slots))
+    return obj.reflection_mesh.role == "MIRROR" or (obj.reflection_mesh.role == "AUTO" and _looks_it(obj, is_one))
+
+
+def _looks_it(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | None], bool]) -> bool:
+    """Whether an object has the material of a mirror, or is an instance of a collection in which all surfaces do."""
+    if any(is_one(slot.material) for slot in obj.material_slots):
+        return True
+    if obj.instance_type != "COLLECTION" or obj.instance_collection is None:
+        return False
+    there = False
+    for other in obj.instance_collection.all_objects:
+        if can_take_part(other):
+            if not _looks_it(other, is_one):
+                return False
+            there = True
+    return there
 
 
 def can_take_part(obj: bpy.types.Object) -> bool:
@@ -126,24 +140,36 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
                         hidden + unseen, [obj for obj in unseen if obj in there and not is_seen(obj)])
     if not seen.mirrors:
         if mirrors:
-            raise NothingSeen(f"The mirror '{mirrors[0].name}' is hidden: show it in the viewport and in renders.")
+            raise NothingSeen(_why_unseen(mirrors[0], there, (
+                f"The mirror '{mirrors[0].name}' is hidden: show it in the viewport and in renders.")))
         raise ReflectionError(NO_MIRROR)
     if not seen.diffuse:
         if diffuse:
-            raise NothingSeen(f"The reflected object '{diffuse[0].name}' is hidden: show it in the viewport, in "
-                              "renders and to glossy rays.")
+            raise NothingSeen(_why_unseen(diffuse[0], there, (
+                f"The reflected object '{diffuse[0].name}' is hidden: show it in the viewport, in renders and to "
+                "glossy rays.")))
         raise ReflectionError(f"Nothing to reflect in '{seen.mirrors[0].name}': select the objects to reflect together "
                               "with it, or set their role to Reflected in the Reflection tab.")
     return seen
 
 
+def _why_unseen(obj: bpy.types.Object, there: set, hidden: str) -> str:
+    """The sentence `hidden`, but of what is not `there` in the scene, as where a result was appended alone."""
+    return hidden if obj in there else f"'{obj.name}' is not in this scene: add it to one of the scene's collections."
+
+
 def seen_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
     """Tells of an object whether it is seen, in the viewport and in renders."""
-    in_layer = set(context.view_layer.objects)
+    in_layer, rendered = set(context.view_layer.objects), rendered_in(context)
+    return lambda obj: obj in in_layer and obj.visible_get() and rendered(obj)
+
+
+def rendered_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
+    """Tells of an object of the view layer whether it is in renders."""
     # what each object's own list of collections says, which is worked out anew whenever it is asked
     rendered = {obj for collection in rendered_collections(context.view_layer.layer_collection)
                 for obj in collection.objects}
-    return lambda obj: obj in in_layer and obj.visible_get() and not obj.hide_render and obj in rendered
+    return lambda obj: not obj.hide_render and obj in rendered
 
 
 def rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:

@@ -21,7 +21,7 @@ def gather(context: bpy.types.Context, objects: list, whole: AllOrNothing) -> No
     if not objects:
         return
     target = _own(scene) or scene.collection.children.get(NAME) or _new(scene, whole)
-    if target.library is not None or target not in rendered_collections(layer.layer_collection):
+    if target.library or target.override_library or target not in rendered_collections(layer.layer_collection):
         return
     for obj in objects:
         for other in list(obj.users_collection):

@@ -151,11 +151,11 @@ def new_beside(context: bpy.types.Context, name: str, other: bpy.types.Object,
 
 
 def link_beside(scene: bpy.types.Scene, obj: bpy.types.Object, other: bpy.types.Object) -> None:
-    """Put an object into the collections of another, those of this scene that can be changed, else into the scene's
-    own."""
+    """Put an object into the collections of another, those of this scene that can be changed, which those of a library
+    and their overrides cannot, else into the scene's own."""
     of_scene = {scene.collection, *scene.collection.children_recursive}
     beside = [collection for collection in other.users_collection
-              if collection in of_scene and collection.library is None]
+              if collection in of_scene and collection.library is None and collection.override_library is None]
     for collection in beside or [scene.collection]:
         collection.objects.link(obj)
 

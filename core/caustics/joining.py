@@ -58,7 +58,7 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     """What `CausticMesh` holds of one view's light of one bounce, as `_light` tells it."""
     breathe()
     faces, flux, seen, number, receivers = lit
-    light, corners = faces.light, np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2)
+    light, corners = faces.light, np.moveaxis(faces.corners(), 2, 0).swapaxes(1, 2)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area, size = 0.5 * np.linalg.norm(normal, axis=1), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
     arrived = light.arrived.reshape(3, -1).all(axis=0) | (flux > STRAY * flux.sum())

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh, cross, dot, following, norm, parent_side, rows, shared_edges, split, unit
+from ..geometry import TriangleMesh, columns, cross, dot, following, norm, parent_side, rows, shared_edges, split, unit
 from ..support import breathe
 from ..views import in_cone
 from .corners import Corners, light_at
@@ -65,10 +65,9 @@ class LitFaces:
     def __len__(self) -> int:
         return len(self.face)
 
-    @property
-    def corners(self) -> np.ndarray:
-        """(3, 3, m): as [component, corner, face]."""
-        return self.points[:, self.triangles.T]
+    def corners(self, chosen: np.ndarray | slice = slice(None)) -> np.ndarray:
+        """(3, 3, k) of the faces `chosen`, as [component, corner, face]."""
+        return columns(self.points, self.triangles[chosen].T)
 
 
 def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, lamp: Lamp, least: tuple[float, float],
@@ -107,7 +106,7 @@ def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[f
     """On which sides (k, 3) of the faces asked the irradiance in the middle is not that between the ends."""
     ends = faces.light.irradiance.reshape(3, -1)[:, asked].T
     lit = middles.irradiance.reshape(3, -1).T
-    corners = faces.corners[:, :, asked]
+    corners = faces.corners(asked)
     with np.errstate(invalid="ignore"):
         astray = ~(np.abs(0.5 * (ends + following(ends)) - lit) <= STRAYING * lit)
     astray &= norm(corners - following(corners)).T > least[1]
@@ -129,7 +128,7 @@ def _wide(faces: LitFaces, asked: np.ndarray, lamp: Lamp) -> np.ndarray:
 def _beside(faces: LitFaces, asked: np.ndarray, middles: Corners, points: np.ndarray, found: np.ndarray) -> np.ndarray:
     """The light (k, 3) between the sides of the faces asked and parabolas through their `points` (3, 3, k) as
     [component, side, face]; none where these were not `found` (k, 3), or are on a caustic."""
-    corners = faces.corners[:, :, asked]
+    corners = faces.corners(asked)
     after = np.roll(corners, -1, axis=1)
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     beyond = cross(points - 0.5 * (corners + after), after - corners)
@@ -165,7 +164,7 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within:
         own, face = np.tile(part, 3), np.tile(faces.face[part], 3)
         uv = faces.light.uv.reshape(2, 3, -1)[:, :, part]
         start = 0.5 * (uv + following(uv)).reshape(2, -1)
-        corners = faces.corners[:, :, part]
+        corners = faces.corners(part)
         chord = 0.5 * (corners + following(corners)).reshape(3, -1)
         normal, straight = faces.normal[:, own], faces.on_side[part].T.ravel()
         origin, ray = ray_map.leave(face, start)

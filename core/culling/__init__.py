@@ -17,4 +17,5 @@ from .scene_pieces import ScenePieces
 from .scene_tree import SceneTree
 
 __all__ = ["ABOVE", "Balls", "BoxTree", "Candidates", "Cones", "Magnification", "MirrorsShown", "PointTree",
-           "SceneAndMirrors", "ScenePieces", "SceneTree", "first_crossed", "first_hits", "median_leaves", "meet", "overlapping"]
+           "SceneAndMirrors", "ScenePieces", "SceneTree", "first_crossed", "first_hits", "median_leaves", "meet",
+           "overlapping"]

@@ -68,8 +68,10 @@ class Candidates:
     @staticmethod
     def joined(parts: Sequence[Candidates]) -> Candidates:
         """All pairs of the parts, which have the same cameras and frames."""
-        return Candidates(parts[0].cameras, parts[0].frames,
-                          *(np.concatenate([getattr(part, name) for part in parts], axis=-1) for name in PER_PAIR))
+        def together(name: str) -> np.ndarray:
+            breathe()
+            return np.concatenate([getattr(part, name) for part in parts], axis=-1)
+        return Candidates(parts[0].cameras, parts[0].frames, *map(together, PER_PAIR))
 
     @staticmethod
     def unknown(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray) -> Candidates:

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
 from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, in_order, others, rows, unit
+from ..support import breathe
 from .bounded_trace import bounded_trace
 from .candidates import Candidates
 from .cones import Cones
@@ -95,8 +96,8 @@ class SceneAndMirrors:
         return sphere[:3], float(sphere[3])
 
     def showing_mirrors(self, cameras: Cameras, most: int) -> MirrorsShown:
-        """The mirrors that cameras may show; those for which more than `most` pairs of cameras and triangles would have to
-        be looked at may show any."""
+        """The mirrors that cameras may show; those for which more than `most` pairs of cameras and triangles would have
+        to be looked at may show any."""
         camera, triangle, _, given_up = self.mirrors_in(cameras, most, np.ones(len(cameras)))
         risen = self._above(self._upper_sides(cameras), camera, triangle, RISEN)
         return MirrorsShown.of(cameras, (camera, triangle), risen, given_up)
@@ -248,6 +249,7 @@ class SceneAndMirrors:
         origins = [columns(cameras.origins, corner) for corner in cameras.corners[candidates.camera[pair]].T]
         own = [columns(corners, triangle) for corners in self._corners]
         for side in range(3):
+            breathe()
             beyond = columns(self._beyond[:, :, side], triangle)
             start, end = (own[corner] for corner in others(side))
             # a corner's place beside the plane through the side and a ray's origin is linear in the origin: three

@@ -20,6 +20,7 @@ from .clipping import clip
 from .convex_polygons import Line, scene_edges
 
 PAIRS_AT_ONCE = 16384  # fit the cache
+TOUCHING = 1e-5  # of what a camera reaches below a triangle's plane: what rises less above only touches it
 FARTHER = 1e-9  # of the distance: what is farther by less is not hidden
 
 
@@ -102,6 +103,7 @@ class Overlaps:
 
 
 def _overlaps(candidates: Candidates, met: SceneAndMirrors) -> Overlaps:
+    candidates = candidates.select(_risen(candidates))
     wide = clip(replace(candidates, sides=candidates.sides + candidates.room[:, None]))
     candidates = candidates.select(wide.pair)
     scene = scene_edges(wide.after)
@@ -120,6 +122,12 @@ def _overlaps(candidates: Candidates, met: SceneAndMirrors) -> Overlaps:
         # where sides are straight, without room, the overlap may end on one to the last bit
         ends[some] |= outlines[:, some].any(axis=0)
     return Overlaps(replace(candidates, outlines=outlines), mirror, ends)
+
+
+def _risen(candidates: Candidates) -> np.ndarray:
+    """Those (k,) whose camera rises above the triangle's plane, and not by rounding alone, as beside the line in which
+    a scene cuts through the mirror: what it would see there has no width, but its outline may have another image."""
+    return np.flatnonzero(largest(candidates.ahead) > -TOUCHING * smallest(candidates.ahead))
 
 
 def _depths(candidates: Candidates) -> tuple[np.ndarray, np.ndarray]:

@@ -61,8 +61,10 @@ def _outlines(met: SceneAndMirrors, seen: Candidates) -> Lines:
     side = polygons.after[corner].astype(np.int64) - Line.SCENE_EDGE
     polygon = polygons.polygon[corner]
     pair = polygons.pair[polygon]
+    breathe()
     outer = ~met.inner_sides(seen)[side, pair]
     corner, side, pair = corner[outer], side[outer], pair[outer]
+    breathe()
     vertices, row = seen.frames.vertices[:, seen.column[pair]], np.arange(len(pair))
     ends = np.sort(np.stack([vertices[corner, row] for corner in others(side)]), axis=0)
     once, _ = groups(seen.camera[pair], *ends)

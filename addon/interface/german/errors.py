@@ -77,6 +77,8 @@ CHOICE = {
         "oder nimm ihn aus den Quellen.",
     "The mirror '{}' is hidden: show it in the viewport and in renders.":
         "Der Spiegel '{}' ist ausgeblendet: zeige ihn in der Ansicht und im Render.",
+    "'{}' is not in this scene: add it to one of the scene's collections.":
+        "'{}' ist nicht in dieser Szene: nimm es in eine ihrer Sammlungen auf.",
     "The reflected object '{}' is hidden: show it in the viewport, in renders and to glossy rays.":
         "Das Objekt '{}' ist ausgeblendet: zeige es in der Ansicht, im Render und für Glanzstrahlen.",
     "Nothing to reflect in '{}': select the objects to reflect together with it, or set their role to Reflected in "

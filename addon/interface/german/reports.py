@@ -79,6 +79,16 @@ KEPT = {
         "mit --view-layer mehrere, jede für sich.",
 }
 LACKS = {
+    "No reflection has hair, point clouds or volumes, as '{}' has: make meshes of them, or leave the mirror to Cycles.":
+        "Keine Spiegelung hat Haare, Punktwolken oder Volumen wie '{}': mache Netze daraus, oder überlasse den Spiegel "
+        "Cycles.",
+    "Renders show '{}', which is hidden in the viewport and so in no reflection: show it, or hide it in renders too.":
+        "Gerendert ist '{}' zu sehen, in der Ansicht ausgeblendet und darum in keiner Spiegelung: zeige es, oder "
+        "blende es auch im Render aus.",
+    "Renders show {} objects, '{}' among them, which are hidden in the viewport and so in no reflection: show them, or "
+    "hide them in renders too.":
+        "Gerendert sind {} Objekte zu sehen, unter ihnen '{}', die in der Ansicht ausgeblendet sind und darum in "
+        "keiner Spiegelung: zeige sie, oder blende sie auch im Render aus.",
     "Renders show another mesh of '{}' than viewports do, by '{}', and the reflection has the viewport's: give both "
     "the same levels.":
         "Gerendert hat '{}' durch '{}' ein anderes Netz als in Ansichten, und die Spiegelung hat das der Ansichten: "

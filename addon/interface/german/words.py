@@ -274,14 +274,18 @@ LIVE = {
         "Spiegelungen bleiben für die größte 3D-Ansicht richtig; Spiegelung erzeugen macht sie wieder für die Kamera "
         "richtig",
     "Update Reflections": "Spiegelungen erneuern",
-    "Make the reflections anew that no longer show what there is, as the scene's camera sees it":
-        "Erzeugt die Spiegelungen neu, die nicht mehr zeigen, was da ist, wie die Kamera der Szene es sieht",
+    "Make the reflections and the light of mirrors anew that no longer show what there is":
+        "Erzeugt die Spiegelungen und das Licht von Spiegeln neu, die nicht mehr zeigen, was da ist",
     "'{name}' is stale:": "'{name}' ist veraltet:",
     "an object was removed": "ein Objekt wurde entfernt",
     "the camera has changed": "die Kamera hat sich geändert",
     "the picture's size has changed": "die Bildgröße hat sich geändert",
     "the mirror has changed": "der Spiegel hat sich geändert",
     "a reflected object has changed": "ein gespiegeltes Objekt hat sich geändert",
+    "the lamp has changed": "die Lampe hat sich geändert",
+    "what is lit has changed": "was beleuchtet ist, hat sich geändert",
+    "what stands in the light's way has changed": "was dem Licht im Weg steht, hat sich geändert",
+    "its mirror or its lamp was removed: clear it": "sein Spiegel oder seine Lampe wurde entfernt: entferne es",
     "the settings have changed": "die Einstellungen haben sich geändert",
     "materials have been exchanged": "Materialien wurden ausgetauscht",
     "the colours of materials have changed": "die Farben von Materialien haben sich geändert",

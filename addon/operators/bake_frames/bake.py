@@ -254,7 +254,7 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
                                       lambda sentence: tell(self, {"WARNING"}, sentence))
         _, remarks = showing(context, plan, sequences)
         self.show_used(wanted, candidates(context)[0])
-        remarks += render_shortcomings(context.scene, sum(candidates(context), []))
+        remarks += render_shortcomings(context, *candidates(context))
         remarks += blur_remarks(context.scene, plan.cameras, bool(lamps))
         for remark in remarks + layer_remarks(context.scene, [context.view_layer]):
             tell(self, {"WARNING"}, remark)

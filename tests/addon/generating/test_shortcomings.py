@@ -85,3 +85,49 @@ def test_curves_and_metaballs_that_renders_make_finer_are_told(blank, room):
     assert otherwise(blank.scene, ball) == ball.data.name and not otherwise(blank.scene, ring)
     ball.data.render_resolution, ring.data.render_resolution_u = ball.data.resolution, 40
     assert otherwise(blank.scene, ring) == ring.data.name and not otherwise(blank.scene, ball)
+
+
+@pytest.mark.parametrize("hide", ["eye", "collection", "everywhere", "chosen"])
+def test_what_the_viewport_alone_hides_is_told(blank, capfd, hide):
+    """A mirror that shows all that is there lacks what renders show of it; where the user chose, it is meant."""
+    box, kept, mirror = parts.add("cube", "Box"), parts.add("cube", "Kept", location=(1.5, -1.5, 1.0)), None
+    mirror = parts.add_wall_mirror()
+    mirror.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    if hide == "collection":
+        cellar = bpy.data.collections.new("Cellar")
+        blank.scene.collection.children.link(cellar)
+        cellar.objects.link(box)
+        blank.scene.collection.objects.unlink(box)
+        blank.view_layer.layer_collection.children["Cellar"].hide_viewport = True
+    else:
+        box.hide_set(True)
+    box.hide_render = hide == "everywhere"
+    if hide == "chosen":
+        parts.add("cube", "Left", location=(-1.5, -1.5, 1.0))
+    parts.select(*([kept] if hide == "chosen" else []), mirror)
+    parts.generate()
+    told = "Renders show 'Box', which is hidden in the viewport" in "".join(capfd.readouterr())
+    assert told == (hide in {"eye", "collection"})
+
+
+def hairy(box):
+    box.modifiers.new("Fur", "PARTICLE_SYSTEM")
+    box.particle_systems[0].settings.type = "HAIR"
+
+
+@pytest.mark.parametrize(("change", "told"), [
+    (hairy, "Box"), (lambda box: bpy.ops.object.volume_add(), "Volume"), (lambda box: bpy.ops.object.empty_add(), "")])
+def test_what_has_no_mesh_is_told(blank, capfd, change, told):
+    """Renders show it in the mirror, and the reflection does not; where the user chose other things, it is meant."""
+    box, other = parts.add("cube", "Box"), parts.add("cube", "Other", location=(1.5, -1.5, 1.0))
+    mirror = parts.add_wall_mirror()
+    mirror.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    change(box)
+    parts.select(mirror)
+    parts.generate()
+    sentence = f"No reflection has hair, point clouds or volumes, as '{told}' has"
+    assert (sentence in "".join(capfd.readouterr())) == bool(told)
+    bpy.ops.reflection_mesh.clear()
+    parts.select(other, mirror)
+    parts.generate()
+    assert "No reflection has hair" not in "".join(capfd.readouterr())

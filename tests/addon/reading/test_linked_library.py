@@ -62,3 +62,26 @@ def test_linked_collection_instance(blank, tmp_path):
     result = parts.generate()
     reflected = parts.attribute(result, "reflected_position")
     assert np.isclose(reflected[:, 0].max(), 0.95, atol=1e-6) and np.isclose(reflected[:, 0].min(), -0.25, atol=1e-6)
+
+
+@pytest.mark.parametrize("ways", [{}, {"collect": True, "select_alone": True, "preview": True}])
+def test_an_asset_that_was_made_an_override(blank, tmp_path, ways):
+    """Its collection takes no result, and one that is called as those of results are does not either."""
+    box = parts.add("cube", "Box", size=0.8, location=(0.0, -2.5, 1.0))
+    mirror, path = parts.add_wall_mirror(), str(tmp_path / "asset.blend")
+    mirror.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    asset = bpy.data.collections.new("Reflections")
+    asset.objects.link(mirror)
+    bpy.data.libraries.write(path, {asset})
+    bpy.data.objects.remove(mirror)
+    bpy.data.collections.remove(asset)
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.collections = ["Reflections"]
+    wanted.collections[0].override_hierarchy_create(blank.scene, blank.view_layer)
+    mirror = next(obj for obj in blank.scene.objects if obj.name == "Mirror")
+    assert mirror.override_library and mirror.users_collection[0].override_library
+    parts.select(box, mirror)
+    result = parts.generate(**ways)
+    assert result.users_collection == (blank.scene.collection,) and result.reflection_mesh.mirror == mirror
+    parts.select(mirror)
+    assert parts.generate() == result

@@ -168,3 +168,34 @@ def test_reroutes_and_empty_materials(blank, room):
     assert not is_mirror(made)
     tree.nodes.clear()
     assert not is_mirror(made) and not is_mirror(None)
+
+
+@pytest.mark.parametrize("more, expected", [((), (["Kit"], ["A", "B"])), (("box",), (["A"], ["Kit"]))])
+def test_an_instance_of_nothing_but_mirrors_is_one(four, room, more, expected):
+    """As assets come; a room with a mirror in it is none."""
+    kit = bpy.data.collections.new("Kit")
+    glass = parts.add("plane", "Glass")
+    glass.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    made = [glass, *(parts.add("cube", name) for name in more)]
+    for obj in made:
+        kit.objects.link(obj)
+        bpy.context.scene.collection.objects.unlink(obj)
+    bpy.ops.object.collection_instance_add(collection="Kit")
+    instance = bpy.context.object
+    parts.select(instance, *(four[:1] if more else four[:2]))
+    assert names(room) == expected
+
+
+def test_what_is_not_in_the_scene_is_called_neither_hidden_nor_missing(four, room):
+    """As of a result that was appended alone."""
+    result = parts.add("plane", "Result")
+    result.reflection_mesh.role, result.reflection_mesh.mirror = "REFLECTION", four[0]
+    result.reflection_mesh.sources.add().object = four[1]
+    for obj in four[:2]:
+        bpy.context.scene.collection.objects.unlink(obj)
+    parts.select(result)
+    with pytest.raises(room("core").ReflectionError, match="^'A' is not in this scene"):
+        names(room)
+    bpy.context.scene.collection.objects.link(four[0])
+    with pytest.raises(room("core").ReflectionError, match="^'B' is not in this scene"):
+        names(room)

@@ -37,7 +37,7 @@ def asked_all_over(faces, ray_map, inner: np.ndarray) -> tuple[np.ndarray, np.nd
     there."""
     uv, light = faces.light.uv.reshape(2, 3, -1), []
     for weights in inner:
-        start, point = np.einsum("k,ckm->cm", weights, uv), np.einsum("k,ckm->cm", weights, faces.corners)
+        start, point = np.einsum("k,ckm->cm", weights, uv), np.einsum("k,ckm->cm", weights, faces.corners())
         origin, ray = ray_map.leave(faces.face, start)
         s = dot(point - origin, ray) / dot(ray, ray)
         place, _ = ray_map.locate(faces.face, start, s, point, 30)
@@ -48,7 +48,7 @@ def asked_all_over(faces, ray_map, inner: np.ndarray) -> tuple[np.ndarray, np.nd
 @pytest.mark.parametrize("lamp", LAMPS, ids=("point", "sun"))
 def test_a_face_has_the_light_that_falls_on_it_within_its_straight_sides(lamp):
     faces, flux, ray_map = faces_of(lamp, ring(96), level(0.0, 0.0, 0.0, 4.0))
-    corners = faces.corners
+    corners = faces.corners()
     area = 0.5 * norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
     # in the middles of equal parts
     steps = 6
@@ -66,7 +66,7 @@ def test_a_face_has_the_light_that_falls_on_it_within_its_straight_sides(lamp):
     assert off(told) < 0.008 and off(flux) > 0.03
     # and so have the values at its corners
     values = faces.light.irradiance.reshape(3, -1).T
-    shown = shown_area(np.moveaxis(faces.corners, 2, 0).swapaxes(1, 2), area, 8.0)
+    shown = shown_area(np.moveaxis(faces.corners(), 2, 0).swapaxes(1, 2), area, 8.0)
     shared = balanced(values, told, faces.triangles, shown)
     assert off(area * shared.mean(axis=1)) < 0.008
 

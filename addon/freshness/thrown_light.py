@@ -1,0 +1,116 @@
+"""What the light that a mirror throws was made from, and what has become of that."""
+from __future__ import annotations
+
+import json
+from hashlib import blake2b
+from typing import NamedTuple
+
+import bpy
+import numpy as np
+
+from ..frames import plays
+from ..illumination import blocking, is_glint, light_of_nodes, radiance_of
+from ..reading import Participants
+from . import digests
+from .made_from import COARSE, LONGEST, settings_of
+from .materials import colours_of, materials_of
+
+NUMBERS = {"FLOAT", "INT", "BOOLEAN", "ENUM"}
+ASKED = ("tolerance", "depth")  # settings that light depends on
+
+_told: dict[int, tuple] = {}
+
+
+class LightOrigin(NamedTuple):
+    """What light is made from: digests of the mirror, the lamp, what is lit and what stands around, with their
+    materials, and settings."""
+
+    mirror: str
+    lamp: str
+    lit: str
+    around: str
+    settings: dict
+
+
+def light_record(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.types.Object, sources: list) -> str:
+    """The text that the light of a mirror and a lamp on `sources` keeps, if it is made now."""
+    return json.dumps(_origin(context, mirror, lamp, sources)._asdict())
+
+
+def why_light_is_stale(context: bpy.types.Context, light: bpy.types.Object) -> str:
+    """What has changed since the light of a mirror was made, in a few words, as `why_stale` tells of a reflection."""
+    record = light.reflection_mesh
+    if not record.made_from or plays(light):
+        return ""
+    if any(part is None or not part.users_scene for part in (record.mirror, record.lamp)):
+        return "its mirror or its lamp was removed: clear it"
+    key = digests.tick(), record.made_from, *_settings(context, record.mirror).values()
+    if _told.get(light.session_uid, (None,))[0] != key:
+        _told[light.session_uid] = key, _changed(context, light)
+    return _told[light.session_uid][1]
+
+
+def lamp_numbers(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> tuple:
+    """Where a lamp stands and all that its data tells in numbers; of a mesh its shape and what it emits."""
+    if lamp.type != "LIGHT":
+        return digests.digest_of(depsgraph, [lamp]), *(radiance_of(slot.material).tobytes()
+                                                       for slot in lamp.material_slots)
+    evaluated = lamp.evaluated_get(depsgraph)
+    data = evaluated.data
+    # all data has numbers of its own, which say nothing of light, and are others in another session
+    values = (getattr(data, prop.identifier) for prop in data.bl_rna.properties if prop.type in NUMBERS
+              and prop.identifier != "use_nodes" and prop.identifier not in bpy.types.ID.bl_rna.properties)
+    return (np.array(evaluated.matrix_world, dtype=np.float32).tobytes(), light_of_nodes(data)[0].tobytes(),
+            *(tuple(value) if hasattr(value, "__len__") and not isinstance(value, str | set) else str(value)
+              for value in values))
+
+
+def _changed(context: bpy.types.Context, light: bpy.types.Object) -> str:
+    """What is no longer as it was when light was made."""
+    record = light.reflection_mesh
+    if record.made_from == COARSE:
+        return "Live was stopped before it was exact"
+    made, sources = _read(record.made_from), [source.object for source in record.sources]
+    if made is None:
+        return ""
+    if None in sources:
+        return "an object was removed"
+    return _difference(made, _origin(context, record.mirror, record.lamp, sources))
+
+
+def _difference(made: LightOrigin, now: LightOrigin) -> str:
+    """What tells two origins apart, in a few words; empty where nothing does."""
+    if made.mirror != now.mirror:
+        return "the mirror has changed"
+    if made.lamp != now.lamp:
+        return "the lamp has changed"
+    if made.lit != now.lit:
+        return "what is lit has changed"
+    if made.around != now.around:
+        return "what stands in the light's way has changed"
+    return "the settings have changed" if made.settings != now.settings else ""
+
+
+def _origin(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.types.Object, sources: list) -> LightOrigin:
+    depsgraph = context.evaluated_depsgraph_get()
+    # other mirrors among it, be they made together with this one or not
+    around = [obj for obj in blocking(context, Participants([mirror], sources, []))
+              if obj != lamp and not is_glint(obj)]
+    numbers = blake2b(repr(lamp_numbers(depsgraph, lamp)).encode(), digest_size=digests.SIZE).hexdigest()
+    return LightOrigin(digests.digest_of(depsgraph, [mirror]) + colours_of([mirror]), numbers,
+                       digests.digest_of(depsgraph, sources) + materials_of(sources) + colours_of(sources),
+                       digests.digest_of(depsgraph, around), _settings(context, mirror))
+
+
+def _settings(context: bpy.types.Context, mirror: bpy.types.Object) -> dict:
+    return {name: value for name, value in settings_of(context.scene, mirror).items() if name in ASKED}
+
+
+def _read(text: str) -> LightOrigin | None:
+    """What `light_record` wrote; None where it wrote nothing."""
+    if len(text) > LONGEST:
+        return None
+    try:
+        return LightOrigin(**json.loads(text))
+    except (ValueError, TypeError, RecursionError):
+        return None
