@@ -12,7 +12,7 @@ from ..faults import Steps, Undivided, part
 from ..reading import DiffuseScene, is_opaque, materials_of
 from ..reading.meshes import read_meshes
 from .bake_scene import bake_scene
-from .levels import FINER, levels_of
+from .levels import FINER, fine_where_seen, levels_of
 from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
 from .stand_ins import new_meshes, stand_ins
 from .texels import arranged, is_glossy, is_metal, packed
@@ -60,8 +60,10 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
     yield 0.0, MEASURING
     seen = yield from part(in_steps(partial(seen_sources, results, view, scene)), 0.0, 0.0, MEASURING)
     parts, open_, sheets = yield from part(in_steps(partial(_sheets, scene, seen)), 0.0, 0.0, MEASURING)
-    atlases, at, side, density = yield from part(
-        in_steps(partial(_packed, scene, parts, sheets, FINER * seen.density)), 0.0, 0.0, MEASURING)
+    density = yield from part(in_steps(partial(fine_where_seen, results, view, scene, parts, FINER * seen.density)),
+                              0.0, 0.0, MEASURING)
+    atlases, at, side, density = yield from part(in_steps(partial(_packed, scene, parts, sheets, density)), 0.0, 0.0,
+                                                 MEASURING)
     levels = yield from part(in_steps(partial(levels_of, results, view, scene, parts, density, atlases)), 0.0, 0.0,
                              MEASURING)
     uv = np.concatenate([(atlases[number].spots + start) / side for (number, _), start
@@ -155,18 +157,17 @@ def _undeformed(scene: bpy.types.Scene, sources: list) -> Steps[dict]:
     return found
 
 
-def _packed(scene: DiffuseScene, parts: list, sheets: list,
-            density: np.ndarray) -> tuple[dict, np.ndarray, int, np.ndarray]:
+def _packed(scene: DiffuseScene, parts: list, sheets: list, density: list) -> tuple[dict, np.ndarray, int, list]:
     """The atlas of each source, where each sheet lies in the whole picture, its side, and the density that there was
     room for."""
     corners = scene.mesh.positions[scene.mesh.triangles]
     while True:
         breathe()
-        atlases = {number: packed(corners[part], float(density[number])) for number, part in enumerate(parts)}
+        atlases = {number: packed(corners[part], density[number]) for number, part in enumerate(parts)}
         at, side = arranged(np.array([atlases[number].size for number, _ in sheets]))
         if side <= LARGEST:
             return atlases, at, side, density
-        if density.max() * np.ptp(corners) < 1.0:
+        if max(one.max() for one in density) * np.ptp(corners) < 1.0:
             raise ReflectionError("The reflected objects have more triangles than a map of their light has room for: "
                                   "light the reflection in the picture.")
-        density = density * LESS
+        density = [one * LESS for one in density]
