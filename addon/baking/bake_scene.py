@@ -54,9 +54,14 @@ class BakeScene:
         """The colours of what is matte or shines, as `bake` has light; None where they have no pattern."""
         if not self._any(owner, has_pattern):
             return None
-        self.scene.cycles.use_denoising = False
-        found = self._baked_all_over(owner, size, samples, type="DIFFUSE", pass_filter={"COLOR"})
+        found = self.matte(owner, size, samples)
         return found + self._own_light(owner, size, samples) if self._any(owner, shines) else found
+
+    def matte(self, owner: int, size: tuple[int, int], samples: int) -> np.ndarray:
+        """What part of the light that falls on a participant it sends back as what is matte does, as `bake` has
+        light."""
+        self.scene.cycles.use_denoising = False
+        return self._baked_all_over(owner, size, samples, type="DIFFUSE", pass_filter={"COLOR"})
 
     def _own_light(self, owner: int, size: tuple[int, int], samples: int) -> np.ndarray:
         """What a participant shines by itself: a mirror shows that as bright as the camera would see it."""

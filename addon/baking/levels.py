@@ -87,9 +87,24 @@ class ObjectLevels:
         return spread(found, known)
 
 
-def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, density: np.ndarray, atlases: dict) -> dict:
-    """The levels by source, whose triangles `parts` are, at a `density` (k,) of texels per unit and as `atlases` have
-    them at that."""
+def fine_where_seen(results: list, view: View, scene: DiffuseScene, parts: list, density: np.ndarray) -> list:
+    """Texels per unit of length of each triangle (n,) of each source, whose triangles `parts` are: its `density` (k,),
+    but of those made of small triangles that want a large picture, as many as results show, and no less than the
+    coarsest picture of others has: a concave mirror shows little of a head, and that large."""
+    densities = [np.full(len(part), one) for part, one in zip(parts, density, strict=True)]
+    corners = scene.mesh.positions[scene.mesh.triangles]
+    maps = {number: packed(corners[part], densities[number]) for number, part in enumerate(parts)}
+    breathe()
+    single = {number: divided(np.ones(len(parts[number]), dtype=np.int64)) for number, atlas in maps.items()
+              if atlas.size >= LARGE and not is_wide(atlas)}
+    for number, asked in asked_densities(results, view, scene, parts, single).items():
+        densities[number] = np.clip(FINER * asked, density[number] / COARSER[0], density[number])
+    return densities
+
+
+def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, density: list, atlases: dict) -> dict:
+    """The levels by source, whose triangles `parts` are, at a `density` of texels per unit for each of these, (n,), and
+    as `atlases` have them at that."""
     corners = scene.mesh.positions[scene.mesh.triangles]
     wide = {number: is_wide(atlas) for number, atlas in atlases.items()}
     large = {number: wide[number] and atlas.size >= LARGE for number, atlas in atlases.items()}
@@ -105,15 +120,16 @@ def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, densi
         breathe()
         division = divisions[number]
         # where nearly all is to be fine, coarser pictures would only cost
-        in_steps = large[number] and (FINER * asked[number] > 0.5 * density[number]).mean() < NEARLY_ALL
+        most = density[number][division.owner]
+        in_steps = large[number] and (FINER * asked[number] > 0.5 * most).mean() < NEARLY_ALL
         levels = COARSER if in_steps else COARSER[-1:]
-        maps = [atlases[number] if times == 1 else packed(corners[part], float(density[number]) / times)
+        maps = [atlases[number] if times == 1 else packed(corners[part], density[number] / times)
                 for times in levels]
         front, back = seen[:, part[division.owner]]
         needed = [{False: front, True: back, None: front | back}]
         for times in levels[1:]:
             # what the level before shows finely enough is left to it
-            fine = FINER * asked[number] > density[number] / (2.0 * times)
+            fine = FINER * asked[number] > most / (2.0 * times)
             needed.append({side: once & fine for side, once in needed[0].items()})
         made[number] = ObjectLevels(wide[number], division, [Atlas(one.size, division.values(one.uv)) for one in maps],
                                     needed)

@@ -12,10 +12,11 @@ from ..faults import Steps, Undivided, part
 from ..reading import DiffuseScene, is_opaque, materials_of
 from ..reading.meshes import read_meshes
 from .bake_scene import bake_scene
-from .levels import FINER, levels_of
+from .levels import FINER, fine_where_seen, levels_of
 from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
 from .stand_ins import new_meshes, stand_ins
 from .texels import arranged, is_glossy, is_metal, packed
+from .thrown import thrown_light
 from .undeformed import is_deformed, undeformed_positions
 
 LARGEST = 4096  # texels along a side of all maps together
@@ -59,23 +60,27 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
     yield 0.0, MEASURING
     seen = yield from part(in_steps(partial(seen_sources, results, view, scene)), 0.0, 0.0, MEASURING)
     parts, open_, sheets = yield from part(in_steps(partial(_sheets, scene, seen)), 0.0, 0.0, MEASURING)
-    atlases, at, side, density = yield from part(
-        in_steps(partial(_packed, scene, parts, sheets, FINER * seen.density)), 0.0, 0.0, MEASURING)
+    density = yield from part(in_steps(partial(fine_where_seen, results, view, scene, parts, FINER * seen.density)),
+                              0.0, 0.0, MEASURING)
+    atlases, at, side, density = yield from part(in_steps(partial(_packed, scene, parts, sheets, density)), 0.0, 0.0,
+                                                 MEASURING)
     levels = yield from part(in_steps(partial(levels_of, results, view, scene, parts, density, atlases)), 0.0, 0.0,
                              MEASURING)
-    texels = np.zeros((side, side, 4), dtype=np.float32)
-    areas = {sheet: texels[row:row + atlases[sheet[0]].size, column:column + atlases[sheet[0]].size]
-             for sheet, (column, row) in zip(sheets, at.tolist(), strict=True)}
+    uv = np.concatenate([(atlases[number].spots + start) / side for (number, _), start
+                         in zip(sheets, at, strict=True)]).astype(np.float32)
+    thrown, lit = yield from part(thrown_light(context, scene, sheets, uv, side), 0.0, 0.0)
     # opacity is the same from both sides
     asked = sheets + [(number, None) for number, through in enumerate(open_) if through]
-    pictures = yield from _pictures(context, scene, seen, levels, asked, samples)
-    for sheet, area in areas.items():
-        area[..., :3] = pictures[sheet][..., :3]
-        area[..., 3] = pictures[sheet[0], None][..., 0] if open_[sheet[0]] else 1.0
-    uv = {number: atlas.uv for number, atlas in atlases.items()}
-    spots = np.concatenate([(uv[sheet[0]] * atlases[sheet[0]].size + start) / side for sheet, start
-                            in zip(sheets, at, strict=True)])
-    return ObjectLight(texels, spots.astype(np.float32), sheets, _dull(scene, seen))
+    pictures, colours = yield from _pictures(context, scene, seen, levels, {sheet: sheet in lit for sheet in asked},
+                                             samples)
+    texels = np.zeros((side, side, 4), dtype=np.float32)
+    for (number, back), (column, row) in zip(sheets, at.tolist(), strict=True):
+        place = slice(row, row + atlases[number].size), slice(column, column + atlases[number].size)
+        texels[place][..., :3] = pictures[number, back][..., :3]
+        texels[place][..., 3] = pictures[number, None][..., 0] if open_[number] else 1.0
+        if (number, back) in lit:
+            texels[place][..., :3] += colours[number, back][..., :3] * thrown[place]
+    return ObjectLight(texels, uv, sheets, _dull(scene, seen))
 
 
 def _dull(scene: DiffuseScene, seen: SeenSources) -> tuple:
@@ -95,9 +100,10 @@ def _sheets(scene: DiffuseScene, seen: SeenSources) -> tuple[list, list, list]:
                           if both[number] or back == bool(seen.backs[number])]
 
 
-def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources, levels: dict, asked: list,
-              samples: int) -> Steps[dict]:
-    """What Cycles bakes of each of `asked`, (source, whether its backs); None there for how opaque it is."""
+def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources, levels: dict, asked: dict,
+              samples: int) -> Steps[tuple[dict, dict]]:
+    """What Cycles bakes of each of `asked`, (source, whether its backs); None there for how opaque it is; and, of those
+    whose value there says so, the colours of what is matte."""
     placed = read_meshes(context.evaluated_depsgraph_get(), scene.sources, mirror=False)
     divisions = {number: one.division for number, one in levels.items()}
     undeformed = yield from part(_undeformed(context.scene, scene.sources), 0.0, 0.0, PREPARING)
@@ -106,7 +112,7 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
     for number, back in asked:
         for level in range(-len(levels[number].atlases), 0):
             bakes.setdefault((back is None, bool(back), level), []).append(number)
-    found: dict = {}
+    found, matte = {}, {}
     done, whole = 0.0, sum(levels[number].texels(level, None) for (*_, level), some in bakes.items() for number in some)
     for (opacity, turned, level), chosen in sorted(bakes.items()):
         back = None if opacity else turned
@@ -128,11 +134,16 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
                 gloss = bool(seen.one_eye[number]) or any(map(is_metal, materials_of(scene.sources[number])))
                 picture = stage.bake(number, (width, height), seen.seen_from[number], gloss, few, denoised)
                 colours = stage.colours(number, (width, height), few) if denoised else None
-                found[number, back] = yield from part(
-                    in_steps(partial(own.picture, level, back, picture, found.get((number, back)), colours)),
-                    done / whole, 0.0, PREPARING)
+                made = [(found, picture, colours)]
+                if asked[number, back]:
+                    own_colours = stage.matte(number, (width, height), few)
+                    made.append((matte, own_colours, own_colours))
+                for kept, picture, colours in made:
+                    kept[number, back] = yield from part(
+                        in_steps(partial(own.picture, level, back, picture, kept.get((number, back)), colours)),
+                        done / whole, 0.0, PREPARING)
                 done += own.texels(level, None)
-    return found
+    return found, matte
 
 
 def _undeformed(scene: bpy.types.Scene, sources: list) -> Steps[dict]:
@@ -146,18 +157,17 @@ def _undeformed(scene: bpy.types.Scene, sources: list) -> Steps[dict]:
     return found
 
 
-def _packed(scene: DiffuseScene, parts: list, sheets: list,
-            density: np.ndarray) -> tuple[dict, np.ndarray, int, np.ndarray]:
+def _packed(scene: DiffuseScene, parts: list, sheets: list, density: list) -> tuple[dict, np.ndarray, int, list]:
     """The atlas of each source, where each sheet lies in the whole picture, its side, and the density that there was
     room for."""
     corners = scene.mesh.positions[scene.mesh.triangles]
     while True:
         breathe()
-        atlases = {number: packed(corners[part], float(density[number])) for number, part in enumerate(parts)}
+        atlases = {number: packed(corners[part], density[number]) for number, part in enumerate(parts)}
         at, side = arranged(np.array([atlases[number].size for number, _ in sheets]))
         if side <= LARGEST:
             return atlases, at, side, density
-        if density.max() * np.ptp(corners) < 1.0:
+        if max(one.max() for one in density) * np.ptp(corners) < 1.0:
             raise ReflectionError("The reflected objects have more triangles than a map of their light has room for: "
                                   "light the reflection in the picture.")
-        density = density * LESS
+        density = [one * LESS for one in density]

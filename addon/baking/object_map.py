@@ -56,7 +56,9 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     triangle = triangle_of(result, scene)
     shown, at = (vectors(mesh, name)[corner_vertices(mesh)] for name in ("reflected_position", "mirror_position"))
     front = fronts_seen(scene, triangle, (at - shown).mean(axis=1))
-    fronts, backs = _rows(scene, kept.sheets)
+    fronts, backs = rows_of(scene, kept.sheets)
+    # the same for both sides where the map has but one of them
+    fronts, backs = np.where(fronts < 0, backs, fronts), np.where(backs < 0, fronts, backs)
     row = np.where(front, fronts[triangle], backs[triangle])
     yield 0.0, WRITING
     weights = weights_of(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)
@@ -77,12 +79,12 @@ def write_mirror_normals(mesh: bpy.types.Mesh, view: View) -> bool:
     return True
 
 
-def _rows(scene: DiffuseScene, sheets: list) -> tuple[np.ndarray, np.ndarray]:
-    """Which triangle of the map is the front of each triangle of the scene, and which its back: the same where the map
-    has but one of them."""
+def rows_of(scene: DiffuseScene, sheets: list) -> tuple[np.ndarray, np.ndarray]:
+    """Which triangle of the map is the front of each triangle of the scene, and which its back, -1 where the map does
+    not have that."""
     rows = {False: np.full(len(scene.source_object), -1), True: np.full(len(scene.source_object), -1)}
     parts, start = triangles_by_source(scene), 0
     for number, back in sheets:
         rows[back][parts[number]] = start + np.arange(len(parts[number]))
         start += len(parts[number])
-    return tuple(np.where(rows[back] < 0, rows[not back], rows[back]) for back in (False, True))
+    return rows[False], rows[True]

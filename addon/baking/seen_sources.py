@@ -119,17 +119,23 @@ def triangle_of(result: bpy.types.Object, scene: DiffuseScene) -> np.ndarray:
     ReflectionError
         Where one of them does not take part in the scene.
     """
-    mesh = result.data
-    index = {source: number for number, source in enumerate(scene.sources)}
-    table = np.array([index.get(entry.object, -1) for entry in result.reflection_mesh.sources], dtype=np.int64)
-    owner = table[face_values(mesh, "source_object")]
-    if (owner < 0).any():
+    triangle = triangles_in(result, result.data, scene)
+    if (triangle < 0).any():
         raise ReflectionError(f"'{result.name}' shows an object that is hidden now: show it, or generate the "
                               "reflection again.")
-    face = face_values(mesh, "source_face")
+    return triangle
+
+
+def triangles_in(result: bpy.types.Object, mesh: bpy.types.Mesh, scene: DiffuseScene) -> np.ndarray:
+    """As `triangle_of`, with -1 where a source does not take part, or has fewer triangles now; the `mesh` may be
+    another than the result's own."""
+    index = {source: number for number, source in enumerate(scene.sources)}
+    table = np.array([index.get(entry.object, -1) for entry in result.reflection_mesh.sources], dtype=np.int64)
+    owner, face = table[face_values(mesh, "source_object")], face_values(mesh, "source_face")
     parts = triangles_by_source(scene)
-    starts = np.concatenate(([0], np.cumsum([len(part) for part in parts])))[:-1]
-    return np.concatenate(parts)[starts[owner] + face]
+    counts = np.array([len(part) for part in parts])
+    there = (owner >= 0) & (face < counts[owner])
+    return np.where(there, np.concatenate(parts)[np.where(there, (np.cumsum(counts) - counts)[owner] + face, 0)], -1)
 
 
 def triangles_by_source(scene: DiffuseScene) -> list:

@@ -56,6 +56,33 @@ def adds_light(receiver: bpy.types.Material | None, stains: list[tuple[Tint, bpy
     return material, known
 
 
+def light_alone(material: bpy.types.Material | None) -> bpy.types.Material | None:
+    """A copy, the caller's to remove, of a material that adds light: it emits what white paint would send back of that,
+    to either side; None where the material is not as it was made here."""
+    if material is None or not material.get(MARK):
+        return None
+    copy = material.copy()
+    tree = copy.node_tree
+    # as `_show` has linked them
+    both = _behind(tree.get_output_node("ALL"), "ADD_SHADER", "Surface")
+    emission = _behind(both, "EMISSION")
+    product = _behind(emission, "VECT_MATH")
+    if product is None:
+        bpy.data.materials.remove(copy)
+        return None
+    tree.links.new(product.inputs[0].links[0].from_socket, emission.inputs["Color"])
+    for link in list(emission.inputs["Strength"].links):
+        tree.links.remove(link)
+    emission.inputs["Strength"].default_value = 1.0 / math.pi
+    return copy
+
+
+def _behind(node: bpy.types.Node | None, kind: str, socket: str | int = 0) -> bpy.types.Node | None:
+    """What feeds a socket of a node, where it is of that kind."""
+    links = () if node is None else node.inputs[socket].links
+    return next((link.from_node for link in links if link.from_node.type == kind), None)
+
+
 def forget_added_light(materials: list) -> None:
     """Remove those of the materials that were made here and that nothing uses any more."""
     for material in materials:

@@ -19,7 +19,7 @@ from .nodes import Builder, disc_nodes, forget_nodes, hide_discs
 from .records import LONGEST as LONGEST_RECORD
 from .result_collection import forget_collection, gather, show_in_layer
 from .windows import close_abandoned_windows, set_window, what_is_in_the_way
-from .write_mesh import write_mesh
+from .write_mesh import FIELDS, write_mesh
 from .write_object import (
     RAYS,
     Reflection,
@@ -32,9 +32,9 @@ from .write_object import (
     write_object,
 )
 
-__all__ = ["Attribute", "Builder", "Edges", "LONGEST_RECORD", "MOST_UV_MAPS", "MeshArrays", "RAYS", "Reflection",
-           "UV_MAP", "Written", "as_shown", "close_abandoned_windows", "disc_nodes", "forget_collection", "forget_mesh",
-           "forget_nodes", "gather", "hide_discs", "light_layer", "link_beside", "mesh_arrays", "mesh_bytes",
-           "new_beside", "new_object", "place_of", "point_arrays", "put_back_materials", "set_window",
+__all__ = ["Attribute", "Builder", "Edges", "FIELDS", "LONGEST_RECORD", "MOST_UV_MAPS", "MeshArrays", "RAYS",
+           "Reflection", "UV_MAP", "Written", "as_shown", "close_abandoned_windows", "disc_nodes", "forget_collection",
+           "forget_mesh", "forget_nodes", "gather", "hide_discs", "light_layer", "link_beside", "mesh_arrays",
+           "mesh_bytes", "new_beside", "new_object", "place_of", "point_arrays", "put_back_materials", "set_window",
            "show_for_camera", "show_in_layer", "show_own_materials", "shown_layers", "size_text", "vertices_written",
            "what_is_in_the_way", "write_mesh", "write_object"]

@@ -43,7 +43,7 @@ def arranged(sizes: np.ndarray) -> tuple[np.ndarray, int]:
     return at, _side(int(area.sum()))
 
 
-def packed(corners: np.ndarray, density: float) -> Atlas:
+def packed(corners: np.ndarray, density: float | np.ndarray) -> Atlas:
     """Pack triangles into a picture, two and two into rectangles with sides of powers of two: the halves of a
     parallelogram side by side as they are, others with a gap.
 
@@ -54,15 +54,18 @@ def packed(corners: np.ndarray, density: float) -> Atlas:
     ----------
     corners : (n, 3, 3) float64
         In space.
-    density : float
-        Texels per unit of length.
+    density : float or (n,) float64
+        Texels per unit of length; two halves have the greater of theirs.
     """
     legs, first = _legs(corners)
     second, alike = halves(np.take_along_axis(corners, first[:, :, None], axis=1))
     first[alike] = first[alike][:, (0, 2, 1)]
-    legs[second] = legs[np.flatnonzero(second) - 1]
+    later = np.flatnonzero(second)
+    legs[second] = legs[later - 1]
     whole = second | np.r_[second[1:], np.zeros(min(len(second), 1), bool)]
-    texels = legs * density
+    fine = np.array(np.broadcast_to(density, len(legs)), dtype=np.float64)
+    fine[later] = fine[later - 1] = np.maximum(fine[later], fine[later - 1])
+    texels = legs * fine[:, None]
     exponents = _exponents(texels, whole)
     size = _side(int((4 ** _squares(exponents, whole)[2]).sum()))
     # no more than is asked for is baked, but for the smallest, which need the room

@@ -29,6 +29,7 @@ REFLECTING = {
 RENDERING = {
     "Cycles renders the light": "Cycles rendert das Licht",
     "Cycles renders what reflections cover": "Cycles rendert, was Spiegelungen verdecken",
+    "Cycles draws the light that mirrors throw": "Cycles zeichnet das Licht, das Spiegel werfen",
     "Cycles bakes the light on '{}'": "Cycles backt das Licht auf '{}'",
     "Cycles renders {}, {} of {}": "Cycles rendert {}, {} von {}",
     "the outline of the mirror": "den Umriss des Spiegels",

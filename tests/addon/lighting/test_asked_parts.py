@@ -55,6 +55,31 @@ def test_what_is_seen_from_afar_is_baked_coarsely(blank, room, monkeypatch):
     assert len(counted) == 3 and sum(counted) < 0.35 * texels
 
 
+def test_of_small_triangles_those_are_baked_finely_that_are_seen_so(blank, room, monkeypatch):
+    """Of a head before a hollow mirror, which shows a part of it, and that large: all of it was, for nine minutes."""
+    wall = scene_of(blank)
+    bpy.data.objects.remove(bpy.data.objects["Box"])
+    ball = parts.add("ico_sphere", "Other", subdivisions=6, radius=0.8, location=(0.0, -3.0, 1.0))
+    ball.data.materials.append(principled("Matte"))
+    ball.visible_camera = False
+    hollow = parts.add("grid", "Hollow", x_subdivisions=48, y_subdivisions=48, size=1.8)
+    places = np.array([vertex.co for vertex in hollow.data.vertices])
+    depth = (places[:, 0]**2 + places[:, 1]**2) / 10.0
+    places = np.column_stack((places[:, 0], 1.0 - depth, 1.0 + places[:, 1]))
+    hollow.data.vertices.foreach_set("co", places.astype(np.float32).ravel())
+    hollow.data.shade_smooth()
+    hollow.data.materials.append(wall.data.materials[0])
+    bpy.data.objects.remove(wall)
+    parts.select(ball, hollow)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    counted = baked_texels(monkeypatch, room)
+    light(16)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # 66,000, of which the ball's triangles take 40,000 at the least; 285,000 were all as fine as where it is largest
+    assert sum(counted) < 100_000
+
+
 def test_what_looks_away_from_all_mirrors_is_not_baked(blank, room, monkeypatch):
     """Of a ball before a flat mirror; one that is animated may see all of it."""
     wall = scene_of(blank)
@@ -146,6 +171,18 @@ def test_lines_of_sight_meet_where_they_come_from(room):
     found, angles = room("addon.baking.sight").places_of_sight(owner, rng.random(200), points, towards, start)
     assert np.abs(found[0] - places[0]).max() < 1e-3 and angles[0] < 1e-3
     assert np.isfinite(found[1]).all() and angles[1] < 0.1
+
+
+def test_lines_of_sight_that_are_parallel_come_from_far_away(room):
+    """Though they were looked for close by: a camera without perspective has no place."""
+    rng = np.random.default_rng(6)
+    points, way = rng.normal(size=(200, 3)), np.array([0.48, -0.64, 0.6])
+    start = points[:1] + 0.1
+    found, angles = room("addon.baking.sight").places_of_sight(np.zeros(200, int), np.ones(200), points, points + way,
+                                                               start)
+    aim = found[0] - points
+    off = np.arccos(np.minimum(aim @ way / np.linalg.norm(aim, axis=1), 1.0))
+    assert off.max() < 0.01 and abs(angles[0] - np.sqrt((off**2).mean())) < 1e-6
 
 
 def test_parts_tile_their_triangles(room):
