@@ -4,12 +4,14 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
+from ..illumination import is_glint
 from ..registration import Handlers
 from .preview import MARK
 
 # what may change light; all else, such as pictures that are only looked at, does not
 KINDS = (bpy.types.Object, bpy.types.Material, bpy.types.World, bpy.types.Light, bpy.types.Mesh, bpy.types.Curve,
          bpy.types.MetaBall, bpy.types.Camera, bpy.types.NodeTree)
+_shown: dict = {}  # of each scene, what took part when Blender last told of a change
 # objects that neither send light nor stop it
 UNSEEN = {"CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER"}
 
@@ -20,18 +22,35 @@ def _mark(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     # in the depsgraph of a render all is new
     if depsgraph.mode != "VIEWPORT":
         return
+    own = _own(scene)
+    before, now = _shown.get(scene.session_uid), _taking_part(scene, own)
+    _shown[scene.session_uid] = now
     # what plays baked frames has light that was made for each of them, and no record of one view
     lit = [obj for obj in scene.objects if obj.reflection_mesh.light_material is not None
            and obj.reflection_mesh.light and not obj.reflection_mesh.light_stale]
     if not lit:
         return
-    own = _own(scene)
+    # nothing tells of what is gone, or hidden from renders
+    other = before is not None and before != now
     told = [update.id.original for update in depsgraph.updates if _tells(update, own)]
     # light that stays with the objects is the same from everywhere
     lasting = [changed for changed in told if not _only_moves_the_view(changed, lit)]
     for obj in lit:
-        if told if obj.reflection_mesh.light_map is None else lasting:
+        if other or (told if obj.reflection_mesh.light_map is None else lasting):
             obj.reflection_mesh.light_stale = True
+
+
+@persistent
+def _remember(*_) -> None:
+    """Know what takes part in the scenes of a file that has been opened."""
+    _shown.clear()
+    _shown.update((scene.session_uid, _taking_part(scene, _own(scene))) for scene in bpy.data.scenes)
+
+
+def _taking_part(scene: bpy.types.Scene, own: set) -> frozenset:
+    """Numbers of the objects that send light in renders of a scene, or may stop it."""
+    return frozenset(obj.session_uid for obj in scene.objects if not obj.hide_render and obj.type not in UNSEEN
+                     and obj not in own and not is_glint(obj))
 
 
 def _own(scene: bpy.types.Scene) -> set:
@@ -61,5 +80,5 @@ def _tells(update: bpy.types.DepsgraphUpdate, own: set) -> bool:
     return changed and isinstance(update.id, KINDS) and update.id.original not in own
 
 
-HANDLERS = Handlers((_mark, "depsgraph_update_post", "frame_change_post"))
+HANDLERS = Handlers((_mark, "depsgraph_update_post", "frame_change_post"), (_remember, "load_post"))
 register, unregister = HANDLERS.register, HANDLERS.unregister

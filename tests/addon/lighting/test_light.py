@@ -305,6 +305,8 @@ def test_what_emits_in_a_plain_mirror_needs_no_light(blank):
     (lambda scene: setattr(scene.camera.data, "lens", 45.0), True),
     (lambda scene: setattr(next(iter(bpy.data.lights)), "energy", 10.0), True),
     (lambda scene: setattr(shader_of(bpy.data.materials["Source"]).inputs["Roughness"], "default_value", 0.2), True),
+    (lambda scene: bpy.data.objects.remove(next(obj for obj in scene.objects if obj.type == "LIGHT")), True),
+    (lambda scene: setattr(next(obj for obj in scene.objects if obj.type == "LIGHT"), "hide_render", True), True),
     (lambda scene: scene.frame_set(scene.frame_current + 1), False),
     (lambda scene: bpy.data.objects["Box"].select_set(False), False),
 ])
