@@ -1,6 +1,5 @@
 """The forward reflection method on plain NumPy arrays; knows nothing of Blender."""
 from .caustics import CausticMesh, Lamp, caustic_steps, caustics
-from .culling import PointTree, SceneTree
 from .following import FollowedImages
 from .geometry import TriangleMesh
 from .reflection import ReflectionError, reflect, reflection_steps
@@ -8,6 +7,7 @@ from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflec
 from .solver import Images, project
 from .standing import Standing
 from .support import METHODS, PLACEMENTS, NothingInView, Settings, breathe, in_steps
+from .trees import PointTree, SceneTree
 from .views import View, draw
 
 __all__ = ["CausticMesh", "Discs", "FollowedImages", "Images", "Lamp", "METHODS", "NothingInView", "PLACEMENTS",

@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .cameras import INSIDE, MirrorMap, drawn_in, settle
-from .culling import SceneTree, first_crossed
 from .geometry import TriangleMesh, norm, rows, unit
 from .result import ReflectionMesh, place
 from .support import breathe
+from .trees import SceneTree, first_crossed
 from .views import View
 
 STEPS = 3  # of Newton's method, before an image is looked for on other triangles of the mirror

@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .culling import PointTree, SceneTree
 from .geometry import TriangleMesh, area_normals, cross, dot, norm, rows
 from .support import LARGEST, ReflectionError, Settings
+from .trees import PointTree, SceneTree
 from .views import View
 
 

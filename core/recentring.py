@@ -13,9 +13,9 @@ from typing import TypeVar, cast
 
 import numpy as np
 
-from .culling import PointTree, SceneTree
 from .geometry import TriangleMesh
 from .result import ReflectionMesh
+from .trees import PointTree, SceneTree
 from .views import LampView, View
 
 FAR = 1024.0  # sizes of the mirror: nearer ones keep 43 of 53 bits

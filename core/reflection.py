@@ -18,7 +18,7 @@ from .cameras import (
     three_ray_cameras,
     visible_triangles,
 )
-from .culling import MirrorsShown, PointTree, SceneAndMirrors, SceneTree
+from .culling import MirrorsShown, SceneAndMirrors
 from .filling import Limits, missed_probes
 from .geometry import Order, TriangleMesh, ordered
 from .given import check_given
@@ -28,6 +28,7 @@ from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
 from .standing import Standing
 from .support import NothingInView, Progress, ReflectionError, Settings, in_steps
+from .trees import PointTree, SceneTree
 from .views import LampView, View
 from .visibility import cut_at_borders, cut_before_eye, lit, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces

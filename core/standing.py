@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .culling import PointTree, SceneAndMirrors, SceneTree
+from .culling import SceneAndMirrors
 from .geometry import Order, TriangleMesh, ordered
+from .trees import PointTree, SceneTree
 
 
 @dataclass(frozen=True)

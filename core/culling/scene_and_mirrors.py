@@ -14,15 +14,10 @@ import numpy as np
 from ..cameras import Cameras, MirrorSurface
 from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, in_order, others, rows, unit
 from ..support import breathe
-from .bounded_trace import bounded_trace
+from ..trees import Cones, PointTree, SceneTree, bounded_trace, curve_leaves, depth_for, first_crossed
 from .candidates import Candidates
-from .cones import Cones
-from .first_crossed import first_crossed
 from .mirrors_shown import MirrorsShown
-from .node_tree import curve_leaves, depth_for
-from .point_tree import PointTree
 from .scene_pieces import ScenePieces
-from .scene_tree import SceneTree
 
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
 FAMILY = 16  # cameras that are looked at together at the most, or about half as many

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..cameras import Cameras, PictureCells
 from ..geometry import TriangleMesh, rows
-from .scene_tree import SceneTree
+from ..trees import SceneTree
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import MirrorMap
-from ..culling import SceneAndMirrors, SceneTree, first_crossed
+from ..culling import SceneAndMirrors
 from ..geometry import TriangleMesh, dot, following, largest, ranges, shares, smallest, unit
 from ..support import breathe
+from ..trees import SceneTree, first_crossed
 from ..views import LampView, View
 
 ACROSS = 16  # probes along each side of the box round the mirror in the picture

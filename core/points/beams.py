@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras
-from ..culling import Cones
 from ..geometry import cross, dot, norm, unit
+from ..trees import Cones
 
 ROUNDING = 1e-9  # of what a point's distance is measured in
 

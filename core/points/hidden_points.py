@@ -4,9 +4,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import Cameras
-from ..culling import ABOVE, Cones, SceneAndMirrors
+from ..culling import ABOVE, SceneAndMirrors
 from ..geometry import cross, dot, norm, ranges, shares, unit
 from ..support import breathe
+from ..trees import Cones
 
 IMAGES_AT_ONCE = 500_000  # pairs of an image and a triangle of a mirror that may hide it
 MOST_PAIRS = 1 << 22  # of cameras and triangles of mirrors that are asked which images they hide

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 
 from ..cameras import INSIDE, drawn_in, least_weight, settle
-from ..culling import PointTree
 from ..geometry import rows
 from ..patches import Patch
 from ..support import breathe
+from ..trees import PointTree
 from .patch_nodes import Descent, Walk
 from .point_images import PointImages
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..culling import Cones, PointTree, median_leaves
 from ..geometry import columns, dot, norm, unit
 from ..patches import Patch, changes, find, find_near
 from ..support import breathe
+from ..trees import Cones, PointTree, median_leaves
 
 NODES_AT_ONCE = 2048  # what they hold fits the cache
 RAYS, SHEAVES = 9, 6  # two to the power of so many rays from all over the patch, and parts of it

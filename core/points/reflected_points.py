@@ -9,13 +9,14 @@ from collections.abc import Generator
 import numpy as np
 
 from ..cameras import ALONG_UV, Cameras, MirrorMap, drawn_in, grown, settle
-from ..culling import Cones, Magnification, PointTree, SceneAndMirrors
+from ..culling import SceneAndMirrors
 from ..geometry import columns, norm, rows
 from ..patches import Patch
 from ..polygons import VertexImages, images_of_pairs
 from ..result import Discs, ReflectionMesh
 from ..result import place as placed
 from ..support import Progress, breathe
+from ..trees import Cones, Magnification, PointTree
 from .beams import Beams
 from .disc_shapes import LARGEST, flat_discs, picture_ellipses
 from .hidden_points import hidden_by_mirrors

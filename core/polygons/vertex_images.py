@@ -7,10 +7,11 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..cameras import Cameras
-from ..culling import Candidates, Cones
+from ..culling import Candidates
 from ..geometry import ranges
 from ..solver import project
 from ..support import breathe
+from ..trees import Cones
 
 SAME_IMAGE = 1e-3  # pixels: closer images of one vertex are one image, found from both sides of a shared edge
 ROWS = 2.0**20  # of the picture and beyond, as high as that; what lies farther out is taken together

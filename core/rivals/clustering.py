@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..culling import BoxTree, SceneTree, meet
 from ..geometry import TriangleMesh, groups, ranges
+from ..trees import BoxTree, SceneTree, meet
 from ..views import View
 from .primary_hits import TOUCHING, PrimaryHits
 from .rival_picture import ITSELF, RivalPicture, Work

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import MirrorMap
-from ..culling import SceneTree
 from ..geometry import TriangleMesh, dot, unit
 from ..reflection import ReflectionError
+from ..trees import SceneTree
 from ..views import View, draw
 from .rival_picture import Work
 from .tracing import cones_around

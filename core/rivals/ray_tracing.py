@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..culling import BoxTree, first_hits
 from ..geometry import TriangleMesh
+from ..trees import BoxTree, first_hits
 from ..views import View
 from .pixel_blocks import cast_by_blocks
 from .primary_hits import TOUCHING, PrimaryHits

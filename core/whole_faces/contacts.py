@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..culling import Balls, SceneTree
 from ..geometry import meeting, norm
 from ..patches import Patch
 from ..result import DEPTH, GAP
 from ..support import breathe
+from ..trees import Balls, SceneTree
 
 LARGE = 256.0  # pixels: larger triangles of the mirror are cut too often to be cut along pieces of the scene
 

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, picture_areas
-from ..culling import Cones, ScenePieces, SceneTree
+from ..culling import ScenePieces
 from ..geometry import TriangleMesh, norm
 from ..patches import Patch, speck
 from ..support import FACE_SHARE, Settings, breathe
+from ..trees import Cones, SceneTree
 from ..views import box
 from .contacts import contacts
 from .division import Division

@@ -23,9 +23,10 @@ import numpy as np  # noqa: E402
 
 import core  # noqa: E402
 from core.cameras import MirrorMap, in_picture, three_ray_cameras, visible_triangles  # noqa: E402
-from core.culling import Cones, SceneAndMirrors, SceneTree  # noqa: E402
+from core.culling import SceneAndMirrors, SceneTree  # noqa: E402
 from core.geometry import SceneFrames, distinct  # noqa: E402
 from core.polygons import Overlaps, covering  # noqa: E402
+from core.trees import Cones  # noqa: E402
 from tools.measure import print_table  # noqa: E402
 from tools.timing.turns import _scene  # noqa: E402
 

@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...culling import Cones
 from ...geometry import norm, unit
+from ...trees import Cones
 
 WIDE = 0.7  # half the length between the axis and a ray from which on a cone holds everything
 

@@ -17,9 +17,9 @@ import numpy as np
 
 from ...cameras import MirrorSurface
 from ...caustics import Lamp
-from ...culling import BoxTree, first_hits
 from ...geometry import TriangleMesh, dot, norm
 from ...support import breathe
+from ...trees import BoxTree, first_hits
 
 SMALLEST = 1e-12  # sine of a way to a triangle: one that runs along it is sent on as if it did not quite
 TOUCHING = 1e-9  # of a way: a hit that much before its end is the end

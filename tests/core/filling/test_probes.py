@@ -8,10 +8,10 @@ import core.cameras.three_ray_cameras
 from core import Settings, TriangleMesh, View, reflect
 from core.cameras.mirror_map import MirrorMap
 from core.culling.scene_and_mirrors import SceneAndMirrors
-from core.culling.scene_tree import SceneTree
 from core.filling import probes
 from core.filling.probes import missed_probes
 from core.geometry.canonical_order import ordered
+from core.trees.scene_tree import SceneTree
 from tests.inputs import shapes
 from tests.inputs.scenes import SCENES
 from tests.oracles.true_map import case_of

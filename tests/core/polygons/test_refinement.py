@@ -7,11 +7,11 @@ from core.cameras.camera_splitting import in_picture, split_cameras
 from core.cameras.mirror_map import MirrorMap
 from core.cameras.mirror_refinement import BESIDE, refine_mirror
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
-from core.culling.cones import Cones
 from core.culling.scene_and_mirrors import SceneAndMirrors
 from core.geometry.scene_frames import SceneFrames
 from core.polygons.covering import Overlaps
 from core.polygons.outline_refinement import refine_for_outlines
+from core.trees.cones import Cones
 from tests.oracles.judge import compare
 from tests.oracles.true_map import case_of, mesh_of, true_rays, truth_of, view_rays
 

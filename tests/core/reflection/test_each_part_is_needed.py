@@ -15,12 +15,13 @@ import core.bounce
 import core.reflection
 from core import PointTree, Settings, TriangleMesh, View, reflect
 from core.cameras import Cameras
-from core.culling import Magnification, SceneAndMirrors
+from core.culling import SceneAndMirrors
 from core.filling import Crowds
 from core.filling.crowds import Filled
 from core.filling.whole_squares import Holders
 from core.points.beams import Beams
 from core.polygons import FaceRefinement, Overlaps
+from core.trees import Magnification
 from core.visibility.mirror_visibility import DepthGrid
 from tests.inputs import shapes
 from tests.oracles.judge import judge

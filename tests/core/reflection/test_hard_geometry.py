@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from core import METHODS, PLACEMENTS, ReflectionError, SceneTree, Settings, TriangleMesh, View, reflect
-from core.culling.point_tree import PointTree
+from core.trees.point_tree import PointTree
 from tests.core.calling.test_bad_input import SENTENCE, assert_sane
 from tests.inputs import hard_meshes, shapes
 from tests.inputs.hard_meshes import Case

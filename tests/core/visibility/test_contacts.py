@@ -6,8 +6,8 @@ from core import SceneTree, Settings, TriangleMesh, View, reflect
 from core.cameras.mirror_map import MirrorMap
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from core.culling.candidates import overlapping
-from core.culling.cones import Cones
 from core.geometry.scene_frames import SceneFrames
+from core.trees.cones import Cones
 from core.visibility.scene_contacts import drop_behind_contacts
 from tests.inputs import shapes
 from tests.oracles.judge import judge

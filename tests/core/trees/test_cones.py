@@ -4,7 +4,7 @@ import pytest
 
 from core.cameras.mirror_map import MirrorMap
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
-from core.culling.cones import Cones
+from core.trees.cones import Cones
 from tests.inputs.random_cameras import cameras_of, moved, random_cameras
 from tests.oracles.true_map import case_of
 

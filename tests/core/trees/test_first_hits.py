@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 
 from core import SceneTree, TriangleMesh
-from core.culling import BoxTree, first_crossed, first_hits
-from core.culling.box_tree import LEAF
+from core.trees import BoxTree, first_crossed, first_hits
+from core.trees.box_tree import LEAF
 from tests.inputs import shapes
 from tests.oracles.ray_hits import first_hits as brute_first_hits
 from tests.oracles.true_map import case_of

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from core import SceneTree, TriangleMesh, project
-from core.culling.cones import Cones
+from core.trees.cones import Cones
 from tests.inputs.random_cameras import cameras_of, moved, random_cameras
 from tests.oracles.every_pair import every_pair
 from tests.oracles.ray_hits import plane_hits

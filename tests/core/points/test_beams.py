@@ -3,9 +3,9 @@ import numpy as np
 import pytest
 
 from core import View, project
-from core.culling.cones import Cones
-from core.culling.magnification import Magnification
 from core.points.beams import Beams
+from core.trees.cones import Cones
+from core.trees.magnification import Magnification
 from tests.inputs.random_cameras import cameras_of
 
 VIEW = View.looking_at((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1000, 1000))
