@@ -4,6 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry import groups, shared_edges, split, unit
+from ..support import breathe
 from .reflection_map import ReflectionMap
 from .three_ray_cameras import Cameras
 
@@ -82,6 +83,7 @@ def true_rays(mirror_map: ReflectionMap, face: np.ndarray, places: np.ndarray) -
     """Origins and directions (3, n) of the rays that leave the mirror where places (3, n) on its faces are seen."""
     origins, rays = np.empty_like(places), np.empty_like(places)
     for start in range(0, len(face), CORNERS_AT_ONCE):
+        breathe()
         part = slice(start, start + CORNERS_AT_ONCE)
         origins[:, part], rays[:, part] = mirror_map.leave(face[part],
                                                            mirror_map.coordinates(face[part], places[:, part]))

@@ -79,6 +79,7 @@ class WholeSquares:
         holder = np.concatenate((holder, owner[shown]))
         spots = np.concatenate((spots, np.stack((column, row), axis=1) + 0.5 + ASIDE))
         places, face = places_at(cameras.select(holder), grid.pixels(*spots.T))[0], cameras.face[holder]
+        breathe()
         origins, rays = true_rays(cameras.mirror_map, face, places)
         corner, middle = corner.reshape(-1, 4), len(point) + np.arange(len(row))
         five = np.column_stack((corner, middle))
@@ -178,6 +179,7 @@ def _points(met: SceneAndMirrors, frames: SceneFrames, column: np.ndarray, place
             rays: np.ndarray) -> np.ndarray:
     """The points (3, n, k) at which rays (3, n, k) meet triangles; what lies beside one is drawn onto it, as corners of
     faces are."""
+    breathe()
     origins, ways = places.reshape(3, -1), rays.reshape(3, -1)
     met_at = origins + np.maximum(frames.distance(column, origins, ways), 0.0) * ways
     weights = np.maximum(np.nan_to_num(frames.weights(column, met_at)), 0.0)
