@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .cameras import Cameras, beyond_horizon, picture_areas, refine_mirror
+from .cameras import Cameras, beyond_horizon, refine_mirror
 from .culling import Candidates, MirrorsShown, SceneAndMirrors
 from .filling import Crowds, Limits
 from .geometry import SceneFrames, distinct, edge_lengths, norm
@@ -26,8 +26,6 @@ from .polygons import (
 )
 from .support import FACE_SHARE, MIRROR_SHARE, OUTLINE_SHARE, Progress, Settings
 from .visibility import cut_behind_mirrors, drop_behind_contacts, plainly_seen
-
-LOOK = 1.0 / 8.0  # of the work for a candidate: that of looking at a pair that may become one
 
 
 @dataclass(frozen=True)
@@ -142,28 +140,25 @@ def _met(cameras: Cameras, task: Task, showing: MirrorsShown,
     """Pairs of cameras and triangles that may overlap; which cameras (n,) meet too much, how many pairs were looked at,
     and how many tree nodes visited. Mirrors are looked for on the faces `showing` some, at the last bounce where
     they may hide something."""
-    met, most, worth = task.met, task.limits.pairs, picture_areas(cameras)
-    camera, triangle, visited, crowd = met.diffuse_in(cameras, most, worth)
-    count = len(camera)
-    crowd |= crowds.dense_in(cameras, LOOK * np.bincount(camera, minlength=len(cameras)))
-    left = ~crowd[camera]
-    camera, triangle = camera[left], triangle[left]
-    seen, column = distinct(triangle)
-    diffuse = Overlaps.of(cameras, SceneFrames.of(met, seen), (camera, column), met)
+    met, bound = task.met, crowds.bound(cameras)
+    found = met.diffuse_in(cameras, bound)
+    crowd = crowds.full(cameras, found)
+    left = ~crowd[found.cone]
+    seen, column = distinct(found.triangle[left])
+    diffuse = Overlaps.of(cameras, SceneFrames.of(met, seen), (found.cone[left], column), met)
     looking = showing.faces[cameras.face] & ~crowd
     if task.last:
         looking &= np.bincount(diffuse.candidates.camera, minlength=len(cameras)) > 0
     looking = np.flatnonzero(looking)
-    mirror_camera, triangle, more, given_up = met.mirrors_in(cameras.select(looking), most, worth[looking],
-                                                                showing)
-    crowd[looking[given_up]] = True
-    mirrors, column = distinct(triangle)
-    frames = SceneFrames.of(met, np.append(seen, mirrors + met.diffuse))
-    mirror = Overlaps.of(cameras, frames, (looking[mirror_camera], len(seen) + column), met)
+    mirrors = met.mirrors_in(cameras.select(looking), bound.select(looking), showing)
+    crowd[looking[crowds.full(cameras.select(looking), mirrors)]] = True
+    shown, column = distinct(mirrors.triangle)
+    frames = SceneFrames.of(met, np.append(seen, shown + met.diffuse))
+    mirror = Overlaps.of(cameras, frames, (looking[mirrors.cone], len(seen) + column), met)
     mirror = mirror.select(plainly_seen(met, mirror.candidates))
     diffuse = replace(diffuse, candidates=replace(diffuse.candidates, frames=frames))
-    return (Overlaps.joined((diffuse, mirror)).in_sight(task.last), crowd, count + len(mirror_camera),
-            visited + more)
+    return (Overlaps.joined((diffuse, mirror)).in_sight(task.last), crowd, len(found.cone) + len(mirrors.cone),
+            found.visited + mirrors.visited)
 
 
 def _projected(candidates: Candidates, task: Task) -> VertexImages:

@@ -9,7 +9,15 @@ from .folding import may_fold
 from .mirror_map import MirrorMap
 from .mirror_refinement import refine_mirror
 from .mirror_surface import ALONG_UV, MirrorSurface, drawn_in, least_weight
-from .picture_areas import covered_pixels, picture_areas, pixels_around_faces, pixels_of, places_at
+from .picture_areas import (
+    covered_pixels,
+    picture_areas,
+    pixels_around_faces,
+    pixels_crossed,
+    pixels_held,
+    pixels_of,
+    places_at,
+)
 from .picture_cells import PictureCells
 from .reflection_map import ReflectionMap, grown
 from .shading_horizon import beyond_horizon, cut_at_horizon
@@ -18,6 +26,6 @@ from .triangle_walk import INSIDE, brought_back, distance_from, settle
 
 __all__ = ["ALONG_UV", "BouncedMap", "Cameras", "INSIDE", "MirrorMap", "MirrorSurface", "PictureCells", "ReflectionMap",
            "beyond_horizon", "brought_back", "covered_pixels", "cut_at_horizon", "distance_from", "drawn_in", "grown",
-           "in_picture", "least_weight", "may_fold", "not_edge_on", "picture_areas", "pixels_around_faces", "pixels_of",
-           "places_at", "refine_mirror", "settle", "split_cameras", "three_ray_cameras", "true_rays",
-           "visible_triangles", "with_pieces"]
+           "in_picture", "least_weight", "may_fold", "not_edge_on", "picture_areas", "pixels_around_faces",
+           "pixels_crossed", "pixels_held", "pixels_of", "places_at", "refine_mirror", "settle", "split_cameras",
+           "three_ray_cameras", "true_rays", "visible_triangles", "with_pieces"]

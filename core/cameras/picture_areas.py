@@ -29,13 +29,22 @@ def pixels_around_faces(cameras: Cameras) -> float:
     return float(edge_lengths(_corners(cameras)).ravel()[~inner[edge.ravel()]].sum())
 
 
+def pixels_crossed(cameras: Cameras) -> np.ndarray:
+    """About how many pixels (n,), one at least, what lies in cameras is spread over: in a sliver over those that it
+    crosses."""
+    return np.maximum(pixels_of(cameras) + edge_lengths(_corners(cameras)).max(axis=1), 1.0)
+
+
+def pixels_held(cameras: Cameras) -> np.ndarray:
+    """The pixels (n,) that hold the middles of cameras, numbered from 0."""
+    width, height = cameras.view.resolution
+    x, y = np.minimum(_corners(cameras).mean(axis=1).astype(np.int64).T, ((width - 1,), (height - 1,)))
+    return distinct(x + width * y)[1]
+
+
 def covered_pixels(cameras: Cameras) -> int:
     """About how many pixels of the picture cameras cover together, each pixel once."""
-    view = cameras.view
-    places = cameras.places[:, cameras.corners].mean(axis=2)
-    pixels = np.floor(np.clip(view.pixels(places.T), 0.0, np.subtract(view.resolution, 1))).astype(np.int64)
-    _, pixel = distinct(pixels[:, 0] + view.resolution[0] * pixels[:, 1])
-    return round(float(np.minimum(np.bincount(pixel, pixels_of(cameras)), 1.0).sum()))
+    return round(float(np.minimum(np.bincount(pixels_held(cameras), pixels_of(cameras)), 1.0).sum()))
 
 
 def places_at(cameras: Cameras, spots: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

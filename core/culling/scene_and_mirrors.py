@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import copy
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from ..cameras import Cameras, MirrorSurface
 from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, in_order, others, rows, unit
 from ..support import breathe
-from ..trees import Cones, PointTree, SceneTree, bounded_trace, curve_leaves, depth_for, first_crossed
+from ..trees import Bound, Cones, PointTree, SceneTree, Touching, bounded_trace, curve_leaves, depth_for, first_crossed
 from .candidates import Candidates
 from .mirrors_shown import MirrorsShown
 from .scene_pieces import ScenePieces
@@ -93,9 +94,9 @@ class SceneAndMirrors:
     def showing_mirrors(self, cameras: Cameras, most: int) -> MirrorsShown:
         """The mirrors that cameras may show; those for which more than `most` pairs of cameras and triangles would have
         to be looked at may show any."""
-        camera, triangle, _, given_up = self.mirrors_in(cameras, most, np.ones(len(cameras)))
-        risen = self._above(self._upper_sides(cameras), camera, triangle, RISEN)
-        return MirrorsShown.of(cameras, (camera, triangle), risen, given_up)
+        found = self.mirrors_in(cameras, Bound(most, np.ones(len(cameras))))
+        risen = self._above(self._upper_sides(cameras), found.cone, found.triangle, RISEN)
+        return MirrorsShown.of(cameras, (found.cone, found.triangle), risen, found.given_up)
 
     def showing_scene(self, cameras: Cameras) -> np.ndarray:
         """Which cameras (n,) may show the diffuse scene."""
@@ -108,24 +109,19 @@ class SceneAndMirrors:
             found[on_patch] &= self.pieces.shown(cameras.select(on_patch))
         return found
 
-    def diffuse_in(self, cameras: Cameras, most: int,
-                   worth: np.ndarray) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
-        """Pairs of cameras and diffuse triangles that may be seen in them; tree nodes visited; what was given up."""
+    def diffuse_in(self, cameras: Cameras, bound: Bound) -> Touching:
+        """Cameras and diffuse triangles that may be seen in them."""
         assert isinstance(self.tree, SceneTree)  # points have a trace of their own
-        pieces = self.pieces
-        if pieces is None:
-            parts = [(self.tree, 0, np.ones(len(cameras), dtype=bool))]
-        else:
-            on_patch = pieces.holds(cameras)
-            parts = [(self.tree, 0, ~on_patch), (pieces.tree, len(self.tree.mesh.triangles), on_patch)]
-        pairs, visited, given_up = [], 0, np.zeros(len(cameras), dtype=bool)
-        for tree, first, own in parts:
+        if self.pieces is None:
+            return _traced(self.tree, cameras, bound)
+        on_patch = self.pieces.holds(cameras)
+        found = []
+        for tree, first, own in ((self.tree, 0, ~on_patch),
+                                 (self.pieces.tree, len(self.tree.mesh.triangles), on_patch)):
             chosen = np.flatnonzero(own)
-            camera, triangle, more, crowd = _traced(tree, cameras.select(chosen), most, worth[chosen])
-            pairs.append((chosen[camera], first + triangle))
-            given_up[chosen[crowd]] = True
-            visited += more
-        return *(np.concatenate(side) for side in zip(*pairs)), visited, given_up
+            part = _traced(tree, cameras.select(chosen), bound.select(chosen)).among(chosen, len(cameras))
+            found.append(replace(part, triangle=first + part.triangle))
+        return Touching.joined(found)
 
     @cached_property
     def _outside(self) -> float:
@@ -149,26 +145,22 @@ class SceneAndMirrors:
                 return 0.0
         return side
 
-    def mirrors_in(self, cameras: Cameras, most: int, worth: np.ndarray,
-                   before: MirrorsShown | None = None) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
-        """Pairs of cameras and triangles of mirrors that may be seen in them; tree nodes visited; what was given up.
-        What was found `before` is not looked for again."""
+    def mirrors_in(self, cameras: Cameras, bound: Bound, before: MirrorsShown | None = None) -> Touching:
+        """Cameras and triangles of mirrors that may be seen in them. What was found `before` is not looked for
+        again."""
         if before is not None:
             camera, triangle, known = before.known(cameras)
             asked = np.flatnonzero(~known)
-            more, others, visited, crowd = self.mirrors_in(cameras.select(asked), max(most - len(camera), 0),
-                                                           worth[asked])
-            given_up = np.zeros(len(cameras), dtype=bool)
-            given_up[asked[crowd]] = True
-            return np.concatenate((camera, asked[more])), np.concatenate((triangle, others)), visited, given_up
+            found = self.mirrors_in(cameras.select(asked), bound.select(asked).beside(len(camera)))
+            return Touching.joined([replace(Touching.none(len(cameras)), cone=camera, triangle=triangle),
+                                    found.among(asked, len(cameras))])
         # which side of its triangle the rays of a camera leave is asked once
         sides = self._upper_sides(cameras)
         if len(cameras) and self._outside and cameras.mirror_map.bounce == 1:
             surface, face = cameras.mirror_map.last(cameras.face)
             if (self._outside * dot(sides[1], surface.face_normal[:, face]) > 0.0).all():
-                none = np.zeros(0, dtype=np.int64)
-                return none, none, 0, np.zeros(len(cameras), dtype=bool)
-        return _traced(self.mirror_tree, cameras, most, worth,
+                return Touching.none(len(cameras))
+        return _traced(self.mirror_tree, cameras, bound,
                        lambda camera, triangle: self._above(sides, camera, triangle))
 
     def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
@@ -256,18 +248,14 @@ class SceneAndMirrors:
         return inner
 
 
-def _traced(tree: SceneTree, cameras: Cameras, most: int, worth: np.ndarray,
-            asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
-            ) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
+def _traced(tree: SceneTree, cameras: Cameras, bound: Bound,
+            asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None) -> Touching:
     """`bounded_trace` of cameras, those side by side that look nearly the same way."""
     family = _families(cameras)
     order = in_order(family)
     by_order = None if asked is None else lambda camera, triangle: asked(order[camera], triangle)
-    camera, triangle, visited, crowd = bounded_trace(tree, Cones.around(cameras.select(order)), most, worth[order],
-                                                     by_order, family[order])
-    given_up = np.zeros(len(order), dtype=bool)
-    given_up[order[crowd]] = True
-    return order[camera], triangle, visited, given_up
+    found = bounded_trace(tree, Cones.around(cameras.select(order)), bound.select(order), by_order, family[order])
+    return found.among(order, len(order))
 
 
 def _families(cameras: Cameras) -> np.ndarray:

@@ -12,16 +12,29 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..cameras import Cameras, covered_pixels, picture_areas, pixels_around_faces, pixels_of, places_at, with_pieces
+from ..cameras import (
+    Cameras,
+    covered_pixels,
+    picture_areas,
+    pixels_around_faces,
+    pixels_crossed,
+    pixels_held,
+    pixels_of,
+    places_at,
+    with_pieces,
+)
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, distinct, edge_lengths, groups
+from ..geometry import SceneFrames, distinct, groups
 from ..support import crowded
+from ..trees import Bound, Touching
 from ..views import LampView
 from .limits import Limits
 from .picture_squares import SquareGrid, first_side, in_squares
 from .shown_triangles import shown_triangles
 from .whole_squares import WholeSquares
 
+LOOK = 1.0 / 8.0  # of the work for a candidate: that of looking at a pair that may become one
+TESTS = 2.0  # of a cone and a triangle, to a pair
 HIDING = 1.0 / 4.0  # of the work for a candidate: that of asking whether a mirror hides it
 OVERLAPPING = 24  # of the mirrors in a camera: more hardly lie over one and the same polygon
 CROSSED = 2.0 / np.pi  # half as many lines of a square grid as a line of any direction crosses in its side's length
@@ -61,6 +74,17 @@ class Crowds:
         self._cameras.append(cameras.select(crowd))
         return cameras.select(~crowd)
 
+    def bound(self, cameras: Cameras) -> Bound:
+        """What may be looked for in the cameras."""
+        enough = TESTS * self.limits.dense / (LOOK * self.limits.square**2) * pixels_crossed(cameras)
+        return Bound(self.limits.pairs, picture_areas(cameras), enough)
+
+    def full(self, cameras: Cameras, found: Touching) -> np.ndarray:
+        """Which cameras (n,) have too much to look at in what was found."""
+        self.dense += int(found.full.sum())
+        looked = LOOK * np.bincount(found.cone, minlength=len(cameras))
+        return found.given_up | found.full | self.dense_in(cameras, looked)
+
     def thinned(self, candidates: Candidates, crowd: np.ndarray) -> Candidates:
         """Candidates within the limits, without those of the cameras that `crowd` (n,) names. Each mirror among them
         may hide a part of all others in its camera."""
@@ -77,12 +101,8 @@ class Crowds:
 
     def dense_in(self, cameras: Cameras, load: np.ndarray) -> np.ndarray:
         """Which cameras (n,), of so much work each, lie in pixels in which that is more than rays would be."""
-        view = cameras.view
-        corners = np.clip(np.nan_to_num(view.pixels(cameras.places.T)), 0.0, view.resolution)[cameras.corners]
-        x, y = corners.mean(axis=1).astype(np.int64).T
-        _, pixel = distinct(x + y * (view.resolution[0] + 1))
-        # what lies over several pixels is spread over them, and a sliver over those that it crosses
-        work = np.bincount(pixel, load / np.maximum(pixels_of(cameras) + edge_lengths(corners).max(axis=1), 1.0))
+        pixel = pixels_held(cameras)
+        work = np.bincount(pixel, load / pixels_crossed(cameras))
         dense = (load > 1.0) & (work[pixel] * self.limits.square**2 > self.limits.dense)
         self.dense += int(dense.sum())
         return dense
@@ -97,8 +117,10 @@ class Crowds:
         corners, face = (np.concatenate([getattr(crowd, name) for crowd in self._cameras])
                          for name in ("corners", "face"))
         crowds = replace(cameras, corners=corners, face=face)
-        size = _side(crowds, self.limits)
-        cells, triangle, rays, corner_face = _shown(crowds, self.met, size, self.last)
+        in_whole = cameras.mirror_map.bounce == 1 and not isinstance(cameras.view, LampView)
+        size = _side(crowds, self.limits, in_whole)
+        squares = WholeSquares.of(crowds, self.met, SquareGrid.over(crowds, size), self.last) if in_whole else None
+        cells, triangle, rays, corner_face = _shown(crowds, self.met, size, squares)
         seen = np.union1d(frames.triangle, triangle)
         frames, column = SceneFrames.of(self.met, seen), np.searchsorted(seen, frames.triangle)
         whole = replace(cells, corners=np.concatenate((cameras.corners, cells.corners)),
@@ -135,30 +157,31 @@ class Filled:
 
 
 def _shown(crowds: Cameras, met: SceneAndMirrors, size: float,
-           last: bool) -> tuple[Cameras, np.ndarray, int, np.ndarray]:
-    """Cells of crowded cameras in squares of `size` pixels, the triangle (m,) that each shows, how many rays were
-    traced, and the mirror's triangles (k, 3) of the corners of the last k, which lie in whole squares."""
-    if crowds.mirror_map.bounce > 1 or isinstance(crowds.view, LampView):
-        return *_cells_and_triangles(crowds, met, size, None), np.zeros((0, 3), dtype=np.int64)
-    squares = WholeSquares.of(crowds, met, SquareGrid.over(crowds, size), last)
+           squares: WholeSquares | None) -> tuple[Cameras, np.ndarray, int, np.ndarray]:
+    """Cells of crowded cameras in squares of `size` pixels, those in whole squares last, the triangle (m,) that each
+    shows, how many rays were traced, and the mirror's triangles (k, 3) of the corners of the last k."""
     cells, triangle, rays = _cells_and_triangles(crowds, met, size, squares)
+    if squares is None:
+        return cells, triangle, rays, np.zeros((0, 3), dtype=np.int64)
     cells = cells.replaced(np.concatenate((cells.corners, squares.corners + cells.places.shape[1])),
                            np.concatenate((cells.face, squares.face)), squares.places, squares.origins, squares.rays)
     return (cells, np.concatenate((triangle, squares.triangle)), rays + squares.traced,
             squares.corner_face[squares.corners])
 
 
-def _side(cameras: Cameras, limits: Limits) -> float:
-    """Of the squares through which rays fill the cameras, about as many as the limits allow, in pixels."""
+def _side(cameras: Cameras, limits: Limits, in_whole: bool) -> float:
+    """Of the squares through which rays fill the cameras, as many as the limits allow or a little more, in pixels;
+    where the limits are met most of them are to be `in_whole`."""
     most, size = limits.rays, limits.square
     # a face of the mirror lies in about as many squares as its area holds, its edges cross more, and one
     area, crossed = pixels_of(cameras).sum(), CROSSED * pixels_around_faces(cameras)
     faces = len(distinct(cameras.face)[0])
     if area / size**2 + crossed / size + faces <= most:
         return size
-    # whole pixels, so that the rays through their middles are traced; faces may share them
-    room = max(CELLS * most - faces, most / 2)
-    return max(1.0, np.ceil(2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300)))
+    # an odd number of pixels, so that the ray through a pixel's middle is one of them; faces may share them
+    room, crossed = (most, 0.0) if in_whole else (max(CELLS * most - faces, most / 2), crossed)
+    needed = 2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300)
+    return 1.0 + 2.0 * max(0.0, np.ceil(0.5 * (needed - 1.0)))
 
 
 def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, size: float,

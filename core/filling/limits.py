@@ -73,7 +73,7 @@ class Limits:
                    int(min(100_000 + 8 * pixels + 4 * triangles, memory / CANDIDATE_BYTES, faces)),
                    int(50_000 + 10 * pixels + 8 * triangles),
                    int(min(200_000 + 32 * pixels + 16 * triangles, memory / FACE_BYTES, faces)),
-                   int(min(8000 + pixels, 250_000, faces)), int(min(8000 + pixels // 2, faces // 16)),
+                   int(min(8000 + pixels, 500_000, faces)), int(min(8000 + pixels // 2, faces // 16)),
                    int(min(200_000 + 32 * pixels + triangles, memory / PIECE_BYTES)), int(min(memory, 2.0**62)),
                    min(SQUARE, settings.tolerance), np.inf if settings.hidden_faces else DENSE)
 

@@ -7,7 +7,7 @@ from ..cameras import Cameras
 from ..culling import ABOVE, SceneAndMirrors
 from ..geometry import cross, dot, norm, ranges, shares, unit
 from ..support import breathe
-from ..trees import Cones
+from ..trees import Bound, Cones
 
 IMAGES_AT_ONCE = 500_000  # pairs of an image and a triangle of a mirror that may hide it
 MOST_PAIRS = 1 << 22  # of cameras and triangles of mirrors that are asked which images they hide
@@ -16,9 +16,9 @@ MOST_PAIRS = 1 << 22  # of cameras and triangles of mirrors that are asked which
 def hidden_by_mirrors(met: SceneAndMirrors, cameras: Cameras, camera: np.ndarray,
                       places: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Which of the `points` (3, n), seen at `places` (3, n) in the cameras (n,), lie behind a mirror."""
-    owner, triangle, _, given_up = met.mirrors_in(cameras, MOST_PAIRS, np.ones(len(cameras)))
-    order = np.argsort(owner, kind="stable")
-    owner, triangle = owner[order], triangle[order]
+    found = met.mirrors_in(cameras, Bound(MOST_PAIRS, np.ones(len(cameras))))
+    order = np.argsort(found.cone, kind="stable")
+    owner, triangle = found.cone[order], found.triangle[order]
     start = np.searchsorted(owner, camera)
     offered = np.searchsorted(owner, camera, side="right") - start
     hidden = np.zeros(len(camera), dtype=bool)
@@ -30,7 +30,7 @@ def hidden_by_mirrors(met: SceneAndMirrors, cameras: Cameras, camera: np.ndarray
         behind = _passes(met, triangle[entry], places[:, image], points[:, image])
         hidden[image[behind]] = True
     # where cameras see too much of the mirrors, each image is asked for by itself
-    alone = np.flatnonzero(given_up[camera])
+    alone = np.flatnonzero(found.given_up[camera])
     zero, way = np.zeros(len(alone)), unit(points[:, alone] - places[:, alone])
     rays = Cones(places[:, alone], zero, way, zero, zero + 1.0)
     for image, triangle, _ in met.mirror_tree.traced(rays, np.ones(len(alone), dtype=bool)):

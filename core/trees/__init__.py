@@ -3,7 +3,7 @@
 In come meshes and the rays of cameras; out come pairs that may meet, and what rays meet first. J. L. Bentley, CACM 1975
 (k-d trees); I. Wald, 2007 (boxes for rays).
 """
-from .bounded_trace import bounded_trace
+from .bounded_trace import Bound, Touching, bounded_trace
 from .box_tree import BoxTree
 from .cones import Balls, Cones
 from .first_crossed import first_crossed
@@ -13,5 +13,5 @@ from .node_tree import curve_leaves, depth_for, median_leaves
 from .point_tree import PointTree
 from .scene_tree import SceneTree
 
-__all__ = ["Balls", "BoxTree", "Cones", "Magnification", "PointTree", "SceneTree", "bounded_trace", "curve_leaves",
-           "depth_for", "first_crossed", "first_hits", "median_leaves", "meet"]
+__all__ = ["Balls", "Bound", "BoxTree", "Cones", "Magnification", "PointTree", "SceneTree", "Touching", "bounded_trace",
+           "curve_leaves", "depth_for", "first_crossed", "first_hits", "median_leaves", "meet"]

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,37 +14,103 @@ from .scene_tree import SceneTree
 VISITS_OF_A_PAIR = 3  # tests of a cone against a node, to a pair that may be found
 
 
-def bounded_trace(tree: SceneTree, cones: Cones, most: int, worth: np.ndarray,
-                  asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
-                  family: np.ndarray | None = None
-                  ) -> tuple[np.ndarray, np.ndarray, int, np.ndarray]:
-    """Pairs of cones and triangles that may touch, no more than `most`.
+@dataclass(frozen=True)
+class Bound:
+    """What may be looked for.
 
-    Parameters
+    Attributes
     ----------
+    most : int
+        Pairs of cones (n) and triangles.
     worth : (n,) float64
         Of cones that meet too much, those are given up first that meet the most for their worth.
-    asked : callable, optional
-        Which pairs (p,) of a cone and a triangle count.
-    family : (n,) int64, optional
-        Rising: cones of one family lie close together.
+    enough : (n,) float64, optional
+        Triangles, to be tested at a time, from which on a cone is full.
+    """
 
-    Returns
-    -------
+    most: int
+    worth: np.ndarray
+    enough: np.ndarray | None = None
+
+    def select(self, chosen: np.ndarray) -> Bound:
+        return Bound(self.most, self.worth[chosen], None if self.enough is None else self.enough[chosen])
+
+    def beside(self, found: int) -> Bound:
+        """The bound where so many pairs are known."""
+        return Bound(max(self.most - found, 0), self.worth, self.enough)
+
+
+@dataclass(frozen=True)
+class Touching:
+    """Pairs (p) of cones (n) and triangles that may touch.
+
+    Attributes
+    ----------
     cone, triangle : (p,) int64
     visited : int
         Tests of a cone against a node.
     given_up : (n,) bool
-        Cones of which no pair is returned.
+        Cones that meet too much of all that may be found; no pair of them is among these.
+    full : (n,) bool
+        Cones that meet more than is worth looking at; no pair of them is among these either.
     """
+
+    cone: np.ndarray
+    triangle: np.ndarray
+    visited: int
+    given_up: np.ndarray
+    full: np.ndarray
+
+    @classmethod
+    def none(cls, count: int) -> Touching:
+        """Nothing, of so many cones."""
+        nothing, no_cone = np.zeros(0, dtype=np.int64), np.zeros(count, dtype=bool)
+        return cls(nothing, nothing, 0, no_cone, no_cone)
+
+    @classmethod
+    def joined(cls, parts: list[Touching]) -> Touching:
+        """All parts, of the same cones."""
+        cone, triangle, given_up, full = zip(*((part.cone, part.triangle, part.given_up, part.full) for part in parts))
+        return cls(np.concatenate(cone), np.concatenate(triangle), sum(part.visited for part in parts),
+                   np.logical_or.reduce(given_up), np.logical_or.reduce(full))
+
+    def among(self, chosen: np.ndarray, count: int) -> Touching:
+        """The same, where the cones are those `chosen` (n,) of so many."""
+        given_up, full = np.zeros((2, count), dtype=bool)
+        given_up[chosen], full[chosen] = self.given_up, self.full
+        return Touching(chosen[self.cone], self.triangle, self.visited, given_up, full)
+
+
+def bounded_trace(tree: SceneTree, cones: Cones, bound: Bound,
+                  asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
+                  family: np.ndarray | None = None) -> Touching:
+    """Pairs of cones and triangles that may touch, as many as are allowed.
+
+    Parameters
+    ----------
+    tree : SceneTree
+    cones : Cones
+    bound : Bound
+    asked : callable, optional
+        Which pairs (p,) of a cone and a triangle count.
+    family : (n,) int64, optional
+        Rising: cones of one family lie close together.
+    """
+    worth, most = bound.worth, bound.most
     wanted, visits = np.ones(len(worth), dtype=bool), VISITS_OF_A_PAIR * most
+    given_up = np.zeros(len(worth), dtype=bool)
     found, visited, total = [(np.zeros(0, dtype=np.int64),) * 2], 0, 0
-    for cone, triangle, more in tree.traced(cones, wanted, family):
+
+    def leave(cones: np.ndarray) -> None:
+        given_up[cones] |= wanted[cones]
+        wanted[cones] = False
+
+    for cone, triangle, more in tree.traced(cones, wanted, family, bound.enough):
         breathe()
         visited += more
         if visited > visits and len(cone):
             # what lies in the shares still to come is given up whole, with the rest of this one
-            wanted[cone.min() // CONES_AT_ONCE * CONES_AT_ONCE:] = False
+            leave(np.arange(cone.min() // CONES_AT_ONCE * CONES_AT_ONCE, len(worth)))
         if asked is not None and len(cone):
             kept = asked(cone, triangle)
             cone, triangle = cone[kept], triangle[kept]
@@ -52,8 +119,10 @@ def bounded_trace(tree: SceneTree, cones: Cones, most: int, worth: np.ndarray,
         if total > most or not wanted[cone].all():
             cone, triangle = (np.concatenate(side) for side in zip(*found))
             if total > most:
-                wanted &= ~crowded(np.bincount(cone, minlength=len(worth)), worth, most // 2)
+                leave(crowded(np.bincount(cone, minlength=len(worth)), worth, most // 2))
             kept = wanted[cone]
             found = [(cone[kept], triangle[kept])]
             total = int(kept.sum())
-    return *(np.concatenate(side) for side in zip(*found)), visited, ~wanted
+    cone, triangle = (np.concatenate(side) for side in zip(*found))
+    kept = wanted[cone]
+    return Touching(cone[kept], triangle[kept], visited, given_up, ~wanted & ~given_up)

@@ -102,16 +102,20 @@ class SceneTree(NodeTree):
         cone, triangle, visited = zip(*found)
         return np.concatenate(cone), np.concatenate(triangle), sum(visited)
 
-    def traced(self, cones: Cones | Balls, wanted: np.ndarray, family: np.ndarray | None = None
-               ) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
+    def traced(self, cones: Cones | Balls, wanted: np.ndarray, family: np.ndarray | None = None,
+               enough: np.ndarray | None = None) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
         """What `trace` returns, in shares that fit the memory; a cone that is no longer `wanted` (n,) when its turn
-        comes is not followed. Cones that lie side by side and have the same `family` (n,) descend as one."""
+        comes is not followed, nor is one wanted any longer that is to be tested against more than `enough` (n,)
+        triangles at a time. Cones that lie side by side and have the same `family` (n,) descend as one."""
         start = np.flatnonzero(np.diff(family, prepend=-1)) if family is not None else np.zeros(0, dtype=np.int64)
         if isinstance(cones, Cones) and LEAST_FAMILY * len(start) < len(wanted) and len(start):
-            yield from self._traced_together(cones, wanted, start)
+            yield from self._traced_together(cones, wanted, start, enough)
             return
         for cone, leaf, visited in self.descended(cones, wanted):
             begin, end = self.runs(self.depth, leaf)
+            if enough is not None:
+                left = _not_too_many(cone, end - begin, wanted, enough)
+                cone, begin, end = cone[left], begin[left], end[left]
             for part in shares(end - begin, 4 * NODES_AT_ONCE) or [slice(0, 0)]:
                 entry, pair = ranges(begin[part], (end - begin)[part])
                 own, triangle = cone[part][pair], self.order[entry]
@@ -120,15 +124,30 @@ class SceneTree(NodeTree):
                 yield own[touching], triangle[touching], visited
                 visited = 0
 
-    def _traced_together(self, cones: Cones, wanted: np.ndarray,
-                         start: np.ndarray) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
+    def _traced_together(self, cones: Cones, wanted: np.ndarray, start: np.ndarray,
+                         enough: np.ndarray | None) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
         """What `traced` returns for families of cones that begin at `start` (f,)."""
         size = np.diff(np.append(start, len(wanted)))
-        for family, triangle, visited in self.traced(cones.together(start), np.ones(len(start), dtype=bool)):
+        some = np.ones(len(start), dtype=bool)
+        most = None if enough is None else np.maximum.reduceat(enough, start)
+        for family, triangle, visited in self.traced(cones.together(start), some, enough=most):
             for part in shares(size[family], 4 * NODES_AT_ONCE) or [slice(0, 0)]:
                 own, pair = ranges(start[family[part]], size[family[part]])
-                some = triangle[part][pair]
-                sphere = columns(self.triangle_spheres, some)
+                chosen = triangle[part][pair]
+                if enough is not None:
+                    left = _not_too_many(own, np.ones(len(own)), wanted, enough)
+                    own, chosen = own[left], chosen[left]
+                sphere = columns(self.triangle_spheres, chosen)
                 touching = wanted[own] & cones.touch(own, sphere[:3], sphere[3])
-                yield own[touching], some[touching], visited
+                yield own[touching], chosen[touching], visited
                 visited = 0
+        wanted[np.repeat(~some, size)] = False
+
+
+def _not_too_many(cone: np.ndarray, tests: np.ndarray, wanted: np.ndarray, enough: np.ndarray) -> np.ndarray:
+    """Which of the cones (p,), that are to be tested against so many triangles each, are still `wanted` (n,): no more
+    where that is more than `enough` (n,) together."""
+    if len(cone):
+        part = slice(low := cone.min(), cone.max() + 1)  # a view: what is no longer wanted is told through it
+        wanted[part] &= np.bincount(cone - low, tests, part.stop - low) <= enough[part]
+    return wanted[cone]

@@ -6,6 +6,7 @@ from core import SceneTree, TriangleMesh, View
 from core.cameras import MirrorMap, three_ray_cameras, visible_triangles
 from core.culling import SceneAndMirrors
 from core.geometry import ordered
+from core.trees import Bound
 from tests.inputs import shapes
 
 SCENE = shapes.combine(shapes.box((0.0, -3.0, 0.0), (1.0, 1.0, 1.0)))
@@ -52,25 +53,27 @@ def met_and_cameras(mirror, eye=(0.3, -9.0, 2.0)):
     return met, three_ray_cameras(MirrorMap(view, mirror), mirror, visible_triangles(view, mirror))
 
 
+def everything(cameras):
+    return Bound(10**7, np.ones(len(cameras)))
+
+
 @pytest.mark.parametrize("name", MIRRORS)
 def test_convex_bodies_are_told(name):
     surface, convex = MIRRORS[name]
     met, cameras = met_and_cameras(shapes.combine(surface))
-    _, _, visited, _ = met.mirrors_in(cameras, 10**7, np.ones(len(cameras)))
-    assert (visited == 0) == convex
+    assert (met.mirrors_in(cameras, everything(cameras)).visited == 0) == convex
 
 
 def test_two_balls_show_each_other():
     met, cameras = met_and_cameras(shapes.combine(BALL, shapes.icosphere((3.0, 0.0, 0.0), 1.0, 3)))
-    camera, triangle, visited, _ = met.mirrors_in(cameras, 10**7, np.ones(len(cameras)))
-    assert visited and len(camera) and len(triangle)
+    found = met.mirrors_in(cameras, everything(cameras))
+    assert found.visited and len(found.cone) and len(found.triangle)
 
 
 def test_a_convex_body_shows_itself_from_inside():
     mirror = shapes.combine(shapes.icosphere((0.0, 0.0, 0.0), 20.0, 2))
     met, cameras = met_and_cameras(mirror)
-    camera, _, _, _ = met.mirrors_in(cameras, 10**7, np.ones(len(cameras)))
-    assert len(np.unique(camera)) == len(cameras)
+    assert len(np.unique(met.mirrors_in(cameras, everything(cameras)).cone)) == len(cameras)
 
 
 @pytest.mark.parametrize("name", [name for name, (_, convex) in MIRRORS.items() if convex])

@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 
 from core import SceneTree, TriangleMesh, project
+from core.trees import Bound, bounded_trace
 from core.trees.cones import Cones
 from tests.inputs.random_cameras import cameras_of, moved, random_cameras
 from tests.oracles.every_pair import every_pair
@@ -135,15 +136,44 @@ def test_no_cones_meet_nothing():
     assert len(cone) == len(triangle) == visited == 0
 
 
+def parts_of_cameras(rng):
+    """Places and rays (120, 3, 3) of ten parts of each of twelve cameras."""
+    whole = random_cameras(rng, 12)
+    weights = rng.dirichlet((1.0, 1.0, 1.0), (12, 10, 3))
+    return [np.einsum("xfc,fmkc->fmkx", given[:, whole.corners], weights).reshape(-1, 3, 3)
+            for given in (whole.places, whole.rays)]
+
+
+@pytest.mark.parametrize("family", [None, np.repeat(np.arange(12), 10)])
+@pytest.mark.parametrize("data", DATA)
+def test_cones_that_meet_more_than_enough_are_full_and_others_meet_all(data, family):
+    mesh, _ = case(data, "here")
+    cones, tree = Cones.around(cameras_of(*parts_of_cameras(np.random.default_rng(59)))), SceneTree.build(mesh)
+    every = bounded_trace(tree, cones, Bound(10**7, np.ones(120)), family=family)
+    count = np.bincount(every.cone, minlength=120)
+    enough = np.random.default_rng(61).choice([0.0, 0.5 * np.median(count), 2.0 * np.median(count), np.inf], 120)
+    found = bounded_trace(tree, cones, Bound(10**7, np.ones(120), enough), family=family)
+    assert not (every.full | every.given_up | found.given_up).any()
+    assert found.full[count > enough].all() and not found.full[np.isinf(enough)].any()
+    left = ~found.full[every.cone]
+    assert {*zip(found.cone, found.triangle)} == {*zip(every.cone[left], every.triangle[left])}
+
+
+def test_what_is_full_is_not_what_is_given_up():
+    mesh, _ = case("large", "here")
+    cones, tree = Cones.around(cameras_of(*parts_of_cameras(np.random.default_rng(59)))), SceneTree.build(mesh)
+    count = np.bincount(bounded_trace(tree, cones, Bound(10**7, np.ones(120))).cone, minlength=120)
+    enough = np.where(np.arange(120) % 2, 0.0, np.inf)
+    found = bounded_trace(tree, cones, Bound(int(count.max()), np.ones(120), enough))
+    assert found.given_up.any() and not (found.given_up & found.full).any() and not found.given_up[1::2].any()
+    assert found.full[1::2][count[1::2] > 0].all() and len(found.cone) <= count.max()
+
+
 @pytest.mark.parametrize("data", DATA)
 def test_cones_that_descend_together_meet_what_they_meet_alone(data):
     mesh, _ = case(data, "here")
     rng = np.random.default_rng(37)
-    # ten parts of each of twelve cameras
-    whole = random_cameras(rng, 12)
-    weights = rng.dirichlet((1.0, 1.0, 1.0), (12, 10, 3))
-    places, rays = (np.einsum("xfc,fmkc->fmkx", given[:, whole.corners], weights).reshape(-1, 3, 3)
-                    for given in (whole.places, whole.rays))
+    places, rays = parts_of_cameras(rng)
     cones, tree = Cones.around(cameras_of(places, rays)), SceneTree.build(mesh)
     wanted = np.arange(120) % 7 != 3
     pairs, visits = [], []
