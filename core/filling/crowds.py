@@ -121,6 +121,9 @@ class Crowds:
         size = _side(crowds, self.limits, in_whole)
         squares = WholeSquares.of(crowds, self.met, SquareGrid.over(crowds, size), self.last) if in_whole else None
         cells, triangle, rays, corner_face = _shown(crowds, self.met, size, squares)
+        if self.last:  # what shows a mirror shows nothing
+            scene = np.flatnonzero(triangle < self.met.diffuse)
+            cells, triangle = cells.select(scene), triangle[scene]
         seen = np.union1d(frames.triangle, triangle)
         frames, column = SceneFrames.of(self.met, seen), np.searchsorted(seen, frames.triangle)
         whole = replace(cells, corners=np.concatenate((cameras.corners, cells.corners)),
