@@ -1,7 +1,8 @@
 """What triangles hide of cameras, and the cameras without it.
 
 As seen from the eye the part that a triangle hides is convex: inside the triangle's three sides, each a plane through
-the eye, and behind its plane. All four are linear in the camera's weights. The borders of such parts that no two
+the eye, and behind its plane; where it reaches behind the plane of an orthographic eye, what it hides from there on. All
+are linear in the camera's weights. The borders of such parts that no two
 triangles side by side share are outlines of what hides, or lines in which it meets the mirror; along these a camera is
 cut, and of the pieces those are kept whose middle the eye sees.
 """
@@ -28,9 +29,9 @@ class HiddenParts:
     Attributes
     ----------
     parts : ConvexPolygons
-    sides : (4, 3, q) float64
-        Functions at the cameras' corners that are positive together on the part: of the triangle's sides, and of its
-        plane.
+    sides : (4 or 5, 3, q) float64
+        Functions at the cameras' corners that are positive together on the part: of the triangle's sides, of its plane,
+        and in orthographic views of the eye's.
     eye : (q,) float64
         How far the eye is from the plane, in the units of the last function; in orthographic views, how fast one
         comes nearer to the plane on the way to the eye.
@@ -53,7 +54,7 @@ class HiddenParts:
         sides[3] -= deeper * norm(frames.normal)[column]
         chosen = np.flatnonzero(solid & (sides.max(axis=1) > 0.0).all(axis=0))
         sides, parts = sides[:, :, chosen], ConvexPolygons.whole(len(chosen))
-        for label, values in zip(range(Line.SCENE_EDGE, Line.CONTACT + 1), sides):
+        for label, values in zip(range(Line.SCENE_EDGE, Line.HIDDEN + 1), sides):
             parts = parts.cut(values, label)
         return cls(parts, sides, eye[chosen], camera[chosen], column[chosen])._select(parts.areas > SMALLEST)
 
@@ -154,8 +155,8 @@ def _places(frames: SceneFrames, column: np.ndarray) -> tuple[np.ndarray, np.nda
 
 def _sides(cameras: Cameras, frames: SceneFrames, camera: np.ndarray,
            column: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The functions and the eye's distance as `HiddenParts` has them, (4, 3, p) and (p,); and which triangles are not
-    seen edge on, when they hide nothing."""
+    """The functions and the eye's distance as `HiddenParts` has them, (4 or 5, 3, p) and (p,); and which triangles are
+    not seen edge on, when they hide nothing."""
     view = cameras.view
     places = np.take(cameras.places, cameras.corners[camera].T, axis=1)
     vertices = rows(frames.positions[frames.vertices[:, column]])
@@ -176,4 +177,9 @@ def _sides(cameras: Cameras, frames: SceneFrames, camera: np.ndarray,
         functions.append(np.sign(inward) * dot(normal[:, None], places - base[:, None]))
     _, _, height = frames.coordinates(column, places)
     functions.append(-np.sign(eye_side) * height)
+    if view.orthographic:
+        depths = [view.depths(some.reshape(3, -1).T).reshape(some.shape[1:]) for some in (places, vertices)]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            hiding = depths[0] + height / eye_side
+        functions.append(np.where((depths[1] >= 0.0).all(axis=0) | (eye_side == 0.0), 1.0, hiding))
     return np.stack(functions), np.abs(eye_side), solid & (eye_side != 0.0)

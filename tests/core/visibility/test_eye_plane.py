@@ -68,6 +68,18 @@ def test_what_stands_beside_and_behind_the_eye_still_hides():
     assert numbers["uncovered"] < 0.1 and numbers["p99"] < 0.5
 
 
+def test_what_stands_on_the_mirror_hides_nothing_with_what_lies_behind_an_orthographic_eye():
+    # a sheet leans towards the eye, and over it: the floor under its end is seen, that near its foot is not
+    sheet = shapes.quad((0.0, 0.0, 0.5), (2.0, 0.0, 0.0), (0.0, -2.0, 0.5))
+    wall = shapes.quad((0.0, 4.0, 1.0), (4.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    floor, scene = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (0.0, 3.0, 0.0))), \
+        shapes.combine(sheet, wall)
+    view = View.looking_at((0.0, -1.0, 0.2), (0.0, 1.0, -0.6), (160, 160), orthographic_scale=3.0)
+    numbers = judge(view, floor, scene, reflect(view, floor, scene))
+    assert numbers["compared"] > 2000
+    assert numbers["uncovered"] < 0.1 and numbers["p99"] < 0.5
+
+
 def test_parts_before_the_eye_cover_what_lies_before_it_and_nothing_else():
     rng = np.random.default_rng(11)
     mesh = TriangleMesh(rng.normal(size=(60, 3)), np.arange(60).reshape(-1, 3))
