@@ -1,10 +1,10 @@
 """What triangles hide of cameras, and the cameras without it.
 
 As seen from the eye the part that a triangle hides is convex: inside the triangle's three sides, each a plane through
-the eye, and behind its plane; where it reaches behind the plane of an orthographic eye, what it hides from there on. All
-are linear in the camera's weights. The borders of such parts that no two
-triangles side by side share are outlines of what hides, or lines in which it meets the mirror; along these a camera is
-cut, and of the pieces those are kept whose middle the eye sees.
+the eye, and behind its plane; of one that reaches behind the plane of an orthographic eye, what that part hides which
+lies before it. All are linear in the camera's weights. The borders of such parts that no two triangles side by side
+share are outlines of what hides, or lines in which it meets the mirror; along these a camera is cut, and of the pieces
+those are kept whose middle the eye sees.
 """
 from __future__ import annotations
 
