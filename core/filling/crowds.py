@@ -20,17 +20,15 @@ from ..cameras import (
     pixels_crossed,
     pixels_held,
     pixels_of,
-    places_at,
-    with_pieces,
 )
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, distinct, groups
+from ..geometry import SceneFrames, distinct
 from ..support import crowded
 from ..trees import Bound, Touching
 from ..views import LampView
 from .limits import Limits
-from .picture_squares import SquareGrid, first_side, in_squares
-from .shown_triangles import shown_triangles
+from .picture_squares import SquareGrid
+from .square_cells import cells_and_triangles
 from .whole_squares import WholeSquares
 
 LOOK = 1.0 / 8.0  # of the work for a candidate: that of looking at a pair that may become one
@@ -39,7 +37,6 @@ HIDING = 1.0 / 4.0  # of the work for a candidate: that of asking whether a mirr
 OVERLAPPING = 24  # of the mirrors in a camera: more hardly lie over one and the same polygon
 CROSSED = 2.0 / np.pi  # half as many lines of a square grid as a line of any direction crosses in its side's length
 CELLS = 4  # for each ray, where faces of the mirror may share one
-SMALLEST = 1e-9  # square pixels: smaller cells are nothing
 
 
 class Crowds:
@@ -163,7 +160,7 @@ def _shown(crowds: Cameras, met: SceneAndMirrors, size: float,
            squares: WholeSquares | None) -> tuple[Cameras, np.ndarray, int, np.ndarray]:
     """Cells of crowded cameras in squares of `size` pixels, those in whole squares last, the triangle (m,) that each
     shows, how many rays were traced, and the mirror's triangles (k, 3) of the corners of the last k."""
-    cells, triangle, rays = _cells_and_triangles(crowds, met, size, squares)
+    cells, triangle, rays = cells_and_triangles(crowds, met, size, squares)
     if squares is None:
         return cells, triangle, rays, np.zeros((0, 3), dtype=np.int64)
     cells = cells.replaced(np.concatenate((cells.corners, squares.corners + cells.places.shape[1])),
@@ -185,30 +182,3 @@ def _side(cameras: Cameras, limits: Limits, in_whole: bool) -> float:
     room, crossed = (most, 0.0) if in_whole else (max(CELLS * most - faces, most / 2), crossed)
     needed = 2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300)
     return 1.0 + 2.0 * max(0.0, np.ceil(0.5 * (needed - 1.0)))
-
-
-def _cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, size: float,
-                         squares: WholeSquares | None) -> tuple[Cameras, np.ndarray, int]:
-    """Cells of crowded cameras, in those squares of `size` pixels that are not whole, that show something, the triangle
-    (m,) that each shows, and how many rays were traced for it."""
-    cells, square, places = _cells(cameras, size, squares)
-    first, group = groups(*square)
-    triangle = shown_triangles(met, cells.select(first), places[:, first])[group]
-    shown = np.flatnonzero(triangle >= 0)
-    return cells.select(shown), triangle[shown], len(first)
-
-
-def _cells(cameras: Cameras, size: float,
-           squares: WholeSquares | None) -> tuple[Cameras, np.ndarray, np.ndarray]:
-    """The parts of the cameras in squares of `size` pixels of the picture, in which square (2, n) each lies, and places
-    (3, n) to look at: where the middle of the square is seen, and those first, the nearest ahead; else their own
-    middles."""
-    view = cameras.view
-    parent, weights = in_squares(cameras, size, None if squares is None else squares.holds).triangles(0.0)
-    cells, _ = with_pieces(cameras, np.zeros(len(cameras), dtype=bool), parent, weights)
-    cells = cells.select(pixels_of(cells) > SMALLEST)
-    square = np.floor((view.pixels(cells.places.T)[cells.corners].mean(axis=1) - first_side(size)) / size)
-    places, holds = places_at(cells, first_side(size) + (square + 0.5) * size)
-    places = np.where(holds, places, cells.places[:, cells.corners].mean(axis=2))
-    order = np.lexsort((view.depths(places.T), ~holds))
-    return cells.select(order), square[order].T.astype(np.int64), places[:, order]

@@ -12,6 +12,7 @@ from ..support import breathe
 
 CUTS = 64  # halvings one after another: enough for 2^32 squares along both sides of the picture
 TOUCHING = 1e-6  # of a square: what reaches less far into it only touches it
+ASIDE = np.array([0.005, 0.0])  # squares: from the middle, where pixels look; far more than single precision rounds by
 
 
 @dataclass(frozen=True)

@@ -17,11 +17,10 @@ from ..geometry import SceneFrames, distinct, dot, groups, norm, rows, shared_ed
 from ..result import GAP
 from ..support import breathe
 from ..views import Covered, View
-from .picture_squares import TOUCHING, SquareGrid
+from .picture_squares import ASIDE, TOUCHING, SquareGrid
 from .shown_triangles import shown_triangles
 
 WELD = 1e-9  # of the size of what is crowded: corners closer than this lie in one place
-ASIDE = np.array([0.005, 0.0])  # squares: far more than single precision rounds by
 HALF = 0.5  # of what layers slide at least, to be on the safe side
 STRAYING = 0.25  # pixels: what the middle may be shown beside its place by
 TWO, FOUR = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])

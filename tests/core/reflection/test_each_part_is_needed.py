@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import core.bounce
+import core.filling.square_cells
 import core.reflection
 from core import PointTree, Settings, TriangleMesh, View, reflect
 from core.cameras import Cameras
@@ -101,6 +102,8 @@ PARTS = {
         candidates, np.zeros((0, 3), dtype=np.int64), 0, 0, False), "sphere", "uncovered", 10.0, settings=RAYS),
     "whole squares": Part(Holders, "inner", lambda self: np.zeros(self.size[::-1], dtype=bool),
                           (SMALL, FINE_BALL, ROOM), "faces", settings=RAYS),
+    "middles of cells": Part(core.filling.square_cells, "_round_middles", lambda cells, some, spots: (
+        cells, np.arange(len(cells))), "torus", "maximum", settings=RAYS),
     "what hides what rays show": Part(SceneAndMirrors, "hidden_within", lambda self, origin, ray, reach: np.zeros(
         len(reach), dtype=bool), (VIEW, FLOOR, BOXES), "uncovered", above=0.1, settings=RAYS),
     "work beside the origin": Part(REFLECTION, "far_corner", lambda mirror: None, "far away", "maximum"),
