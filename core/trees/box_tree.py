@@ -10,13 +10,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, cross, dot, ranges, rows
+from ..geometry import TriangleMesh, columns, cross, dot, ranges, rows
 from ..support import breathe
 
 BINS = 12
 LEAF = 8  # triangles that a leaf holds at most
 FEW = 4  # triangles that are not worth a cut
 DEEPEST = 64
+FRAMES_AT_ONCE = 32768
 ROUNDING = 1e-9  # of the tree's size: boxes are larger by this, so that no ray slips between two of them
 
 
@@ -59,11 +60,11 @@ class BoxTree:
     @classmethod
     def build(cls, mesh: TriangleMesh) -> BoxTree:
         middle, size, corners, areal = _about_middle(mesh)
-        levels, order = _levels(corners[:, areal].min(axis=2), corners[:, areal].max(axis=2))
-        order = areal[order]
+        corners = corners[:, areal]
+        levels, order = _levels(corners.min(axis=2), corners.max(axis=2))
         room = ROUNDING * size
         low, high, child, start, count = (np.concatenate(part, axis=-1) for part in zip(*levels))
-        return cls(middle, size, low - room, high + room, child, start, count, order, _frames(corners[:, order]))
+        return cls(middle, size, low - room, high + room, child, start, count, areal[order], _frames(corners, order))
 
     @classmethod
     def of_one_leaf(cls, mesh: TriangleMesh) -> BoxTree:
@@ -71,7 +72,7 @@ class BoxTree:
         know without boxes which triangles to test."""
         middle, size, corners, areal = _about_middle(mesh)
         frames = np.full((12, len(mesh.triangles)), np.nan)
-        frames[:, areal] = _frames(corners[:, areal])
+        frames[:, areal] = _frames(corners, areal)
         infinite, zero, count = np.full((3, 1), np.inf), np.zeros(1, dtype=np.int64), len(mesh.triangles)
         return cls(middle, size, -infinite, infinite, zero - 1, zero, zero + count, np.arange(count), frames)
 
@@ -91,7 +92,8 @@ def _about_middle(mesh: TriangleMesh) -> tuple[np.ndarray, float, np.ndarray, np
 
 
 def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
-    """(low, high, child, start, count) of the nodes of each level, and the order of the triangles."""
+    """(low, high, child, start, count) of the nodes of each level, and the order of the triangles, with boxes `low` to
+    `high` (3, m)."""
     order = np.arange(low.shape[1])
     start, count = np.zeros(1, dtype=np.int64), np.full(1, len(order))
     nodes, levels = 1, []
@@ -100,21 +102,21 @@ def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
         return [(*nothing, np.full(1, -1), start, count)], order
     for depth in range(DEEPEST):
         breathe()
-        # triangles of the leaves above are not looked at any more: the nodes here hold the others
-        entry, _ = ranges(start, count)
+        # the boxes are those of the triangles of this level's nodes, in their order
         first = np.cumsum(count) - count
-        item = order[entry]
-        breathe()
-        item_low, item_high = np.take(low, item, axis=1), np.take(high, item, axis=1)
-        node_low = np.minimum.reduceat(item_low, first, axis=1)
-        node_high = np.maximum.reduceat(item_high, first, axis=1)
+        node_low, node_high = np.minimum.reduceat(low, first, axis=1), np.maximum.reduceat(high, first, axis=1)
         left = np.zeros(len(start), dtype=np.int64)
         many = np.flatnonzero(count > FEW)
         if len(many) and depth + 1 < DEEPEST:
-            part, node = ranges(first[many], count[many])
-            boxes = np.take(item_low, part, axis=1), np.take(item_high, part, axis=1)
-            left[many], order[entry[part]] = _cut(boxes, item[part], node, count[many],
-                                                  (node_low[:, many], node_high[:, many]))
+            if len(many) < len(count):
+                part, _ = ranges(first[many], count[many])
+                low, high = columns(low, part), columns(high, part)
+            left[many], turn = _cut((low, high), count[many], (node_low[:, many], node_high[:, many]))
+            entry, node = ranges(start[many], count[many])
+            order[entry] = order[entry[turn]]
+            turn = turn[left[many][node] > 0]
+            breathe()
+            low, high = columns(low, turn), columns(high, turn)
         inner = left > 0
         child = np.full(len(start), -1)
         child[inner] = nodes + 2 * np.arange(int(inner.sum()))
@@ -128,25 +130,30 @@ def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
     return levels, order
 
 
-def _cut(boxes: tuple[np.ndarray, np.ndarray], item: np.ndarray, node: np.ndarray, count: np.ndarray,
+def _cut(boxes: tuple[np.ndarray, np.ndarray], count: np.ndarray,
          node_boxes: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """How many triangles of each node go to the left, 0 for a leaf; and the triangles, those of a node sorted."""
+    """How many triangles of each node go to the left, 0 for a leaf; and the order of their boxes (3, m), node after
+    node, in which those of each are sorted."""
     (low, high), (node_low, node_high) = boxes, node_boxes
-    centre, first = low + high, np.cumsum(count) - count
+    first, nodes = np.cumsum(count) - count, np.arange(len(count))
+    node = np.repeat(nodes, count)
+    centre = low + high
     least, most = np.minimum.reduceat(centre, first, axis=1), np.maximum.reduceat(centre, first, axis=1)
     axis = np.argmax(most - least, axis=0)
-    nodes = np.arange(len(first))
     begin, width = least[axis, nodes], (most - least)[axis, nodes]
-    along = centre[axis[node], np.arange(len(item))]
+    along = centre[axis[node], np.arange(len(node))]
+    del centre
+    breathe()
     bin_ = np.floor(BINS * (along - begin[node]) / np.where(width > 0.0, width, 1.0)[node]).astype(np.int64)
     key = node * BINS + np.minimum(bin_, BINS - 1)
+    del along, bin_, node
     turn = np.argsort(key, kind="stable")
     held = np.bincount(key, minlength=len(first) * BINS)
     full = np.flatnonzero(held)
     at = np.cumsum(held)[full] - held[full]
     bin_low, bin_high = np.full((3, len(held)), np.inf), np.full((3, len(held)), -np.inf)
-    bin_low[:, full] = np.minimum.reduceat(low[:, turn], at, axis=1)
-    bin_high[:, full] = np.maximum.reduceat(high[:, turn], at, axis=1)
+    bin_low[:, full] = np.minimum.reduceat(columns(low, turn), at, axis=1)
+    bin_high[:, full] = np.maximum.reduceat(columns(high, turn), at, axis=1)
     shape = (3, -1, BINS)
     bin_low, bin_high, held = bin_low.reshape(shape), bin_high.reshape(shape), held.reshape(-1, BINS)
     before = np.cumsum(held, axis=1)[:, :-1]
@@ -162,7 +169,7 @@ def _cut(boxes: tuple[np.ndarray, np.ndarray], item: np.ndarray, node: np.ndarra
     left = np.where(np.isfinite(cost), left, count // 2)
     worth = cost + _area(node_low, node_high) < count * _area(node_low, node_high)
     left[(count <= LEAF) & ~worth] = 0
-    return left, item[turn]
+    return left, turn
 
 
 def _area(low: np.ndarray, high: np.ndarray) -> np.ndarray:
@@ -170,9 +177,16 @@ def _area(low: np.ndarray, high: np.ndarray) -> np.ndarray:
     return x * y + y * z + z * x
 
 
-def _frames(corners: np.ndarray) -> np.ndarray:
-    corner, u, v = corners[:, :, 0], corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]
-    normal = cross(u, v)
-    area = dot(normal, normal)
-    x, y, z = cross(v, normal) / area, cross(normal, u) / area, normal / np.sqrt(area)
-    return np.concatenate([np.concatenate((way, -dot(way, corner)[None])) for way in (x, y, z)])
+def _frames(corners: np.ndarray, order: np.ndarray) -> np.ndarray:
+    """(12, t): of the triangles `order` (t,) with corners (3, m, 3)."""
+    frames = np.empty((12, len(order)))
+    for start in range(0, len(order), FRAMES_AT_ONCE):
+        breathe()
+        own = corners[:, order[start:start + FRAMES_AT_ONCE]]
+        corner, u, v = own[:, :, 0], own[:, :, 1] - own[:, :, 0], own[:, :, 2] - own[:, :, 0]
+        normal = cross(u, v)
+        area = dot(normal, normal)
+        ways = cross(v, normal) / area, cross(normal, u) / area, normal / np.sqrt(area)
+        frames[:, start:start + FRAMES_AT_ONCE] = np.concatenate([row for way in ways
+                                                                  for row in (way, -dot(way, corner)[None])])
+    return frames
