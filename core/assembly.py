@@ -12,7 +12,7 @@ import numpy as np
 from .bounce import Bounce
 from .cameras import MirrorMap, brought_back, distance_from
 from .culling import SceneAndMirrors
-from .geometry import SceneFrames, area_normals, distinct, dot, doubled_areas, groups, in_order, norm, rows
+from .geometry import SceneFrames, area_normals, columns, distinct, dot, doubled_areas, groups, in_order, norm, rows
 from .polygons import Faces
 from .result import ReflectionMesh, halfway, place
 from .support import breathe
@@ -44,7 +44,7 @@ def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors,
         normals = part["mirror_normals"]
         part["mirror_normals"] = np.pad(normals, ((0, 0), (0, most - normals.shape[1]), (0, 0)))
     breathe()
-    arrays = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    arrays = {name: np.concatenate([part.pop(name) for part in parts]) for name in tuple(parts[0])}
     breathe()
     faces = {"map_face": arrays.pop("map_face")}
     if isinstance(mirror_map.view, LampView):
@@ -75,8 +75,8 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
     count = len(whole.same)
     places, points = (np.concatenate(both, axis=1) for both in ((whole.place, bounce.nodes.place),
                                                                 (whole.point, bounce.nodes.point)))
-    corners = rows(met.positions[met.triangles[whole.source]].swapaxes(0, 1))
-    turned = _turned(mirror_map, whole.nodes, places, places, corners)
+    turned = _turned(mirror_map, whole.nodes, places, places,
+                     rows(met.positions[met.triangles[whole.source]].swapaxes(0, 1)))
     nodes = np.where(turned[:, None], whole.nodes[:, [0, 2, 1]], whole.nodes)
     # vertices that the faces of cameras have already
     vertex_of = np.full(places.shape[1], -1)
@@ -188,9 +188,11 @@ def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np
     """
     away = doubled_areas(mirror_map.view.pixels(seen.T)[nodes]) < 0.0
     breathe()
-    above = last[:, nodes.T] - corners
-    breathe()
-    height = dot(area_normals(corners)[:, None], above).sum(axis=0)
+    normals = area_normals(corners)
+    height = np.zeros(len(nodes))
+    for corner, node in enumerate(nodes.T):
+        breathe()
+        height += dot(normals, columns(last, node) - corners[:, corner])
     return away != (height < 0.0)
 
 

@@ -155,14 +155,14 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
 
     progress.start, progress.share = 0.0, 1.0
     progress.next(0.95, "depth order")
+    error = max(_estimate(*np.concatenate([bounce.left for bounce in bounces], axis=1)), error)
     mesh = assemble(mirror_map, bounces, task.met, settings.placement, reach, seams)
+    del bounces, seams
     mesh = in_given_order(mesh, tree.given, given)
     progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
     probes, missed = missed_probes(view, mirror, mirror_map, task.met, mesh.mirror_position, mesh.triangles)
     progress.done("probes", probes=probes, missed=missed)
-    left = np.concatenate([bounce.left for bounce in bounces], axis=1)
-    return replace(mesh, counts=progress.counts, seconds=progress.seconds,
-                   estimated_error=max(_estimate(*left), error))
+    return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=error)
 
 
 def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings,
