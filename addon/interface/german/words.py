@@ -258,6 +258,14 @@ OBSTACLES = {
     "The scene has no reflection to light: generate one first.":
         "Die Szene hat keine Spiegelung zum Beleuchten: erzeuge zuerst eine.",
     "The scene has no reflection to clear.": "Die Szene hat keine Spiegelung zum Entfernen.",
+    "The reflections are linked from another file: light them in that file, save it, and reload the library here.":
+        "Die Spiegelungen sind aus einer anderen Datei verknüpft: beleuchte sie dort, speichere, und lade die "
+        "Bibliothek hier neu.",
+    "The reflections are linked from another file: clear them in that file, save it, and reload the library here.":
+        "Die Spiegelungen sind aus einer anderen Datei verknüpft: entferne sie dort, speichere, und lade die "
+        "Bibliothek hier neu.",
+    "The scene is linked from another file: open that file, or choose a scene of this one.":
+        "Die Szene ist aus einer anderen Datei verknüpft: öffne jene Datei, oder wähle eine Szene aus dieser.",
 }
 LIVE = {
     "Live": "Live",
