@@ -4,7 +4,14 @@ from __future__ import annotations
 import bpy
 
 from ...core import ReflectionError, ReflectionMesh
-from ..reading import camera_of, every_result_of, rendered_alone, rendered_otherwise, without_surface
+from ..reading import (
+    camera_of,
+    every_result_of,
+    known_results,
+    rendered_alone,
+    rendered_otherwise,
+    without_surface,
+)
 from ..writing import what_is_in_the_way
 
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
@@ -67,8 +74,17 @@ def render_shortcomings(context: bpy.types.Context, mirrors: list, diffuse: list
     mirrors and diffuse objects, and what is hidden in the viewport alone; and on what has no mesh."""
     told = _other_meshes(context.scene, mirrors + diffuse) + _hidden(rendered_alone(context, mirrors, diffuse))
     told += [CUTS] * _cuts_unlocked(context, mirrors)
+    told += [f"'{mirror.name}' has a linked reflection too: hide one of the two." for mirror in mirrors
+             if _has_linked_result(context, mirror)]
     return told + [f"No reflection has hair, point clouds or volumes, as '{obj.name}' has: make meshes of them, or "
                    "leave the mirror to Cycles." for obj in without_surface(context, mirrors, diffuse)[:1]]
+
+
+def _has_linked_result(context: bpy.types.Context, mirror: bpy.types.Object) -> bool:
+    """Whether a reflection that is linked from another file lies on a mirror, in sight."""
+    return any(obj.library is not None and obj.reflection_mesh.mirror == mirror and obj.visible_get()
+               and obj.reflection_mesh.role == "REFLECTION"
+               for obj in known_results(context.scene, context.view_layer))
 
 
 def _cuts_unlocked(context: bpy.types.Context, mirrors: list) -> bool:

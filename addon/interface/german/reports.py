@@ -101,6 +101,8 @@ LACKS = {
     "render in-between frames and mix them.":
         "Bewegungsunschärfe: Spiegelungen sind scharf, weil ihre Flächen von Bild zu Bild andere sind; mache sie "
         "nach dem Rendern unscharf, oder mische Zwischenbilder.",
+    "'{}' has a linked reflection too: hide one of the two.":
+        "'{}' hat auch eine verknüpfte Spiegelung: blende eine der beiden aus.",
     "Markers change the camera: choose Render > Lock Interface, so that a render of the animation in this window shows "
     "each camera its own reflection.":
         "Marker wechseln die Kamera: wähle Rendern > Oberfläche sperren, damit ein Render der Animation in diesem "

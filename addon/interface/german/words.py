@@ -209,6 +209,8 @@ PANELS = {
     "Plays baked frames": "Spielt gebackene Einzelbilder",
     "{count:,} faces, {size}": "{count:,} Flächen, {size}",
     "{count:,} points, {size}": "{count:,} Punkte, {size}",
+    "It is linked from another file:": "Sie ist aus einer anderen Datei verknüpft:",
+    "there it is updated and lit.": "dort wird sie aktualisiert und beleuchtet.",
     "The render has another size now:": "Das Render hat jetzt eine andere Größe:",
     "press Generate Reflection again.": "drücke noch einmal Spiegelung erzeugen.",
     "The scene has changed since it was lit:": "Die Szene ist anders, als sie beleuchtet wurde:",

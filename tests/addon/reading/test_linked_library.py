@@ -134,6 +134,26 @@ def test_a_linked_reflection_is_lit_where_it_lives(linked_result, room, monkeypa
     assert parts.refusal(clear).startswith("The reflections are linked from another file: clear them in that file")
 
 
+def test_the_panel_says_that_a_reflection_is_linked(linked_result, room):
+    linked_result("OBJECT")
+    result = next(obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION")
+    bpy.context.scene.render.resolution_x = 7   # which else asks for another result
+    lines = []
+    layout = SimpleNamespace(label=lambda text="", icon="", translate=True: lines.append(text))
+    room("addon.interface.draw_object").draw_object(layout, bpy.context, result)
+    assert lines[-2:] == ["It is linked from another file:", "there it is updated and lit."]
+    assert not any("press" in line for line in lines)
+
+
+def test_a_second_reflection_over_a_linked_one_is_told_of(linked_result, room):
+    linked_result("OBJECT")
+    result = next(obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION")
+    mirror, lacks = result.reflection_mesh.mirror, room("addon.operators.shortcomings").render_shortcomings
+    assert lacks(bpy.context, [mirror], []) == [f"'{mirror.name}' has a linked reflection too: hide one of the two."]
+    result.hide_set(True)
+    assert lacks(bpy.context, [mirror], []) == []
+
+
 def test_a_linked_scene_cannot_be_changed(linked_result):
     linked_result("SCENE")
     assert bpy.context.scene.library
