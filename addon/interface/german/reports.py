@@ -105,7 +105,7 @@ LACKS = {
         "'{}' hat auch eine verknüpfte Spiegelung: blende eine der beiden aus.",
     "Markers change the camera: choose Render > Lock Interface, so that a render of the animation in this window shows "
     "each camera its own reflection.":
-        "Marker wechseln die Kamera: wähle Rendern > Oberfläche sperren, damit ein Render der Animation in diesem "
+        "Marker wechseln die Kamera: wähle Rendern > Interface sperren, damit ein Render der Animation in diesem "
         "Fenster jeder Kamera ihre eigene Spiegelung zeigt.",
     "Motion blur: the reflection is that of one moment, and is blurred as what lies on the mirror; blur it after the "
     "render, or switch motion blur off.":
