@@ -95,13 +95,19 @@ def _by_later_mirrors(parts: list[tuple[MirrorPart, np.ndarray, CausticMesh]],
 def _shading(scene: DiffuseScene, together: dict) -> np.ndarray:
     """By how much (m, 3) the smooth normals of what is lit change the light at the corners, which engines shade by the
     cosine to these instead of the flat triangle's."""
-    source, direction = together["source_face"], together["direction"]
-    flat = scene.mesh.face_normals()[source][:, None]
-    smooth = _unit(np.matmul(together["source_weights"], _unit(scene.normals[source], flat)), flat)
+    used, own = np.unique(together["source_face"], return_inverse=True)
+    flat = scene.mesh.face_normals()[used][:, None]
+    normals = _unit(scene.normals[used], flat)
+    # what is lit is flat more often than not
+    smooth = np.flatnonzero(((normals * flat).sum(axis=2).min(axis=1) <= 1.0 - FLAT)[own])
+    share = np.ones((len(own), 3))
+    flat, direction = flat[own[smooth]], together["direction"][smooth]
+    shown = _unit(np.matmul(together["source_weights"][smooth], normals[own[smooth]]), flat)
     level = (flat * direction).sum(axis=2)
     level = np.copysign(np.maximum(np.abs(level), GRAZING), level)
-    share = np.maximum((smooth * direction).sum(axis=2) / level, 0.0)
-    return np.where((smooth * flat).sum(axis=2) > 1.0 - FLAT, 1.0, share)
+    bent = np.maximum((shown * direction).sum(axis=2) / level, 0.0)
+    share[smooth] = np.where((shown * flat).sum(axis=2) > 1.0 - FLAT, 1.0, bent)
+    return share
 
 
 def _unit(vectors: np.ndarray, other: np.ndarray) -> np.ndarray:

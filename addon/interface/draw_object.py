@@ -58,6 +58,10 @@ def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bp
         layout.label(text="Plays baked frames")
         return
     layout.label(text=_size(obj), translate=False)
+    if obj.library is not None:
+        layout.label(text="It is linked from another file:", icon="LINKED")
+        layout.label(text="there it is updated and lit.", icon="BLANK1")
+        return
     if tuple(record.resolution) != render_size(context.scene):
         layout.label(text="The render has another size now:", icon="ERROR")
         layout.label(text="press Generate Reflection again.", icon="BLANK1")

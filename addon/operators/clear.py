@@ -7,11 +7,14 @@ from ..faults import in_one_sentence, tell
 from ..frames import stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_map, forget_previews
+from ..reading import has_linked_results
 from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
 from . import polls
 
 IN_OBJECT_MODE = "Reflections are cleared in Object Mode: leave the present mode first."
 NOTHING_TO_CLEAR = "The scene has no reflection to clear."
+LINKED_TO_CLEAR = ("The reflections are linked from another file: clear them in that file, save it, and reload the "
+                   "library here.")
 
 
 def chosen_results(context: bpy.types.Context) -> list:
@@ -95,7 +98,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE),
-                            polls.has_what_clears(NOTHING_TO_CLEAR))
+                            polls.has_what_clears(NOTHING_TO_CLEAR, LINKED_TO_CLEAR))
 
     @in_one_sentence
     def execute(self, context: bpy.types.Context) -> set:
@@ -108,7 +111,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
             results, caustics = ([], caustics) if named else (results, [])
         if not results and not caustics and not _bring_back() and not any(
                 obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
-            tell(self, {"WARNING"}, NOTHING_TO_CLEAR)
+            tell(self, {"WARNING"}, LINKED_TO_CLEAR if has_linked_results() else NOTHING_TO_CLEAR)
             return {"CANCELLED"}
         clear(context, results)
         clear_caustics(caustics)

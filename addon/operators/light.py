@@ -27,7 +27,18 @@ from ..lighting import (
     white_of,
 )
 from ..mirror_part import LaterMirrors, Surroundings, new_object_material
-from ..reading import camera_of, is_mirror, is_opaque, materials_of, moves, read_scene, read_view, seen_in, with_copies
+from ..reading import (
+    camera_of,
+    has_linked_results,
+    is_mirror,
+    is_opaque,
+    materials_of,
+    moves,
+    read_scene,
+    read_view,
+    seen_in,
+    with_copies,
+)
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
 from ..writing import forget_mesh, place_of
 from . import polls
@@ -39,6 +50,8 @@ IN_OBJECT_MODE = "Reflections are lit in Object Mode: leave the present mode fir
 FOR_THIS_FRAME = ("So many objects are reflected that their light was made for this frame alone: bake frames for an "
                   "animation, or choose Light: Objects to keep it while things move.")
 NOTHING_TO_LIGHT = "The scene has no reflection to light: generate one first."
+LINKED_TO_LIGHT = ("The reflections are linked from another file: light them in that file, save it, and reload the "
+                   "library here.")
 
 
 def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, kind: str = "AUTO",
@@ -77,7 +90,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
     if context.mode != "OBJECT":
         raise ReflectionError(IN_OBJECT_MODE)
     if not any(results for results, _, _ in groups):
-        raise ReflectionError(NOTHING_TO_LIGHT)
+        raise ReflectionError(LINKED_TO_LIGHT if has_linked_results() else NOTHING_TO_LIGHT)
     yield 0.0, "Reading the scene"
     view = read_view(context)
     groups = _for_the_camera(context.scene.camera, groups)
@@ -240,7 +253,7 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE),
-                            polls.has_result(NOTHING_TO_LIGHT), polls.has_camera)
+                            polls.has_result(NOTHING_TO_LIGHT, LINKED_TO_LIGHT), polls.has_camera)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()

@@ -10,8 +10,9 @@ import bpy
 from bpy.app.translations import pgettext_tip
 
 from ..illumination import is_glint, leaves_out_any, raises_layers
-from ..reading import NO_CAMERA, NO_MIRROR, RESULTS, is_mirror, says_mirror
+from ..reading import NO_CAMERA, NO_MIRROR, RESULTS, has_linked_results, is_mirror, says_mirror
 
+LINKED_SCENE = "The scene is linked from another file: open that file, or choose a scene of this one."
 LOOKED_THROUGH = 500    # objects: to look for roles in more takes longer than a redraw may
 Obstacle = Callable[[bpy.types.Context], str]
 
@@ -27,8 +28,12 @@ def passes(cls, context: bpy.types.Context, *obstacles: Obstacle) -> bool:
 
 
 def in_object_mode(sentence: str) -> Obstacle:
-    """Tells `sentence` in every other mode."""
-    return lambda context: "" if getattr(context, "mode", "OBJECT") == "OBJECT" else sentence
+    """Tells `sentence` in every other mode, and of a scene in which nothing can be changed that it is linked."""
+    def obstacle(context: bpy.types.Context) -> str:
+        if context.scene.library is not None:
+            return LINKED_SCENE
+        return "" if getattr(context, "mode", "OBJECT") == "OBJECT" else sentence
+    return obstacle
 
 
 def has_camera(context: bpy.types.Context) -> str:
@@ -56,23 +61,25 @@ def has_mirror_or_caustics(context: bpy.types.Context) -> str:
         obj.reflection_mesh.role == "CAUSTICS")) else NO_MIRROR)
 
 
-def has_result(sentence: str) -> Obstacle:
-    """Tells `sentence` where the scene has no reflection that can be changed."""
+def has_result(sentence: str, linked: str) -> Obstacle:
+    """Tells `sentence` where the scene has no reflection, `linked` where the file has none but linked ones."""
     def obstacle(context: bpy.types.Context) -> str:
         active = context.view_layer.objects.active
-        there = (active is not None and _is_result(active)) or _any(context.scene.objects, _is_result)
-        return "" if there else sentence
+        if (active is not None and _is_result(active)) or _any(context.scene.objects, _is_result):
+            return ""
+        return linked if len(context.blend_data.objects) <= LOOKED_THROUGH and has_linked_results() else sentence
     return obstacle
 
 
-def has_what_clears(sentence: str) -> Obstacle:
-    """Tells `sentence` in a window where the scene has no result, and nothing has been changed for one that is gone;
-    scripts in the background may clear to be sure."""
+def has_what_clears(sentence: str, linked: str) -> Obstacle:
+    """Tells `sentence` in a window where the scene has no result, and nothing has been changed for one that is gone, or
+    `linked` where the file has linked ones; scripts in the background may clear to be sure."""
     def obstacle(context: bpy.types.Context) -> str:
         if bpy.app.background:
             return ""
-        there = _any(context.scene.objects, _is_made_or_window) or leaves_out_any() or raises_layers()
-        return "" if there else sentence
+        if _any(context.scene.objects, _is_made_or_window) or leaves_out_any() or raises_layers():
+            return ""
+        return linked if len(context.blend_data.objects) <= LOOKED_THROUGH and has_linked_results() else sentence
     return obstacle
 
 

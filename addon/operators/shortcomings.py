@@ -4,7 +4,14 @@ from __future__ import annotations
 import bpy
 
 from ...core import ReflectionError, ReflectionMesh
-from ..reading import rendered_alone, rendered_otherwise, without_surface
+from ..reading import (
+    camera_of,
+    every_result_of,
+    known_results,
+    rendered_alone,
+    rendered_otherwise,
+    without_surface,
+)
 from ..writing import what_is_in_the_way
 
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
@@ -15,6 +22,8 @@ DEPTH_OF_FIELD = ("Depth of field: the camera focuses on the mirror and not on w
                   "Virtual for flat mirrors, or blur after the render.")
 MOTION_BLUR = ("Motion blur: the reflection is that of one moment, and is blurred as what lies on the mirror; blur it "
                "after the render, or switch motion blur off.")
+CUTS = ("Markers change the camera: choose Render > Lock Interface, so that a render of the animation in this window "
+        "shows each camera its own reflection.")
 # what is said where the result counts it
 SENTENCES = {
     "crowded":
@@ -64,8 +73,26 @@ def render_shortcomings(context: bpy.types.Context, mirrors: list, diffuse: list
     """Sentences on what renders show otherwise than viewports do, of which a reflection has what these show: meshes of
     mirrors and diffuse objects, and what is hidden in the viewport alone; and on what has no mesh."""
     told = _other_meshes(context.scene, mirrors + diffuse) + _hidden(rendered_alone(context, mirrors, diffuse))
+    told += [CUTS] * _cuts_unlocked(context, mirrors)
+    told += [f"'{mirror.name}' has a linked reflection too: hide one of the two." for mirror in mirrors
+             if _has_linked_result(context, mirror)]
     return told + [f"No reflection has hair, point clouds or volumes, as '{obj.name}' has: make meshes of them, or "
                    "leave the mirror to Cycles." for obj in without_surface(context, mirrors, diffuse)[:1]]
+
+
+def _has_linked_result(context: bpy.types.Context, mirror: bpy.types.Object) -> bool:
+    """Whether a reflection that is linked from another file lies on a mirror, in sight."""
+    return any(obj.library is not None and obj.reflection_mesh.mirror == mirror and obj.visible_get()
+               and obj.reflection_mesh.role == "REFLECTION"
+               for obj in known_results(context.scene, context.view_layer))
+
+
+def _cuts_unlocked(context: bpy.types.Context, mirrors: list) -> bool:
+    """Whether markers cut between cameras that have results of their own, and a render does not wait for these to be
+    exchanged."""
+    bound = {marker.camera for marker in context.scene.timeline_markers} - {None}
+    return not context.scene.render.use_lock_interface and any(
+        len(bound & {camera_of(result) for result in every_result_of(context, mirror)}) > 1 for mirror in mirrors)
 
 
 def _other_meshes(scene: bpy.types.Scene, objects: list) -> list[str]:

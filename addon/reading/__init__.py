@@ -17,7 +17,7 @@ from .moves import moves
 from .not_reflected import rendered_alone, without_surface
 from .read_view import NO_CAMERA, read_view, render_size
 from .rendered_otherwise import rendered_otherwise
-from .results import RESULTS, camera_of, every_result_of, results_of, with_copies
+from .results import RESULTS, camera_of, every_result_of, has_linked_results, results_of, with_copies
 from .roles import (
     NO_MIRROR,
     NothingSeen,
@@ -34,8 +34,8 @@ from .roles import (
 
 __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
            "Placed", "RESULTS", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
-           "every_result_of", "forget_known", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results",
-           "materials_of", "moves", "participants", "read_meshes", "read_mirror", "read_scene", "read_view", "register",
-           "render_size", "rendered_alone", "rendered_collections", "rendered_otherwise", "results_of", "says_mirror",
-           "seen_in", "unregister", "visible", "with_copies",
+           "every_result_of", "forget_known", "has_linked_results", "is_mirror", "is_opaque", "join_mirror",
+           "join_scene", "known_results", "materials_of", "moves", "participants", "read_meshes", "read_mirror",
+           "read_scene", "read_view", "register", "render_size", "rendered_alone", "rendered_collections",
+           "rendered_otherwise", "results_of", "says_mirror", "seen_in", "unregister", "visible", "with_copies",
            "without_surface"]

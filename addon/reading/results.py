@@ -13,6 +13,11 @@ def is_result(obj: bpy.types.Object) -> bool:
     return obj.reflection_mesh.role == "REFLECTION"
 
 
+def has_linked_results() -> bool:
+    """Whether the file has results that are linked from another one, as objects or in instances of collections."""
+    return any(obj.library is not None and obj.reflection_mesh.role in RESULTS for obj in bpy.data.objects)
+
+
 def results_of(context: bpy.types.Context, mirror: bpy.types.Object, among: list | None = None) -> list:
     """Results in the scene, or `among` some of it, that show the reflection in `mirror` to the scene's camera, and can
     be changed.

@@ -1,7 +1,8 @@
 """Results of several cameras: where the camera that looks has results of its own, those of others are put aside.
 
 To Blender an object is there for every camera alike; a handler hides and shows them when another camera becomes the
-scene's. What the user hides stays hidden, what the user shows stays shown until the camera changes again.
+scene's, be it by markers in the middle of a render. What the user hides stays hidden, what the user shows stays shown
+until the camera changes again.
 """
 from __future__ import annotations
 
@@ -86,10 +87,19 @@ def _after_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Non
 
 
 @persistent
+def _before_frame(scene: bpy.types.Scene, *_) -> None:
+    # in a render markers have chosen the camera by now, and objects are read next; a render that the window does not
+    # wait for works beside it, where nothing may be hidden under Blender's hands
+    if bpy.app.background or scene.render.use_lock_interface:
+        show_for_camera(scene)
+
+
+@persistent
 def _after_opening(*_) -> None:
     for scene in bpy.data.scenes:
         show_for_camera(scene)
 
 
-HANDLERS = Handlers((_after_change, "depsgraph_update_post", "frame_change_post"), (_after_opening, "load_post"))
+HANDLERS = Handlers((_after_change, "depsgraph_update_post", "frame_change_post"), (_before_frame, "frame_change_pre"),
+                    (_after_opening, "load_post"))
 register, unregister = HANDLERS.register, HANDLERS.unregister

@@ -6,6 +6,10 @@ motion of the reflected point along the edge, times the edge's length in the pic
 all and stay whole. Where the mirror is bent strongly one way and hardly the other, the same angle is little along an
 edge and pixels beside it: there the displacement is solved in the motions along two edges, and bounded more loosely,
 since what cameras are cut into later has true rays. It asks what the whole has met, which must not be far off.
+
+In a picture a sliver narrower than a pixel shows little, wherever its rays go. Of a lamp's light it may be much: what
+grazes one mirror after another leaves each many times as bright as it fell on it. There rays part by no more than an
+angle.
 """
 from __future__ import annotations
 
@@ -15,6 +19,7 @@ import numpy as np
 
 from ..geometry import columns, dot, norm, shared_edges, unit
 from ..support import breathe
+from ..views import LampView
 from .camera_splitting import edge_middles, in_picture, split_at
 from .shading_horizon import beyond_horizon
 from .three_ray_cameras import Cameras
@@ -23,6 +28,7 @@ LEVELS = 12
 BESIDE = 8.0  # times the tolerance: what rays may stray by beside an edge
 INDEPENDENT = 1e-6  # sine between the motions along two edges: below, as on a fold, nothing can be solved in them
 ROUNDING = 1e-14  # radians: what unit vectors are rounded by must not split a flat mirror
+PARTED = 0.5  # cosine between the rays of a lamp's light at the ends of an edge, behind the first mirror
 SHORTEST_EDGE = 0.5  # pixels: a shorter edge cannot stray by a visible amount
 
 
@@ -55,6 +61,7 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
         edges = _Edges.of(cameras, ends, rays)
         marked = _straying(cameras, edges, reach) > tolerance
         marked |= _straying_beside(cameras, edges, edge, reach) > BESIDE * tolerance
+        marked |= _parted(cameras, edges)
         # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
         asked = np.flatnonzero(marked[edge].any(axis=1))
         worth = np.zeros(len(ends), dtype=bool)
@@ -117,6 +124,14 @@ def _straying(cameras: Cameras, edges: _Edges, reach: float) -> np.ndarray:
     straying = edges.lengths * reach * norm(edges.turns) / np.maximum(motion, 1e-300)
     straying[edges.lengths < SHORTEST_EDGE] = 0.0
     return straying
+
+
+def _parted(cameras: Cameras, edges: _Edges) -> np.ndarray:
+    """Edges (e,) between whose ends a lamp's light that has met two mirrors is sent too far apart."""
+    if cameras.mirror_map.bounce == 1 or not isinstance(cameras.view, LampView):
+        return np.zeros(len(edges.ends), dtype=bool)
+    start, end = (unit(cameras.rays[:, corner]) for corner in edges.ends.T)
+    return dot(start, end) < PARTED
 
 
 @np.errstate(invalid="ignore", over="ignore", divide="ignore")

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh, areas, has_area, unit
+from ..geometry import TriangleMesh, areas, columns, cross, dot, has_area, norm, rows, unit
 from ..result import ReflectionMesh
 from ..support import NothingInView, breathe
 from .caustic_mesh import CausticMesh
@@ -58,24 +58,25 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     """What `CausticMesh` holds of one view's light of one bounce, as `_light` tells it."""
     breathe()
     faces, flux, seen, number, receivers = lit
-    light, corners = faces.light, np.moveaxis(faces.corners(), 2, 0).swapaxes(1, 2)
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    area, size = 0.5 * np.linalg.norm(normal, axis=1), np.abs(corners - corners[:, :1]).max(axis=(1, 2))
+    light, corners = faces.light, faces.corners()
+    normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area, size = 0.5 * norm(normal), np.abs(corners[:, 1:] - corners[:, :1]).max(axis=(0, 1))
     arrived = light.arrived.reshape(3, -1).all(axis=0) | (flux > STRAY * flux.sum())
     kept = np.flatnonzero(has_area(area, size) & (flux > 0.0) & arrived)
+    corners = corners.transpose(2, 1, 0)[kept]
     irradiance, side = (value.reshape(3, -1).T[kept] for value in (light.irradiance, light.side))
     cosine = light.cosine.reshape(number, 3, -1).T[kept]
     breathe()
     irradiance = balanced(irradiance, on_faces(flux[kept], faces.beside[kept], faces.triangles[kept]),
-                          faces.triangles[kept], shown_area(corners[kept], area[kept], reach))
+                          faces.triangles[kept], shown_area(corners, area[kept], reach))
     breathe()
     # turned to the side that is lit
-    over = (side.sum(axis=1) < 0.0) != ((normal[kept] * faces.normal[:, kept].T).sum(axis=1) < 0.0)
+    over = (side.sum(axis=1) < 0.0) != (dot(normal[:, kept], faces.normal[:, kept]) < 0.0)
     order = np.where(over[:, None], (0, 2, 1), (0, 1, 2))
     triangles, irradiance = (np.take_along_axis(values, order, axis=1) for values in (
         faces.triangles[kept], irradiance))
     corners, direction, cosine = (np.take_along_axis(values, order[:, :, None], axis=1) for values in (
-        corners[kept], _directions(seen.maps[number - 1], faces, kept), cosine))
+        corners, _directions(seen.maps[number - 1], faces, kept), cosine))
     met = _met(seen, faces.origin[kept])
     source = faces.source[kept]
     breathe()
@@ -109,21 +110,21 @@ def _directions(ray_map: ReflectionMap, faces: LitFaces, kept: np.ndarray) -> np
 
 def _weights(receivers: TriangleMesh, source: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """Barycentric coordinates (m, 3, 3) of corners in their source triangles, none negative."""
-    a, b, c = np.moveaxis(receivers.positions[receivers.triangles[source]], 1, 0)[:, :, None]
-    normal = np.cross(b - a, c - a)
-    squared = np.maximum((normal**2).sum(axis=2), 1e-300)
-    second = (np.cross(corners - a, c - a) * normal).sum(axis=2) / squared
-    third = (np.cross(b - a, corners - a) * normal).sum(axis=2) / squared
-    weights = np.maximum(np.stack((1.0 - second - third, second, third), axis=2), 0.0)
-    weights /= weights.sum(axis=2, keepdims=True)
+    ends = [columns(rows(receivers.positions), corner)[:, None] for corner in receivers.triangles[source].T]
+    places, (a, b, c) = corners.transpose(2, 1, 0), ends
+    across, along, to = c - a, b - a, places - a
+    normal = cross(along, across)
+    squared = np.maximum(dot(normal, normal), 1e-300)
+    second, third = dot(cross(to, across), normal) / squared, dot(cross(along, to), normal) / squared
+    weights = np.maximum(np.stack((1.0 - second - third, second, third)), 0.0)
+    weights /= weights.sum(axis=0)
     # beside a sliver that tells little of where along it a corner lies
-    places = receivers.positions[receivers.triangles[source]]
-    for first, second in ((0, 1), (1, 2), (2, 0)):
+    for one, other in ((0, 1), (1, 2), (2, 0)):
         breathe()
-        along = (places[:, second] - places[:, first])[:, None]
-        astray = ((corners - np.matmul(weights, places)) * along).sum(axis=2)
-        moved = astray / np.maximum((along**2).sum(axis=2), 1e-300)
-        moved = np.clip(moved, -weights[:, :, second], weights[:, :, first])
-        weights[:, :, first] -= moved
-        weights[:, :, second] += moved
-    return weights
+        along = ends[other] - ends[one]
+        told = weights[0] * a + weights[1] * b + weights[2] * c
+        moved = dot(places - told, along) / np.maximum(dot(along, along), 1e-300)
+        moved = np.clip(moved, -weights[other], weights[one])
+        weights[one] -= moved
+        weights[other] += moved
+    return weights.transpose(2, 1, 0).copy()

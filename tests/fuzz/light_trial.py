@@ -16,6 +16,7 @@ from tests.fuzz.reflecting import SENTENCE
 SECONDS = 20.0  # of processor time
 RAYS, MORE, THROWS = 5_000, 60_000, 6  # of a throw; of one that decides; throws, whose differences are the noise
 SHARE, LEAST = 0.004, 1e-4  # of the light that arrives, and of all that the mirror is sent: more must not be wrong
+HALF = 0.5  # pixels: the tolerance for which that holds; a larger one leaves as much wider strips along outlines open
 NOISE = 8.0  # times the standard error of the throws
 PLACES = 256  # on each triangle of a mirror, at which a lamp's pattern is asked
 EXACT = 1e-6  # of the light: by how much irradiance may miss the flux
@@ -105,7 +106,7 @@ def _energy(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[st
     single = (mesh.positions - middle).astype(np.float32).astype(np.float64)
     received = (_areas(single, mesh) * mesh.irradiance.mean(axis=1)).sum()
     # places at random may all miss a narrow lamp's cone, and what arrives has been sent
-    if received > mesh.flux.sum() + SINGLE * max(_sent(configuration), mesh.flux.sum()):
+    if received > mesh.flux.sum() + SINGLE * max(sent_light(configuration), mesh.flux.sum()):
         yield f"single: the irradiance amounts to {received / mesh.flux.sum():.3f} of the flux in single precision"
 
 
@@ -157,7 +158,7 @@ def _as_rays(configuration: LightConfiguration, flux: np.ndarray, told: int, cou
     landed = np.array([np.bincount(light.source_face, each, minlength=len(flux)) for light, each in zip(thrown, watts)])
     bent = np.mean([each[light.bent].sum() for light, each in zip(thrown, watts)])
     mean, noise = landed.mean(axis=0), landed.std(axis=0, ddof=1) / np.sqrt(THROWS)
-    whole, least = landed.sum(axis=1), LEAST * _sent(one) + bent
+    whole, least = landed.sum(axis=1), LEAST * max(one.settings.tolerance / HALF, 1.0) * sent_light(one) + bent
     # what a mesh tells of may be missing
     share = SHARE * (10.0 if told else 1.0)
     off = flux.sum() - mean.sum()
@@ -168,7 +169,7 @@ def _as_rays(configuration: LightConfiguration, flux: np.ndarray, told: int, cou
     return f"light: on triangle {worst} {flux[worst]:.6g}, by rays {mean[worst]:.6g}" if astray[worst] > 0.0 else None
 
 
-def _sent(configuration: LightConfiguration) -> float:
+def sent_light(configuration: LightConfiguration) -> float:
     """About what light the lamp sends towards the mirror."""
     a, b, c = np.moveaxis(configuration.mirror.positions[configuration.mirror.triangles], 1, 0)
     normal, lamp = 0.5 * np.cross(b - a, c - a), configuration.lamp

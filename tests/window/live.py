@@ -6,9 +6,12 @@ from the folder of this repository; the extension is taken from there, and not f
 
 1. opens the sphere, generates by the operator, opens the sidebar, and switches Live on (the operator of the button);
 2. presses G and drags the camera with the mouse, takes a picture in the middle and one after the click, one at rest;
-3. presses Ctrl-Z and takes one at rest, then plays frames over a sphere that has been given keys;
-4. keeps the viewport's view right and orbits with the numpad's keys;
-5. opens the file anew with Live on, and quits.
+3. presses Ctrl-Z and takes one at rest; then starts *Generate* while Live still works on a drag and ends it by ESC,
+   cancels a drag half way, and undoes and redoes drags while Live is at work on them; at rest each time Live's result
+   must be that of a new *Generate*;
+4. plays frames over a sphere that has been given keys;
+5. keeps the viewport's view right and orbits with the numpad's keys;
+6. opens the file anew with Live on, and quits.
 
 Pictures and `live.json` with what was counted go to the folder WINDOW_SHOTS, build/window where that is not set.
 """
@@ -21,7 +24,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import bpy
-from hands import ROOT, SHOTS, Screen, run, shot
+from hands import ROOT, SHOTS, Screen, run, shot, waiting
 
 sys.path.insert(0, str(ROOT.parent))
 package = importlib.import_module(ROOT.name)
@@ -54,6 +57,7 @@ def steps():
     screen = Screen()
     yield from begun(screen)
     yield from dragged(screen)
+    yield from disturbed(screen)
     yield from played()
     yield from orbited(screen)
     (SHOTS / "live.json").write_text(json.dumps(told, indent=1))
@@ -87,11 +91,7 @@ def begun(screen):
 
 def dragged(screen):
     camera = bpy.context.scene.camera
-    for obj in bpy.context.selected_objects:
-        obj.select_set(False)
-    camera.select_set(True)
-    bpy.context.view_layer.objects.active = camera
-    bpy.ops.ed.undo_push(message="Camera selected")
+    select_camera()
     yield from resting()
     place, started = camera.location.copy(), time.monotonic()
     before = switch.updater.updates["followed"]
@@ -117,6 +117,88 @@ def dragged(screen):
     assert (camera.location - place).length < 1e-5, "Ctrl-Z has not brought the camera back."
     note("undone", time.monotonic())
     shot("live_5_undone")
+
+
+def right():
+    """What the result shows is what a new one would show, to the last bit."""
+    result = next(obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION")
+
+    def points():
+        values = [0.0] * (3 * len(result.data.vertices))
+        result.data.attributes["position"].data.foreach_get("vector", values)
+        return values
+    before, place = points(), result.location.copy()
+    live = bpy.context.window_manager.reflection_mesh_live
+    live.on = False
+    bpy.ops.reflection_mesh.clear()
+    assert bpy.ops.reflection_mesh.generate("EXEC_DEFAULT") == {"FINISHED"}
+    result = next(obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION")
+    assert (points(), result.location) == (before, place), "Live at rest is not what Generate makes."
+    select_camera()
+    live.on = True
+    yield from resting()
+
+
+def select_camera():
+    camera = bpy.context.scene.camera
+    for obj in bpy.context.selected_objects:
+        obj.select_set(False)
+    camera.select_set(True)
+    bpy.context.view_layer.objects.active = camera
+    bpy.ops.ed.undo_push(message="Camera selected")
+
+
+def drag(screen, x, end="LEFTMOUSE"):
+    """Drag the selected camera, and drop it at once."""
+    screen.point(**screen.centre)
+    screen.press("G")
+    for _ in range(6):
+        screen.move(x=x)
+        yield 0.05
+    screen.press(end)
+    yield 0.05
+
+
+def disturbed(screen):
+    camera = bpy.context.scene.camera
+    place = camera.location.copy()
+    # another operator of ours begins while Live is at work on the camera's new place
+    bpy.context.scene.reflection_mesh.tolerance = 0.02
+    yield from drag(screen, 8)
+    with screen.context():
+        bpy.ops.reflection_mesh.generate("INVOKE_DEFAULT")
+    yield 0.5
+    assert screen.window.modal_operators and switch.is_busy(), "Generate has ended before it could disturb."
+    updates = dict(switch.updater.updates)
+    yield 1.0
+    assert switch.updater.updates == updates or not switch.is_busy(), "Live worked beside Generate."
+    screen.press("ESC")
+    yield from waiting(lambda: not screen.window.modal_operators, "the end of Generate after ESC")
+    bpy.context.scene.reflection_mesh.tolerance = 0.5
+    yield from resting()
+    note("beside Generate", time.monotonic())
+    yield from right()
+
+    # a drag that is taken back half way
+    camera = bpy.context.scene.camera
+    before = camera.location.copy()
+    yield from drag(screen, 8, "ESC")
+    yield from resting()
+    assert (bpy.context.scene.camera.location - before).length < 1e-5, "ESC has not brought the camera back."
+    yield from right()
+
+    # undo and redo in the middle of what Live makes of it
+    for number in range(4):
+        yield from drag(screen, 6)
+        screen.press("Z", ctrl=True)
+        yield (0.0, 0.1, 0.3, 0.6)[number]
+        screen.press("Z", ctrl=True, shift=True)
+        yield (0.3, 0.0, 0.6, 0.1)[number]
+    yield from resting()
+    assert (bpy.context.scene.camera.location - place).length > 0.1
+    yield from right()
+    note("undone on the way", time.monotonic())
+    shot("live_5_disturbed")
 
 
 def played():

@@ -61,7 +61,7 @@ def _of_light(scene: bpy.types.Scene, lamp: bpy.types.Object, whole: AllOrNothin
         _link(scene, lamp, glint, whole)
     else:
         whole.undo(setattr, glint, "data", glint.data)
-        whole.after(_replace, glint.data, data)
+        whole.after(_replace, glint.data, glint)
         glint.data = data
     return glint
 
@@ -146,11 +146,12 @@ def _name_again(lamp: bpy.types.Object) -> None:
             one.name = _name(lamp)
 
 
-def _replace(old: bpy.types.Light, data: bpy.types.Light) -> None:
+def _replace(old: bpy.types.Light, glint: bpy.types.Object) -> None:
+    # of several mirrors each replaces what the one before has made: the last is what stays
     name = old.name
     if old.users == 0:
         bpy.data.lights.remove(old)
-    data.name = name
+    glint.data.name = name
 
 
 def _darken_behind_diffuse(data: bpy.types.Light) -> None:

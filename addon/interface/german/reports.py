@@ -101,6 +101,12 @@ LACKS = {
     "render in-between frames and mix them.":
         "Bewegungsunschärfe: Spiegelungen sind scharf, weil ihre Flächen von Bild zu Bild andere sind; mache sie "
         "nach dem Rendern unscharf, oder mische Zwischenbilder.",
+    "'{}' has a linked reflection too: hide one of the two.":
+        "'{}' hat auch eine verknüpfte Spiegelung: blende eine der beiden aus.",
+    "Markers change the camera: choose Render > Lock Interface, so that a render of the animation in this window shows "
+    "each camera its own reflection.":
+        "Marker wechseln die Kamera: wähle Rendern > Interface sperren, damit ein Render der Animation in diesem "
+        "Fenster jeder Kamera ihre eigene Spiegelung zeigt.",
     "Motion blur: the reflection is that of one moment, and is blurred as what lies on the mirror; blur it after the "
     "render, or switch motion blur off.":
         "Bewegungsunschärfe: Die Spiegelung ist die eines Augenblicks und verschwimmt wie das, was auf dem Spiegel "

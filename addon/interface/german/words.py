@@ -209,6 +209,8 @@ PANELS = {
     "Plays baked frames": "Spielt gebackene Einzelbilder",
     "{count:,} faces, {size}": "{count:,} Flächen, {size}",
     "{count:,} points, {size}": "{count:,} Punkte, {size}",
+    "It is linked from another file:": "Sie ist aus einer anderen Datei verknüpft:",
+    "there it is updated and lit.": "dort wird sie aktualisiert und beleuchtet.",
     "The render has another size now:": "Das Render hat jetzt eine andere Größe:",
     "press Generate Reflection again.": "drücke noch einmal Spiegelung erzeugen.",
     "The scene has changed since it was lit:": "Die Szene ist anders, als sie beleuchtet wurde:",
@@ -258,6 +260,14 @@ OBSTACLES = {
     "The scene has no reflection to light: generate one first.":
         "Die Szene hat keine Spiegelung zum Beleuchten: erzeuge zuerst eine.",
     "The scene has no reflection to clear.": "Die Szene hat keine Spiegelung zum Entfernen.",
+    "The reflections are linked from another file: light them in that file, save it, and reload the library here.":
+        "Die Spiegelungen sind aus einer anderen Datei verknüpft: beleuchte sie dort, speichere, und lade die "
+        "Bibliothek hier neu.",
+    "The reflections are linked from another file: clear them in that file, save it, and reload the library here.":
+        "Die Spiegelungen sind aus einer anderen Datei verknüpft: entferne sie dort, speichere, und lade die "
+        "Bibliothek hier neu.",
+    "The scene is linked from another file: open that file, or choose a scene of this one.":
+        "Die Szene ist aus einer anderen Datei verknüpft: öffne jene Datei, oder wähle eine Szene aus dieser.",
 }
 LIVE = {
     "Live": "Live",

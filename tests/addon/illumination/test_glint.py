@@ -236,3 +236,27 @@ def test_a_mesh_whose_materials_come_of_nodes_has_no_shell(blank):
     lamp.modifiers.new("Paint", "NODES").node_group = group
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
     assert "Mirror Caustics" in bpy.data.objects and not lamp.children
+
+
+@pytest.mark.parametrize("kind", ["POINT", "ball"])
+def test_three_mirrors_show_one_lamp(blank, kind):
+    """Each in turn is added to those that the lamp's one image is for; nothing is left of the steps between."""
+    floor, mirror, lamp = looked_into(kind)
+    others = []
+    for way in (0.8, -0.8):
+        other = mirror.copy()
+        other.location.y += 2.0 * way
+        bpy.context.scene.collection.objects.link(other)
+        others.append(other)
+    bpy.context.view_layer.update()
+    parts.select(floor, lamp, mirror, *others)
+    lights = len(bpy.data.lights)
+    for _ in range(2):
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+        glint, = lamp.children
+        assert {obj.name for obj in glint.light_linking.receiver_collection.objects} == {
+            mirror.name, *(other.name for other in others)}
+        assert glint.name == f"{lamp.name} Glint" and len(bpy.data.lights) == lights + (kind == "POINT")
+        assert kind != "POINT" or glint.data.name == glint.name
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert not lamp.children and len(bpy.data.lights) == lights

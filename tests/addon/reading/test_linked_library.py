@@ -1,4 +1,6 @@
 """Objects linked from another file take part, as sources and as mirrors, and are not changed."""
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import parts
@@ -85,3 +87,76 @@ def test_an_asset_that_was_made_an_override(blank, tmp_path, ways):
     assert result.users_collection == (blank.scene.collection,) and result.reflection_mesh.mirror == mirror
     parts.select(mirror)
     assert parts.generate() == result
+
+
+@pytest.fixture
+def linked_result(blank, tmp_path):
+    """A function that links a file with a generated reflection into a fresh scene, as "OBJECT", "INSTANCE" or
+    "SCENE"."""
+    parts.add_triangle("Leaf", [(-0.5, -1.0, 0.6), (0.7, -1.5, 0.8), (0.1, -0.5, 1.7)])
+    parts.select(bpy.data.objects["Leaf"], parts.add_wall_mirror())
+    parts.generate(collect=True)
+    path, camera = str(tmp_path / "shot.blend"), bpy.context.scene.camera.name
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
+
+    def link(way: str) -> None:
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        with bpy.data.libraries.load(path, link=True) as (there, wanted):
+            if way == "SCENE":
+                wanted.scenes = there.scenes
+            wanted.objects, wanted.collections = [camera], ["Reflections"]
+        scene = bpy.context.scene
+        scene.collection.objects.link(wanted.objects[0])
+        scene.camera = wanted.objects[0]
+        if way == "OBJECT":
+            scene.collection.children.link(wanted.collections[0])
+        elif way == "INSTANCE":
+            empty = bpy.data.objects.new("Instance", None)
+            empty.instance_type, empty.instance_collection = "COLLECTION", wanted.collections[0]
+            scene.collection.objects.link(empty)
+        else:
+            bpy.context.window.scene = wanted.scenes[0]
+        bpy.context.view_layer.update()
+    return link
+
+
+@pytest.mark.parametrize("way", ["OBJECT", "INSTANCE"])
+def test_a_linked_reflection_is_lit_where_it_lives(linked_result, room, monkeypatch, way):
+    """The grey button says so, and so does a run in crowds, which the button does not look through."""
+    linked_result(way)
+    light, clear, polls = bpy.ops.reflection_mesh.light, bpy.ops.reflection_mesh.clear, room("addon.operators.polls")
+    assert not light.poll()
+    assert parts.refusal(light).startswith("The reflections are linked from another file: light them in that file")
+    with pytest.raises(room("core").ReflectionError, match="linked from another file: light"):
+        list(room("addon.operators.light").lighting(bpy.context, []))
+    monkeypatch.setattr(polls, "bpy", SimpleNamespace(app=SimpleNamespace(background=False)))
+    assert not clear.poll()
+    assert parts.refusal(clear).startswith("The reflections are linked from another file: clear them in that file")
+
+
+def test_the_panel_says_that_a_reflection_is_linked(linked_result, room):
+    linked_result("OBJECT")
+    result = next(obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION")
+    bpy.context.scene.render.resolution_x = 7   # which else asks for another result
+    lines = []
+    layout = SimpleNamespace(label=lambda text="", icon="", translate=True: lines.append(text))
+    room("addon.interface.draw_object").draw_object(layout, bpy.context, result)
+    assert lines[-2:] == ["It is linked from another file:", "there it is updated and lit."]
+    assert not any("press" in line for line in lines)
+
+
+def test_a_second_reflection_over_a_linked_one_is_told_of(linked_result, room):
+    linked_result("OBJECT")
+    result = next(obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION")
+    mirror, lacks = result.reflection_mesh.mirror, room("addon.operators.shortcomings").render_shortcomings
+    assert lacks(bpy.context, [mirror], []) == [f"'{mirror.name}' has a linked reflection too: hide one of the two."]
+    result.hide_set(True)
+    assert lacks(bpy.context, [mirror], []) == []
+
+
+def test_a_linked_scene_cannot_be_changed(linked_result):
+    linked_result("SCENE")
+    assert bpy.context.scene.library
+    for operator in (bpy.ops.reflection_mesh.generate, bpy.ops.reflection_mesh.light, bpy.ops.reflection_mesh.clear):
+        assert not operator.poll()
+        assert parts.refusal(operator).startswith("The scene is linked from another file")

@@ -1,6 +1,8 @@
 """Light by rays one by one, against closed forms; and meshes of light against it, where they failed once."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,7 +11,7 @@ from core.rivals.tracing import LightRays
 from tests.core.caustics.test_caustics import bent_strip, level, ring, seen_from_below, solid_angle, upright
 from tests.fuzz.drawing.lights import drawn_light
 from tests.fuzz.kept import kept_seeds
-from tests.fuzz.light_trial import light_problems
+from tests.fuzz.light_trial import light_problems, sent_light
 
 SEEDS = range(20)  # `make fuzz` tries others
 
@@ -97,6 +99,18 @@ def test_the_flux_of_a_ring_is_that_of_rays():
 
 
 @pytest.mark.slow
+def test_light_that_runs_along_a_second_mirror_is_what_rays_find():
+    """Slivers far below a pixel of the lamp's picture are sent over half the scene there, hundreds of times as bright
+    as they fell on the mirrors; no more of them may pass than a hundred-thousandth of the light."""
+    one = drawn_light(1795485998011)
+    rays = LightRays(one.mirror, one.receivers, one.others, one.blockers)
+    assert not any(len(rays.thrown(one.lamp, 60_000, seed, 2).flux) for seed in range(2))
+    for tolerance in (0.5, 2.0):
+        settings = replace(one.settings, tolerance=tolerance)
+        mesh = caustics(one.lamp, one.mirror, one.receivers, settings, one.others, one.blockers)
+        assert mesh.flux.sum() < 1e-5 * sent_light(one)
+
+
 @pytest.mark.parametrize("seed", kept_seeds("light"))
 def test_kept_seeds(seed):
     assert light_problems(drawn_light(seed)) == []
