@@ -1,1 +1,0 @@
-    return m, src, rim
