@@ -15,6 +15,7 @@ from ..faults import still_there
 from ..reading import is_opaque, materials_of
 from ..reading.materials import is_exact
 from ..rendering import copied_scene, denoise, look_through, put_swift_world, rendered
+from .cutting import cut_through
 
 MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
 COVERAGE_SAMPLES = 64  # where a result ends; elsewhere as few tell that it does not
@@ -50,10 +51,11 @@ class Window:
 @dataclass(frozen=True)
 class LightScene:
     """A copy of the user's scene that renders one window of its picture; `alone` where the camera sees no more in it
-    than the mirrors, `exact` where these have no roughness."""
+    than the mirrors, `before` these the objects that cut through them, `exact` where mirrors have no roughness."""
 
     scene: bpy.types.Scene
     results: list
+    before: list
     alone: bool
     exact: bool
 
@@ -78,12 +80,12 @@ class LightScene:
         layer.material_override, scene.world = opaque, None
         made: list = [opaque]
         try:
+            scene.collection.children.link(others)
             for obj in list(scene.collection.objects):
                 scene.collection.objects.unlink(obj)
-                others.objects.link(obj)
-            # what hides the results in the picture does so here where it is in the picture of light
-            if not self.alone:
-                scene.collection.children.link(others)
+                # what hides the results in the picture does so here where it is in the picture of light
+                if not self.alone or obj in self.before:
+                    others.objects.link(obj)
             for branch in layer.layer_collection.children:
                 branch.holdout = True
             scene.collection.children.link(stage)
@@ -118,11 +120,15 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         others, parts = _seen_others(context, {*results, *mirrors})
         hidden = [obj for obj in others if obj.library is None and obj not in parts]
         alone = len(hidden) == len(others) and len(mirrors) == len(results) and all(map(_is_opaque, mirrors))
-        for obj in hidden if alone else itertools.filterfalse(_is_opaque, hidden):
+        before = _cutting(context, mirrors, hidden) if alone else []
+        for obj in before:
+            back.callback(setattr, obj, "is_holdout", obj.is_holdout)
+            obj.is_holdout = True
+        for obj in set(hidden).difference(before) if alone else itertools.filterfalse(_is_opaque, hidden):
             back.callback(setattr, obj, "visible_camera", True)
             obj.visible_camera = False
         exact = all(is_exact(material) for mirror in mirrors for material in materials_of(mirror))
-        yield LightScene(scene, results, alone, exact)
+        yield LightScene(scene, results, before, alone, exact)
 
 
 def _seen_others(context: bpy.types.Context, lit: set) -> tuple[list, set]:
@@ -137,6 +143,15 @@ def _seen_others(context: bpy.types.Context, lit: set) -> tuple[list, set]:
         of_mirror = instance.is_instance and instance.parent is not None and instance.parent.original in lit
         (parts if of_mirror else shown).add(instance.object.original)
     return [obj for obj in shown - lit if obj.visible_camera], parts
+
+
+def _cutting(context: bpy.types.Context, mirrors: set, others: list) -> list:
+    """Those of others that must hide what they hide of the mirrors, though the camera sees these alone.
+
+    Within what cuts through it a mirror shows the inside of that, which no result has, and which cannot be told from
+    what the mirror shows beside.
+    """
+    return cut_through(context.evaluated_depsgraph_get(), mirrors, list(filter(_is_opaque, others)))
 
 
 def _is_opaque(obj: bpy.types.Object) -> bool:

@@ -389,3 +389,20 @@ def test_the_verb_light(saved_scene, room, tmp_path, capsys):
     assert result.material_slots[0].material == result.reflection_mesh.light_material
     assert run(["light", "--samples", "0"]) == 1
     assert run(["light", "--samples", "1"]) == 0
+
+
+def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
+    """A frame that the mirror is sunk in: within the frame it shows the dark inside of that, which no result has."""
+    scene_of(blank)
+    bars = [parts.add("cube", f"Bar {number}", size=1.0, location=(x, 1.0, 1.0 + z), scale=(width, 0.2, height))
+            for number, (x, z, width, height) in enumerate(((-1.1, 0.0, 0.2, 2.4), (1.1, 0.0, 0.2, 2.4),
+                                                            (0.0, -1.1, 2.4, 0.2), (0.0, 1.1, 2.4, 0.2)))]
+    for bar in bars:
+        bar.data.materials.append(principled("Wood", (0.3, 0.12, 0.04)))
+    blank.scene.world.color = (1.2, 1.35, 1.5)
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor")), *bars, bpy.data.objects["Mirror"])
+    reference = picture(room)
+    parts.generate()
+    assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
+    assert psnr(picture(room), reference) > 38.0
+    assert not any(bar.is_holdout for bar in bars) and all(bar.visible_camera for bar in bars)
