@@ -79,7 +79,12 @@ class LightScene:
         # no more than whether something is there is asked: no texture, no lamp, no sky
         layer.material_override, scene.world = opaque, None
         made: list = [opaque]
+        unseen = [mirror for mirror in {result.reflection_mesh.mirror for result in self.results} - {None}
+                  if mirror.visible_camera and (self.alone or mirror.reflection_mesh.camera_hidden)]
         try:
+            # results may lie in their mirrors or behind them
+            for mirror in unseen:
+                mirror.visible_camera = False
             scene.collection.children.link(others)
             for obj in list(scene.collection.objects):
                 scene.collection.objects.unlink(obj)
@@ -99,6 +104,8 @@ class LightScene:
             scene.render.film_transparent, scene.render.use_persistent_data = True, False
             return rendered(scene)[..., 3]
         finally:
+            for mirror in still_there(unseen):
+                mirror.visible_camera = True
             bpy.data.batch_remove([*still_there(made), stage, others])
 
 

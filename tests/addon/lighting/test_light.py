@@ -406,3 +406,23 @@ def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
     assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
     assert psnr(picture(room), reference) > 38.0
     assert not any(bar.is_holdout for bar in bars) and all(bar.visible_camera for bar in bars)
+
+
+@pytest.mark.parametrize("placement", ["VIRTUAL", "SURFACE"])
+def test_results_that_lie_in_their_mirror_or_behind_it_are_lit_in_collections_too(blank, room, placement):
+    """As files have them from the start; before a white mirror under a world of one colour it is seen alike."""
+    wall = scene_of(blank)
+    objects = [bpy.data.objects[name] for name in ("Box", "Floor")] + [wall]
+    objects[1].location.y = -4.0
+    inner = bpy.data.collections.new("Collection")
+    blank.scene.collection.children.link(inner)
+    for obj in objects:
+        inner.objects.link(obj)
+        blank.scene.collection.objects.unlink(obj)
+    parts.select(*objects)
+    reference = picture(room)
+    parts.generate(placement=placement)
+    seen = wall.visible_camera
+    assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
+    assert psnr(picture(room), reference) > 38.0
+    assert wall.visible_camera == seen
