@@ -1,6 +1,6 @@
 """Light on reflections: what Cycles shows in their mirrors, rendered once, on the faces that show it."""
 from .light_material import new_export_image, new_image, new_material
-from .light_scene import Window, light_scene, white_of
+from .light_scene import light_scene, white_of
 from .lit_results import (
     dull_objects,
     forget_light,
@@ -13,9 +13,10 @@ from .lit_results import (
 )
 from .needs_light import is_plain, needs_light
 from .preview import forget_previews, show_previews, shows_preview
-from .texels import pixel_kernel, texels_of
+from .texels import beside_lamps, is_overexposed, pixel_kernel, texels_of
+from .window import Window
 
-__all__ = ["Window", "dull_objects", "forget_light", "forget_map", "forget_previews", "is_lit", "is_plain",
-           "keep_light", "light_lines", "light_scene", "needs_light", "new_export_image", "new_image", "new_material",
-           "pixel_kernel", "show_light", "show_object_light", "show_previews", "shows_preview", "texels_of",
-           "white_of"]
+__all__ = ["Window", "beside_lamps", "dull_objects", "forget_light", "forget_map", "forget_previews", "is_lit",
+           "is_overexposed", "is_plain", "keep_light", "light_lines", "light_scene", "needs_light", "new_export_image",
+           "new_image", "new_material", "pixel_kernel", "show_light", "show_object_light", "show_previews",
+           "shows_preview", "texels_of", "white_of"]

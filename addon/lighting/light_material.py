@@ -1,12 +1,15 @@
 """The material that shows a picture of light where the camera saw it, and the images that it shows."""
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import bpy
 import numpy as np
 
 from .. import compat
 from ..faults import AllOrNothing, Steps, still_there
 from ..writing import UV_MAP
+from .picture_layout import SHINING
 
 WRITING = "Writing"
 
@@ -47,10 +50,11 @@ def _packed(name: str, values: np.ndarray, whole: AllOrNothing, **options) -> St
     return image
 
 
-def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Image,
-                 texels: np.ndarray) -> bpy.types.Material:
-    """A material that emits an image where the map `UV_MAP` says: Cycles and EEVEE show `image`, what follows the
-    output for all engines shows `export_image`, in nodes that exporters read.
+def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Image, texels: np.ndarray,
+                 apart: tuple[bpy.types.Image, bpy.types.Image] | None = None) -> bpy.types.Material:
+    """A material that emits an image where the map `UV_MAP` says: Cycles and EEVEE show `image`, or what of it is
+    matte and what shines from two images `apart`, what follows the output for all engines shows `export_image`, in
+    nodes that exporters read.
 
     That of glTF makes an unlit material of a colour which is the surface itself; that of USD takes what it knows of
     the first Principled BSDF that it finds, be it connected or not.
@@ -73,6 +77,8 @@ def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Imag
         for column, engine in enumerate(engines):
             output = add("ShaderNodeOutputMaterial", (200.0 * column, row), target=engine)
             tree.links.new(look.outputs["Color"], output.inputs["Surface"])
+    if apart is not None:
+        _put_apart(tree, add, spot, apart)
     # the last of both: what exporters begin at, and what solid view shows by texture
     output.is_active_output, tree.nodes.active = True, look
     told = add("ShaderNodeBsdfPrincipled", (200.0, -200.0), label="For USD")
@@ -85,6 +91,22 @@ def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Imag
     if len(seen):
         material.diffuse_color = (*np.minimum(seen, 1.0).mean(axis=0), 1.0)
     return material
+
+
+def _put_apart(tree: bpy.types.NodeTree, add: Callable[..., bpy.types.Node], spot: bpy.types.Node,
+               apart: tuple[bpy.types.Image, bpy.types.Image]) -> None:
+    """Let Cycles and EEVEE show the first of two images, and the second on the faces that show what shines."""
+    where = add("ShaderNodeAttribute", (-350.0, 1000.0), attribute_name=SHINING)
+    both = add("ShaderNodeMix", (0.0, 500.0), data_type="RGBA")
+    # its sockets for numbers, vectors and colours bear the same names
+    tree.links.new(where.outputs["Fac"], both.inputs[0])
+    for image, row, socket in zip(apart, (500.0, 750.0), both.inputs[6:8]):
+        look = add("ShaderNodeTexImage", (-350.0, row), name=image.name, image=image, interpolation="Linear",
+                   extension="EXTEND")
+        tree.links.new(spot.outputs["Vector"], look.inputs["Vector"])
+        tree.links.new(look.outputs["Color"], socket)
+    for output in [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL" and node.target != "ALL"]:
+        tree.links.new(both.outputs[2], output.inputs["Surface"])
 
 
 def images_of(material: bpy.types.Material) -> list[bpy.types.Image]:

@@ -9,14 +9,15 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...core import View
 from .. import compat
 from ..faults import still_there
 from ..reading import is_opaque, materials_of
 from ..reading.materials import is_exact
 from ..rendering import copied_scene, denoise, look_through, put_swift_world, rendered
+from .cutting import cut_through
+from .picture_layout import shining_slots
+from .window import Window
 
-MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
 COVERAGE_SAMPLES = 64  # where a result ends; elsewhere as few tell that it does not
 INNER_SAMPLES, UNEVEN = 8, 0.01
 STEADY_SAMPLES = 64  # from which on what sharp mirrors show has albedo and normals with hardly any noise
@@ -24,36 +25,13 @@ PLAIN_WHITE, ROLLED_OFF_WHITE = 1.0, 8.0
 
 
 @dataclass(frozen=True)
-class Window:
-    """A part of the picture: its lowest column and row, its width and height, in pixels of a picture of `size`."""
-
-    column: int
-    row: int
-    width: int
-    height: int
-    size: tuple[int, int]
-
-    @classmethod
-    def around(cls, view: View, places: np.ndarray) -> Window | None:
-        """The window that shows places (n, 3) in world space; None where that is nothing."""
-        spots = view.pixels(places)
-        spots = spots[np.isfinite(spots).all(axis=1)]
-        if not len(spots):
-            return None
-        lowest, highest = (np.clip(side, 0, view.resolution).astype(int) for side in (
-            np.floor(spots.min(axis=0)) - MARGIN, np.ceil(spots.max(axis=0)) + MARGIN))
-        if (highest <= lowest).any():
-            return None
-        return cls(*lowest.tolist(), *(highest - lowest).tolist(), view.resolution)
-
-
-@dataclass(frozen=True)
 class LightScene:
     """A copy of the user's scene that renders one window of its picture; `alone` where the camera sees no more in it
-    than the mirrors, `exact` where these have no roughness."""
+    than the mirrors, `before` these the objects that cut through them, `exact` where mirrors have no roughness."""
 
     scene: bpy.types.Scene
     results: list
+    before: list
     alone: bool
     exact: bool
 
@@ -68,35 +46,45 @@ class LightScene:
         self.scene.render.use_persistent_data = True
         return rendered(self.scene)
 
-    def coverage(self) -> np.ndarray:
-        """How much of each pixel the results cover, (height, width) float32, by the picture's own filter: nothing where
-        something stands before them. What mirrors are not alone in has to be asked."""
+    def coverage(self) -> tuple[np.ndarray, np.ndarray]:
+        """How much of each pixel the results cover, and those of their faces that show what shines, both (height,
+        width) float32, by the picture's own filter: nothing where something stands before them. What mirrors are not
+        alone in has to be asked."""
         scene, layer = self.scene, self.scene.view_layers[0]
         stage, others = (bpy.data.collections.new(name) for name in ("Reflection Light", "Reflection Light Others"))
-        opaque = _white()
+        opaque, shining = _glow((0.0, 1.0, 1.0)), _glow((1.0, 0.0, 0.0))
         # no more than whether something is there is asked: no texture, no lamp, no sky
-        layer.material_override, scene.world = opaque, None
-        made: list = [opaque]
+        layer.material_override = None if any(map(shining_slots, self.results)) else opaque
+        scene.world = None
+        made: list = [opaque, shining]
+        unseen = [mirror for mirror in {result.reflection_mesh.mirror for result in self.results} - {None}
+                  if mirror.visible_camera and (self.alone or mirror.reflection_mesh.camera_hidden)]
         try:
+            # results may lie in their mirrors or behind them
+            for mirror in unseen:
+                mirror.visible_camera = False
+            scene.collection.children.link(others)
             for obj in list(scene.collection.objects):
                 scene.collection.objects.unlink(obj)
-                others.objects.link(obj)
-            # what hides the results in the picture does so here where it is in the picture of light
-            if not self.alone:
-                scene.collection.children.link(others)
+                # what hides the results in the picture does so here where it is in the picture of light
+                if not self.alone or obj in self.before:
+                    others.objects.link(obj)
             for branch in layer.layer_collection.children:
                 branch.holdout = True
             scene.collection.children.link(stage)
             for result in self.results:
-                made.append(_stand_in(result, opaque))
+                made.append(_stand_in(result, opaque, shining))
                 stage.objects.link(made[-1])
             cycles = scene.cycles
             cycles.samples, cycles.max_bounces, cycles.use_denoising = COVERAGE_SAMPLES, 0, False
             cycles.use_adaptive_sampling = True
             cycles.adaptive_min_samples, cycles.adaptive_threshold = INNER_SAMPLES, UNEVEN
             scene.render.film_transparent, scene.render.use_persistent_data = True, False
-            return rendered(scene)[..., 3]
+            seen = rendered(scene)
+            return seen[..., 3], seen[..., 0]
         finally:
+            for mirror in still_there(unseen):
+                mirror.visible_camera = True
             bpy.data.batch_remove([*still_there(made), stage, others])
 
 
@@ -118,11 +106,15 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         others, parts = _seen_others(context, {*results, *mirrors})
         hidden = [obj for obj in others if obj.library is None and obj not in parts]
         alone = len(hidden) == len(others) and len(mirrors) == len(results) and all(map(_is_opaque, mirrors))
-        for obj in hidden if alone else itertools.filterfalse(_is_opaque, hidden):
+        before = _cutting(context, mirrors, hidden) if alone else []
+        for obj in before:
+            back.callback(setattr, obj, "is_holdout", obj.is_holdout)
+            obj.is_holdout = True
+        for obj in set(hidden).difference(before) if alone else itertools.filterfalse(_is_opaque, hidden):
             back.callback(setattr, obj, "visible_camera", True)
             obj.visible_camera = False
         exact = all(is_exact(material) for mirror in mirrors for material in materials_of(mirror))
-        yield LightScene(scene, results, alone, exact)
+        yield LightScene(scene, results, before, alone, exact)
 
 
 def _seen_others(context: bpy.types.Context, lit: set) -> tuple[list, set]:
@@ -137,6 +129,15 @@ def _seen_others(context: bpy.types.Context, lit: set) -> tuple[list, set]:
         of_mirror = instance.is_instance and instance.parent is not None and instance.parent.original in lit
         (parts if of_mirror else shown).add(instance.object.original)
     return [obj for obj in shown - lit if obj.visible_camera], parts
+
+
+def _cutting(context: bpy.types.Context, mirrors: set, others: list) -> list:
+    """Those of others that must hide what they hide of the mirrors, though the camera sees these alone.
+
+    Within what cuts through it a mirror shows the inside of that, which no result has, and which cannot be told from
+    what the mirror shows beside.
+    """
+    return cut_through(context.evaluated_depsgraph_get(), mirrors, list(filter(_is_opaque, others)))
 
 
 def _is_opaque(obj: bpy.types.Object) -> bool:
@@ -169,20 +170,21 @@ def _sharp_camera(camera: bpy.types.Object) -> bpy.types.Object:
     return copy
 
 
-def _white() -> bpy.types.Material:
+def _glow(colour: tuple[float, float, float]) -> bpy.types.Material:
     """A material as bright as nothing is dark, so that adaptive sampling finds where both meet."""
     made = bpy.data.materials.new("Reflection Light Opaque")
     tree = compat.use_nodes(made)
     tree.nodes.clear()
     glow, output = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("Emission", "OutputMaterial"))
+    glow.inputs["Color"].default_value = (*colour, 1.0)
     tree.links.new(glow.outputs[0], output.inputs[0])
     return made
 
 
-def _stand_in(result: bpy.types.Object, material: bpy.types.Material) -> bpy.types.Object:
+def _stand_in(result: bpy.types.Object, opaque: bpy.types.Material, shining: bpy.types.Material) -> bpy.types.Object:
     """A result as the camera sees it, and nothing else does."""
-    copy = result.copy()
+    copy, shine = result.copy(), shining_slots(result)
     copy.hide_render = False
-    for slot in copy.material_slots:
-        slot.link, slot.material = "OBJECT", material
+    for number, slot in enumerate(copy.material_slots):
+        slot.link, slot.material = "OBJECT", shining if number in shine else opaque
     return copy

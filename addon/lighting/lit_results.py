@@ -12,11 +12,11 @@ from ..faults import AllOrNothing, Steps, finished, keep_data, keep_object, stil
 from ..reading import DiffuseScene
 from ..writing import LONGEST_RECORD, show_own_materials
 from .light_material import images_of, texels_shown
-from .light_scene import Window
 from .needs_light import needs_light
 from .picture_layout import lay_out as lay_out_picture
 from .picture_light import record_of, window_of
 from .preview import MARK, forget_previews
+from .window import Window
 
 
 def show_light(result: bpy.types.Object, material: bpy.types.Material, view: View, window: Window,

@@ -11,10 +11,12 @@ import numpy as np
 
 from ...core import View
 from ..faults import Steps
+from ..reading.materials import emits
 from ..writing import UV_MAP, light_layer, place_of
-from .light_scene import Window
+from .window import Window
 
 COLOUR = "Reflection Light Colour"
+SHINING = "Reflection Light Shining"
 STRAYING = 0.1  # pixels that a UV map may be wrong by
 WRITING = "Writing"
 ROUNDS = 12     # of halving edges: an error falls to a quarter by each
@@ -34,6 +36,7 @@ def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.nda
     yield 0.0, WRITING
     spots = _in_window(_clip(mesh, view, matrix), view, window)
     _write_spots(mesh, spots)
+    _write_shining(result)
     yield 0.0, WRITING
     if texels is not None:
         _write_colours(mesh, spots, texels)
@@ -100,6 +103,23 @@ def _write_spots(mesh: bpy.types.Mesh, spots: np.ndarray) -> None:
     else:
         known = mesh.attributes.get(UV_MAP) or mesh.attributes.new(UV_MAP, "FLOAT2", "POINT")
         known.data.foreach_set("vector", spots.astype(np.float32).reshape(-1))
+
+
+def shining_slots(result: bpy.types.Object) -> set[int]:
+    """The slots of a result whose faces show what shines by itself; none where it has points alone."""
+    mesh = result.data
+    return {number for number, material in enumerate(mesh.materials) if len(mesh.polygons) and emits(material)}
+
+
+def _write_shining(result: bpy.types.Object) -> None:
+    """Whether a face shows what shines, as 1 or 0."""
+    mesh, slots = result.data, shining_slots(result)
+    if not slots:
+        return
+    index = np.empty(len(mesh.polygons), dtype=np.int32)
+    mesh.polygons.foreach_get("material_index", index)
+    known = mesh.attributes.get(SHINING) or mesh.attributes.new(SHINING, "FLOAT", "FACE")
+    known.data.foreach_set("value", np.isin(index, list(slots)).astype(np.float32))
 
 
 def _write_colours(mesh: bpy.types.Mesh, spots: np.ndarray, texels: np.ndarray) -> None:

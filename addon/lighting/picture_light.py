@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core import View
 from ..writing import LONGEST_RECORD
-from .light_scene import Window
+from .window import Window
 
 
 def record_of(view: View, window: Window) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from ...core import breathe, in_steps
 from ..faults import Steps, part
 from ..rendering import grown
-from .borders import filled, without_what_lies_beside
+from .borders import SEEN_PARTLY, filled, without_what_lies_beside
 
 REACH = 3           # texels around the covered ones that filters and interpolation may ask for
 FINE = 512          # places across a pixel at which its filter is summed
@@ -51,6 +51,18 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white
     """
     yield 0.0, SHARPENING
     return (yield from part(in_steps(partial(_texels, light, coverage, kernel, white, opacity)), 0.0, 1.0, SHARPENING))
+
+
+def is_overexposed(light: np.ndarray, coverage: np.ndarray, white: float) -> bool:
+    """Whether light (height, width, 3) is brighter than white where faces with a `coverage` (height, width) are."""
+    return bool((light[coverage > SEEN_PARTLY] > white).any())
+
+
+def beside_lamps(coverage: np.ndarray, shining: np.ndarray) -> np.ndarray:
+    """What of a `coverage` (height, width) is left without the part that faces that are `shining` have in it. What
+    they reach, and what they may reach unnoticed, since few samples fall where the filter ends, counts as hardly
+    covered: it is shown as what lies around it, for a hundredth of a lamp is brighter."""
+    return np.minimum(coverage - shining, np.where(grown(shining > 0.0, 1), SEEN_PARTLY, 1.0)).clip(0.0)
 
 
 def _texels(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float,

@@ -13,7 +13,9 @@ from ..faults import AllOrNothing, SteppedOperator, Steps, Undivided, part, tell
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
     Window,
+    beside_lamps,
     dull_objects,
+    is_overexposed,
     is_plain,
     light_scene,
     needs_light,
@@ -160,16 +162,23 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int,
         yield 0.02, Undivided("Cycles renders the light")
         light = scene.light(samples)
         yield 0.9, Undivided("Cycles renders what reflections cover")
-        coverage = scene.coverage()
+        coverage, shining = scene.coverage()
     cycles = context.scene.cycles
     kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
     opacity = light[..., 3] if scene.alone else None
-    texels = yield from part(texels_of(light[..., :3], coverage, kernel, white_of(context.scene), opacity), 0.93, 0.05)
-    image = yield from part(new_image(NAME, texels, whole), 0.98, 0.01)
+    white = white_of(context.scene)
+    texels = yield from part(texels_of(light[..., :3], coverage, kernel, white, opacity), 0.93, 0.04)
+    image, apart = (yield from part(new_image(NAME, texels, whole), 0.97, 0.01)), None
+    if is_overexposed(light[..., :3], shining, white):
+        # what shines ends where its faces do, however bright it is: between texels it could not
+        apart = []
+        for name, part_of in (("Matte", beside_lamps(coverage, shining)), ("Shining", shining)):
+            found = yield from part(texels_of(light[..., :3], part_of, kernel, white, opacity), 0.98, 0.005)
+            apart.append((yield from part(new_image(f"{NAME} {name}", found, whole), 0.985, 0.0)))
     export_image = yield from part(new_export_image(f"{NAME} Export", texels, whole), 0.99, 0.01)
 
     def show() -> Steps[None]:
-        material = new_material(NAME, image, export_image, texels)
+        material = new_material(NAME, image, export_image, texels, apart)
         whole.undo(bpy.data.materials.remove, material)
         for result in lit:
             yield from show_light(result, material, view, window, whole)

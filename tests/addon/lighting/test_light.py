@@ -224,7 +224,7 @@ def test_what_a_result_covers_is_told_finely_where_it_ends(blank, room):
             if finest:
                 patched.setattr(place, "COVERAGE_SAMPLES", 1024)
                 patched.setattr(place, "INNER_SAMPLES", 1024)
-            found.append(scene.coverage())
+            found.append(scene.coverage()[0])
     few, exact = found
     ends = (exact > 0.0) & (exact < 1.0)
     assert ends.sum() > 100 and np.abs(few - exact).max() < 0.1
@@ -389,3 +389,70 @@ def test_the_verb_light(saved_scene, room, tmp_path, capsys):
     assert result.material_slots[0].material == result.reflection_mesh.light_material
     assert run(["light", "--samples", "0"]) == 1
     assert run(["light", "--samples", "1"]) == 0
+
+
+def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
+    """A frame that the mirror is sunk in: within the frame it shows the dark inside of that, which no result has."""
+    scene_of(blank)
+    bars = [parts.add("cube", f"Bar {number}", size=1.0, location=(x, 1.0, 1.0 + z), scale=(width, 0.2, height))
+            for number, (x, z, width, height) in enumerate(((-1.1, 0.0, 0.2, 2.4), (1.1, 0.0, 0.2, 2.4),
+                                                            (0.0, -1.1, 2.4, 0.2), (0.0, 1.1, 2.4, 0.2)))]
+    for bar in bars:
+        bar.data.materials.append(principled("Wood", (0.3, 0.12, 0.04)))
+    blank.scene.world.color = (1.2, 1.35, 1.5)
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor")), *bars, bpy.data.objects["Mirror"])
+    reference = picture(room)
+    parts.generate()
+    assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
+    assert psnr(picture(room), reference) > 38.0
+    assert not any(bar.is_holdout for bar in bars) and all(bar.visible_camera for bar in bars)
+
+
+@pytest.mark.parametrize("placement", ["VIRTUAL", "SURFACE"])
+def test_results_that_lie_in_their_mirror_or_behind_it_are_lit_in_collections_too(blank, room, placement):
+    """As files have them from the start; before a white mirror under a world of one colour it is seen alike."""
+    wall = scene_of(blank)
+    objects = [bpy.data.objects[name] for name in ("Box", "Floor")] + [wall]
+    objects[1].location.y = -4.0
+    inner = bpy.data.collections.new("Collection")
+    blank.scene.collection.children.link(inner)
+    for obj in objects:
+        inner.objects.link(obj)
+        blank.scene.collection.objects.unlink(obj)
+    parts.select(*objects)
+    reference = picture(room)
+    parts.generate(placement=placement)
+    seen = wall.visible_camera
+    assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
+    assert psnr(picture(room), reference) > 38.0
+    assert wall.visible_camera == seen
+
+
+def test_what_shines_is_as_bright_up_to_its_outline_and_what_is_beside_as_dark(blank, room):
+    """Bulbs of a few pixels, up to thirty times as bright as white, before a wall and the sky: no texel between
+    them and what lies beside could be both."""
+    scene_of(blank)
+    bpy.data.objects["Floor"].location.z = -1.5
+    bulbs = []
+    for number, (x, z) in enumerate(((-0.9, 0.4), (0.0, 0.5), (0.9, 0.3), (-0.8, 1.5), (0.1, 1.6), (0.8, 1.4))):
+        bulbs.append(parts.add("uv_sphere", f"Bulb {number}", segments=16, ring_count=8, radius=0.1 + 0.02 * number,
+                               location=(x, -1.0, z)))
+        bulbs[-1].visible_camera = bulbs[-1].visible_diffuse = False
+        bulbs[-1].data.materials.append(parts.material(f"Fire {number}"))
+        shader = bulbs[-1].data.materials[0].node_tree.nodes[0]
+        shader.inputs["Color"].default_value = (1.0, 0.6, 0.2, 1.0)
+        shader.inputs["Strength"].default_value = (4.0, 12.0, 30.0)[number % 3]
+    back = parts.add("plane", "Back", size=2.0, location=(-1.0, -3.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
+    back.visible_camera = False
+    back.data.materials.append(principled("Paint", (0.2, 0.3, 0.2)))
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor")), back, *bulbs, bpy.data.objects["Mirror"])
+    blank.scene.cycles.samples = 512
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    assert bpy.ops.reflection_mesh.light(kind="PICTURE", samples=256) == {"FINISHED"}
+    assert psnr(picture(room), reference) > min(40.0, psnr(other, reference) - 1.5)
+    # what shows it knows it again where the result is made anew
+    parts.generate()
+    assert psnr(picture(room), reference) > min(40.0, psnr(other, reference) - 1.5)
+    bpy.ops.reflection_mesh.clear()
+    assert not [image for image in bpy.data.images if image.name.startswith("Reflection Light")]
