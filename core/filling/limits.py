@@ -17,7 +17,8 @@ from ..support import Settings
 CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES, PIECE_BYTES, TRIANGLE_BYTES = 1400, 160, 1100, 400, 140
 LEAST = 1.0 / 4.0  # of the memory, whatever else takes it
 LATER = 1.0 / 2.0  # of the limits of a bounce: those of the next
-SQUARE = 0.5  # pixels, where the tolerance is no less: there the ray through a pixel's middle is one of them
+# pixels, where the tolerance is no less: the ray through a pixel's middle is that of a square then
+SQUARE, WIDE_SQUARE = 0.5, 1.0
 DENSE = 2.0  # candidates that take about as long as a ray and what it shows
 
 
@@ -75,7 +76,8 @@ class Limits:
                    int(min(200_000 + 32 * pixels + 16 * triangles, memory / FACE_BYTES, faces)),
                    int(min(8000 + pixels, 500_000, faces)), int(min(8000 + pixels // 2, faces // 16)),
                    int(min(200_000 + 32 * pixels + triangles, memory / PIECE_BYTES)), int(min(memory, 2.0**62)),
-                   min(SQUARE, settings.tolerance), np.inf if settings.hidden_faces else DENSE)
+                   WIDE_SQUARE if settings.tolerance >= WIDE_SQUARE else min(SQUARE, settings.tolerance),
+                   np.inf if settings.hidden_faces else DENSE)
 
     def beside(self, held: int) -> Limits:
         """The limits where so many bytes are held by what has been done."""

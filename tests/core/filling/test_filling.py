@@ -59,7 +59,7 @@ def test_ordinary_scenes_need_hardly_a_ray(name):
     assert counts["filled_pixels"] < (0.003 if name == "torus" else 0.0003) * counts["mirror_pixels"]
 
 
-@pytest.mark.parametrize("tolerance", [0.5, 0.25])
+@pytest.mark.parametrize("tolerance", [2.0, 0.5, 0.25])
 def test_pixels_that_show_much_of_the_scene_are_filled_by_rays_sooner_than_cut(tolerance, monkeypatch):
     # a ring before 9,000 triangles, in a picture of 64 pixels: what lies over one another in them nobody can see
     case = case_of("torus", 64)
