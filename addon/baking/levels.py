@@ -23,6 +23,7 @@ DARK = 0.02     # what is darker tells nothing of the light that falls on it
 DARKENED = 1.5  # times a texel at the rim of what is denoised: it has lost no more
 BLACKENED = 3.0  # the same, where no pattern could be lost by it
 BRIGHTENED = 1.15  # times such a texel: it has won no more
+MOST_SHOWN = 0.5  # of a texel, from which on it tells what is shown of it
 OUTSIDE = -1.0  # of a picture: where what is not baked has its place
 
 
@@ -67,18 +68,26 @@ class ObjectLevels:
         high = np.minimum(np.ceil(spots.max(axis=(0, 1))).astype(np.int64) + BORDER, self.atlases[level].size)
         return low, high - low
 
+    def baked_parts(self, level: int, back: bool | None, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Corners of the parts that are baked, (b, 3, 3) in space, where those of the triangles are (m, 3, 3), and
+        (b, 3, 2) in a level's picture, in texels."""
+        needed = self.needed[level][back]
+        return self.division.values(corners)[needed], self.atlases[level].spots[needed]
+
     def texels(self, level: int, back: bool | None) -> float:
         """About how many texels of a level are baked."""
         return float(self.atlases[level].size**2 * max(self.needed[level][back].mean(), 1e-3))
 
     def picture(self, level: int, back: bool | None, baked: np.ndarray, coarser: np.ndarray | None,
-                colours: np.ndarray | None = None) -> np.ndarray:
+                colours: np.ndarray | None = None, shown: np.ndarray | None = None) -> np.ndarray:
         """A level's picture from what was baked of its window, light and `colours` that have a pattern, and the picture
-        before, with all texels known."""
+        before, with all texels known; where less than all of them is `shown` (side, side), by what is."""
         (column, row), side = self.window(level, back)[0], self.atlases[level].size
         found = np.full((side, side, 4), UNTOUCHED, dtype=np.float32)
-        found[row:row + len(baked), column:column + baked.shape[1]] = _with_its_rim(baked, colours) if self.wide \
-            else baked
+        own = slice(row, row + len(baked)), slice(column, column + baked.shape[1])
+        found[own] = _with_its_rim(baked, colours) if self.wide else baked
+        if shown is not None:
+            found = _as_shown(found, shown)
         known = found[..., 3] != UNTOUCHED
         if coarser is not None:
             rest = ~self.needed[level][back]
@@ -156,6 +165,18 @@ def spread(picture: np.ndarray, known: np.ndarray) -> np.ndarray:
         known = known | ring
     values[~known] = values[known].mean(axis=0) if known.any() else 0.0
     return values
+
+
+def _as_shown(picture: np.ndarray, shown: np.ndarray) -> np.ndarray:
+    """A picture (side, side, 4) whose texels tell of what is `shown` of them (side, side) alone: what is hidden is
+    dark, and those of which it is most are as those beside."""
+    known = picture[..., 3] != UNTOUCHED
+    whole = known & (shown == 1.0)
+    part = known & ~whole & (shown >= MOST_SHOWN)
+    # where a denoiser has brought light to the dark, there may be too much in what is left
+    told = np.minimum(picture / np.maximum(shown, MOST_SHOWN)[..., None], spread(picture, whole))
+    told[known & ~whole & ~part] = UNTOUCHED
+    return np.where(whole[..., None] | ~known[..., None], picture, told)
 
 
 def _with_its_rim(baked: np.ndarray, colours: np.ndarray | None) -> np.ndarray:

@@ -13,7 +13,9 @@ from ..reading import DiffuseScene, is_opaque, materials_of
 from ..reading.meshes import read_meshes
 from .bake_scene import bake_scene
 from .levels import FINER, fine_where_seen, levels_of
+from .mirror_bodies import MirrorBodies, mirror_bodies
 from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
+from .shown_texels import shown_texels
 from .stand_ins import new_meshes, stand_ins
 from .texels import arranged, is_glossy, is_metal, packed
 from .thrown import thrown_light
@@ -71,8 +73,9 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
     thrown, lit = yield from part(thrown_light(context, scene, sheets, uv, side), 0.0, 0.0)
     # opacity is the same from both sides
     asked = sheets + [(number, None) for number, through in enumerate(open_) if through]
-    pictures, colours = yield from _pictures(context, scene, seen, levels, {sheet: sheet in lit for sheet in asked},
-                                             samples)
+    bodies = yield from part(in_steps(partial(mirror_bodies, context, results, view)), 0.0, 0.0, MEASURING)
+    pictures, colours = yield from _pictures(context, scene, (seen, bodies), levels,
+                                             {sheet: sheet in lit for sheet in asked}, samples)
     texels = np.zeros((side, side, 4), dtype=np.float32)
     for (number, back), (column, row) in zip(sheets, at.tolist(), strict=True):
         place = slice(row, row + atlases[number].size), slice(column, column + atlases[number].size)
@@ -100,12 +103,14 @@ def _sheets(scene: DiffuseScene, seen: SeenSources) -> tuple[list, list, list]:
                           if both[number] or back == bool(seen.backs[number])]
 
 
-def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources, levels: dict, asked: dict,
-              samples: int) -> Steps[tuple[dict, dict]]:
+def _pictures(context: bpy.types.Context, scene: DiffuseScene, how: tuple[SeenSources, MirrorBodies], levels: dict,
+              asked: dict, samples: int) -> Steps[tuple[dict, dict]]:
     """What Cycles bakes of each of `asked`, (source, whether its backs); None there for how opaque it is; and, of those
     whose value there says so, the colours of what is matte."""
+    seen, bodies = how
     placed = read_meshes(context.evaluated_depsgraph_get(), scene.sources, mirror=False)
     divisions = {number: one.division for number, one in levels.items()}
+    corners = [scene.mesh.positions[scene.mesh.triangles[one]] for one in triangles_by_source(scene)]
     undeformed = yield from part(_undeformed(context.scene, scene.sources), 0.0, 0.0, PREPARING)
     # coarse ones first, the finest of all objects together
     bakes: dict = {}
@@ -138,9 +143,12 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, seen: SeenSources
                 if asked[number, back]:
                     own_colours = stage.matte(number, (width, height), few)
                     made.append((matte, own_colours, own_colours))
+                shown = None if opacity else (yield from part(
+                    in_steps(partial(shown_texels, bodies, *own.baked_parts(level, back, corners[number]),
+                                     own.atlases[level].size, turned)), done / whole, 0.0, PREPARING))
                 for kept, picture, colours in made:
                     kept[number, back] = yield from part(
-                        in_steps(partial(own.picture, level, back, picture, kept.get((number, back)), colours)),
+                        in_steps(partial(own.picture, level, back, picture, kept.get((number, back)), colours, shown)),
                         done / whole, 0.0, PREPARING)
                 done += own.texels(level, None)
     return found, matte

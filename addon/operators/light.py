@@ -57,7 +57,7 @@ LINKED_TO_LIGHT = ("The reflections are linked from another file: light them in 
 
 
 def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, kind: str = "AUTO",
-             every: bool = False) -> Steps[list]:
+             every: bool = False, lamps_apart: bool = True) -> Steps[list]:
     """Let `results` show the light that their mirrors show.
 
     In the picture, Cycles renders the mirrors as they are, once, and each result shows that where the camera sees it;
@@ -72,6 +72,8 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, 
     kind : {'AUTO', 'PICTURE', 'OBJECTS'}
     every : bool
         Also those that look right as they are.
+    lamps_apart : bool
+        Whether what shines and is overexposed has texels of its own: frames that are baked have one picture each.
 
     Returns
     -------
@@ -83,11 +85,11 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, 
     ReflectionError
         Where there is nothing to light, or a render is cancelled; nothing has changed then.
     """
-    return (yield from lighting_groups(context, [(results, samples, kind)], every))
+    return (yield from lighting_groups(context, [(results, samples, kind)], every, lamps_apart))
 
 
-def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, str]], every: bool = False
-                    ) -> Steps[list]:
+def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, str]], every: bool = False,
+                    lamps_apart: bool = True) -> Steps[list]:
     """As `lighting`, for several groups (results, samples, kind): all of them are lit, or none."""
     if context.mode != "OBJECT":
         raise ReflectionError(IN_OBJECT_MODE)
@@ -104,7 +106,8 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
                 continue
             with_objects = kind == "OBJECTS" or (kind == "AUTO" and _view_moves(context, lit) and can_be_baked(lit)
                                                  and are_few(lit))
-            steps = (_on_objects if with_objects else _in_picture)(context, lit, view, samples, whole)
+            steps = (_on_objects(context, lit, view, samples, whole) if with_objects
+                     else _in_picture(context, lit, view, samples, whole, lamps_apart))
             shows.append((yield from part(steps, number / len(groups), 1.0 / len(groups))))
             everything += lit
         meshes: dict = {}
@@ -152,8 +155,8 @@ def _for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int, str]
     return own
 
 
-def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing
-                ) -> Steps[Callable[[], Steps[None]]]:
+def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing,
+                lamps_apart: bool) -> Steps[Callable[[], Steps[None]]]:
     """Render what `lit` show of the picture; returns what lets them show it."""
     window = Window.around(view, np.concatenate([_on_the_mirror(result) for result in lit]))
     if window is None:
@@ -169,7 +172,7 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int,
     white = white_of(context.scene)
     texels = yield from part(texels_of(light[..., :3], coverage, kernel, white, opacity), 0.93, 0.04)
     image, apart = (yield from part(new_image(NAME, texels, whole), 0.97, 0.01)), None
-    if is_overexposed(light[..., :3], shining, white):
+    if lamps_apart and is_overexposed(light[..., :3], shining, white):
         # what shines ends where its faces do, however bright it is: between texels it could not
         apart = []
         for name, part_of in (("Matte", beside_lamps(coverage, shining)), ("Shining", shining)):

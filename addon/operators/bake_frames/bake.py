@@ -210,7 +210,7 @@ def _results(context: bpy.types.Context, plan: Plan, chosen, results: list) -> S
     results += [obj for obj, _ in outcome.results]
     context.view_layer.update()
     if plan.samples:
-        yield from part(lighting(context, results, plan.samples, "PICTURE"), 0.5, 0.5)
+        yield from part(lighting(context, results, plan.samples, "PICTURE", lamps_apart=False), 0.5, 0.5)
 
 
 class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, bpy.types.Operator):
