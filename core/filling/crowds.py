@@ -72,9 +72,10 @@ class Crowds:
         return cameras.select(~crowd)
 
     def bound(self, cameras: Cameras) -> Bound:
-        """What may be looked for in the cameras."""
+        """What may be looked for in the cameras; where no square is whole, rays show many cells, and all is looked
+        at."""
         enough = TESTS * self.limits.dense / (LOOK * self.limits.square**2) * pixels_crossed(cameras)
-        return Bound(self.limits.pairs, picture_areas(cameras), enough)
+        return Bound(self.limits.pairs, picture_areas(cameras), enough if _may_be_whole(cameras) else None)
 
     def full(self, cameras: Cameras, found: Touching) -> np.ndarray:
         """Which cameras (n,) have too much to look at in what was found."""
@@ -114,9 +115,9 @@ class Crowds:
         corners, face = (np.concatenate([getattr(crowd, name) for crowd in self._cameras])
                          for name in ("corners", "face"))
         crowds = replace(cameras, corners=corners, face=face)
-        in_whole = cameras.mirror_map.bounce == 1 and not isinstance(cameras.view, LampView)
-        size = _side(crowds, self.limits, in_whole)
-        squares = WholeSquares.of(crowds, self.met, SquareGrid.over(crowds, size), self.last) if in_whole else None
+        size = _side(crowds, self.limits)
+        squares = WholeSquares.of(crowds, self.met, SquareGrid.over(crowds, size), self.last) \
+            if _may_be_whole(crowds) else None
         cells, triangle, rays, corner_face = _shown(crowds, self.met, size, squares)
         if self.last:  # what shows a mirror shows nothing
             scene = np.flatnonzero(triangle < self.met.diffuse)
@@ -169,9 +170,13 @@ def _shown(crowds: Cameras, met: SceneAndMirrors, size: float,
             squares.corner_face[squares.corners])
 
 
-def _side(cameras: Cameras, limits: Limits, in_whole: bool) -> float:
-    """Of the squares through which rays fill the cameras, as many as the limits allow or a little more, in pixels;
-    where the limits are met most of them are to be `in_whole`."""
+def _may_be_whole(cameras: Cameras) -> bool:
+    """Whether a few faces may show a square, whatever number of the mirror's faces lies in it."""
+    return cameras.mirror_map.bounce == 1 and not isinstance(cameras.view, LampView)
+
+
+def _side(cameras: Cameras, limits: Limits) -> float:
+    """Of the squares through which rays fill the cameras, as many as the limits allow or a little more, in pixels."""
     most, size = limits.rays, limits.square
     # a face of the mirror lies in about as many squares as its area holds, its edges cross more, and one
     area, crossed = pixels_of(cameras).sum(), CROSSED * pixels_around_faces(cameras)
@@ -179,6 +184,6 @@ def _side(cameras: Cameras, limits: Limits, in_whole: bool) -> float:
     if area / size**2 + crossed / size + faces <= most:
         return size
     # an odd number of pixels, so that the ray through a pixel's middle is one of them; faces may share them
-    room, crossed = (most, 0.0) if in_whole else (max(CELLS * most - faces, most / 2), crossed)
+    room, crossed = (most, 0.0) if _may_be_whole(cameras) else (max(CELLS * most - faces, most / 2), crossed)
     needed = 2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300)
     return 1.0 + 2.0 * max(0.0, np.ceil(0.5 * (needed - 1.0)))
