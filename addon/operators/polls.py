@@ -67,8 +67,13 @@ def has_result(sentence: str, linked: str) -> Obstacle:
         active = context.view_layer.objects.active
         if (active is not None and _is_result(active)) or _any(context.scene.objects, _is_result):
             return ""
-        return linked if len(context.blend_data.objects) <= LOOKED_THROUGH and has_linked_results() else sentence
+        return _missing(context, sentence, linked)
     return obstacle
+
+
+def _missing(context: bpy.types.Context, sentence: str, linked: str) -> str:
+    few = len(context.blend_data.objects) <= LOOKED_THROUGH
+    return linked if few and has_linked_results() else sentence
 
 
 def has_what_clears(sentence: str, linked: str) -> Obstacle:
@@ -79,7 +84,7 @@ def has_what_clears(sentence: str, linked: str) -> Obstacle:
             return ""
         if _any(context.scene.objects, _is_made_or_window) or leaves_out_any() or raises_layers():
             return ""
-        return linked if len(context.blend_data.objects) <= LOOKED_THROUGH and has_linked_results() else sentence
+        return _missing(context, sentence, linked)
     return obstacle
 
 

@@ -1,0 +1,139 @@
+"""Light leaves all else in the file as it is, says when it is stale, and is taken back; by operators and its verb."""
+from __future__ import annotations
+
+import bpy
+import parts
+import pytest
+from lamp_scenes import SIZE, leaves_no_trace, lit_state, picture, plain_scene, psnr, scene_of, shader_of
+
+
+@pytest.mark.parametrize(("placement", "opaque"), [("LAYERED", True), ("VIRTUAL", True), ("LAYERED", False)])
+def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaque):
+    scene_of(blank, "UV", "" if opaque else "Half open")
+    result = parts.generate(placement=placement)
+    before, lighting = lit_state(), room("addon.operators.light").lighting
+    stages = ["Reading the scene", "Cycles renders the light", "Cycles renders what reflections cover",
+              "Sharpening the light", "Writing"]
+    # images are written in several steps
+    for stage, times in [*((stage, 1) for stage in stages), *(("Writing", times) for times in (4, 7, 9, 11))]:
+        steps = lighting(blank, [result], 1)
+        while times:
+            times -= next(steps)[1] == stage
+        steps.close()
+        assert lit_state() == before
+    told = [stage for _, stage in lighting(blank, [result], 1)]
+    assert list(dict.fromkeys(told)) == stages and lit_state() != before
+
+
+@pytest.mark.parametrize("failing", ["rendered", "new_material", "show_light"])
+def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
+    where = "addon.lighting.light_scene" if failing == "rendered" else "addon.operators.light"
+    leaves_no_trace(blank, room, monkeypatch, (where, failing), "PICTURE")
+
+
+def test_what_is_lit_is_the_result_alone(blank):
+    scene_of(blank)
+    result = parts.generate()
+    before, materials = parts.state(), [material.name for material in result.data.materials]
+    bpy.ops.reflection_mesh.light(samples=1)
+    after = parts.state()
+    # the mesh keeps the materials of its sources under their names; the object shows the light
+    assert [material.name for material in result.data.materials] == materials
+    assert {(slot.link, slot.material) for slot in result.material_slots} == {
+        ("OBJECT", result.reflection_mesh.light_material)}
+    new = {kind: set(names) - set(before["data"][kind]) for kind, names in after["data"].items()}
+    assert {kind: names for kind, names in new.items() if names} == {
+        "materials": {"Reflection Light"}, "images": {"Reflection Light", "Reflection Light Export"}}
+    assert {**after, "data": 0} == {**before, "data": 0}
+    image = bpy.data.images["Reflection Light"]
+    assert image.packed_file is not None and image.size[0] <= SIZE
+
+
+def test_what_emits_in_a_plain_mirror_needs_no_light(blank):
+    mirror = plain_scene()
+    result = parts.generate()
+    before = lit_state()
+    assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
+    assert lit_state() == before and result.reflection_mesh.light_material is None
+    mirror.data.materials[0].node_tree.nodes[0].inputs["Color"].default_value = (0.8, 0.9, 1.0, 1.0)
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert result.reflection_mesh.light_material is not None
+
+
+@pytest.mark.parametrize(("change", "stale"), [
+    (lambda scene: setattr(bpy.data.objects["Box"].location, "x", 0.5), True),
+    (lambda scene: setattr(scene.camera.location, "x", 0.5), True),
+    (lambda scene: setattr(scene.camera.data, "lens", 45.0), True),
+    (lambda scene: setattr(next(iter(bpy.data.lights)), "energy", 10.0), True),
+    (lambda scene: setattr(shader_of(bpy.data.materials["Source"]).inputs["Roughness"], "default_value", 0.2), True),
+    (lambda scene: bpy.data.objects.remove(next(obj for obj in scene.objects if obj.type == "LIGHT")), True),
+    (lambda scene: setattr(next(obj for obj in scene.objects if obj.type == "LIGHT"), "hide_render", True), True),
+    (lambda scene: scene.frame_set(scene.frame_current + 1), False),
+    (lambda scene: bpy.data.objects["Box"].select_set(False), False),
+])
+def test_light_is_stale_when_the_scene_has_changed(blank, change, stale):
+    scene_of(blank)
+    result = parts.generate(tolerance=4.0)
+    bpy.ops.reflection_mesh.light(samples=1)
+    light = result.reflection_mesh.light_material
+    change(blank.scene)
+    blank.view_layer.update()
+    assert result.reflection_mesh.light_stale == stale
+    parts.select(result)
+    parts.generate(tolerance=2.0)
+    # light that fits stays; other light is not shown
+    assert {slot.material == light for slot in result.material_slots} == {not stale}
+    assert result.reflection_mesh.light_stale == stale
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert not result.reflection_mesh.light_stale and len(bpy.data.materials) == 4
+
+
+def test_light_that_was_kept_shows_the_same(blank, room):
+    scene_of(blank, "UV", "Tint")
+    result = parts.generate(tolerance=2.0)
+    bpy.ops.reflection_mesh.light()
+    first = picture(room)
+    parts.select(result)
+    parts.generate(tolerance=0.5)
+    assert psnr(picture(room), first) > 45.0
+
+
+def test_the_panel_tells_what_there_is_to_do(blank, room):
+    scene_of(blank)
+    lines = room("addon.lighting").light_lines
+    result = parts.generate()
+    assert lines(result) == ["Its light is still to come:", "press Light Reflection."]
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert lines(result) == ["Lit."]
+    bpy.data.objects["Box"].location.x += 0.1
+    blank.view_layer.update()
+    assert lines(result) == ["The scene has changed since it was lit:", "press Light Reflection again."]
+
+
+def test_clear_takes_the_light_away(blank):
+    scene_of(blank)
+    before = parts.state()
+    for lit in (True, False):
+        parts.generate()
+        if lit:
+            bpy.ops.reflection_mesh.light(samples=1)
+            parts.generate()
+        bpy.ops.reflection_mesh.clear()
+        after = parts.state()
+        assert after["data"] == before["data"] and after["render"] == before["render"]
+        parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+
+
+def test_the_verb_light(saved_scene, room, tmp_path, capsys):
+    run = room("addon.command_line.verbs").run
+    output = tmp_path / "lit.blend"
+    assert run(["light", "--samples", "1"]) == 1
+    assert "no reflection to light" in capsys.readouterr().err
+    assert run(["generate", "--light", "2", "--output", str(output)]) == 0
+    assert "lit in" in capsys.readouterr().out
+    bpy.ops.wm.open_mainfile(filepath=str(output))
+    result = bpy.data.objects["Mirror Reflection"]
+    assert result.reflection_mesh.light_material is not None and not result.reflection_mesh.light_stale
+    assert result.material_slots[0].material == result.reflection_mesh.light_material
+    assert run(["light", "--samples", "0"]) == 1
+    assert run(["light", "--samples", "1"]) == 0

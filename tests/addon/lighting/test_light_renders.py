@@ -1,0 +1,106 @@
+"""Light: what Cycles is asked to render for it, and how that is denoised."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from lamp_scenes import SIZE, picture, psnr, scene_of, shine
+
+
+@pytest.mark.parametrize("mirror", ["Tint", "Half open"])
+def test_light_is_one_render_of_the_mirrors_window(blank, room, monkeypatch, mirror):
+    """Cycles renders the mirror's pixels once, with the samples asked for; what results cover is asked apart, without
+    light."""
+    scene_of(blank, "UV", mirror)
+    result = parts.generate()
+    place, asked = room("addon.lighting.light_scene"), []
+    work = place.rendered
+
+    def counted(scene):
+        picture = work(scene)
+        asked.append((picture.shape[:2], scene.cycles.samples, scene.cycles.max_bounces))
+        return picture
+    monkeypatch.setattr(place, "rendered", counted)
+    bpy.ops.reflection_mesh.light(samples=7)
+    view = room("addon.reading").read_view(blank)
+    seen = view.pixels(np.array([result.reflection_mesh.mirror.matrix_world @ vertex.co
+                                 for vertex in result.reflection_mesh.mirror.data.vertices]))
+    width, height = np.ceil(np.clip(seen, 0, SIZE).max(axis=0)) - np.floor(np.clip(seen, 0, SIZE).min(axis=0))
+    assert len(asked) == 2 and asked[0][1:] == (7, blank.scene.cycles.max_bounces)
+    assert asked[0][0][0] * asked[0][0][1] <= (width + 6) * (height + 6)
+    assert all(bounces == 0 for *_, bounces in asked[1:])
+
+
+def test_light_waits_no_longer_for_the_world_than_its_light_needs(blank, room, monkeypatch):
+    """Cycles maps the light of the world for each render anew."""
+    scene_of(blank)
+    world = shine(blank.scene)
+    parts.generate()
+    place, asked = room("addon.lighting.light_scene"), []
+    work = place.rendered
+
+    def counted(scene):
+        asked.append(scene.world and (scene.world.cycles.sampling_method, scene.world.cycles.sample_map_resolution))
+        return work(scene)
+    monkeypatch.setattr(place, "rendered", counted)
+    bpy.ops.reflection_mesh.light(samples=1)
+    # what results cover has no sky
+    assert asked == [("MANUAL", 512), None]
+    assert set(bpy.data.worlds) == {world} and blank.scene.world == world
+
+
+def test_what_a_result_covers_is_told_finely_where_it_ends(blank, room):
+    """Against Cycles with the same samples everywhere, and sixteen times as many."""
+    scene_of(blank)
+    # edges in every direction, and none where the mirror ends
+    bpy.data.objects["Floor"].hide_render = bpy.data.objects["Floor"].hide_viewport = True
+    parts.select(bpy.data.objects["Box"], bpy.data.objects["Mirror"])
+    result = parts.generate()
+    place = room("addon.lighting.light_scene")
+    lighting, operator = room("addon.lighting"), room("addon.operators.light")
+    window = lighting.Window.around(room("addon.reading").read_view(blank), operator._on_the_mirror(result))
+    found = []
+    for finest in (False, True):
+        with lighting.light_scene(blank, [result], window) as scene, pytest.MonkeyPatch.context() as patched:
+            if finest:
+                patched.setattr(place, "COVERAGE_SAMPLES", 1024)
+                patched.setattr(place, "INNER_SAMPLES", 1024)
+            found.append(scene.coverage()[0])
+    few, exact = found
+    ends = (exact > 0.0) & (exact < 1.0)
+    assert ends.sum() > 100 and np.abs(few - exact).max() < 0.1
+    # eight samples, as within, are 0.05 off
+    assert np.sqrt(((few - exact)[ends]**2).mean()) < 0.015
+
+
+@pytest.mark.parametrize(("mirror", "samples", "first"), [
+    ("Tint", 64, False), ("Fresnel", 64, False), ("Tint", 16, True), ("Rough", 64, True)])
+def test_albedo_and_normals_are_denoised_first_where_that_helps(blank, room, monkeypatch, mirror, samples, first):
+    """It takes twice as long as all else that the denoiser does, and what sharp mirrors show is hardly changed."""
+    scene_of(blank, "UV", mirror)
+    reference = picture(room)
+    parts.generate()
+    place, asked, quality = room("addon.lighting.light_scene"), [], []
+    work = place.denoise
+    for always in (False, True):
+        monkeypatch.setattr(place, "denoise", lambda cycles, prefilter, always=always: (
+            asked.append(prefilter), work(cycles, "ACCURATE" if always else prefilter)))
+        bpy.ops.reflection_mesh.light(samples=samples, kind="PICTURE")
+        quality.append(psnr(picture(room), reference))
+    assert asked == ["ACCURATE" if first else "NONE"] * 2
+    assert quality[0] > quality[1] - 0.2
+
+
+def test_a_blender_without_the_denoiser_renders_with_noise(room):
+    class Cycles:
+        use_denoising = True
+
+        def __setattr__(self, name, value):
+            # as Blender says it
+            if value == "OPENIMAGEDENOISE":
+                raise TypeError('bpy_struct: item.attr = val: enum "OPENIMAGEDENOISE" not found in ()')
+            super().__setattr__(name, value)
+    cycles = Cycles()
+    room("addon.rendering").denoise(cycles)
+    assert cycles.use_denoising is False
