@@ -11,7 +11,7 @@ from mathutils import Matrix
 
 from ...core import ReflectionError, View
 from .. import compat
-from ..faults import interrupt_held, still_there
+from ..faults import still_there
 from ..mirror_part import as_mirrors_see, show_opacity, turn_over, without_openings
 from ..rendering import copied_scene, denoise, look_through, put_swift_world
 from ..writing import UV_MAP
@@ -108,7 +108,7 @@ class BakeScene:
                 target.node_tree.nodes.active.image = image
             self._show(objects, as_target=True)
             with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0], selected_objects=objects,
-                                           active_object=objects[0], object=objects[0]), interrupt_held():
+                                           active_object=objects[0], object=objects[0]):
                 done = bpy.ops.object.bake(**({"type": "COMBINED"} | what), use_clear=False, margin=0,
                                            save_mode="INTERNAL", target="IMAGE_TEXTURES",
                                            use_selected_to_active=False, uv_layer=UV_MAP)

@@ -1,6 +1,6 @@
 """Nothing the user had is lost: all or nothing, in steps, interrupted, taken back; and one sentence for errors."""
 from .all_or_nothing import AllOrNothing
-from .interrupts import STATUS, interrupt_held
+from .interrupts import STATUS
 from .stepped_operator import BrowsingOperator, SteppedOperator
 from .steps import Steps, Undivided, finished, part
 from .take_back import keep_data, keep_mirror, keep_object, still_there
@@ -8,5 +8,5 @@ from .told import know_sentences, know_stages, tell, translated, translated_stag
 from .unforeseen import in_one_sentence, sentence
 
 __all__ = ["AllOrNothing", "BrowsingOperator", "STATUS", "SteppedOperator", "Steps", "Undivided", "finished",
-           "in_one_sentence", "interrupt_held", "keep_data", "keep_mirror", "keep_object", "know_sentences",
+           "in_one_sentence", "keep_data", "keep_mirror", "keep_object", "know_sentences",
            "know_stages", "part", "sentence", "still_there", "tell", "translated", "translated_stage"]

@@ -7,7 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_iface
 
 from .status_bar import StatusBar
-from .steps import Steps, Undivided
+from .steps import Steps, Undivided, step
 from .told import tell
 from .unforeseen import sentence
 
@@ -88,7 +88,7 @@ class SteppedOperator:
     def _step(self) -> set | None:
         """One step: what the operator returns where that was the last, or None."""
         try:
-            self._progress = next(self._running)
+            self._progress = step(self._running)
         except StopIteration:
             return {"FINISHED"}
         except Exception as error:

@@ -4,6 +4,8 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from typing import TypeVar
 
+from .interrupts import interrupt_held
+
 Result = TypeVar("Result")
 Steps = Generator[tuple[float, str], None, Result]
 
@@ -33,11 +35,18 @@ def part(steps: Steps, start: float, share: float, name: str = "") -> Steps:
         steps.close()
 
 
+def step(steps: Generator):
+    """What a generator yields next. Ctrl-C is heard when it has: Blender's handlers, exports and renders would print
+    what is raised inside them, and go on."""
+    with interrupt_held():
+        return next(steps)
+
+
 def finished(steps: Generator, tell: Callable | None = None) -> object:
     """Run steps to their end, telling what each of them yields; returns what they return."""
     try:
         while True:
-            told = next(steps)
+            told = step(steps)
             if tell is not None:
                 tell(told)
     except StopIteration as stop:

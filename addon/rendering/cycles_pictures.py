@@ -9,7 +9,6 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError
-from ..faults import interrupt_held
 from ..files import has_room, is_whole, scratch_folder, scratch_is_full
 from ..reading import render_size
 
@@ -59,8 +58,7 @@ def rendered(scene: bpy.types.Scene) -> np.ndarray:
     with scratch_folder() as folder, _slot_of_its_own():
         path = os.path.join(folder, "render.exr")
         scene.render.filepath = path
-        with interrupt_held():
-            _write_still(scene)
+        _write_still(scene)
         if os.path.exists(path):
             if not is_whole(path):
                 raise scratch_is_full()

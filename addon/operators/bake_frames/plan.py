@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 import bpy
 
 from .... import core
-from ...faults import Steps, interrupt_held
+from ...faults import Steps
 from ...frames import frame_numbers, frame_text, is_done, read_record, record_path, told_apart
 from ...freshness import frame_difference, frame_origin
 from ...reading import NothingSeen, Participants, candidates, render_size, visible
@@ -98,8 +98,7 @@ def found_frames(context: bpy.types.Context, plan: Plan, take: tuple, baked) -> 
 
 def open_frame(context: bpy.types.Context, frame: int, camera: bpy.types.Object | None) -> None:
     """Go to a frame, which may bring a camera of its own unless one is given."""
-    with interrupt_held():
-        context.scene.frame_set(frame)
+    context.scene.frame_set(frame)
     if camera is not None:
         context.scene.camera = camera
 

@@ -1,4 +1,6 @@
 """One generator: its progress, stopping it at every step, and one step of undo."""
+import os
+import signal
 import time
 from pathlib import Path
 
@@ -249,3 +251,29 @@ def test_no_step_of_measuring_a_large_picture_keeps_the_window_waiting(room):
     everywhere = np.ones(size, bool)
     assert least(lambda: room("core").in_steps(
         lambda: metrics.measure(everywhere, ~everywhere, truth, shown))) < 0.5
+
+
+def test_ctrl_c_inside_blenders_handlers_is_not_lost(blank, room, capfd):
+    """Blender prints what a handler raises, and goes on."""
+    done: list = []
+
+    def pressed(*_):
+        os.kill(os.getpid(), signal.SIGINT)
+        # Python hears it between two instructions
+        done.extend(range(1000))
+
+    def work():
+        yield 0.0, "one"
+        bpy.context.scene.frame_set(7)
+        yield 0.5, "two"
+        done.append("two")
+    heard = signal.signal(signal.SIGINT, signal.default_int_handler)
+    bpy.app.handlers.frame_change_pre.append(pressed)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            room("addon.faults").finished(work())
+    finally:
+        bpy.app.handlers.frame_change_pre.remove(pressed)
+        signal.signal(signal.SIGINT, heard)
+    assert done == list(range(1000)) and "Traceback" not in "".join(capfd.readouterr())
+    assert signal.getsignal(signal.SIGINT) is heard
