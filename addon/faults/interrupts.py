@@ -18,38 +18,41 @@ STATUS = 130    # as shells have it: 128 and the signal's number
 
 
 @contextmanager
-def interrupt_held() -> Iterator[None]:
-    """Ctrl-C is heard, and raised as KeyboardInterrupt when the block is done; a second one ends the process."""
+def interrupt_held() -> Iterator[list[int]]:
+    """Ctrl-C is heard: the list is no longer empty, and KeyboardInterrupt raised when the block is done; a second one
+    ends the process."""
+    heard: list[int] = []
     # Blender itself has a program's path
     if (bpy.app.binary_path or os.name != "posix" or threading.current_thread() is not threading.main_thread()
             or signal.getsignal(signal.SIGINT) is not signal.default_int_handler):
-        yield
+        yield heard
         return
-    heard: list[int] = []
     reading, writing = os.pipe()
     os.set_blocking(writing, False)
-    signal.signal(signal.SIGINT, lambda *_: None)
+    signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
     earlier = signal.set_wakeup_fd(writing, warn_on_full_buffer=False)
-    watcher = threading.Thread(target=_listen, args=(reading, heard), daemon=True)
+    watcher = threading.Thread(target=_listen, args=(reading,), daemon=True)
     watcher.start()
     try:
-        yield
+        yield heard
     finally:
         signal.set_wakeup_fd(earlier)
-        signal.signal(signal.SIGINT, signal.default_int_handler)
         os.close(writing)
         watcher.join()
         os.close(reading)
+        # the last, so that nothing is raised before
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         if heard:
             raise KeyboardInterrupt
 
 
-def _listen(reading: int, heard: list[int]) -> None:
+def _listen(reading: int) -> None:
     """Runs beside Cycles, which lets other threads run: Python hears signals in its main thread only."""
+    count = 0
     while signals := os.read(reading, 16):
-        heard += [number for number in signals if number == signal.SIGINT]
-        if len(heard) > 1:
+        count += signals.count(signal.SIGINT)
+        if count > 1:
             os._exit(STATUS)
-        if heard:
+        if count:
             print("Interrupted: ends with the present step; press again to end at once.",
                   file=sys.stderr, flush=True)

@@ -6,8 +6,9 @@ import time
 import bpy
 from bpy.app.translations import pgettext_iface
 
+from .interrupts import interrupt_held
 from .status_bar import StatusBar
-from .steps import Steps, Undivided, step
+from .steps import Steps, Undivided
 from .told import tell
 from .unforeseen import sentence
 
@@ -29,8 +30,10 @@ class SteppedOperator:
 
     def execute(self, context: bpy.types.Context) -> set:
         self._running = self.steps(context)
-        while (outcome := self._step()) is None:
-            pass
+        with interrupt_held() as heard:
+            while (outcome := self._step()) is None and not heard:
+                pass
+            self._running.close()
         return outcome
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
@@ -88,7 +91,7 @@ class SteppedOperator:
     def _step(self) -> set | None:
         """One step: what the operator returns where that was the last, or None."""
         try:
-            self._progress = step(self._running)
+            self._progress = next(self._running)
         except StopIteration:
             return {"FINISHED"}
         except Exception as error:

@@ -35,22 +35,17 @@ def part(steps: Steps, start: float, share: float, name: str = "") -> Steps:
         steps.close()
 
 
-def step(steps: Generator):
-    """What a generator yields next. Ctrl-C is heard when it has: Blender's handlers, exports and renders would print
-    what is raised inside them, and go on."""
-    with interrupt_held():
-        return next(steps)
-
-
 def finished(steps: Generator, tell: Callable | None = None) -> object:
-    """Run steps to their end, telling what each of them yields; returns what they return."""
-    try:
-        while True:
-            told = step(steps)
-            if tell is not None:
-                tell(told)
-    except StopIteration as stop:
-        return stop.value
-    finally:
-        # what interrupts between two steps must not leave their work lying about
-        steps.close()
+    """Run steps to their end, telling what each of them yields; returns what they return. Ctrl-C ends them after a
+    step."""
+    with interrupt_held() as heard:
+        try:
+            while not heard:
+                told = next(steps)
+                if tell is not None:
+                    tell(told)
+        except StopIteration as stop:
+            return stop.value
+        finally:
+            # what interrupts between two steps must not leave their work lying about
+            steps.close()
