@@ -11,11 +11,22 @@ from ...core import ReflectionError
 from ..files import check_place, chosen_folder, save_blend
 from ..frames import FrameRecord
 from ..illumination import meant_lamps
-from ..operators.bake_frames import FOLDER, WHAT, baking, blur_remarks, layer_remarks, plan_of, showing, summary
+from ..operators.bake_frames import (
+    FOLDER,
+    WHAT,
+    baking,
+    blur_remarks,
+    chosen_frames,
+    layer_remarks,
+    plan_of,
+    showing,
+    summary,
+)
 from ..operators.shortcomings import render_shortcomings
 from ..reading import candidates
 from ..settings import Wanted
 from ..writing import show_in_layer
+from .jobs import side_by_side
 from .options import given, whole_number
 from .place import camera_of, forget_chance, layer_of
 from .progress import announced
@@ -42,6 +53,8 @@ def add_bake(parser: argparse.ArgumentParser) -> None:
                         help="samples per pixel of what needs light (else the file's); 0 for none")
     parser.add_argument("--overwrite", action="store_true", help="make again the frames that are there already")
     parser.add_argument("--frames-only", action="store_true", help="write no file that plays them")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N",
+                        help="so many processes side by side, each with the memory of one (1)")
     parser.add_argument("--progress", choices=("WORDS", "OPENJD"), default="WORDS",
                         help="how progress is told: OPENJD as workers of Open Job Description read it")
     parser.add_argument("--output", metavar="FOLDER", help="where the frames go (else beside the file)")
@@ -51,13 +64,8 @@ def add_bake(parser: argparse.ArgumentParser) -> None:
 def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
     """Bake what is missing; then save a copy of the file that plays it, unless that is not wanted."""
     started = time.perf_counter()
-    if options.light is not None and options.light < 0:
-        raise ReflectionError("Light takes no less than 0 samples: raise --light.")
+    _check(options)
     thrown = options.what == "CAUSTICS"
-    if options.eyes is not None and options.eyes < 1:
-        raise ReflectionError("Light comes from one place of each lamp at least: raise --eyes.")
-    if thrown and len(set(options.view_layer)) > 1:
-        raise ReflectionError("Light that mirrors throw is baked for one view layer at a time: name one.")
     folder = os.path.abspath(options.output) if options.output else chosen_folder(FOLDER)
     scene = context.scene
     cameras = tuple(camera_of(scene, name) for name in dict.fromkeys(options.camera))
@@ -71,10 +79,13 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
         # as Blender tells of pictures: workers of Flamenco read it
         print(*(f"Saved: '{os.path.join(folder, file)}'" for file in record.files), sep="\n", flush=True)
     plans, sequences = [], []
+    elsewhere = _made_side_by_side(scene, folder, options) if options.jobs > 1 else 0
+    # what others have just made is not made again
+    overwrite = options.overwrite and options.jobs == 1
     for layer in layers:
         with context.temp_override(scene=scene, view_layer=layer):
             forget_chance(context)
-            plan = plan_of(context, folder, options.frames, wanted, cameras=cameras, overwrite=options.overwrite,
+            plan = plan_of(context, folder, options.frames, wanted, cameras=cameras, overwrite=overwrite,
                            layer=layer.name if len(layers) > 1 else "", eyes=options.eyes or 0,
                            lamps=tuple(meant_lamps(context)) if thrown else (), leave_out=options.leave_out)
             sequences.append(announced(baking(context, plan, tell, remarks.append), options.progress))
@@ -93,4 +104,21 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
         check_place(path)
         save_blend(path)
         told.append(f"Saved: '{path}'")
-    print(*told, summary(plans, len(done), time.perf_counter() - started), sep="\n", flush=True)
+    print(*told, summary(plans, elsewhere + len(done), time.perf_counter() - started), sep="\n", flush=True)
+
+
+def _check(options: argparse.Namespace) -> None:
+    if options.light is not None and options.light < 0:
+        raise ReflectionError("Light takes no less than 0 samples: raise --light.")
+    if options.eyes is not None and options.eyes < 1:
+        raise ReflectionError("Light comes from one place of each lamp at least: raise --eyes.")
+    if options.what == "CAUSTICS" and len(set(options.view_layer)) > 1:
+        raise ReflectionError("Light that mirrors throw is baked for one view layer at a time: name one.")
+    if options.jobs < 1:
+        raise ReflectionError("Frames are baked by one process at least: raise --jobs.")
+
+
+def _made_side_by_side(scene: bpy.types.Scene, folder: str, options: argparse.Namespace) -> int:
+    """Let processes make what is missing; returns how many frames that was."""
+    steps = side_by_side([*options.words, "--output", folder], chosen_frames(scene, options.frames), options.jobs)
+    return announced(steps, options.progress)

@@ -42,6 +42,7 @@ def run(arguments: list[str], scene: str | None = None) -> int:
     except SystemExit as stop:
         # asking for help is a success, a wrong argument is not; argparse has said what is wrong
         return int(stop.code or 0)
+    options.words = arguments
     try:
         if scene is not None:
             open_file(scene)

@@ -3,8 +3,8 @@
 From here come the operator's registration and what the verb `bake` puts in order by itself.
 """
 from .bake import FOLDER, WHAT, baking, register, unregister
-from .plan import blur_remarks, layer_remarks, plan_of, summary
+from .plan import blur_remarks, chosen_frames, layer_remarks, plan_of, summary
 from .playing import showing
 
-__all__ = ["FOLDER", "WHAT", "baking", "blur_remarks", "layer_remarks", "plan_of", "register", "showing", "summary",
-           "unregister"]
+__all__ = ["FOLDER", "WHAT", "baking", "blur_remarks", "chosen_frames", "layer_remarks", "plan_of", "register",
+           "showing", "summary", "unregister"]

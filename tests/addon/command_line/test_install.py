@@ -59,10 +59,10 @@ def test_the_zip_carries_only_what_runs(extension_archive):
                                              or name in {"blender_manifest.toml", "__init__.py", "LICENSE"})]
     assert others == []
     assert all(name.endswith((".py", "/")) for name in names if name.startswith(("addon/", "core/")))
-    assert not any("__pycache__" in name or name.endswith("run_with_bpy.py") for name in names)
+    assert not any("__pycache__" in name for name in names)
     modules = {path.relative_to(ROOT).as_posix()
                for folder in ("addon", "core") for path in (ROOT / folder).rglob("*.py")}
-    assert {name for name in names if "/" in name and name.endswith(".py")} == modules - {"addon/run_with_bpy.py"}
+    assert {name for name in names if "/" in name and name.endswith(".py")} == modules
 
 
 def test_the_validator_is_silent(extension_archive):

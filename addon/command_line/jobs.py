@@ -1,0 +1,119 @@
+"""Frames in several processes side by side: each takes its share of a copy of the open file, as machines of a farm do.
+
+Two threads of one Blender would wait for Python's one interpreter most of the time.
+"""
+from __future__ import annotations
+
+import os
+import queue
+import re
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+import bpy
+
+from ...core import ReflectionError
+from ..faults import STATUS, Steps
+from ..files import save_blend, scratch_folder
+
+STAGE = re.compile(r"\s*(\d+) %  ([^:]*)")
+SUMMARY = re.compile(r"(\d+) of \d+ frame")
+PATIENCE = 5.0      # seconds that a process has for ending by itself
+LISTENING = 0.2     # seconds between two looks at whether Ctrl-C was pressed
+
+
+def side_by_side(words: list[str], frames: list[int], jobs: int) -> Steps[int]:
+    """Bake frames in so many processes, by the `words` of the verb; yields (fraction, stage), prints the files that
+    are done, returns how many frames were made.
+
+    Raises
+    ------
+    ReflectionError
+        With what the first process said that failed; the others are ended, and the frames that are done stay.
+    """
+    shares = [frames[start::jobs] for start in range(min(jobs, len(frames)))]
+    with scratch_folder() as folder:
+        # what is open, which may not have been saved
+        path = os.path.join(folder, os.path.basename(bpy.data.filepath) or "scene.blend")
+        save_blend(path)
+        with _running([_command(path, words, share) for share in shares]) as processes:
+            made = yield from _heard(processes)
+    return made
+
+
+def _command(path: str, words: list[str], frames: list[int]) -> list[str]:
+    """How a process is started that makes these frames and no file that plays them; of options that are given twice
+    the second counts."""
+    start = [sys.executable, str(Path(__file__).parents[1] / "run_with_bpy.py"), path]
+    if bpy.app.binary_path:
+        start = [bpy.app.binary_path, "-b", path, "--command", "reflection_mesh"]
+    return [*start, *words, "--frames", ",".join(map(str, frames)), "--frames-only", "--progress", "WORDS", "--jobs",
+            "1"]
+
+
+@contextmanager
+def _running(commands: list[list[str]]) -> Iterator[list[subprocess.Popen]]:
+    """Processes that are ended with the block, first by asking them to."""
+    processes: list[subprocess.Popen] = []
+    try:
+        for command in commands:
+            processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                              errors="replace"))
+        yield processes
+    finally:
+        for process in processes:
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT) if os.name == "posix" else process.terminate()
+        for process in processes:
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(PATIENCE)
+            process.kill()
+            process.wait()
+
+
+def _heard(processes: list[subprocess.Popen]) -> Steps[int]:
+    """Listen to the processes until all have ended well."""
+    lines: queue.SimpleQueue = queue.SimpleQueue()
+    readers = [threading.Thread(target=_read, args=(process, number, lines), daemon=True)
+               for number, process in enumerate(processes)]
+    for reader in readers:
+        reader.start()
+    done, errors, made, stage = [0.0] * len(processes), [""] * len(processes), 0, "Frames"
+    left = len(processes)
+    while left:
+        yield sum(done) / len(done), stage
+        with suppress(queue.Empty):
+            number, line = lines.get(timeout=LISTENING)
+            if line is None:
+                left -= 1
+                done[number] = 1.0
+                _ended_well(processes[number].wait(), errors[number])
+            elif line.startswith("Saved: '"):
+                print(line, flush=True)
+            elif line.startswith("Error: "):
+                errors[number] = line.removeprefix("Error: ")
+            elif told := STAGE.match(line):
+                done[number], stage = int(told[1]) / 100.0, told[2]
+            elif told := SUMMARY.match(line):
+                made += int(told[1])
+    return made
+
+
+def _read(process: subprocess.Popen, number: int, lines: queue.SimpleQueue) -> None:
+    assert process.stdout is not None
+    for line in process.stdout:
+        lines.put((number, line.rstrip("\n")))
+    lines.put((number, None))
+
+
+def _ended_well(status: int, error: str) -> None:
+    if status == STATUS:
+        raise KeyboardInterrupt
+    if status:
+        raise ReflectionError(error or f"A process that baked frames ended without a word ({status}): the frames that "
+                              "are done stay; take fewer --jobs, if memory has run out.")
