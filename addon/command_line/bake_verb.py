@@ -20,13 +20,13 @@ from ..operators.bake_frames import (
     layer_remarks,
     plan_of,
     showing,
+    side_by_side,
     summary,
 )
 from ..operators.shortcomings import render_shortcomings
 from ..reading import candidates
 from ..settings import Wanted
 from ..writing import show_in_layer
-from .jobs import side_by_side
 from .options import given, whole_number
 from .place import camera_of, forget_chance, layer_of
 from .progress import announced
@@ -120,5 +120,6 @@ def _check(options: argparse.Namespace) -> None:
 
 def _made_side_by_side(scene: bpy.types.Scene, folder: str, options: argparse.Namespace) -> int:
     """Let processes make what is missing; returns how many frames that was."""
-    steps = side_by_side([*options.words, "--output", folder], chosen_frames(scene, options.frames), options.jobs)
+    steps = side_by_side([*options.words, "--output", folder], chosen_frames(scene, options.frames), options.jobs,
+                         lambda line: print(line, flush=True))
     return announced(steps, options.progress)

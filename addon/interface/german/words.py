@@ -63,6 +63,9 @@ OPERATORS = {
     "Samples": "Samples",
     "Light paths for each pixel of the mirrors; 0: no light": "Lichtpfade für jedes Pixel der Spiegel; 0: kein Licht",
     "Overwrite": "Überschreiben",
+    "Processes": "Prozesse",
+    "So many bake side by side, each on a core and with memory of its own":
+        "So viele backen nebeneinander, jeder auf einem Kern und mit Speicher für sich",
     "Make again the frames that are there already": "Auch Einzelbilder, die es schon gibt, neu machen",
     "Compare with Cycles": "Mit Cycles vergleichen",
     "Compare reflections or caustics with Cycles; leaves pictures and errors in a folder":

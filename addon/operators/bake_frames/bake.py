@@ -1,8 +1,7 @@
-"""The operator that bakes: a range of frames as files, and results that play them without this extension."""
+"""A range of frames as files: each made anew from the open file, which is as it was afterwards."""
 from __future__ import annotations
 
 import os
-import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
@@ -11,9 +10,8 @@ from itertools import combinations
 import bpy
 
 from .... import core
-from ... import compat
-from ...faults import AllOrNothing, BrowsingOperator, Steps, part, still_there, tell
-from ...files import chosen_folder, staged
+from ...faults import AllOrNothing, Steps, part, still_there
+from ...files import staged
 from ...frames import (
     FrameRecord,
     Sequence,
@@ -27,33 +25,22 @@ from ...frames import (
     writes_usd,
 )
 from ...freshness import frame_origin
-from ...illumination import meant_lamps
 from ...reading import NothingSeen, candidates, choose, read_view
-from ...settings import SETTINGS, SettingsOptions, UsesSettings, of_each, option
-from .. import polls
+from ...settings import of_each
 from ..clear import clear
 from ..generate import generation
 from ..light import lighting
-from ..shortcomings import render_shortcomings
 from .plan import (
     Plan,
-    blur_remarks,
     compared,
     found_frames,
-    layer_remarks,
     open_frame,
-    plan_of,
-    summary,
     visible_or_none,
 )
-from .playing import showing
 from .thrown_light import ThrownLight
 
-FOLDER = "//reflection frames"
 IN_OBJECT_MODE = "Reflections are baked in Object Mode: leave the present mode first."
 NO_USD = "This Blender cannot write USD files, nor play them: bake and play with one that can, as those of blender.org."
-WHAT = (("REFLECTIONS", "Reflections", "What the mirrors show to the camera"),
-        ("CAUSTICS", "Caustics", "The light of lamps that the mirrors throw"))
 
 
 @dataclass(frozen=True)
@@ -211,59 +198,3 @@ def _results(context: bpy.types.Context, plan: Plan, chosen, results: list) -> S
     context.view_layer.update()
     if plan.samples:
         yield from part(lighting(context, results, plan.samples, "PICTURE", lamps_apart=False), 0.5, 0.5)
-
-
-class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, bpy.types.Operator):
-    """Write the reflections of a range of frames to files, and let them play; they need no extension to be seen"""
-
-    bl_idname = "reflection_mesh.bake"
-    bl_label = "Bake Reflection Frames"
-    bl_options = {"REGISTER", "UNDO"}
-    unchanged = "the frames that are done are kept, the file has not changed"
-    uses, renamed = (*SETTINGS, "light_samples"), {"light_samples": "samples"}
-
-    what: bpy.props.EnumProperty(name="What", items=WHAT, default="REFLECTIONS", options={"SKIP_SAVE"},
-                                 description="What is written of each frame")
-    eyes: bpy.props.IntProperty(name="Lamp Places", default=0, min=0, soft_max=64, max=4096, options={"SKIP_SAVE"},
-                                description="Places on each lamp that its caustics come from; 0: as many as they were "
-                                "generated with")
-    leave_out: bpy.props.BoolProperty(name="Replace Cycles' Own", default=True, options={"SKIP_SAVE"},
-                                      description="The lamps do not light these mirrors any more, so that Cycles does "
-                                      "not add caustics of its own; clearing brings that back")
-    filepath: bpy.props.StringProperty(name="Folder", description="Folder for the files of the frames", default=FOLDER,
-                                       subtype="FILE_PATH", options=compat.RELATIVE_PATH)
-    frames: bpy.props.StringProperty(name="Frames", default="", options={"SKIP_SAVE"},
-                                     description="As 1-24, or 1-100:2 with a step; the scene's range where empty")
-    samples: option("light_samples", min=0, description="Light paths for each pixel of the mirrors; 0: no light")
-    overwrite: bpy.props.BoolProperty(name="Overwrite", default=False, options={"SKIP_SAVE"},
-                                      description="Make again the frames that are there already")
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE),
-                            lambda context: "" if writes_usd() else NO_USD, polls.has_mirror, polls.has_camera)
-
-    def steps(self, context: bpy.types.Context) -> Steps[None]:
-        started = time.perf_counter()
-        wanted = self.wanted(context)
-        lamps = tuple(meant_lamps(context)) if self.what == "CAUSTICS" else ()
-        plan = plan_of(context, chosen_folder(self.filepath), self.frames, wanted, overwrite=self.overwrite,
-                       lamps=lamps, eyes=self.eyes, leave_out=self.leave_out)
-        written: list = []
-        sequences = yield from baking(context, plan, written.append,
-                                      lambda sentence: tell(self, {"WARNING"}, sentence))
-        _, remarks = showing(context, plan, sequences)
-        self.show_used(wanted, candidates(context)[0])
-        remarks += render_shortcomings(context, *candidates(context))
-        remarks += blur_remarks(context.scene, plan.cameras, bool(lamps))
-        for remark in remarks + layer_remarks(context.scene, [context.view_layer]):
-            tell(self, {"WARNING"}, remark)
-        tell(self, {"INFO"}, summary([plan], len(written), time.perf_counter() - started))
-
-
-def register() -> None:
-    bpy.utils.register_class(REFLECTION_MESH_OT_bake)
-
-
-def unregister() -> None:
-    bpy.utils.unregister_class(REFLECTION_MESH_OT_bake)

@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 import faults
 import pytest
-from baked_frames import FRAMES, bake, lit_scene
+from baked_frames import FRAMES, bake, lit_scene, operate
 
 
 def unsaved_change() -> None:
@@ -76,3 +76,43 @@ def test_ended_half_way_no_process_goes_on(moving, room, tmp_path, end):
         assert 2 <= len(left) < 2 * 60 and set(left) <= set(faults.contents(wanted))
     assert bake(room, *arguments, out, "--jobs", "2") == 0
     assert faults.contents(out) == faults.contents(wanted)
+
+
+@pytest.mark.parametrize("given", [{}, {"tolerance": 1.5, "placement": "SURFACE", "hidden_faces": True}])
+def test_the_button_lets_several_bake_what_one_does(moving, room, tmp_path, given):
+    one, two = tmp_path / "one", tmp_path / "two"
+    unsaved_change()
+    for out, jobs in ((one, 1), (two, 2)):
+        operate(out, samples=0, jobs=jobs, **given)
+        bpy.ops.reflection_mesh.clear()
+    assert len(faults.contents(one)) == 2 * len(FRAMES)
+    assert faults.contents(one) == faults.contents(two)
+    # with the same files there nothing is made again but by wish
+    before = {path.name: path.stat().st_mtime_ns for path in two.iterdir()}
+    operate(two, samples=0, jobs=2, **given)
+    assert {path.name: path.stat().st_mtime_ns for path in two.iterdir()} == before
+    operate(two, samples=0, jobs=2, overwrite=True, **given)
+    assert not any(path.stat().st_mtime_ns == before[path.name] for path in two.iterdir())
+
+
+def test_esc_ends_them_all(moving, room, tmp_path, monkeypatch):
+    place = room("addon.operators.bake_frames.side_by_side")
+    started = []
+    monkeypatch.setattr(place.subprocess, "Popen", lambda *given, _real=place.subprocess.Popen, **options: (
+        started.append(_real(*given, **options)) or started[-1]))
+    out = tmp_path / "out"
+    steps = place.side_by_side(["bake", "--light", "0", "--output", str(out)], list(range(1, 61)), 2)
+    while not out.exists() or not any(path.suffix == ".usdc" for path in out.iterdir()):
+        next(steps)
+    steps.close()
+    assert len(started) == 2 and all(process.poll() is not None for process in started)
+    assert len(list(out.glob("*.usdc"))) < 60
+
+
+def test_words_are_those_of_the_verb(room):
+    words = room("addon.operators.bake_frames.side_by_side").words_of(
+        {"tolerance": 0.25, "placement": "VIRTUAL", "method": "POINTS", "depth": 3, "memory": 1.5, "hidden_faces": False,
+         "light_samples": 7})
+    options = room("addon.command_line.verbs")._parser().parse_args(["bake", *words])
+    assert (options.tolerance, options.placement, options.method, options.depth, options.memory, options.hidden_faces,
+            options.light) == (0.25, "VIRTUAL", "POINTS", 3, 1.5, False, 7)

@@ -11,25 +11,26 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import bpy
 
-from ...core import ReflectionError
-from ..faults import STATUS, Steps
-from ..files import save_blend, scratch_folder
+from ....core import ReflectionError
+from ...faults import STATUS, Steps
+from ...files import save_blend, scratch_folder
 
 STAGE = re.compile(r"\s*(\d+) %  ([^:]*)")
 SUMMARY = re.compile(r"(\d+) of \d+ frame")
 PATIENCE = 5.0      # seconds that a process has for ending by itself
-LISTENING = 0.2     # seconds between two looks at whether Ctrl-C was pressed
+LISTENING = 0.05    # seconds between two looks at whether Ctrl-C or ESC was pressed
 
 
-def side_by_side(words: list[str], frames: list[int], jobs: int) -> Steps[int]:
-    """Bake frames in so many processes, by the `words` of the verb; yields (fraction, stage), prints the files that
-    are done, returns how many frames were made.
+def side_by_side(words: list[str], frames: list[int], jobs: int,
+                 saved: Callable[[str], None] = lambda line: None) -> Steps[int]:
+    """Bake frames in so many processes, by the `words` of the verb `bake`; yields (fraction, stage), returns how many
+    frames were made. `saved` is given the line on each file that is done.
 
     Raises
     ------
@@ -42,16 +43,27 @@ def side_by_side(words: list[str], frames: list[int], jobs: int) -> Steps[int]:
         path = os.path.join(folder, os.path.basename(bpy.data.filepath) or "scene.blend")
         save_blend(path)
         with _running([_command(path, words, share) for share in shares]) as processes:
-            made = yield from _heard(processes)
+            made = yield from _heard(processes, saved)
     return made
+
+
+def words_of(settings: dict) -> list[str]:
+    """Settings that were given, as the command line has them."""
+    words: list[str] = []
+    for name, value in settings.items():
+        flag = "light" if name == "light_samples" else name.replace("_", "-")
+        words += [f"--{flag}" if value else f"--no-{flag}"] if isinstance(value, bool) else [f"--{flag}", str(value)]
+    return words
 
 
 def _command(path: str, words: list[str], frames: list[int]) -> list[str]:
     """How a process is started that makes these frames and no file that plays them; of options that are given twice
     the second counts."""
-    start = [sys.executable, str(Path(__file__).parents[1] / "run_with_bpy.py"), path]
+    start = [sys.executable, str(Path(__file__).parents[2] / "run_with_bpy.py"), path]
     if bpy.app.binary_path:
-        start = [bpy.app.binary_path, "-b", path, "--command", "reflection_mesh"]
+        # which the user's saved preferences may not have switched on
+        extension = __package__.rpartition(".addon.")[0]
+        start = [bpy.app.binary_path, "-b", path, "--addons", extension, "--command", "reflection_mesh"]
     return [*start, *words, "--frames", ",".join(map(str, frames)), "--frames-only", "--progress", "WORDS", "--jobs",
             "1"]
 
@@ -68,7 +80,11 @@ def _running(commands: list[list[str]]) -> Iterator[list[subprocess.Popen]]:
     finally:
         for process in processes:
             if process.poll() is None:
-                process.send_signal(signal.SIGINT) if os.name == "posix" else process.terminate()
+                # Blender itself does not end by the first Ctrl-C
+                if bpy.app.binary_path or os.name != "posix":
+                    process.terminate()
+                else:
+                    process.send_signal(signal.SIGINT)
         for process in processes:
             with suppress(subprocess.TimeoutExpired):
                 process.wait(PATIENCE)
@@ -76,7 +92,7 @@ def _running(commands: list[list[str]]) -> Iterator[list[subprocess.Popen]]:
             process.wait()
 
 
-def _heard(processes: list[subprocess.Popen]) -> Steps[int]:
+def _heard(processes: list[subprocess.Popen], saved: Callable[[str], None]) -> Steps[int]:
     """Listen to the processes until all have ended well."""
     lines: queue.SimpleQueue = queue.SimpleQueue()
     readers = [threading.Thread(target=_read, args=(process, number, lines), daemon=True)
@@ -94,7 +110,7 @@ def _heard(processes: list[subprocess.Popen]) -> Steps[int]:
                 done[number] = 1.0
                 _ended_well(processes[number].wait(), errors[number])
             elif line.startswith("Saved: '"):
-                print(line, flush=True)
+                saved(line)
             elif line.startswith("Error: "):
                 errors[number] = line.removeprefix("Error: ")
             elif told := STAGE.match(line):
