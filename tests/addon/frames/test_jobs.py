@@ -111,8 +111,8 @@ def test_esc_ends_them_all(moving, room, tmp_path, monkeypatch):
 
 def test_words_are_those_of_the_verb(room):
     words = room("addon.operators.bake_frames.side_by_side").words_of(
-        {"tolerance": 0.25, "placement": "VIRTUAL", "method": "POINTS", "depth": 3, "memory": 1.5, "hidden_faces": False,
-         "light_samples": 7})
+        {"tolerance": 0.25, "placement": "VIRTUAL", "method": "POINTS", "depth": 3, "memory": 1.5,
+         "hidden_faces": False, "light_samples": 7})
     options = room("addon.command_line.verbs")._parser().parse_args(["bake", *words])
     assert (options.tolerance, options.placement, options.method, options.depth, options.memory, options.hidden_faces,
             options.light) == (0.25, "VIRTUAL", "POINTS", 3, 1.5, False, 7)
