@@ -63,7 +63,9 @@ def _first_seen(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, start: V
                 mirrors: list) -> str:
     """The name of the first object that the camera sees between two places; empty where there is none."""
     way = end - start
-    direction, step = way.normalized(), NEARLY * way.length
+    # Blender's rays are in single precision, whose steps are wider far from the origin
+    wide = max(map(abs, (*start, *end)))
+    direction, step = way.normalized(), max(NEARLY * way.length, 2.0 * float(np.spacing(np.float32(wide))))
     at, end = start - step * direction, end + step * direction
     for _ in range(MOST_THROUGH):
         hit, place, _, _, obj, _ = scene.ray_cast(depsgraph, at, direction, distance=(end - at).dot(direction))
