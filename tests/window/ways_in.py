@@ -131,9 +131,9 @@ def stand_in_for_usd() -> None:
     """So that keys, browser, progress and ESC are tried all the same: files that are none take the place of meshes.
     What is in real ones is looked at in tests/addon/frames."""
     package = next(name for name in bpy.context.preferences.addons.keys() if name.endswith("reflection_mesh"))
-    write, bake = (importlib.import_module(f"{package}.addon.{name}")
-                   for name in ("frames.write_frame", "operators.bake_frames.bake"))
-    write.writes_usd = bake.writes_usd = lambda: True
+    write, bake, button = (importlib.import_module(f"{package}.addon.{name}") for name in (
+        "frames.write_frame", "operators.bake_frames.bake", "operators.bake_frames.bake_operator"))
+    write.writes_usd = bake.writes_usd = button.writes_usd = lambda: True
     write._export = lambda context, mesh, matrix, path: Path(path).write_bytes(
         b"PXR-USDC" + bytes(8) + struct.pack("<q", 24) + b"none")
 
