@@ -74,8 +74,9 @@ def _running(commands: list[list[str]]) -> Iterator[list[subprocess.Popen]]:
     processes: list[subprocess.Popen] = []
     try:
         for command in commands:
-            processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                              errors="replace"))
+            processes.append(subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                              stderr=subprocess.STDOUT, encoding="utf-8", errors="replace",
+                                              creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0)))
         yield processes
     finally:
         for process in processes:
