@@ -218,7 +218,8 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
         remarks += follow_layers(scene, layers, chain.from_iterable(receivers.values()), whole)
     for material in dict.fromkeys(unknown):
         remarks.append(f"The colour of '{material.name}' is not known all over, where it asks for what only its own "
-                       "object knows or is mixed of several shaders: its light may have another colour.")
+                       "object knows or its shaders send light back in another way than diffuse: its light may have "
+                       "another colour.")
     for lamp in dict.fromkeys(made.lamp for made in prepared):
         if lamp.type == "LIGHT" and not light_of_nodes(lamp.data)[1]:
             remarks.append(f"The nodes of '{lamp.name}' tell more than one colour and one strength: its light counts "
