@@ -42,8 +42,8 @@ class DiffuseColour:
 
 
 def diffuse_colour(tree: bpy.types.NodeTree, surface: bpy.types.NodeSocket, whole: AllOrNothing) -> DiffuseColour:
-    """The diffuse colour of what is plugged into a socket for shaders, by nodes that are added to the tree, which is our
-    own; groups on the way are copied."""
+    """The diffuse colour of what is plugged into a socket for shaders, by nodes that are added to the tree, which is
+    our own; groups on the way are copied."""
     source = _source(surface)
     if source is None:
         return DiffuseColour()
