@@ -23,7 +23,7 @@ def makes_own_caustics(mirror: bpy.types.Object) -> tuple[bool, bool]:
     materials = [slot.material for slot in mirror.material_slots if slot.material is not None]
     whole = [is_mirror(material) for material in materials]
     sharp = (node for material in materials if compat.uses_nodes(material) for node in all_nodes(material.node_tree)
-             if node.type in {*MIRRORS, "BSDF_PRINCIPLED"})
+             if node.type in {*MIRRORS, "BSDF_PRINCIPLED", "BSDF_GLASS"})
     return any(whole) or any(map(is_sharp, sharp)), bool(whole) and all(whole)
 
 
