@@ -218,6 +218,13 @@ def made_anew(context: bpy.types.Context, group: Group, settings: dict[bpy.types
             if pair in dark and len(obj.data.vertices):
                 obj.data.clear_geometry()
             if pair in dark:
+                _forget_removed(record.sources)
                 record.made_from = light_record(context, *pair, [source.object for source in record.sources])
             if not exact:
                 record.made_from = COARSE
+
+
+def _forget_removed(sources: bpy.types.bpy_prop_collection) -> None:
+    """Take out of what a record says is lit that which is there no more."""
+    for index in reversed([number for number, source in enumerate(sources) if source.object is None]):
+        sources.remove(index)
