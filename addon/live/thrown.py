@@ -13,7 +13,7 @@ from ..frames import plays
 from ..freshness import COARSE, digest_of, lamp_numbers, light_record
 from ..illumination import Tint, blocking, lights_renders, places_kept, results_with
 from ..operators.caustics import Asked, NothingThrown, throwing
-from ..reading import NothingSeen, Participants, visible
+from ..reading import NothingSeen, Participants, materials_shown, visible
 from ..settings import Wanted
 from .pace import Pace
 
@@ -188,8 +188,8 @@ def _record(context: bpy.types.Context, groups: list[Group]) -> Record:
         places = places_kept(context, mirrors, group.lamps)
         digests.append((tuple(digest_of(depsgraph, some) for some in objects),
                         tuple(lamp_numbers(depsgraph, lamp) for lamp in group.lamps),
-                        tuple(repr(Tint.of_material(slot.material))
-                              for mirror in mirrors for slot in mirror.material_slots)))
+                        tuple(repr(Tint.of_material(material))
+                              for mirror in mirrors for material in materials_shown(depsgraph, mirror))))
         settings.append((tuple(wanted(mirror) for mirror in mirrors), tuple(places.values())))
         members.append(tuple(tuple(obj.session_uid for obj in some) for some in (*objects, group.lamps))
                        + tuple(sorted((mirror.session_uid, lamp.session_uid) for mirror, lamp in group.pairs)))

@@ -35,7 +35,7 @@ from ..illumination import (
     textured,
     write_caustics,
 )
-from ..reading import DiffuseScene, Participants, choose, read_mirror, read_scene
+from ..reading import DiffuseScene, Participants, choose, materials_shown, read_mirror, read_scene
 from ..settings import SettingsOfMirrors, UsesSettings, option
 from . import polls
 
@@ -203,6 +203,8 @@ def _plain(own: MirrorPart, mesh: core.CausticMesh, textured: list[Tint]) -> boo
 
 def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tuple[list, list]) -> Thrown:
     objects, unknown, scene, (remarks, dark) = [], [], context.scene, left
+    depsgraph = context.evaluated_depsgraph_get()
+    shown = {made.mirror: materials_shown(depsgraph, made.mirror) for made in prepared}
     with AllOrNothing() as whole:
         for made in prepared:
             obj, strange = write_caustics(context, made, whole, wanted.keep_materials)
@@ -210,7 +212,7 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
             objects.append(obj)
             unknown += strange
             if wanted.leave_out:
-                remarks += leave_out(scene, made.mirror, made.lamp, whole)
+                remarks += leave_out(scene, made.mirror, made.lamp, shown[made.mirror], whole)
             else:
                 follow_lamp(made.lamp)
         layers = sum(made.layers for made in prepared)

@@ -10,3 +10,14 @@ def materials_of(obj: bpy.types.Object) -> list:
     if obj.instance_type != "COLLECTION" or obj.instance_collection is None:
         return own
     return own + [material for other in obj.instance_collection.all_objects for material in materials_of(other)]
+
+
+def materials_shown(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> list:
+    """The distinct materials of all that an object is at the moment, those among them that Geometry Nodes give it and
+    those of its instances."""
+    found = {}
+    for instance in depsgraph.object_instances:
+        owner = instance.parent if instance.is_instance else instance.object
+        if owner.original == obj and instance.show_self:
+            found.update((slot.material.original, None) for slot in instance.object.material_slots if slot.material)
+    return list(found)
