@@ -5,8 +5,10 @@ import bpy
 
 from ... import compat
 from .material_nodes import all_nodes
+from .mirror_materials import surface_shader
 
 OPEN_SHADERS = {"BSDF_TRANSPARENT", "BSDF_GLASS", "BSDF_REFRACTION", "HOLDOUT"}
+MIXING, PASSING = {"MIX_SHADER", "ADD_SHADER"}, {"GROUP", "GROUP_INPUT", "REROUTE"}
 # sockets of a Principled BSDF, and the value at which each lets nothing through
 CLOSED = {"Alpha": 1.0, "Transmission Weight": 0.0}
 
@@ -24,3 +26,32 @@ def _lets_through(node: bpy.types.Node) -> bool:
     sockets = {name: node.inputs.get(name) for name in CLOSED}
     return any(socket is not None and (socket.is_linked or socket.default_value != CLOSED[name])
                for name, socket in sockets.items())
+
+
+def is_clear(material: bpy.types.Material | None) -> bool:
+    """Whether `material` sends nothing of light back but what it mirrors, and lets all else through: glass, what is
+    transparent, and mixes of these."""
+    if material is None or not compat.uses_nodes(material):
+        return False
+    shader = surface_shader(material.node_tree)
+    return shader is not None and _is_clear(shader)
+
+
+def _is_clear(shader: bpy.types.Node) -> bool:
+    if shader.type == "REROUTE" or shader.type in MIXING:
+        behind = [socket.links[0].from_node for socket in shader.inputs if socket.type == "SHADER" and socket.is_linked]
+        return bool(behind) and all(map(_is_clear, behind))
+    if shader.type != "GROUP":
+        return _lets_all_through(shader)
+    # what a group has at all
+    shaders = [node for node in all_nodes(shader.node_tree) if node.type not in MIXING | PASSING
+               and any(socket.type == "SHADER" for socket in node.outputs)]
+    return bool(shaders) and all(map(_lets_all_through, shaders))
+
+
+def _lets_all_through(shader: bpy.types.Node) -> bool:
+    if shader.type != "BSDF_PRINCIPLED":
+        return shader.type in OPEN_SHADERS - {"HOLDOUT"}
+    metal, glass, alpha = (shader.inputs[name] for name in ("Metallic", "Transmission Weight", "Alpha"))
+    clear = not glass.is_linked and glass.default_value == 1.0 and not metal.is_linked and metal.default_value == 0.0
+    return clear or (not alpha.is_linked and alpha.default_value == 0.0)
