@@ -186,10 +186,11 @@ def _record(context: bpy.types.Context, groups: list[Group]) -> Record:
         mirrors = sorted({mirror for mirror, _ in group.pairs}, key=lambda mirror: mirror.session_uid)
         objects = [chosen.mirrors, chosen.diffuse, blocking(context, chosen)]
         places = places_kept(context, mirrors, group.lamps)
+        shown = materials_shown(depsgraph, mirrors)
         digests.append((tuple(digest_of(depsgraph, some) for some in objects),
                         tuple(lamp_numbers(depsgraph, lamp) for lamp in group.lamps),
                         tuple(repr(Tint.of_material(material))
-                              for mirror in mirrors for material in materials_shown(depsgraph, mirror))))
+                              for mirror in mirrors for material in shown[mirror])))
         settings.append((tuple(wanted(mirror) for mirror in mirrors), tuple(places.values())))
         members.append(tuple(tuple(obj.session_uid for obj in some) for some in (*objects, group.lamps))
                        + tuple(sorted((mirror.session_uid, lamp.session_uid) for mirror, lamp in group.pairs)))

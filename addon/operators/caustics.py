@@ -206,8 +206,7 @@ def _plain(own: MirrorPart, mesh: core.CausticMesh, textured: list[Tint]) -> boo
 
 def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tuple[list, list]) -> Thrown:
     objects, unknown, scene, (remarks, dark) = [], [], context.scene, left
-    depsgraph = context.evaluated_depsgraph_get()
-    shown = {made.mirror: materials_shown(depsgraph, made.mirror) for made in prepared}
+    shown = materials_shown(context.evaluated_depsgraph_get(), [made.mirror for made in prepared])
     with AllOrNothing() as whole:
         for made in prepared:
             obj, strange = write_caustics(context, made, whole, wanted.keep_materials)

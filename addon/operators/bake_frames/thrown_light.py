@@ -119,8 +119,7 @@ def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) ->
     lit = [obj for obj in diffuse if obj not in plan.lamps]
     objects: list = []
     told: list = []
-    depsgraph = context.evaluated_depsgraph_get()
-    shown = {mirror: materials_shown(depsgraph, mirror) for mirror, _ in pairs.values()}
+    shown = materials_shown(context.evaluated_depsgraph_get(), [mirror for mirror, _ in pairs.values()])
     with AllOrNothing() as whole:
         players = {key: player_of(sequence, mirror, None, whole, key) for key, (mirror, _) in pairs.items()}
         for key, player in players.items():

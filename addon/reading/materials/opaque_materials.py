@@ -5,10 +5,9 @@ import bpy
 
 from ... import compat
 from .material_nodes import all_nodes
-from .mirror_materials import surface_shader
+from .surface_shaders import surface_shaders
 
 OPEN_SHADERS = {"BSDF_TRANSPARENT", "BSDF_GLASS", "BSDF_REFRACTION", "HOLDOUT"}
-MIXING, PASSING = {"MIX_SHADER", "ADD_SHADER"}, {"GROUP", "GROUP_INPUT", "REROUTE"}
 # sockets of a Principled BSDF, and the value at which each lets nothing through
 CLOSED = {"Alpha": 1.0, "Transmission Weight": 0.0}
 
@@ -33,19 +32,7 @@ def is_clear(material: bpy.types.Material | None) -> bool:
     transparent, and mixes of these."""
     if material is None or not compat.uses_nodes(material):
         return False
-    shader = surface_shader(material.node_tree)
-    return shader is not None and _is_clear(shader)
-
-
-def _is_clear(shader: bpy.types.Node) -> bool:
-    if shader.type == "REROUTE" or shader.type in MIXING:
-        behind = [socket.links[0].from_node for socket in shader.inputs if socket.type == "SHADER" and socket.is_linked]
-        return bool(behind) and all(map(_is_clear, behind))
-    if shader.type != "GROUP":
-        return _lets_all_through(shader)
-    # what a group has at all
-    shaders = [node for node in all_nodes(shader.node_tree) if node.type not in MIXING | PASSING
-               and any(socket.type == "SHADER" for socket in node.outputs)]
+    shaders = surface_shaders(material.node_tree)
     return bool(shaders) and all(map(_lets_all_through, shaders))
 
 
