@@ -8,6 +8,7 @@ import bpy
 
 from .. import compat
 from ..faults import AllOrNothing
+from ..writing.nodes.muted_nodes import take_out_muted
 from ..writing.nodes.shader_builder import ShaderBuilder
 from .diffuse_colour import GREY, DiffuseColour, diffuse_colour
 from .mirrors import PER_COLOUR, Tint
@@ -33,6 +34,7 @@ def adds_light(receiver: bpy.types.Material | None, stains: list[tuple[Tint, bpy
         whole.undo(bpy.data.materials.remove, material)
         material.name = name
         tree = material.node_tree
+        take_out_muted(tree)
         strange = asks_for_more(tree)
         show_by_places(tree, whole)
         output = tree.get_output_node("ALL")

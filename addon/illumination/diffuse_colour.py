@@ -7,6 +7,7 @@ import bpy
 
 from ..faults import AllOrNothing
 from ..reading.materials import MIRRORS
+from ..writing.nodes.muted_nodes import take_out_muted
 from ..writing.nodes.shader_builder import ShaderBuilder, given
 from .diffuse_share import SHARES, diffuse_share
 from .receiver_places import MARK
@@ -93,6 +94,7 @@ def _in_group(node: bpy.types.Node, source: bpy.types.NodeSocket, whole: AllOrNo
         node.node_tree[MARK] = True
         whole.undo(bpy.data.node_groups.remove, node.node_tree)
     group = node.node_tree
+    take_out_muted(group)
     output = next((one for one in group.nodes if one.type == "GROUP_OUTPUT" and one.is_active_output), None)
     if output is None:
         return DiffuseColour()

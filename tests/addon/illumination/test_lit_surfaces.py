@@ -136,3 +136,39 @@ def test_mixed_shaders_send_light_back_as_mixed(blank, capfd, tmp_path, mixture,
     assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 5e-3
     assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
     assert set(bpy.data.node_groups) == groups
+
+
+def muted_mix(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+    mix = mixed(tree, 0.5, shader, tree.nodes.new("ShaderNodeBsdfTransparent"))
+    mix.mute = True
+    return mix.outputs[0]
+
+
+def muted_link(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+    tree.links.new(tree.nodes.new("ShaderNodeTexChecker").outputs["Color"], shader.inputs["Color"]).is_muted = True
+    return shader.outputs[0]
+
+
+def muted_colour(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+    """A muted node behind a colour, and another muted one behind that."""
+    first, second = (tree.nodes.new("ShaderNodeInvert") for _ in range(2))
+    known = tree.nodes.new("ShaderNodeRGB")
+    known.outputs[0].default_value = shader.inputs["Color"].default_value
+    tree.links.new(known.outputs[0], first.inputs["Color"])
+    tree.links.new(first.outputs[0], second.inputs["Color"])
+    tree.links.new(second.outputs[0], shader.inputs["Color"])
+    first.mute = second.mute = True
+    return shader.outputs[0]
+
+
+@pytest.mark.parametrize("muted", [muted_mix, muted_link, muted_colour])
+def test_what_is_muted_does_not_count(blank, tmp_path, muted):
+    """Beside the lamp behind the mirror, whose light Cycles shows without it."""
+    floor, mirror, lamp = scene_of()
+    blank.scene.cycles.max_bounces = 0
+    tree = floor.active_material.node_tree
+    tree.links.new(muted(tree, tree.nodes[0]), tree.get_output_node("ALL").inputs["Surface"])
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
+    ratio = (light / np.maximum(expected, 1e-12))[inner(light)]
+    assert len(ratio) > 500
+    assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 2e-3
