@@ -11,7 +11,7 @@ import numpy as np
 from ...core import TriangleMesh, breathe, in_steps
 from ...core.rivals.tracing import Landed, LightRays, by_boxes
 from ..faults import Steps, part
-from ..illumination import Eye, MirrorColours, eyes_of
+from ..illumination import Eye, MirrorColours, eyes_of, receiving
 from ..metrics import Squares, added, light_errors, light_in_squares
 from ..reading import DiffuseScene, read_mirror, read_scene
 
@@ -99,7 +99,7 @@ class Surroundings:
         """The rays of one of the lamp's places; a lamp that is a mesh may hide with its `body`."""
         others, blockers = (TriangleMesh.joined([mesh for mesh in meshes if mesh is not None])
                             for meshes in (self.surfaces[1:], (self.blockers, body)))
-        return LightRays(self.surfaces[0], self.scene.mesh, others if len(others.triangles) else None,
+        return LightRays(self.surfaces[0], receiving(self.scene)[0], others if len(others.triangles) else None,
                          blockers if len(blockers.triangles) else None, tracer)
 
     def watts(self, eye: Eye, landed: Landed) -> np.ndarray:
@@ -135,7 +135,7 @@ def against_rays(depsgraph: bpy.types.Depsgraph, result: bpy.types.Object, lit: 
                    surface.positions[surface.triangles].reshape(-1, 3))
     bodies = [eye.body for eye in eyes] if any(eye.body for eye in eyes) else [None]
     rays = yield from part(in_steps(lambda: [around.rays(tracer, body) for body in bodies]), 0.0, 0.0)
-    normals, throws = around.scene.mesh.face_normals(), max(THROWS, -(-count // RAYS_AT_ONCE))
+    normals, throws = receiving(around.scene)[0].face_normals(), max(THROWS, -(-count // RAYS_AT_ONCE))
 
     def throw(number: int) -> tuple[np.ndarray, np.ndarray]:
         names, flux = [], []

@@ -11,6 +11,7 @@ import bpy
 
 from .. import compat
 from ..reading import all_nodes, is_mirror, is_opaque
+from ..reading import materials_of as shown_by
 
 SIZE = 12   # bytes of a digest
 DEEPEST = 4  # settings inside a node's settings: the points of a curve of a mapping
@@ -30,21 +31,17 @@ def forget_materials(changed: Iterable[bpy.types.ID] | None = None) -> None:
 def materials_of(objects: list) -> str:
     """A digest of which materials objects show, and which of these are mirrors or let light through."""
     return _digest(repr([[(material.name_full, is_mirror(material), is_opaque(material)) if material else None
-                          for material in _slots(obj)] for obj in objects]).encode())
+                          for material in shown_by(obj)] for obj in objects]).encode())
 
 
 def colours_of(objects: list) -> str:
     """A digest of what the materials of objects are made of."""
     told = blake2b(digest_size=SIZE)
-    for material in [material for obj in objects for material in _slots(obj) if material is not None]:
+    for material in [material for obj in objects for material in shown_by(obj) if material is not None]:
         if material.session_uid not in _colours:
             _colours[material.session_uid] = repr(list(made_of(material, COLOURS))).encode()
         told.update(_colours[material.session_uid])
     return told.hexdigest()
-
-
-def _slots(obj: bpy.types.Object) -> list:
-    return [slot.material for slot in obj.material_slots]
 
 
 def _digest(told: bytes) -> str:

@@ -2,58 +2,51 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import bpy
 
 from .. import compat
 from ..faults import AllOrNothing
-from ..reading.materials import surface_shader
+from ..writing.nodes.muted_nodes import take_out_muted
 from ..writing.nodes.shader_builder import ShaderBuilder
-from .diffuse_share import SHARES, diffuse_share
+from .diffuse_colour import GREY, DiffuseColour, diffuse_colour
 from .mirrors import PER_COLOUR, Tint
 from .receiver_places import MARK, asks_for_more, forget_groups, show_by_places
 
 LIGHT = "caustic_light"
 """The attribute with red, green and blue of the light, in W/m2."""
-COLOURS = {"BSDF_PRINCIPLED": "Base Color", "BSDF_DIFFUSE": "Color"}
 
 
 def adds_light(receiver: bpy.types.Material | None, stains: list[tuple[Tint, bpy.types.NodeTree]],
                whole: AllOrNothing) -> tuple[bpy.types.Material, bool]:
     """A material that is transparent and emits what the receiver's diffuse colour sends back of the light, and whether
-    it knows that colour all over: it is read from the nodes of a Principled or Diffuse BSDF, of which it has a copy.
+    it knows that colour all over: it is read from the nodes of the receiver, of which it has a copy.
     The light is that of a mirror with `stains`, textured tints and the groups that tell their colours."""
     name = f"{receiver.name if receiver else 'Default'} Caustics"
+    found = DiffuseColour(GREY if receiver is None else tuple(receiver.diffuse_color))
     if receiver is None or not compat.uses_nodes(receiver):
-        material, known = bpy.data.materials.new(name), True
+        material = bpy.data.materials.new(name)
+        whole.undo(bpy.data.materials.remove, material)
         tree = compat.use_nodes(material)
-        shader = None
     else:
         material = receiver.copy()
+        whole.undo(bpy.data.materials.remove, material)
         material.name = name
         tree = material.node_tree
-        shader = surface_shader(tree)
-        known = shader is not None and shader.type in COLOURS
-        shader = shader if known else None
-    whole.undo(bpy.data.materials.remove, material)
-    material[MARK] = True
-    albedo = (0.8, 0.8, 0.8, 1.0) if receiver is None else tuple(receiver.diffuse_color)
-    colour: bpy.types.NodeSocket | None = None
-    share: float | bpy.types.NodeSocket = 1.0
-    if shader is not None:
-        socket = shader.inputs[COLOURS[shader.type]]
-        albedo = tuple(socket.default_value)
-        colour = socket.links[0].from_socket if socket.is_linked else None
-        asked = (socket, *(shader.inputs[name] for name in SHARES if name in shader.inputs))
-        known = known and not (any(one.is_linked for one in asked) and asks_for_more(tree))
-        share = diffuse_share(tree, shader)
+        take_out_muted(tree)
+        strange = asks_for_more(tree)
         show_by_places(tree, whole)
-    _show(tree, albedo, colour, share, _thrown(tree, stains))
+        output = tree.get_output_node("ALL")
+        found = DiffuseColour() if output is None else diffuse_colour(tree, output.inputs["Surface"], whole)
+        found = replace(found, known=found.known and not (found.by_nodes and strange))
+    material[MARK] = True
+    _show(tree, found, _thrown(tree, stains))
     material.surface_render_method = "BLENDED"
     material.use_transparency_overlap = True
     material.use_backface_culling = False
     material.cycles.emission_sampling = "NONE"
-    return material, known
+    return material, found.known
 
 
 def light_alone(material: bpy.types.Material | None) -> bpy.types.Material | None:
@@ -103,10 +96,11 @@ def _thrown(tree: bpy.types.NodeTree, stains: list[tuple[Tint, bpy.types.NodeTre
     return light
 
 
-def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket | None,
-          share: float | bpy.types.NodeSocket, light: bpy.types.NodeSocket) -> None:
+def _show(tree: bpy.types.NodeTree, sent: DiffuseColour, light: bpy.types.NodeSocket) -> None:
     """Let a tree emit its colour times the light's, times a share, over pi, and show what lies behind; to the side that
     is lit alone, or the receiver would be lit by what it sends back."""
+    share = sent.share
+
     def add(kind: str, place: tuple[float, float]) -> bpy.types.Node:
         node = tree.nodes.new(kind)
         node.location = place
@@ -118,10 +112,10 @@ def _show(tree: bpy.types.NodeTree, albedo: tuple, colour: bpy.types.NodeSocket 
     emission, clear = add("ShaderNodeEmission", (400.0, -300.0)), add("ShaderNodeBsdfTransparent", (400.0, -450.0))
     both, output = add("ShaderNodeAddShader", (600.0, -300.0)), add("ShaderNodeOutputMaterial", (800.0, -300.0))
     tree.links.new(light, product.inputs[0])
-    if colour is None:
-        product.inputs[1].default_value = albedo[:3]
+    if isinstance(sent.colour, bpy.types.NodeSocket):
+        tree.links.new(sent.colour, product.inputs[1])
     else:
-        tree.links.new(colour, product.inputs[1])
+        product.inputs[1].default_value = sent.colour[:3]
     seen, front = add("ShaderNodeNewGeometry", (0.0, -500.0)), add("ShaderNodeMath", (200.0, -500.0))
     known = share / math.pi if isinstance(share, float) else 1.0 / math.pi
     front.operation, front.inputs[0].default_value, front.inputs[2].default_value = "MULTIPLY_ADD", -known, known

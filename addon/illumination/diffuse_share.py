@@ -1,17 +1,15 @@
 """What part of a surface's colour it sends back as diffuse light, as Cycles divides it."""
 from __future__ import annotations
 
-import math
-
 import bpy
 
+from ..reading.materials import index_of, upright
 from ..writing.nodes.shader_builder import ShaderBuilder, given
 
 SHARES = ("Metallic", "Transmission Weight", "Alpha")
 # of the gloss, as Cycles has it at the roughnesses 0.5 and 1, seen from upright to 70 degrees
 FADES, FADES_BY = 0.65, 3.3  # how much less a rough one sends back, and how late
 SPREADS = 3.4  # how much less it rises towards grazing
-MOST = 0.99  # of upright light that any gloss sends back
 
 
 def diffuse_share(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> float | bpy.types.NodeSocket:
@@ -29,15 +27,14 @@ def diffuse_share(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> float | b
 def _gloss(build: ShaderBuilder, shader: bpy.types.Node) -> float | bpy.types.NodeSocket:
     """What the layer over the colour sends back by itself, of values that are plugged off: Fresnel's share, and of a
     rough layer less of it, and less of its rise."""
-    index, level, rough = (shader.inputs[name].default_value for name in ("IOR", "Specular IOR Level", "Roughness"))
-    upright = min(2.0 * level * ((index - 1.0) / (index + 1.0))**2, MOST)
-    if not upright > 0.0:
+    straight, rough = upright(shader), shader.inputs["Roughness"].default_value
+    if not straight > 0.0:
         return 0.0
     fresnel = build.add("ShaderNodeFresnel")
-    fresnel.inputs["IOR"].default_value = (1.0 + math.sqrt(upright)) / (1.0 - math.sqrt(upright))
+    fresnel.inputs["IOR"].default_value = index_of(shader)
     kept = 1.0 - FADES * rough**FADES_BY
     rise = kept / (1.0 + SPREADS * rough**2)
-    return build.calculated("ADD", build.calculated("MULTIPLY", fresnel.outputs[0], rise), (kept - rise) * upright)
+    return build.calculated("ADD", build.calculated("MULTIPLY", fresnel.outputs[0], rise), (kept - rise) * straight)
 
 
 def _left(build: ShaderBuilder, taken: float | bpy.types.NodeSocket) -> float | bpy.types.NodeSocket:

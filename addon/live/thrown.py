@@ -13,7 +13,7 @@ from ..frames import plays
 from ..freshness import COARSE, digest_of, lamp_numbers, light_record
 from ..illumination import Tint, blocking, lights_renders, places_kept, results_with
 from ..operators.caustics import Asked, NothingThrown, throwing
-from ..reading import NothingSeen, Participants, visible
+from ..reading import NothingSeen, Participants, materials_shown, visible
 from ..settings import Wanted
 from .pace import Pace
 
@@ -186,10 +186,11 @@ def _record(context: bpy.types.Context, groups: list[Group]) -> Record:
         mirrors = sorted({mirror for mirror, _ in group.pairs}, key=lambda mirror: mirror.session_uid)
         objects = [chosen.mirrors, chosen.diffuse, blocking(context, chosen)]
         places = places_kept(context, mirrors, group.lamps)
+        shown = materials_shown(depsgraph, mirrors)
         digests.append((tuple(digest_of(depsgraph, some) for some in objects),
                         tuple(lamp_numbers(depsgraph, lamp) for lamp in group.lamps),
-                        tuple(repr(Tint.of_material(slot.material))
-                              for mirror in mirrors for slot in mirror.material_slots)))
+                        tuple(repr(Tint.of_material(material))
+                              for mirror in mirrors for material in shown[mirror])))
         settings.append((tuple(wanted(mirror) for mirror in mirrors), tuple(places.values())))
         members.append(tuple(tuple(obj.session_uid for obj in some) for some in (*objects, group.lamps))
                        + tuple(sorted((mirror.session_uid, lamp.session_uid) for mirror, lamp in group.pairs)))
@@ -218,6 +219,13 @@ def made_anew(context: bpy.types.Context, group: Group, settings: dict[bpy.types
             if pair in dark and len(obj.data.vertices):
                 obj.data.clear_geometry()
             if pair in dark:
+                _forget_removed(record.sources)
                 record.made_from = light_record(context, *pair, [source.object for source in record.sources])
             if not exact:
                 record.made_from = COARSE
+
+
+def _forget_removed(sources: bpy.types.bpy_prop_collection) -> None:
+    """Take out of what a record says is lit that which is there no more."""
+    for index in reversed([number for number, source in enumerate(sources) if source.object is None]):
+        sources.remove(index)

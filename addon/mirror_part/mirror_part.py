@@ -7,7 +7,7 @@ import bpy
 
 from .. import compat
 from ..lamps import ShownLamp, lamp_light
-from ..reading.materials import surface_shader
+from ..reading.materials import index_of, surface_shader
 from ..writing import UV_MAP
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
@@ -139,9 +139,7 @@ class _Builder(ShaderBuilder):
         if level.is_linked or index.is_linked:
             self.feed(given(index), fresnel.inputs["IOR"])
         else:
-            straight = ((index.default_value - 1.0) / (index.default_value + 1.0)) ** 2
-            root = min(2.0 * level.default_value * straight, 0.99) ** 0.5
-            fresnel.inputs["IOR"].default_value = (1.0 + root) / (1.0 - root)
+            fresnel.inputs["IOR"].default_value = index_of(shader)
         return fresnel.outputs[0]
 
     def bend_normals(self) -> None:

@@ -32,10 +32,11 @@ from ..illumination import (
     light_of_nodes,
     parts_of,
     places_on_mirror,
+    receiving,
     textured,
     write_caustics,
 )
-from ..reading import DiffuseScene, Participants, choose, read_mirror, read_scene
+from ..reading import DiffuseScene, Participants, choose, materials_shown, read_mirror, read_scene
 from ..settings import SettingsOfMirrors, UsesSettings, option
 from . import polls
 
@@ -119,6 +120,7 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     surfaces = {mirror: read_mirror(depsgraph, mirror) for mirror in chosen.mirrors}
     places = {mirror: MirrorPlaces(textured(mirror), places_on_mirror(depsgraph, mirror)) for mirror in surfaces}
     scene = read_scene(depsgraph, chosen.diffuse)
+    receivers = receiving(scene)
     standing = blocking(context, chosen)
     blockers = {lamp: blockers_of(depsgraph, [obj for obj in standing if obj != lamp]) for lamp in lamps}
     origins = {}
@@ -130,7 +132,7 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
         name = name_of(mirror, lamp, lamps)
         eyes = partial(eyes_of, depsgraph, lamp, wanted.places(mirror, lamp))
         parts = parts_of(surfaces[mirror], [surfaces[other] for other in chosen.mirrors if other != mirror])
-        steps = _lit(eyes, parts, scene.mesh, blockers[lamp], wanted.settings(mirror))
+        steps = _lit(eyes, parts, receivers, blockers[lamp], wanted.settings(mirror))
         try:
             lit = yield from part(steps, READING + (1.0 - READING) * number / len(pairs), (1.0 - READING) / len(pairs),
                                   name)
@@ -158,18 +160,19 @@ def name_of(mirror: bpy.types.Object, lamp: bpy.types.Object, lamps: list) -> st
     return f"{mirror.name} Caustics{f' {lamp.name}' if len(lamps) > 1 else ''}"
 
 
-def _lit(eyes_of_lamp: Callable, parts: list[MirrorPart], receivers: core.TriangleMesh,
+def _lit(eyes_of_lamp: Callable, parts: list[MirrorPart], receivers: tuple,
          blockers: core.TriangleMesh | None, settings: core.Settings) -> Steps[list]:
-    """The light (eye, part, mesh) of each of a lamp's places that each part of a mirror throws; where none throws any,
-    the error of the last."""
-    lit, told = [], None
+    """The light (eye, part, mesh) of each of a lamp's places that each part of a mirror throws on `receivers`, a mesh
+    and which triangles of the scene it has; where none throws any, the error of the last."""
+    (lit, told), (receiving_mesh, kept) = ([], None), receivers
     eyes = eyes_of_lamp(np.concatenate([own.mesh.positions[own.mesh.triangles.ravel()] for own in parts]))
     for number, (eye, own) in enumerate(product(eyes, parts)):
-        steps = core.caustic_steps(eye.shining, own.mesh, receivers, settings, own.others,
+        steps = core.caustic_steps(eye.shining, own.mesh, receiving_mesh, settings, own.others,
                                    _joined([blockers, eye.body]))
         share = 1.0 / (len(eyes) * len(parts))
         try:
-            lit.append((eye, own, (yield from part(steps, number * share, share))))
+            mesh = yield from part(steps, number * share, share)
+            lit.append((eye, own, replace(mesh, source_face=kept[mesh.source_face])))
         except core.ReflectionError as error:
             told = error
     if not lit:
@@ -203,6 +206,7 @@ def _plain(own: MirrorPart, mesh: core.CausticMesh, textured: list[Tint]) -> boo
 
 def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tuple[list, list]) -> Thrown:
     objects, unknown, scene, (remarks, dark) = [], [], context.scene, left
+    shown = materials_shown(context.evaluated_depsgraph_get(), [made.mirror for made in prepared])
     with AllOrNothing() as whole:
         for made in prepared:
             obj, strange = write_caustics(context, made, whole, wanted.keep_materials)
@@ -210,7 +214,7 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
             objects.append(obj)
             unknown += strange
             if wanted.leave_out:
-                remarks += leave_out(scene, made.mirror, made.lamp, whole)
+                remarks += leave_out(scene, made.mirror, made.lamp, shown[made.mirror], whole)
             else:
                 follow_lamp(made.lamp)
         layers = sum(made.layers for made in prepared)
@@ -218,7 +222,8 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
         remarks += follow_layers(scene, layers, chain.from_iterable(receivers.values()), whole)
     for material in dict.fromkeys(unknown):
         remarks.append(f"The colour of '{material.name}' is not known all over, where it asks for what only its own "
-                       "object knows or is mixed of several shaders: its light may have another colour.")
+                       "object knows or its shaders send light back in another way than diffuse: its light may have "
+                       "another colour.")
     for lamp in dict.fromkeys(made.lamp for made in prepared):
         if lamp.type == "LIGHT" and not light_of_nodes(lamp.data)[1]:
             remarks.append(f"The nodes of '{lamp.name}' tell more than one colour and one strength: its light counts "

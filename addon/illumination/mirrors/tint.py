@@ -8,34 +8,9 @@ import numpy as np
 
 from ... import compat
 from ...reading.materials import MIRRORS, is_mirror, is_sharp, surface_shader
+from .coat import WHOLE, Coat, gloss_of, share_of
 
 F82 = 1.0 / 7.0  # cosine of the angle at which the edge tint is given
-
-
-@dataclass(frozen=True)
-class Coat:
-    """The share of a mirror in a Mix Shader: `factor`, or what a dielectric of the refractive index `ior` reflects,
-    where that is none of 0; or what these leave."""
-
-    factor: float = 1.0
-    ior: float = 0.0
-    rest: bool = False
-
-    def at(self, cosine: np.ndarray) -> np.ndarray:
-        """The share by the cosine of the angle of incidence, outside of the dielectric.
-
-        As `fresnel_dielectric_cos` of Cycles' kernel has it.
-        """
-        share = np.full(cosine.shape, self.factor)
-        if self.ior:
-            c = np.clip(cosine, 0.0, 1.0)
-            g = np.sqrt(np.maximum(self.ior**2 - 1.0 + c**2, 0.0))
-            a, b = (g - c) / np.maximum(g + c, 1e-300), (c * (g + c) - 1.0) / (c * (g - c) + 1.0)
-            share = 0.5 * a**2 * (1.0 + b**2)
-        return 1.0 - share if self.rest else share
-
-
-WHOLE = Coat()
 
 
 @dataclass(frozen=True)
@@ -83,7 +58,8 @@ class Tint:
     def of(cls, mirror: bpy.types.Object) -> Tint:
         """Of the mirror's first reflecting material; white where it has none."""
         materials = [slot.material for slot in mirror.material_slots if slot.material is not None]
-        reflecting = (one for one in materials if is_mirror(one) or (compat.uses_nodes(one) and _coated(one)))
+        reflecting = (one for one in materials if is_mirror(one) or (
+            compat.uses_nodes(one) and (_coated(one) or gloss_of(surface_shader(one.node_tree)))))
         return cls.of_material(next(reflecting, None))
 
     @classmethod
@@ -98,7 +74,9 @@ class Tint:
         shader, coat, known = (surface_shader(material.node_tree), WHOLE, True) if is_mirror(material) else (
             _coated(material) or (None, WHOLE, True))
         if shader is None:
-            return cls(white, white, False, True)
+            gloss = gloss_of(surface_shader(material.node_tree))
+            return (cls(white, white, False, True) if gloss is None else
+                    cls(gloss.colour, white, gloss.metal, gloss.known, gloss.coat))
         metal = shader.type in {"BSDF_PRINCIPLED", "BSDF_METALLIC"}
         edge = {"BSDF_PRINCIPLED": "Specular Tint", "BSDF_METALLIC": "Edge Tint"}.get(shader.type)
         sockets = [shader.inputs.get("Base Color") or shader.inputs.get("Color"), shader.inputs.get(edge or "")]
@@ -144,16 +122,6 @@ def _coated(material: bpy.types.Material) -> tuple[bpy.types.Node, Coat, bool] |
     for place, socket in enumerate(both):
         shader = socket.links[0].from_node if socket.is_linked else None
         if shader is not None and shader.type in MIRRORS and is_sharp(shader):
-            share, known = _share(factor)
+            share, known = share_of(factor)
             return shader, replace(share, rest=place == 0), known
     return None
-
-
-def _share(factor: bpy.types.NodeSocket) -> tuple[Coat, bool]:
-    """What the factor of a Mix Shader is, and whether that is all over the mirror."""
-    if not factor.is_linked:
-        return Coat(factor.default_value), True
-    node = factor.links[0].from_node
-    if node.type == "FRESNEL" and not any(socket.is_linked for socket in node.inputs):
-        return Coat(ior=max(node.inputs["IOR"].default_value, 1e-5)), True
-    return Coat(factor.default_value), False

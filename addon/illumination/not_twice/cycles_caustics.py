@@ -8,9 +8,11 @@ from ..light_sources import has_a_size
 from .own_caustics import leave_out_own_caustics, makes_own_caustics
 
 
-def leave_out(scene: bpy.types.Scene, mirror: bpy.types.Object, lamp: bpy.types.Object, whole: AllOrNothing) -> list:
-    """Leave out Cycles' own caustics of a lamp and a mirror, if it makes any; a sentence where that cannot be."""
-    own, alone = makes_own_caustics(mirror)
+def leave_out(scene: bpy.types.Scene, mirror: bpy.types.Object, lamp: bpy.types.Object, materials: list,
+              whole: AllOrNothing) -> list:
+    """Leave out Cycles' own caustics of a lamp and a mirror, which shows `materials`, if it makes any; a sentence where
+    that cannot be."""
+    own, alone = makes_own_caustics(materials)
     if scene.render.engine != "CYCLES" or not scene.cycles.caustics_reflective or not (own and has_a_size(lamp)):
         return []
     if not alone:

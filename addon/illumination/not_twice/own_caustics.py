@@ -17,13 +17,12 @@ from ...reading.materials import MIRRORS, all_nodes, is_sharp
 from .glint import forget_lost_glints, glint_of, hide_from_mirror, show_in_mirror
 
 
-def makes_own_caustics(mirror: bpy.types.Object) -> tuple[bool, bool]:
+def makes_own_caustics(materials: list) -> tuple[bool, bool]:
     """Whether Cycles finds lamps in a mirror, as far as its materials tell, and whether that is all that these do: what
     is lit as well, as water over its ground, cannot be taken out of what a lamp lights."""
-    materials = [slot.material for slot in mirror.material_slots if slot.material is not None]
     whole = [is_mirror(material) for material in materials]
     sharp = (node for material in materials if compat.uses_nodes(material) for node in all_nodes(material.node_tree)
-             if node.type in {*MIRRORS, "BSDF_PRINCIPLED"})
+             if node.type in {*MIRRORS, "BSDF_PRINCIPLED", "BSDF_GLASS"})
     return any(whole) or any(map(is_sharp, sharp)), bool(whole) and all(whole)
 
 

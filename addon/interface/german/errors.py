@@ -120,6 +120,9 @@ LIGHT = {
     "The lamp '{}' gives no light: raise its power.": "Die Lampe '{}' gibt kein Licht: erhöhe ihre Leistung.",
     "The lamp '{}' gives no light to the mirror: raise the strength of its emission.":
         "Die Lampe '{}' gibt dem Spiegel kein Licht: erhöhe die Stärke ihrer Emission.",
+    "Light goes through all that is to be lit: select what it is to fall on, or give it the role Reflected.":
+        "Licht geht durch alles hindurch, was beleuchtet werden soll: wähle aus, worauf es fallen soll, oder gib ihm "
+        "die Rolle Gespiegelt.",
     "Light falls on nothing but lamps: select what it is to fall on, or give it the role Reflected.":
         "Licht fällt auf nichts als Lampen: wähle aus, worauf es fallen soll, oder gib ihm die Rolle Gespiegelt.",
     "The light that mirrors throw is the same for all cameras: name one at most.":

@@ -122,10 +122,10 @@ LACKS = {
     "Reflective off.":
         "Cycles fügt eigene Kaustik von '{}' in '{}' hinzu, das auch beleuchtet ist und nicht nur spiegelt: schalte "
         "Lichtpfade > Kaustik > Reflektierend aus.",
-    "The colour of '{}' is not known all over, where it asks for what only its own object knows or is mixed of "
-    "several shaders: its light may have another colour.":
+    "The colour of '{}' is not known all over, where it asks for what only its own object knows or its "
+    "shaders send light back in another way than diffuse: its light may have another colour.":
         "Die Farbe von '{}' ist nicht überall bekannt, wo sie nach etwas fragt, das nur das Objekt selbst weiß, oder "
-        "aus mehreren Shadern gemischt ist: sein Licht kann eine andere Farbe haben.",
+        "seine Shader Licht anders als diffus zurückwerfen: sein Licht kann eine andere Farbe haben.",
     "The nodes of '{}' tell more than one colour and one strength: its light counts as if the rest were plugged off.":
         "Die Nodes von '{}' sagen mehr als eine Farbe und eine Stärke: sein Licht zählt, als wäre der Rest abgezogen.",
     "A mirror's colour that changes over it in a way that only the mirror knows, or that light meets after another "

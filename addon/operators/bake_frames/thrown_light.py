@@ -9,7 +9,7 @@ from .... import core
 from ...faults import AllOrNothing, Steps, still_there
 from ...frames import Sequence, play_caustics, player_of, told_apart
 from ...illumination import follow_layers, leave_out, lights_renders, places_kept
-from ...reading import NothingSeen, candidates, visible
+from ...reading import NothingSeen, candidates, materials_shown, visible
 from ...settings import of_each
 from ..caustics import Asked, NothingThrown, name_of, throwing
 from ..clear import remove_caustics
@@ -119,13 +119,14 @@ def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) ->
     lit = [obj for obj in diffuse if obj not in plan.lamps]
     objects: list = []
     told: list = []
+    shown = materials_shown(context.evaluated_depsgraph_get(), [mirror for mirror, _ in pairs.values()])
     with AllOrNothing() as whole:
         players = {key: player_of(sequence, mirror, None, whole, key) for key, (mirror, _) in pairs.items()}
         for key, player in players.items():
             obj = play_caustics(context, player, key, pairs[key], lit, whole)
             obj.reflection_mesh.eyes = sequence.records[-1].made_with["places"][key]
             objects.append(obj)
-            told += leave_out(scene, *pairs[key], whole) if plan.leave_out else []
+            told += leave_out(scene, *pairs[key], shown[pairs[key][0]], whole) if plan.leave_out else []
         materials = (slot.material for obj in lit for slot in obj.material_slots)
         told += follow_layers(scene, sequence.layers, materials, whole)
     return objects, told

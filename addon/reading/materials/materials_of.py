@@ -10,3 +10,15 @@ def materials_of(obj: bpy.types.Object) -> list:
     if obj.instance_type != "COLLECTION" or obj.instance_collection is None:
         return own
     return own + [material for other in obj.instance_collection.all_objects for material in materials_of(other)]
+
+
+def materials_shown(depsgraph: bpy.types.Depsgraph, objects: list) -> dict:
+    """The distinct materials of all that each of some objects is at the moment, those among them that Geometry Nodes
+    give it and those of its instances, by object."""
+    found: dict = {obj: {} for obj in objects}
+    for instance in depsgraph.object_instances:
+        owner = (instance.parent if instance.is_instance else instance.object).original
+        if owner in found and instance.show_self:
+            found[owner].update((slot.material.original, None) for slot in instance.object.material_slots
+                                if slot.material)
+    return {obj: list(materials) for obj, materials in found.items()}

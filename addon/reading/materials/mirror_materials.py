@@ -5,6 +5,7 @@ import bpy
 
 from ... import compat
 from .material_nodes import all_nodes
+from .surface_shaders import surface_shaders
 
 SHARP_ROUGHNESS = 0.1
 FULL_METALLIC = 0.9
@@ -31,12 +32,12 @@ def is_mirror(material: bpy.types.Material | None) -> bool:
 
 
 def shines(material: bpy.types.Material | None) -> bool:
-    """Whether what is no mirror mirrors a little as well: a Principled BSDF that is not told to have no specular."""
+    """Whether what is no mirror mirrors a little as well: a gloss that is mixed in, or a Principled BSDF that is not
+    told to have no specular."""
     if material is None or not compat.uses_nodes(material):
         return False
-    shader = surface_shader(material.node_tree)
-    return shader is not None and shader.type == "BSDF_PRINCIPLED" and not _constant(
-        shader, "Specular IOR Level", at_most=0.0)
+    return any(shader.type in MIRRORS or shader.type == "BSDF_PRINCIPLED" and not _constant(
+        shader, "Specular IOR Level", at_most=0.0) for shader in surface_shaders(material.node_tree))
 
 
 def is_sharp(shader: bpy.types.Node) -> bool:

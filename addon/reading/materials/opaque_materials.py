@@ -5,6 +5,7 @@ import bpy
 
 from ... import compat
 from .material_nodes import all_nodes
+from .surface_shaders import surface_shaders
 
 OPEN_SHADERS = {"BSDF_TRANSPARENT", "BSDF_GLASS", "BSDF_REFRACTION", "HOLDOUT"}
 # sockets of a Principled BSDF, and the value at which each lets nothing through
@@ -24,3 +25,20 @@ def _lets_through(node: bpy.types.Node) -> bool:
     sockets = {name: node.inputs.get(name) for name in CLOSED}
     return any(socket is not None and (socket.is_linked or socket.default_value != CLOSED[name])
                for name, socket in sockets.items())
+
+
+def is_clear(material: bpy.types.Material | None) -> bool:
+    """Whether `material` sends nothing of light back but what it mirrors, and lets all else through: glass, what is
+    transparent, and mixes of these."""
+    if material is None or not compat.uses_nodes(material):
+        return False
+    shaders = surface_shaders(material.node_tree)
+    return bool(shaders) and all(map(_lets_all_through, shaders))
+
+
+def _lets_all_through(shader: bpy.types.Node) -> bool:
+    if shader.type != "BSDF_PRINCIPLED":
+        return shader.type in OPEN_SHADERS - {"HOLDOUT"}
+    metal, glass, alpha = (shader.inputs[name] for name in ("Metallic", "Transmission Weight", "Alpha"))
+    clear = not glass.is_linked and glass.default_value == 1.0 and not metal.is_linked and metal.default_value == 0.0
+    return clear or (not alpha.is_linked and alpha.default_value == 0.0)

@@ -21,11 +21,8 @@ def coated(colour=(1.0, 0.5, 0.2), ior: float = 1.33, over: bool = True) -> bpy.
     return made
 
 
-@pytest.mark.parametrize("over", [True, False])
-@pytest.mark.parametrize("angle", [0.0, 0.9, 1.35])
-def test_water_sends_back_what_cycles_says(blank, room, tmp_path, over, angle):
-    """Its picture of a white world, seen at an angle."""
-    scene = blank.scene
+def seen_of_white_world(scene: bpy.types.Scene, material: bpy.types.Material, angle: float, tmp_path) -> tuple:
+    """A mirror of that material over a black ground, and its picture of a white world, seen at an angle."""
     scene.render.engine, scene.view_settings.view_transform = "CYCLES", "Raw"
     scene.render.resolution_x = scene.render.resolution_y = 64
     scene.cycles.use_denoising, scene.cycles.blur_glossy = False, 0.0
@@ -35,15 +32,66 @@ def test_water_sends_back_what_cycles_says(blank, room, tmp_path, over, angle):
     background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
     background.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     mirror = parts.add("plane", "Mirror", size=100.0)
-    mirror.data.materials.append(coated(over=over))
+    mirror.data.materials.append(material)
+    ground = parts.add("plane", "Ground", size=100.0, location=(0.0, 0.0, -0.5))
+    ground.data.materials.append(paint("Black", "DIFFUSE", (0.0, 0.0, 0.0)))
     camera = scene.camera
     camera.data.type, camera.data.ortho_scale = "ORTHO", 1.0
     camera.location = (0.0, -3.0 * np.sin(angle), 3.0 * np.cos(angle))
     camera.rotation_euler = (angle, 0.0, 0.0)
-    seen = rendered(tmp_path, 64).mean(axis=(0, 1))
+    return mirror, rendered(tmp_path, 64).mean(axis=(0, 1))
+
+
+@pytest.mark.parametrize("over", [True, False])
+@pytest.mark.parametrize("angle", [0.0, 0.9, 1.35])
+def test_water_sends_back_what_cycles_says(blank, room, tmp_path, over, angle):
+    mirror, seen = seen_of_white_world(blank.scene, coated(over=over), angle, tmp_path)
     tint = room("addon.illumination").Tint.of(mirror)
     found = tint.at(np.full((1, 3), np.cos(angle)))[0, 0]
     assert tint.constant and np.allclose(found, seen, rtol=0.05 if over else 0.01, atol=0.002)
+
+
+def shader_alone(kind: str, **values) -> bpy.types.Material:
+    made = parts.material("Pane", "PRINCIPLED")
+    tree = made.node_tree
+    shader = tree.nodes.new(kind)
+    for name, value in {"Roughness": 0.0, **values}.items():
+        shader.inputs[name].default_value = value
+    tree.links.new(shader.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
+    return made
+
+
+def by_layer_weight() -> bpy.types.Material:
+    made = coated(over=True)
+    tree = made.node_tree
+    weight = tree.nodes.new("ShaderNodeLayerWeight")
+    weight.inputs["Blend"].default_value = 0.4
+    tree.links.new(weight.outputs["Fresnel"], next(n for n in tree.nodes if n.type == "MIX_SHADER").inputs[0])
+    return made
+
+
+NOT_METAL = {
+    "glass": lambda: shader_alone("ShaderNodeBsdfGlass", IOR=1.6),
+    "pane": lambda: shader_alone("ShaderNodeBsdfPrincipled", **{"Transmission Weight": 1.0, "Metallic": 0.0}),
+    "lacquer": lambda: shader_alone("ShaderNodeBsdfPrincipled", **{
+        "Base Color": (0.0, 0.0, 0.0, 1.0), "Metallic": 0.0, "Specular IOR Level": 0.8}),
+    "coat": lambda: shader_alone("ShaderNodeBsdfPrincipled", **{
+        "Base Color": (0.0, 0.0, 0.0, 1.0), "Metallic": 0.0, "Specular IOR Level": 0.0, "Roughness": 0.6,
+        "Coat Weight": 0.7, "Coat Roughness": 0.0}),
+    "part metal": lambda: shader_alone("ShaderNodeBsdfPrincipled", **{
+        "Base Color": (0.9, 0.5, 0.2, 1.0), "Metallic": 0.5, "Transmission Weight": 1.0}),
+    "layer weight": by_layer_weight}
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.9, 1.2])
+@pytest.mark.parametrize("kind", NOT_METAL)
+def test_what_is_no_metal_sends_back_what_cycles_says(blank, room, tmp_path, kind, angle):
+    """It threw all of the light."""
+    mirror, seen = seen_of_white_world(blank.scene, NOT_METAL[kind](), angle, tmp_path)
+    mirror.reflection_mesh.role = "MIRROR"
+    tint = room("addon.illumination").Tint.of(mirror)
+    found = tint.at(np.full((1, 3), np.cos(angle)))[0, 0]
+    assert tint.constant and np.allclose(found, seen, rtol=0.05, atol=0.004)
 
 
 def textured(floor: bpy.types.Object, kind: str, coordinates: str, grouped: bool) -> None:

@@ -268,3 +268,24 @@ def test_what_is_lit_as_well_as_it_mirrors_stays_lit(blank, room, tmp_path, capf
     mirror.reflection_mesh.role = "MIRROR"
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
     assert "as it mirrors" not in capfd.readouterr().out and lamp.light_linking.receiver_collection is None
+
+
+@pytest.mark.parametrize("gloss", ["PRINCIPLED", "mixed"])
+def test_a_glossy_floor_counts_its_layers_twice(blank, gloss):
+    """What it mirrors of itself, as by a wall that it shows, lies under as many again."""
+    floor, mirror, lamp = scene_of(shadow_soft_size=0.1)
+    tree = floor.active_material.node_tree
+    if gloss == "mixed":
+        both, shine = tree.nodes.new("ShaderNodeMixShader"), tree.nodes.new("ShaderNodeBsdfAnisotropic")
+        both.inputs[0].default_value = 0.2
+        tree.links.new(tree.nodes[0].outputs[0], both.inputs[1])
+        tree.links.new(shine.outputs[0], both.inputs[2])
+        tree.links.new(both.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
+    else:
+        floor.data.materials[0] = paint("Varnish", "PRINCIPLED", ALBEDO, "Base Color")
+        floor.active_material.node_tree.nodes[0].inputs["Metallic"].default_value = 0.0
+        floor.active_material.node_tree.nodes[0].inputs["Roughness"].default_value = 0.3
+    blank.scene.cycles.transparent_max_bounces = 8
+    # six layers that are passed there and back
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=6) == {"FINISHED"}
+    assert blank.scene.cycles.transparent_max_bounces >= 12

@@ -78,3 +78,97 @@ def test_metal_sends_no_light_back_by_its_colour(blank, tmp_path, linked):
         assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
     seen = inner(found[1])
     assert np.abs(found[0][seen] / found[1][seen] - 0.6).max() < 1e-3
+
+
+def half_open(tree: bpy.types.NodeTree, colour: bpy.types.Node) -> bpy.types.Node:
+    return mixed(tree, 0.3, tree.nodes.new("ShaderNodeBsdfTransparent"), colour)
+
+
+def varnished(tree: bpy.types.NodeTree, colour: bpy.types.Node) -> bpy.types.Node:
+    gloss = tree.nodes.new("ShaderNodeBsdfAnisotropic")
+    gloss.inputs["Roughness"].default_value = 0.5
+    return mixed(tree, 0.2, colour, gloss)
+
+
+def on_black(tree: bpy.types.NodeTree, colour: bpy.types.Node) -> bpy.types.Node:
+    """Half of it, added to black."""
+    both, black = tree.nodes.new("ShaderNodeAddShader"), tree.nodes.new("ShaderNodeBsdfDiffuse")
+    black.inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+    tree.links.new(mixed(tree, 0.5, black, colour).outputs[0], both.inputs[0])
+    tree.links.new(black.outputs[0], both.inputs[1])
+    return both
+
+
+def mixed(tree: bpy.types.NodeTree, factor: float, first: bpy.types.Node, second: bpy.types.Node) -> bpy.types.Node:
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    mix.inputs[0].default_value = factor
+    tree.links.new(first.outputs[0], mix.inputs[1])
+    tree.links.new(second.outputs[0], mix.inputs[2])
+    return mix
+
+
+@pytest.mark.parametrize("grouped", [False, True])
+@pytest.mark.parametrize("mixture", [half_open, varnished, on_black])
+def test_mixed_shaders_send_light_back_as_mixed(blank, capfd, tmp_path, mixture, grouped):
+    """Beside what Cycles has more of with the colour than without, the lamp behind the mirror."""
+    floor, mirror, lamp = scene_of()
+    blank.scene.cycles.max_bounces = 0
+    material = floor.active_material
+    tree = bpy.data.node_groups.new("Paint", "ShaderNodeTree") if grouped else material.node_tree
+    colour = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    colour.inputs["Color"].default_value = (*ALBEDO, 1.0)
+    surface = mixture(tree, colour).outputs[0]
+    if grouped:
+        tree.interface.new_socket("Other", in_out="OUTPUT", socket_type="NodeSocketShader")
+        tree.interface.new_socket("Paint", in_out="OUTPUT", socket_type="NodeSocketShader")
+        tree.links.new(surface, tree.nodes.new("NodeGroupOutput").inputs[1])
+        node = material.node_tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = tree
+        surface = node.outputs[1]
+    material.node_tree.links.new(surface, material.node_tree.get_output_node("ALL").inputs["Surface"])
+    groups = set(bpy.data.node_groups)
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
+    assert "is not known all over" not in capfd.readouterr().out
+    colour.inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+    expected = expected - rendered(tmp_path, 64) * TINT
+    ratio = (light / np.maximum(expected, 1e-12))[inner(light)]
+    assert len(ratio) > 400
+    assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 5e-3
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    assert set(bpy.data.node_groups) == groups
+
+
+def muted_mix(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+    mix = mixed(tree, 0.5, shader, tree.nodes.new("ShaderNodeBsdfTransparent"))
+    mix.mute = True
+    return mix.outputs[0]
+
+
+def muted_link(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+    tree.links.new(tree.nodes.new("ShaderNodeTexChecker").outputs["Color"], shader.inputs["Color"]).is_muted = True
+    return shader.outputs[0]
+
+
+def muted_colour(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+    """A muted node behind a colour, and another muted one behind that."""
+    first, second = (tree.nodes.new("ShaderNodeInvert") for _ in range(2))
+    known = tree.nodes.new("ShaderNodeRGB")
+    known.outputs[0].default_value = shader.inputs["Color"].default_value
+    tree.links.new(known.outputs[0], first.inputs["Color"])
+    tree.links.new(first.outputs[0], second.inputs["Color"])
+    tree.links.new(second.outputs[0], shader.inputs["Color"])
+    first.mute = second.mute = True
+    return shader.outputs[0]
+
+
+@pytest.mark.parametrize("muted", [muted_mix, muted_link, muted_colour])
+def test_what_is_muted_does_not_count(blank, tmp_path, muted):
+    """Beside the lamp behind the mirror, whose light Cycles shows without it."""
+    floor, mirror, lamp = scene_of()
+    blank.scene.cycles.max_bounces = 0
+    tree = floor.active_material.node_tree
+    tree.links.new(muted(tree, tree.nodes[0]), tree.get_output_node("ALL").inputs["Surface"])
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
+    ratio = (light / np.maximum(expected, 1e-12))[inner(light)]
+    assert len(ratio) > 500
+    assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 2e-3

@@ -146,6 +146,24 @@ def test_removing_is_harmless(scene, clock, name):
     clock.rest()
 
 
+def test_a_receiver_is_removed_and_the_rest_gets_no_light(scene, clock, room, capfd):
+    """It filled the console with errors, forever."""
+    shelf = parts.add("plane", "Shelf", size=20.0)
+    # no light goes there
+    scene.floor.location.x = -1000.0
+    parts.select(scene.floor, shelf, scene.lamp, scene.mirror)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert {one.object for one in scene.light.reflection_mesh.sources} == {scene.floor, shelf}
+    parts.select()
+    clock.rest()
+    bpy.data.objects.remove(shelf)
+    clock.rest()
+    assert "Traceback" not in capfd.readouterr().err
+    assert not len(scene.light.data.polygons)
+    assert [one.object for one in scene.light.reflection_mesh.sources] == [scene.floor]
+    assert room("addon.freshness").why_light_is_stale(bpy.context, scene.light) == ""
+
+
 def test_it_waits_for_object_mode(scene, clock):
     bpy.context.view_layer.objects.active = scene.floor
     bpy.ops.object.mode_set(mode="EDIT")

@@ -1,0 +1,96 @@
+"""What share of light a mirror sends back that lets some of it into itself, by the angle."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ...reading.materials import SHARP_ROUGHNESS, index_of, is_sharp, upright
+
+LEAST = 1e-5  # refractive index
+BY_COAT = ("Coat Weight", "Coat Roughness", "Coat IOR")
+
+
+@dataclass(frozen=True)
+class Coat:
+    """The share of a mirror in a Mix Shader: `factor`, or what a dielectric of the refractive index `ior` reflects,
+    where that is none of 0; or what these leave."""
+
+    factor: float = 1.0
+    ior: float = 0.0
+    rest: bool = False
+
+    def at(self, cosine: np.ndarray) -> np.ndarray:
+        """The share by the cosine of the angle of incidence, outside of the dielectric.
+
+        As `fresnel_dielectric_cos` of Cycles' kernel has it.
+        """
+        share = np.full(cosine.shape, self.factor)
+        if self.ior:
+            c = np.clip(cosine, 0.0, 1.0)
+            g = np.sqrt(np.maximum(self.ior**2 - 1.0 + c**2, 0.0))
+            a, b = (g - c) / np.maximum(g + c, 1e-300), (c * (g + c) - 1.0) / (c * (g - c) + 1.0)
+            share = 0.5 * a**2 * (1.0 + b**2)
+        return 1.0 - share if self.rest else share
+
+
+WHOLE = Coat()
+
+
+@dataclass(frozen=True)
+class Gloss:
+    """What a shader that is no metal mirrors: a colour (3,), and its share by the angle, or, for what is metal in part,
+    by the metal's Fresnel; whether that is known all over."""
+
+    colour: np.ndarray
+    coat: Coat
+    metal: bool
+    known: bool
+
+
+def gloss_of(shader: bpy.types.Node | None) -> Gloss | None:
+    """What glass, water, lacquer, or metal in part mirror; None where a shader does not mirror sharply."""
+    if shader is None:
+        return None
+    if shader.type == "BSDF_GLASS" and is_sharp(shader):
+        return Gloss(_colour(shader, "Color"), Coat(ior=max(shader.inputs["IOR"].default_value, LEAST)), False,
+                     _plain(shader, "Color", "IOR"))
+    if shader.type != "BSDF_PRINCIPLED":
+        return None
+    metallic = shader.inputs["Metallic"].default_value
+    if not is_sharp(shader):
+        weight, rough, index = (shader.inputs[name].default_value for name in BY_COAT)
+        known = _plain(shader, *BY_COAT)
+        return Gloss(np.full(3, weight), Coat(ior=max(index, LEAST)), False, known) if weight > 0.0 and rough <= (
+            SHARP_ROUGHNESS) else None
+    known = _plain(shader, "Metallic", "IOR", "Specular IOR Level", "Specular Tint")
+    tint = _colour(shader, "Specular Tint")
+    if not metallic > 0.0:
+        return Gloss(tint, Coat(ior=index_of(shader)), False, known)
+    # Schlick's formula is linear in the colour, and near to a dielectric's
+    both = metallic * _colour(shader, "Base Color") + (1.0 - metallic) * upright(shader) * tint
+    return Gloss(both, WHOLE, True, known and _plain(shader, "Base Color"))
+
+
+def share_of(factor: bpy.types.NodeSocket) -> tuple[Coat, bool]:
+    """What the factor of a Mix Shader is, and whether that is all over the mirror."""
+    if not factor.is_linked:
+        return Coat(factor.default_value), True
+    source = factor.links[0].from_socket
+    node = source.node
+    if not any(socket.is_linked for socket in node.inputs):
+        if node.type == "FRESNEL":
+            return Coat(ior=max(node.inputs["IOR"].default_value, LEAST)), True
+        if node.type == "LAYER_WEIGHT" and source.name == "Fresnel":
+            # as Cycles' `svm_node_layer_weight` has it
+            return Coat(ior=1.0 / max(1.0 - node.inputs["Blend"].default_value, LEAST)), True
+    return Coat(factor.default_value), False
+
+
+def _colour(shader: bpy.types.Node, name: str) -> np.ndarray:
+    return np.array(shader.inputs[name].default_value[:3], dtype=np.float64)
+
+
+def _plain(shader: bpy.types.Node, *names: str) -> bool:
+    return not any(shader.inputs[name].is_linked for name in names)
