@@ -57,6 +57,11 @@ def normals_attribute() -> str:
     return "custom_normal" if bpy.app.version >= (4, 5, 0) else "image_normal"
 
 
+def denoises_corners_well() -> bool:
+    """Whether what is black on two sides leaves no spots in a denoised bake: before Blender 5.0 it does."""
+    return bpy.app.version >= (5, 0, 0)
+
+
 def places_in_texels() -> tuple[tuple[float, float], ...]:
     """Where in a texel the middle of what one bake sees of it has to lie, so that all bakes together see the texel from
     side to side, along either axis: before Blender 5.0 each sees half of it."""

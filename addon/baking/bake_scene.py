@@ -12,39 +12,43 @@ from mathutils import Matrix
 from ...core import ReflectionError, View
 from .. import compat
 from ..faults import still_there
-from ..mirror_part import as_mirrors_see, show_opacity, turn_over, without_openings
 from ..rendering import copied_scene, denoise, look_through, put_swift_world
 from ..writing import UV_MAP
+from .bake_targets import new_target
 from .stand_ins import StandIn, new_object, swap_names
 from .texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved, shines
-from .true_answers import answer_truly, own_groups
 
 
 @dataclass(frozen=True)
 class BakeScene:
     """The scene, the stand-ins of each participant, and what their materials (None where there is none) become while
-    they are baked; `clamped` is how bright a light of their own is at most, 0 where it may be as bright as it likes,
-    and None where it is clamped as all light is."""
+    they are baked; `switches` put the light that these have of their own out where they are 1, and `clamped` is how
+    bright it is at most, 0 where it may be as bright as it likes, and None where it is clamped as all light is."""
 
     scene: bpy.types.Scene
     objects: list
     targets: dict
+    switches: list
     clamped: float | None
 
-    def bake(self, owner: int, size: tuple[int, int], seen_from: np.ndarray, gloss: bool, samples: int,
+    def bake(self, owner: int, size: tuple[int, int], seen_from: np.ndarray, samples: int,
              denoised: bool = False) -> np.ndarray:
-        """One participant's picture, (height, width, 4) float32, `UNTOUCHED` where it is not, as seen from a place, or
-        without what goes by that; its `size` is width and height."""
+        """One participant's picture, (height, width, 4) float32, `UNTOUCHED` where it is not, as seen from a place; its
+        `size` is width and height."""
         scene = self.scene
         scene.cycles.use_denoising = False
         if denoised:
             # what a bake tells of albedo and normals has hardly any noise
             denoise(scene.cycles, "FAST")
-        scene.render.bake.use_pass_glossy = gloss
         scene.camera.matrix_world = Matrix.Translation(seen_from)
         apart = self.clamped is not None and self._any(owner, shines)
-        scene.render.bake.use_pass_emit = not apart
-        found = self._baked_all_over(owner, size, samples)
+        for switch in self.switches:
+            switch.default_value = float(apart)
+        try:
+            found = self._baked_all_over(owner, size, samples)
+        finally:
+            for switch in self.switches:
+                switch.default_value = 0.0
         if apart:
             own = self._own_light(owner, size, samples)
             found[..., :3] += np.where(found[..., 3:] == UNTOUCHED, 0.0, own[..., :3])
@@ -149,7 +153,8 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
             back.callback(setattr, source, "hide_render", source.hide_render)
             source.hide_render = True
         materials = dict.fromkeys(material for stand, _ in stands for material in stand.mesh.materials or (None,))
-        targets = {material: _target(material, view, opacity, backs, made) for material in materials}
+        switches: list = []
+        targets = {material: new_target(material, view, (opacity, backs), made, switches) for material in materials}
         objects = []
         for stand, mesh in stands:
             obj = new_object(sources[stand.owner], stand, mesh)
@@ -162,7 +167,7 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
                 back.callback(swap_names, sources[stand.owner], obj)
         # Cycles clamps a lamp's body one bounce later than what lamps light
         own, of_all = context.scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_direct
-        yield BakeScene(scene, objects, targets, None if opacity or own == of_all else own)
+        yield BakeScene(scene, objects, targets, switches, None if opacity or own == of_all else own)
 
 
 def _prepare(scene: bpy.types.Scene) -> None:
@@ -178,26 +183,3 @@ def _prepare(scene: bpy.types.Scene) -> None:
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect
     # the picture that shows the light is exposed
     cycles.film_exposure = 1.0
-
-
-def _target(material: bpy.types.Material | None, view: View, opacity: bool, backs: bool, made: list,
-            ) -> bpy.types.Material:
-    """A copy of a material that bakes into the image: its light, as if nothing went through, or how opaque it is; it
-    and its groups are `made`."""
-    target = bpy.data.materials.new(UV_MAP) if material is None else material.copy()
-    made.append(target)
-    if not compat.uses_nodes(target):
-        compat.use_nodes(target)
-    tree, groups = target.node_tree, own_groups(target.node_tree)
-    made += groups
-    for part in (tree, *groups):
-        answer_truly(part, view)
-        if backs:
-            turn_over(part)
-        as_mirrors_see(part)
-    (show_opacity if opacity else without_openings)(tree)
-    node = tree.nodes.new("ShaderNodeTexImage")
-    for other in tree.nodes:
-        other.select = other == node
-    tree.nodes.active = node
-    return target

@@ -7,8 +7,8 @@ import numpy as np
 
 from ...core import View, breathe
 from ..reading import DiffuseScene
-from ..rendering import grown, sum_around
 from .asked_parts import asked_densities, sides_before_mirrors
+from .rims import spread, with_its_rim
 from .texels import UNTOUCHED, Atlas, Division, divided, enlarged, packed, parts_along
 
 COARSER = (4, 2, 1)  # times, of the pictures in which an object is baked that is worth it
@@ -18,11 +18,6 @@ ALMOST_ALL = 0.9  # of an object's surface, whose triangles are so wide where th
 FINER = 1.5     # texels a pixel along a line: interpolation and the picture's filter blur them
 LARGE = 256     # texels along a side of a picture from which on more than one are made: each bake has its price
 BORDER = 1      # texels around what is baked
-RINGS = 2       # of texels around what is known, that are told by it
-DARK = 0.02     # what is darker tells nothing of the light that falls on it
-DARKENED = 1.5  # times a texel at the rim of what is denoised: it has lost no more
-BLACKENED = 3.0  # the same, where no pattern could be lost by it
-BRIGHTENED = 1.15  # times such a texel: it has won no more
 MOST_SHOWN = 0.5  # of a texel, from which on it tells what is shown of it
 OUTSIDE = -1.0  # of a picture: where what is not baked has its place
 
@@ -85,7 +80,7 @@ class ObjectLevels:
         (column, row), side = self.window(level, back)[0], self.atlases[level].size
         found = np.full((side, side, 4), UNTOUCHED, dtype=np.float32)
         own = slice(row, row + len(baked)), slice(column, column + baked.shape[1])
-        found[own] = _with_its_rim(baked, colours) if self.wide else baked
+        found[own] = with_its_rim(baked, colours) if self.wide else baked
         if shown is not None:
             found = _as_shown(found, shown)
         known = found[..., 3] != UNTOUCHED
@@ -154,19 +149,6 @@ def is_wide(atlas: Atlas) -> bool:
     return float(area[across >= WIDE].sum()) >= ALMOST_ALL * float(area.sum())
 
 
-def spread(picture: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """The picture with the texels around what is known as their neighbours in the mean, two rings of them, and all
-    others as the mean of what is known."""
-    values = np.where(known[..., None], picture, 0.0)
-    for _ in range(RINGS):
-        weight = sum_around(known.astype(np.float32))
-        ring = ~known & (weight > 0.0)
-        values[ring] = (sum_around(values) / np.maximum(weight, 1.0)[..., None])[ring]
-        known = known | ring
-    values[~known] = values[known].mean(axis=0) if known.any() else 0.0
-    return values
-
-
 def _as_shown(picture: np.ndarray, shown: np.ndarray) -> np.ndarray:
     """A picture (side, side, 4) whose texels tell of what is `shown` of them (side, side) alone: what is hidden is
     dark, and those of which it is most are as those beside."""
@@ -177,20 +159,3 @@ def _as_shown(picture: np.ndarray, shown: np.ndarray) -> np.ndarray:
     told = np.minimum(picture / np.maximum(shown, MOST_SHOWN)[..., None], spread(picture, whole))
     told[known & ~whole & ~part] = UNTOUCHED
     return np.where(whole[..., None] | ~known[..., None], picture, told)
-
-
-def _with_its_rim(baked: np.ndarray, colours: np.ndarray | None) -> np.ndarray:
-    """What was baked (height, width, 4), with the light at its rim as within: the denoiser takes what lies beside for
-    black, and darkens two texels for that."""
-    known = baked[..., 3] != UNTOUCHED
-    # beyond the picture there is nothing either
-    solid = ~grown(np.pad(~known, RINGS, constant_values=True), RINGS)[RINGS:-RINGS, RINGS:-RINGS]
-    rim = known & ~solid & grown(solid, RINGS)
-    if colours is None:
-        # hardly anything is darker than it was baked: within may be the shadow of what touches
-        told = np.clip(spread(baked, solid), baked / BRIGHTENED, BLACKENED * baked)
-        return np.where(rim[..., None], told, baked)
-    # the light itself has no pattern, but for gloss
-    colours = np.maximum(colours, DARK)
-    told = np.clip(spread(baked / colours, solid) * colours, baked, DARKENED * baked)
-    return np.where(rim[..., None], told, baked)

@@ -17,7 +17,7 @@ from .mirror_bodies import MirrorBodies, mirror_bodies
 from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
 from .shown_texels import shown_texels
 from .stand_ins import new_meshes, stand_ins
-from .texels import arranged, is_glossy, is_metal, packed
+from .texels import arranged, is_glossy, packed
 from .thrown import thrown_light
 from .undeformed import is_deformed, undeformed_positions
 
@@ -136,8 +136,7 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, how: tuple[SeenSo
                 share = (FEWER if denoised else 1.0) / FINER ** 2
                 width, height = own.window(level, back)[1].tolist()
                 few = max(round(samples * share), 1)
-                gloss = bool(seen.one_eye[number]) or any(map(is_metal, materials_of(scene.sources[number])))
-                picture = stage.bake(number, (width, height), seen.seen_from[number], gloss, few, denoised)
+                picture = stage.bake(number, (width, height), seen.seen_from[number], few, denoised)
                 colours = stage.colours(number, (width, height), few) if denoised else None
                 made = [(found, picture, colours)]
                 if asked[number, back]:

@@ -11,7 +11,9 @@ from ..writing.nodes.shader_builder import ShaderBuilder
 
 RANDOM = f"{UV_MAP} Random"
 """Property of stand-ins for instances, whose number goes by no name: one more than that, 0 where it is missing."""
-ASKING = {"OBJECT_INFO", "TEX_COORD", "CAMERA", "LIGHT_PATH", "NEW_GEOMETRY"}
+# nodes that tell of what is baked, or shine, otherwise than on the object itself
+ASKING = {"OBJECT_INFO", "TEX_COORD", "CAMERA", "LIGHT_PATH", "NEW_GEOMETRY", "FRESNEL", "LAYER_WEIGHT", "EMISSION",
+          "BSDF_PRINCIPLED"}
 
 
 def own_groups(tree: bpy.types.NodeTree) -> list:

@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core import breathe
-from ..rendering import sum_around
+from ..rendering import continued
 
 SEEN_WHOLE = 0.995  # of a pixel: coverage from which it shows nothing else
 SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
@@ -28,9 +28,9 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
     breathe()
     both = np.concatenate((light, opacity[..., None]), axis=2)
     breathe()
-    beside, told = _continued(both, apart, border, rings)
+    beside, told = continued(both, apart, border, rings)
     breathe()
-    within, inner = _continued(light, coverage >= SEEN_WHOLE, border, rings)
+    within, inner = continued(light, coverage >= SEEN_WHOLE, border, rings)
     breathe()
     alone = light.copy()
     # row after row: few have a border, and a row stays in the cache
@@ -52,25 +52,4 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
 
 def filled(picture: np.ndarray, known: np.ndarray, needed: np.ndarray) -> np.ndarray:
     """The picture with its unknown pixels, where needed, as the known ones around them, ring by ring."""
-    return _continued(picture, known, needed, max(known.shape))[0] if known.any() else picture
-
-
-def _continued(picture: np.ndarray, known: np.ndarray, needed: np.ndarray,
-               rings: int) -> tuple[np.ndarray, np.ndarray]:
-    """The picture with unknown pixels, where needed, as the known ones around them, so many rings far; and which
-    pixels (height, width) are known then."""
-    found, known = np.where(known[..., None], picture, 0.0), known.copy()
-    breathe()
-    for _ in range(rings):
-        open_ = needed & ~known
-        if not open_.any():
-            break
-        weight = sum_around(known.astype(np.float64))
-        breathe()
-        ring = open_ & (weight > 0.0)
-        if not ring.any():
-            break
-        found[ring] = sum_around(found)[ring] / weight[ring, None]
-        known |= ring
-        breathe()
-    return np.where(known[..., None], found, picture), known
+    return continued(picture, known, needed, max(known.shape))[0] if known.any() else picture

@@ -78,7 +78,7 @@ def forget_map(mesh: bpy.types.Mesh) -> None:
 
 
 def dull_objects(result: bpy.types.Object) -> list[str]:
-    """The names of the objects whose gloss a result shows as from elsewhere, or not at all."""
+    """The names of the objects whose gloss a result shows as from elsewhere."""
     try:
         names = json.loads(result.reflection_mesh.light[:LONGEST_RECORD] or "{}").get("dull", [])
     except (ValueError, RecursionError, AttributeError):

@@ -2,7 +2,7 @@
 from .later_mirrors import LaterMirrors
 from .mirror_part import Surroundings, new_object_material
 from .mirror_share import NORMAL, WHITE, Share
-from .opacity import as_mirrors_see, opacity_of, show_opacity, turn_over, without_openings
+from .opacity import as_mirrors_see, hide_own_light, opacity_of, show_opacity, turn_over, without_openings
 
-__all__ = ["LaterMirrors", "NORMAL", "Share", "Surroundings", "WHITE", "as_mirrors_see", "new_object_material",
-           "opacity_of", "show_opacity", "turn_over", "without_openings"]
+__all__ = ["LaterMirrors", "NORMAL", "Share", "Surroundings", "WHITE", "as_mirrors_see", "hide_own_light",
+           "new_object_material", "opacity_of", "show_opacity", "turn_over", "without_openings"]

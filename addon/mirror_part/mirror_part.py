@@ -12,7 +12,7 @@ from ..writing import UV_MAP
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
 from .mirror_coordinates import MirrorCoordinates
-from .mirror_share import GLOSSY, NORMAL
+from .mirror_share import GLOSSY, NORMAL, layer_weights_as_fresnel
 
 
 @dataclass(frozen=True)
@@ -155,14 +155,7 @@ class _Builder(ShaderBuilder):
         """Let Fresnel be that of the mirror's outside on faces which show the back of what is reflected: there Cycles
         takes the eye to be inside."""
         inside = self.add("ShaderNodeNewGeometry").outputs["Backfacing"]
-        for node in list(self.tree.nodes):
-            if node.type == "LAYER_WEIGHT" and node.outputs["Fresnel"].is_linked:
-                fresnel = self.add("ShaderNodeFresnel")
-                rest = self.calculated("SUBTRACT", 1.0, given(node.inputs["Blend"]))
-                self.feed(self.calculated("DIVIDE", 1.0, rest), fresnel.inputs["IOR"])
-                self.feed(given(node.inputs["Normal"]), fresnel.inputs["Normal"])
-                for link in list(node.outputs["Fresnel"].links):
-                    self.feed(fresnel.outputs[0], link.to_socket)
+        layer_weights_as_fresnel(self)
         for node in [node for node in self.tree.nodes if node.type == "FRESNEL"]:
             index = given(node.inputs["IOR"])
             choice = self.add("ShaderNodeMix")

@@ -7,7 +7,7 @@ import bpy
 
 from .. import compat
 from ..reading.materials import is_mirror, materials_of, surface_shader
-from ..writing.nodes.shader_builder import ShaderBuilder, node_behind
+from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
 
 NORMAL = "mirror_normal"
 """The attribute with the unit normal of the mirror at each point."""
@@ -87,6 +87,21 @@ class Share:
             rest = build.mixed(opacity, build.add("ShaderNodeBsdfTransparent").outputs[0], rest)
         share = self.value if self.kind == "EVEN" else _weight(build, self.kind, self.value)
         return build.mixed(share, *((reflected, rest) if self.turned else (rest, reflected)))
+
+
+def layer_weights_as_fresnel(build: ShaderBuilder) -> None:
+    """Let Fresnel nodes, whose index may be told, tell what the Layer Weights of a tree tell as Fresnel."""
+    for node in [node for node in build.tree.nodes if node.type == "LAYER_WEIGHT"]:
+        links = list(node.outputs["Fresnel"].links)
+        if not links:
+            continue
+        fresnel = build.add("ShaderNodeFresnel")
+        rest = build.calculated("SUBTRACT", 1.0, given(node.inputs["Blend"]))
+        build.feed(build.calculated("DIVIDE", 1.0, rest), fresnel.inputs["IOR"])
+        if node.inputs["Normal"].is_linked:
+            build.feed(given(node.inputs["Normal"]), fresnel.inputs["Normal"])
+        for link in links:
+            build.feed(fresnel.outputs[0], link.to_socket)
 
 
 def _weight(build: ShaderBuilder, kind: str, value: float) -> bpy.types.NodeSocket:

@@ -4,9 +4,12 @@ from __future__ import annotations
 import bpy
 
 from ..reading.materials import surface_shader
-from .mirror_part import given, node_behind
+from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
+from .mirror_share import layer_weights_as_fresnel
 
 OPEN = {"BSDF_TRANSPARENT", "HOLDOUT"}
+REFRACTING = {"FRESNEL", "BSDF_GLASS", "BSDF_REFRACTION"}
+GLOWING = {"EMISSION": "Strength", "BSDF_PRINCIPLED": "Emission Strength"}  # by which input
 # what is asked of a ray that a mirror has sent, from what is asked of one of the camera's: by which operation with
 # which number, None for whether it is the camera's; that first, so that none of those is taken for the material's own
 SENT_BY_A_MIRROR = {"Is Camera Ray": ("MULTIPLY", 0.0), "Is Glossy Ray": ("MAXIMUM", None),
@@ -28,15 +31,34 @@ def without_openings(tree: bpy.types.NodeTree) -> None:
 
 def turn_over(tree: bpy.types.NodeTree) -> None:
     """Let a material take the front of what it is on for the back."""
+    build = ShaderBuilder(tree)
     for node in [node for node in tree.nodes if node.type == "NEW_GEOMETRY"]:
         links = list(node.outputs["Backfacing"].links)
-        if links:
-            other = tree.nodes.new("ShaderNodeMath")
-            other.operation = "SUBTRACT"
-            other.inputs[0].default_value = 1.0
-            tree.links.new(node.outputs["Backfacing"], other.inputs[1])
+        front = build.calculated("SUBTRACT", 1.0, node.outputs["Backfacing"]) if links else None
         for link in links:
-            tree.links.new(other.outputs[0], link.to_socket)
+            build.feed(front, link.to_socket)
+    layer_weights_as_fresnel(build)
+    # of what is seen from within Cycles takes the inverse index; of a Principled BSDF for what comes through it alone
+    for node in [node for node in tree.nodes if node.type in REFRACTING or _is_clear(node)]:
+        build.feed(build.calculated("DIVIDE", 1.0, given(node.inputs["IOR"])), node.inputs["IOR"])
+
+
+def hide_own_light(tree: bpy.types.NodeTree) -> list[bpy.types.NodeSocket]:
+    """Let a material have no light of its own where it is baked, as long as all of the sockets that are returned are
+    1; what it sends to others, and to itself, it sends still. A bake that leaves emission out would leave that out too.
+    """
+    build, switches = ShaderBuilder(tree), []
+    for node in [node for node in tree.nodes if node.type in GLOWING]:
+        strength = node.inputs[GLOWING[node.type]]
+        if not strength.is_linked and strength.default_value == 0.0:
+            continue
+        switch, path = build.add("ShaderNodeValue").outputs[0], build.add("ShaderNodeLightPath")
+        switch.default_value = 0.0
+        hidden = build.calculated("MULTIPLY", switch, path.outputs["Is Camera Ray"])
+        shown = build.calculated("SUBTRACT", 1.0, hidden)
+        build.feed(build.calculated("MULTIPLY", given(strength), shown), strength)
+        switches.append(switch)
+    return switches
 
 
 def as_mirrors_see(tree: bpy.types.NodeTree) -> None:
@@ -96,6 +118,13 @@ def _feed(tree: bpy.types.NodeTree, value, socket: bpy.types.NodeSocket) -> None
         socket.default_value = (value,) * 3 + (1.0,) if socket.type == "RGBA" else value
     else:
         tree.links.new(value, socket)
+
+
+def _is_clear(node: bpy.types.Node) -> bool:
+    """Whether all of a Principled BSDF is glass."""
+    if node.type != "BSDF_PRINCIPLED" or node.inputs["Transmission Weight"].is_linked:
+        return False
+    return node.inputs["Transmission Weight"].default_value == 1.0
 
 
 def _shader_behind(socket: bpy.types.NodeSocket) -> str:

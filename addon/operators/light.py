@@ -231,7 +231,7 @@ def _mirror_material(result: bpy.types.Object) -> bpy.types.Material | None:
     return None if reflecting is None or is_plain(reflecting) else reflecting
 
 
-def gloss_left_out(lit: list) -> list[str]:
+def gloss_from_elsewhere(lit: list) -> list[str]:
     """A sentence on the objects whose gloss `lit` do not show as it is, if there are any."""
     names = sorted({name for result in lit for name in dull_objects(result)})
     more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
@@ -276,7 +276,7 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
                for group, _, kind in lights):
             tell(self, {"INFO"}, FOR_THIS_FRAME)
         self.show_used(wanted, [result.reflection_mesh.mirror for result in results])
-        for sentence in gloss_left_out(lit):
+        for sentence in gloss_from_elsewhere(lit):
             tell(self, {"INFO"}, sentence)
         tell(self, {"INFO"}, summary(lit, time.perf_counter() - started))
 

@@ -20,3 +20,24 @@ def grown(mask: np.ndarray, rings: int) -> np.ndarray:
     for _ in range(rings):
         mask = sum_around(mask.astype(np.uint8)) > 0
     return mask
+
+
+def continued(picture: np.ndarray, known: np.ndarray, needed: np.ndarray,
+              rings: int) -> tuple[np.ndarray, np.ndarray]:
+    """The picture with unknown pixels, where needed, as the known ones around them, so many rings far; and which
+    pixels (height, width) are known then."""
+    found, known = np.where(known[..., None], picture, 0.0), known.copy()
+    breathe()
+    for _ in range(rings):
+        open_ = needed & ~known
+        if not open_.any():
+            break
+        weight = sum_around(known.astype(np.float64))
+        breathe()
+        ring = open_ & (weight > 0.0)
+        if not ring.any():
+            break
+        found[ring] = sum_around(found)[ring] / weight[ring, None]
+        known |= ring
+        breathe()
+    return np.where(known[..., None], found, picture), known

@@ -10,7 +10,6 @@ import numpy as np
 from ...writing import UV_MAP
 
 METALS, GLASSES = {"BSDF_GLOSSY", "BSDF_METALLIC"}, {"BSDF_GLASS", "BSDF_REFRACTION"}
-MATTE = 0.5       # of a metal, up to which a Principled BSDF is seen without
 DULL = 0.5        # roughness of a Principled BSDF from which on it hardly shows where it is looked at from
 UNTOUCHED = -1.0  # of a texel that nothing was baked into; light is never below zero
 
@@ -25,12 +24,6 @@ def shines(material: bpy.types.Material | None) -> bool:
     strengths = [node.inputs["Emission Strength"] for node in _nodes(material) if node.type == "BSDF_PRINCIPLED"]
     return (any(node.type == "EMISSION" for node in _nodes(material))
             or any(strength.is_linked or strength.default_value > 0.0 for strength in strengths))
-
-
-def is_metal(material: bpy.types.Material | None) -> bool:
-    """Whether a material would be black without its gloss, in places at least."""
-    return any(node.type in METALS or node.type == "BSDF_PRINCIPLED" and _exceeds(node.inputs["Metallic"], MATTE)
-               for node in _nodes(material))
 
 
 def is_glossy(material: bpy.types.Material | None) -> bool:

@@ -107,7 +107,7 @@ def test_gloss_is_seen_as_a_ball_shows_it(blank, room):
 
 @pytest.mark.parametrize(("floor", "told"), [({"Roughness": 0.2}, ["Floor"]), ({"Roughness": 0.8}, []),
                                              ({"Roughness": 0.8, "Metallic": 1.0}, ["Floor"])])
-def test_where_gloss_is_left_out_that_is_said(blank, room, monkeypatch, capsys, floor, told):
+def test_where_gloss_is_as_from_elsewhere_that_is_said(blank, room, monkeypatch, capsys, floor, told):
     """As if the ball were so close to it that no one place sees it as the ball does."""
     ball_scene(blank, **floor)
     monkeypatch.setattr(room("addon.baking.seen_sources"), "ONE_EYE", 0.0)
