@@ -173,6 +173,10 @@ FILES = {
     "kept.":
         "'{}' lässt sich nicht ganz schreiben, wie auf vollen Datenträgern: schaffe Platz, oder wähle einen anderen "
         "Ordner; die Einzelbilder davor bleiben.",
+    "A process that baked frames ended without a word ({}): let fewer bake at once, as memory may have run out; the "
+    "frames that are done stay.":
+        "Ein Prozess, der Einzelbilder backte, endete ohne ein Wort ({}): lass weniger zugleich backen, der Speicher "
+        "kann ausgegangen sein; fertige Einzelbilder bleiben.",
     "Two mirrors are called '{}': rename one of them.":
         "Zwei Spiegel heißen '{}': benenne einen von ihnen um.",
     "Frame {} in '{}' was baked with other settings or mirrors: overwrite it, or choose another folder.":

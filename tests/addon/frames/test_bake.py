@@ -217,7 +217,7 @@ def test_results_that_are_not_baked_stay_shown(moving, room, tmp_path):
     mirror.reflection_mesh.role, small.reflection_mesh.role = "MIRROR", "IGNORE"
     second = add_camera("Second", (0.5, -6.0, 1.0), (1.45, 0.0, 0.0))
     parts.select()
-    frames = room("addon.operators.bake_frames.bake")
+    frames = room("addon.operators.bake_frames")
     wanted = room("addon.settings").Wanted(scene, {"light_samples": 0})
     plan = frames.plan_of(bpy.context, str(tmp_path), "1", wanted, cameras=(second,))
     room("addon.faults").finished(frames.baking(bpy.context, plan))

@@ -151,7 +151,7 @@ def test_several_lamps_have_a_sequence_each(thrown, room, tmp_path):
 
 def test_stopped_at_any_step_the_file_is_as_it_was(thrown, room, tmp_path):
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
-    place, lamps = room("addon.operators.bake_frames.bake"), (bpy.data.objects["Lamp"],)
+    place, lamps = room("addon.operators.bake_frames"), (bpy.data.objects["Lamp"],)
     before, linked = parts.state(), lamps[0].light_linking.receiver_collection
 
     def steps(folder: str):

@@ -147,11 +147,12 @@ def test_it_refuses_before_anything_changes(moving, room, tmp_path):
 
 
 def test_a_blender_without_usd_says_so_before_any_work(moving, room, tmp_path, monkeypatch):
-    place = room("addon.operators.bake_frames.bake")
-    monkeypatch.setattr(place, "writes_usd", lambda: False)
+    place, button = (room(f"addon.operators.bake_frames.{name}") for name in ("bake", "bake_operator"))
+    for one in (place, button):
+        monkeypatch.setattr(one, "writes_usd", lambda: False)
     assert not bpy.ops.reflection_mesh.bake.poll()
     assert "cannot write USD files" in parts.refusal(bpy.ops.reflection_mesh.bake, filepath=str(tmp_path / "out"))
-    plan = place.plan_of(bpy.context, str(tmp_path / "out"), "1", room("addon.settings").Wanted(bpy.context.scene))
+    plan = button.plan_of(bpy.context, str(tmp_path / "out"), "1", room("addon.settings").Wanted(bpy.context.scene))
     monkeypatch.setattr(place, "candidates", lambda *_: pytest.fail("Work has begun."))
     with pytest.raises(room("core").ReflectionError, match="cannot write USD files"):
         list(place.baking(bpy.context, plan))

@@ -135,7 +135,7 @@ class Operator:
     """What a run leaves behind of an operator, to be run again with changes, as the panel after it does."""
 
     def __init__(self, room, kind: str):
-        place = "addon.operators.bake_frames.bake" if kind == "bake" else f"addon.operators.{kind}"
+        place = "addon.operators.bake_frames.bake_operator" if kind == "bake" else f"addon.operators.{kind}"
         self.cls = getattr(room(place), f"REFLECTION_MESH_OT_{kind}")
         self.values = {}
         self.used = ""
