@@ -132,5 +132,5 @@ def _ended_well(status: int, error: str) -> None:
     if status == STATUS:
         raise KeyboardInterrupt
     if status:
-        raise ReflectionError(error or f"A process that baked frames ended without a word ({status}): let fewer bake at "
-                              "once, as memory may have run out; the frames that are done stay.")
+        raise ReflectionError(error or f"A process that baked frames ended without a word ({status}): let fewer bake "
+                              "at once, as memory may have run out; the frames that are done stay.")

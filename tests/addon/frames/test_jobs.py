@@ -97,9 +97,12 @@ def test_the_button_lets_several_bake_what_one_does(moving, room, tmp_path, give
 
 def test_esc_ends_them_all(moving, room, tmp_path, monkeypatch):
     place = room("addon.operators.bake_frames.side_by_side")
-    started = []
-    monkeypatch.setattr(place.subprocess, "Popen", lambda *given, _real=place.subprocess.Popen, **options: (
-        started.append(_real(*given, **options)) or started[-1]))
+    started, heard = [], place._heard
+
+    def noted(processes: list, saved):
+        started.extend(processes)
+        return heard(processes, saved)
+    monkeypatch.setattr(place, "_heard", noted)
     out = tmp_path / "out"
     steps = place.side_by_side(["bake", "--light", "0", "--output", str(out)], list(range(1, 61)), 2)
     while not out.exists() or not any(path.suffix == ".usdc" for path in out.iterdir()):
