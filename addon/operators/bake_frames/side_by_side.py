@@ -81,16 +81,18 @@ def _running(commands: list[list[str]]) -> Iterator[list[subprocess.Popen]]:
     finally:
         for process in processes:
             if process.poll() is None:
-                # Blender itself does not end by the first Ctrl-C
-                if bpy.app.binary_path or os.name != "posix":
-                    process.terminate()
-                else:
-                    process.send_signal(signal.SIGINT)
+                process.send_signal(signal.SIGINT) if _hears_ctrl_c() else process.terminate()
         for process in processes:
             with suppress(subprocess.TimeoutExpired):
                 process.wait(PATIENCE)
             process.kill()
             process.wait()
+
+
+def _hears_ctrl_c() -> bool:
+    """Whether processes that are started here end by one Ctrl-C: Blender itself does not, nor what a shell has put in
+    the background."""
+    return os.name == "posix" and not bpy.app.binary_path and signal.getsignal(signal.SIGINT) != signal.SIG_IGN
 
 
 def _heard(processes: list[subprocess.Popen], saved: Callable[[str], None]) -> Steps[int]:
