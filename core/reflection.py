@@ -27,7 +27,7 @@ from .points import reflected_points
 from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
 from .standing import Standing
-from .support import NothingInView, Progress, ReflectionError, Settings, in_steps
+from .support import NothingInView, Progress, ReflectionError, Settings, in_steps, keep_freed_memory
 from .trees import PointTree, SceneTree
 from .views import LampView, View
 from .visibility import cut_at_borders, cut_before_eye, lit, with_shades, without_hidden, without_occluded
@@ -102,6 +102,7 @@ def reflection_steps(
 
 def _reflected(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
                settings: Settings, mirrors: TriangleMesh | None) -> ReflectionMesh:
+    keep_freed_memory()
     progress = Progress()
     tree = scene.tree if isinstance(scene, Standing) else scene
     mirrors = scene.mirrors if isinstance(scene, Standing) and mirrors is None else mirrors
