@@ -1,9 +1,10 @@
 """Squares of the picture that lie in crowds whole: a few faces each, not all parts of the mirror's triangles there.
 
-No border of the crowds crosses them. Their corners lie on whatever triangles of the mirror the eye sees there and have
-true rays. A ray through the middle tells what such a square shows. Two faces do where they show the middle in its
-place, else four lie round it. None of their corners and sides lies in the middle itself, where pixels are looked at:
-what four have in common is a little aside, and so are the corners that whole squares lie round.
+The crowds hold nine places of each, and the mirror is even between these. Their corners lie on whatever triangles
+of the mirror the eye sees there and have true rays. A ray through the middle tells what such a square shows. Two faces
+do where they show the middle in its place, else four lie round it. None of their corners and sides lies in the middle
+itself, where pixels are looked at: what four have in common is a little aside, and so are the corners that whole
+squares lie round.
 """
 from __future__ import annotations
 
@@ -13,16 +14,20 @@ import numpy as np
 
 from ..cameras import Cameras, places_at, true_rays
 from ..culling import SceneAndMirrors
-from ..geometry import SceneFrames, distinct, dot, groups, norm, rows, shared_edges, unit
+from ..geometry import SceneFrames, columns, distinct, dot, norm, rows, unit
 from ..result import GAP
 from ..support import breathe
-from ..views import Covered, View
+from ..views import Covered, View, planes
 from .picture_squares import ASIDE, TOUCHING, SquareGrid
 from .shown_triangles import shown_triangles
 
-WELD = 1e-9  # of the size of what is crowded: corners closer than this lie in one place
 HALF = 0.5  # of what layers slide at least, to be on the safe side
+SINKING = 4.0  # times that, what layers slide whose ways are no longer than nine times the eye's
 STRAYING = 0.25  # pixels: what the middle may be shown beside its place by
+# places of a square on the lattice, columns and rows; which of them are side by side; and those along a side
+NINE = np.indices((3, 3)).reshape(2, 9)[::-1]
+BESIDE = np.array([(one, one + step) for one in range(9) for step, ends in ((1, one % 3 < 2), (3, one < 6)) if ends]).T
+SIDES = np.array([(0, 1, 2), (0, 3, 6), (2, 5, 8), (6, 7, 8)]).T
 TWO, FOUR = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
 
 
@@ -63,9 +68,9 @@ class WholeSquares:
         """Squares of a grid in crowded cameras. Where light goes on, at no `last` bounce, those that show a mirror are
         left out."""
         holders = Holders(cameras, grid)
-        square = np.flatnonzero(holders.inner())
+        square = holders.inner()
         row, column = np.divmod(square, max(grid.size[0], 1))
-        owner = holders.at(0.5, 0).ravel()[square]
+        owner = holders.lattice[2 * row + 1, 2 * column + 1]
         middles = places_at(cameras.select(owner), grid.pixels(column + 0.5, row + 0.5))[0]
         triangle = shown_triangles(met, cameras.select(owner), middles)
         whole = np.zeros(grid.size[::-1], dtype=bool)
@@ -102,17 +107,23 @@ class WholeSquares:
 
 
 class Holders:
-    """Which cameras hold what of a grid."""
+    """Which cameras hold what of a grid.
+
+    Attributes
+    ----------
+    lattice : (2 height + 1, 2 width + 1) int64
+        The camera at columns and rows and halfway between them, -1 where there is none.
+    """
 
     def __init__(self, cameras: Cameras, grid: SquareGrid) -> None:
         self.cameras, self.size = cameras, grid.size
-        self._spots = grid.spots(rows(cameras.view.pixels(cameras.places.T)))
+        self._spots = grid.spots(rows(cameras.view.pixels(cameras.places.T)))[:, cameras.corners.T]
+        self.lattice = self._at(2, np.zeros(2))
 
-    def at(self, shift: np.ndarray | float, more: int) -> np.ndarray:
-        """The camera at the spots whole columns and rows and a `shift` (2,) from the first, -1 where there is none; as
-        many as there are squares and `more`."""
-        width, height = np.add(self.size, more)
-        spots = self._spots[:, self.cameras.corners.T] + np.reshape(0.5 - np.asarray(shift), (-1, 1, 1))
+    def _at(self, finer: int, shift: np.ndarray) -> np.ndarray:
+        """The camera at the columns and rows of a grid that is so many times `finer`, and a `shift` (2,) from there."""
+        width, height = finer * np.array(self.size) + 1
+        spots = finer * (self._spots - shift.reshape(2, 1, 1)) + 0.5
         covered = Covered.of(spots, np.zeros(spots.shape[1:]), (width, height), False)
         owner = np.full(width * height, -1)
         owner[covered.pixel] = covered.face
@@ -120,28 +131,49 @@ class Holders:
         return owner.reshape(height, width)
 
     def inner(self) -> np.ndarray:
-        """The squares (height, width) that the cameras cover and no border of them crosses."""
-        cameras, known = self.cameras, self.at(0.0, 1) >= 0
-        held = self.at(0.5, 0) >= 0
-        held &= known[:-1, :-1] & known[1:, :-1] & known[:-1, 1:] & known[1:, 1:]
-        # at creases of the mirror cameras have corners of their own in one and the same place
-        used, corner = distinct(cameras.corners.ravel())
-        places = cameras.places[:, used]
-        grain = max(WELD * float(np.ptp(places, axis=1).max(initial=0.0)), 1e-300)
-        first, group = groups(*np.rint((places - places.min(axis=1, keepdims=True)) / grain).astype(np.int64))
-        ends, _, edge = shared_edges(group[corner].reshape(-1, 3))
-        border = used[first][ends[np.bincount(edge.ravel(), minlength=len(ends)) != 2]]
-        lines = self._spots[:, border[:, [0, 1, 1]].T]
-        held.reshape(-1)[Covered.of(lines, np.zeros(lines.shape[1:]), self.size, True).pixel] = False
-        return held
+        """The squares (n,), row after row, that the cameras cover, all over one part of the mirror: nine places of each
+        lie in cameras, between those side by side the mirror does not leap, and it does not rise at the sides."""
+        held = self.lattice >= 0
+        held = held[:, :-2:2] & held[:, 1::2] & held[:, 2::2]
+        square = np.flatnonzero(held[:-2:2] & held[1::2] & held[2::2])
+        row, column = np.divmod(square, max(self.size[0], 1))
+        spots = np.stack((2 * column[:, None] + NINE[0], 2 * row[:, None] + NINE[1]))
+        holder = self.lattice[spots[1], spots[0]]
+        several = np.flatnonzero((holder != holder[:, :1]).any(axis=1))
+        return np.delete(square, several[self._uneven(holder[several], spots[:, several])])
+
+    def _uneven(self, holder: np.ndarray, spots: np.ndarray) -> np.ndarray:
+        """Whether of squares with nine `spots` (2, n, 9) of the lattice in the cameras `holder` (n, 9) two side by side
+        lie at depths that these cameras' planes do not lead to, or the middle of a side before its ends: by as much as
+        faces surely slide before the mirror."""
+        view = self.cameras.view
+        depth = view.depths(self.cameras.places.T)[self.cameras.corners.T]
+        slope, base = planes(2.0 * self._spots, -depth if view.orthographic else 1.0 / depth)  # linear in the picture
+
+        def near(camera: np.ndarray, spot: np.ndarray) -> np.ndarray:
+            breathe()
+            return ((columns(slope, camera.ravel()) * spot.reshape(2, -1)).sum(axis=0)
+                    + columns(base, camera.ravel())).reshape(camera.shape)
+        own = near(holder, spots)
+        room = np.broadcast_to(HALF * GAP * (np.ptp(self.cameras.places, axis=1).max() if view.orthographic else own),
+                               own.shape)
+        first, middle, last = SIDES
+        uneven = (own[:, middle] - 0.5 * (own[:, first] + own[:, last]) > SINKING * room[:, middle]).any(axis=1)
+        square, pair = np.nonzero(holder[:, BESIDE[0]] != holder[:, BESIDE[1]])
+        one, other = ((square, ends[pair]) for ends in BESIDE)
+        here = own[one] - near(holder[other], spots[:, square, one[1]])
+        there = own[other] - near(holder[one], spots[:, square, other[1]])
+        leaps = (here * there < 0.0) & (np.minimum(np.abs(here), np.abs(there)) > room[one])
+        uneven[square[leaps]] = True
+        return uneven
 
     def corners(self, whole: np.ndarray, point: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The cameras (n,) at corners `point` (n,) of squares, the spots (n, 2) at which they hold them, and which of
         these lie aside, since all squares round them are `whole` (height, width)."""
-        aside = self.at(ASIDE, 1)
+        aside = self._at(1, ASIDE)
         padded = np.pad(whole, 1)
         moved = padded[:-1, :-1] & padded[1:, :-1] & padded[:-1, 1:] & padded[1:, 1:] & (aside >= 0)
-        holder, moved = np.where(moved, aside, self.at(0.0, 1)).ravel()[point], moved.ravel()[point]
+        holder, moved = np.where(moved, aside, self.lattice[::2, ::2]).ravel()[point], moved.ravel()[point]
         row, column = np.divmod(point, self.size[0] + 1)
         return holder, np.stack((column, row), axis=1) + moved[:, None] * ASIDE, moved
 

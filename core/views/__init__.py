@@ -1,7 +1,7 @@
 """Views: of a camera and of a lamp, and what is drawn in them."""
-from .coverage import Covered, box
+from .coverage import Covered, box, planes
 from .lamp_view import LampView, in_cone
 from .view import View
 from .z_buffer import draw
 
-__all__ = ["Covered", "LampView", "View", "box", "draw", "in_cone"]
+__all__ = ["Covered", "LampView", "View", "box", "draw", "in_cone", "planes"]

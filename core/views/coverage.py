@@ -45,7 +45,8 @@ class Covered:
         for part in shares(rows_of, ROWS_AT_ONCE):
             breathe()
             own, order_there = corners[:, :, part], order[:, part]
-            slope, base, steep = _planes(own, order_there)
+            slope, base = planes(own, order_there)
+            steep = 0.5 * np.abs(slope).sum(axis=0)
             y, face = ranges(start[part], rows_of[part])
             left, right = _spans(own, face, y, touched)
             left, right = (np.clip(bound, 0, size[0]).astype(np.int64) for bound in (left, right))
@@ -61,14 +62,14 @@ class Covered:
         return cls(*(np.concatenate(side) for side in zip(*parts)))
 
 
-def _planes(corners: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Slopes (2, f) over the picture and base (f,) of what is `order` (3, f) at the corners (2, 3, f); and by how much
-    it is greater at most in a pixel than in its middle."""
+def planes(corners: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Slopes (2, f) over the picture and base (f,) of what is `order` (3, f) at the corners (2, 3, f); level without an
+    area."""
     (ax, ay), (bx, by) = (corners[:, k] - corners[:, 0] for k in (1, 2))
     a, b = (order[k] - order[0] for k in (1, 2))
     area = ax * by - ay * bx
     slope = np.stack((a * by - b * ay, b * ax - a * bx)) / np.where(area != 0.0, area, np.inf)
-    return slope, order[0] - (slope * corners[:, 0]).sum(axis=0), 0.5 * np.abs(slope).sum(axis=0)
+    return slope, order[0] - (slope * corners[:, 0]).sum(axis=0)
 
 
 def _spans(corners: np.ndarray, face: np.ndarray, y: np.ndarray, touched: bool) -> tuple[np.ndarray, np.ndarray]:

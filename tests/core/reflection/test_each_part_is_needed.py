@@ -40,7 +40,7 @@ ROOM = shapes.combine(shapes.box((0.0, 4.0, 2.0), (9.0, 1.0, 6.0)), shapes.box((
                       shapes.box((-4.0, 0.0, 2.0), (1.0, 9.0, 6.0)), shapes.box((4.0, 0.0, 2.0), (1.0, 9.0, 6.0)))
 WIDE_FLOOR = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (30.0, 0.0, 0.0), (0.0, 30.0, 0.0)))
 FINE_BALL = shapes.combine(shapes.icosphere((0.0, 0.0, 1.0), 0.8, 5))
-SMALL = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (96, 96), field_of_view=0.5)
+SMALL = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (192, 192), field_of_view=0.5)
 RAYS = {"maximum_memory": 1e-4}  # holds hardly a candidate, and leaves everything to rays
 ALL = {"hidden_faces": True}  # so that no ray shows what would be cut
 VIEW = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (256, 256), field_of_view=0.5)
@@ -100,10 +100,10 @@ PARTS = {
     "the eye's plane": Part(REFLECTION, "cut_before_eye", lambda cameras: cameras, (LOW, WIDE_FLOOR, ROOM), "faces"),
     "filling by rays": Part(Crowds, "filled", lambda self, candidates: Filled(
         candidates, np.zeros((0, 3), dtype=np.int64), 0, 0, False), "sphere", "uncovered", 10.0, settings=RAYS),
-    "whole squares": Part(Holders, "inner", lambda self: np.zeros(self.size[::-1], dtype=bool),
+    "whole squares": Part(Holders, "inner", lambda self: np.zeros(0, dtype=np.int64),
                           (SMALL, FINE_BALL, ROOM), "faces", settings=RAYS),
     "middles of cells": Part(core.filling.square_cells, "_round_middles", lambda cells, some, spots: (
-        cells, np.arange(len(cells))), "torus", "maximum", settings=RAYS),
+        cells, np.arange(len(cells))), (SMALL, BALLS, ROOM), "maximum", settings=RAYS),
     "what hides what rays show": Part(SceneAndMirrors, "hidden_within", lambda self, origin, ray, reach: np.zeros(
         len(reach), dtype=bool), (VIEW, FLOOR, BOXES), "uncovered", above=0.1, settings=RAYS),
     "work beside the origin": Part(REFLECTION, "far_corner", lambda mirror: None, "far away", "maximum"),
