@@ -5,6 +5,7 @@ A file holds positions, faces and colours, which every Blender from 4.2 on reads
 files; what else a mesh knows is packed into the colours, and nodes take it out again.
 """
 from .aside import set_aside
+from .by_camera import show_by_camera
 from .frame_numbers import frame_numbers, frame_text
 from .frame_records import (
     FrameRecord,
@@ -16,8 +17,9 @@ from .frame_records import (
     told_apart,
     write_record,
 )
-from .play import Sequence, light_of, play, player_of, plays, show_by_camera, stop_playing
+from .play import light_of, play, player_of, plays, stop_playing
 from .play_caustics import play_caustics
+from .sequence import Sequence
 from .write_frame import write_image, write_result, writes_usd
 
 __all__ = ["FrameRecord", "ResultRecord", "Sequence", "file_name", "frame_numbers", "frame_text", "is_done",

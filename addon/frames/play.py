@@ -7,44 +7,15 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from .. import compat
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from ..lighting import forget_light, forget_previews, new_material
 from ..reading import camera_of, every_result_of, render_size, results_of
 from ..writing import forget_nodes, hide_discs, new_object, set_window, show_own_materials
-from .frame_records import FrameRecord
 from .play_nodes import NAME, unpacking_nodes
+from .sequence import Sequence, keyed
 from .write_frame import MESH_PATH, OBJECT_PATH
 
 UNPACK = "Reflection Attributes"
-
-
-@dataclass(frozen=True)
-class Sequence:
-    """Baked frames of one folder, at least one.
-
-    Attributes
-    ----------
-    folder : str
-        Absolute path.
-    records : list of FrameRecord
-        In the order of their frames.
-    name : str
-        What tells it from other sequences of the same mirrors; empty where there are none.
-    placements : dict
-        Where each mirror's reflection lies, by the mirror's name.
-    camera : str
-        The name of its camera where others have sequences too; empty where it is right for every camera.
-    layers : int
-        How many faces of light lie over each other in those frames that were made just now.
-    """
-
-    folder: str
-    records: list[FrameRecord]
-    name: str
-    placements: dict
-    camera: str = ""
-    layers: int = 0
 
 
 @dataclass(frozen=True)
@@ -127,21 +98,6 @@ def show_frames(obj: bpy.types.Object, player: Player, materials: list, whole: A
     _add_modifiers(obj, player, whole)
 
 
-def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
-    """Of several cameras' players (object, name of the camera) show those of the one that looks: the scene's, or the
-    one that a marker binds."""
-    bound = {marker.frame: marker.camera for marker in scene.timeline_markers if marker.camera}
-    scene.reflection_mesh.seen_by = scene.camera
-    for obj, name in players:
-        if not bound:
-            # shown again when its camera looks
-            obj.reflection_mesh.aside = (scene.camera is None or scene.camera.name != name,) * 2
-        for switch in ("hide_render", "hide_viewport"):
-            setattr(obj, switch, scene.camera is None or scene.camera.name != name)
-            if bound:
-                _key(obj, obj, switch, {frame: camera.name != name for frame, camera in bound.items()})
-
-
 def plays(obj: bpy.types.Object) -> bool:
     """Whether an object plays baked frames."""
     cache = obj.modifiers.get(NAME)
@@ -165,7 +121,8 @@ def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | No
             # of one picture, whose number the keys say: between baked frames the last one stays
             node.image_user.frame_start = node.image_user.frame_duration = 1
             node.image_user.use_auto_refresh = True
-            _key(tree, node.image_user, "frame_offset", {record.frame: record.frame - 1 for record in lit})
+            keyed(tree, node.image_user, "frame_offset",
+                 sequence.times({record.frame: record.frame - 1 for record in lit}))
     return material
 
 
@@ -232,7 +189,7 @@ def _cache(sequence: Sequence, files: list[str], whole: AllOrNothing) -> bpy.typ
     cache.user_clear()
     cache.filepath = _path(sequence, files[0])
     cache.is_sequence = cache.override_frame = True
-    _key(cache, cache, "frame", {record.frame: record.frame for record in sequence.records})
+    keyed(cache, cache, "frame", sequence.times({record.frame: record.frame for record in sequence.records}))
     return cache
 
 
@@ -252,16 +209,6 @@ def _add_modifiers(obj: bpy.types.Object, player: Player, whole: AllOrNothing) -
     whole.after(forget_nodes, old_nodes)
     if old_cache is not None:
         whole.after(_forget, old_cache)
-
-
-def _key(data: bpy.types.ID, holder, name: str, values: dict) -> None:
-    """Keys of a value that stays as it is until the next one."""
-    for frame, value in values.items():
-        setattr(holder, name, value)
-        holder.keyframe_insert(name, frame=frame)
-    for curve in compat.curves_of(data):
-        for key in curve.keyframe_points:
-            key.interpolation = "CONSTANT"
 
 
 def _path(sequence: Sequence, name: str) -> str:
