@@ -3,19 +3,60 @@ from __future__ import annotations
 
 import bpy
 
+from .. import compat
+from ..faults import AllOrNothing, keep_object
+from ..reading import camera_of, every_result_of
+from ..writing import show_for_camera
 from .sequence import keyed
+
+SWITCHES = ("hide_render", "hide_viewport")
 
 
 def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
-    """Of several cameras' players (object, name of the camera) show those of the one that looks: the scene's, or the
-    one that a marker binds."""
+    """Of cameras' players (object, name of the camera) show those of the one that looks: the scene's, or the one that a
+    marker binds."""
     bound = {marker.frame: marker.camera for marker in scene.timeline_markers if marker.camera}
+    if not bound and len({name for _, name in players}) == 1:
+        # a camera without results sees what is there
+        scene.reflection_mesh.seen_by = None
+        show_for_camera(scene)
+        return
     scene.reflection_mesh.seen_by = scene.camera
     for obj, name in players:
         if not bound:
             # shown again when its camera looks
             obj.reflection_mesh.aside = (scene.camera is None or scene.camera.name != name,) * 2
-        for switch in ("hide_render", "hide_viewport"):
+        for switch in SWITCHES:
             setattr(obj, switch, scene.camera is None or scene.camera.name != name)
             if bound:
                 keyed(obj, obj, switch, {frame: camera.name != name for frame, camera in bound.items()})
+
+
+def show_always(context: bpy.types.Context, obj: bpy.types.Object, whole: AllOrNothing) -> list:
+    """Show a result that is right for every camera whichever looks, and hide its mirror's others, each for one camera,
+    which would lie over it; returns these."""
+    if obj.animation_data is not None and obj.animation_data.action is not None:
+        whole.after(_forget_keys, obj)
+    for switch in SWITCHES:
+        setattr(obj, switch, False)
+    others = [other for other in every_result_of(context, obj.reflection_mesh.mirror, context.view_layer.objects)
+              if other != obj and camera_of(other) is not None]
+    for other in others:
+        keep_object(other, whole)
+        # and not shown again when their camera looks
+        other.hide_render = other.hide_viewport = True
+        other.reflection_mesh.aside = (False, False)
+        if other.animation_data is not None and other.animation_data.action is not None:
+            whole.after(_forget_keys, other)
+    return others
+
+
+def _forget_keys(obj: bpy.types.Object) -> None:
+    """Remove the keys by which an object was shown to one camera."""
+    shown = [getattr(obj, switch) for switch in SWITCHES]
+    for curve in compat.curves_of(obj):
+        if curve.data_path in SWITCHES:
+            for time in [key.co.x for key in curve.keyframe_points]:
+                obj.keyframe_delete(curve.data_path, frame=time)
+    for switch, hidden in zip(SWITCHES, shown):
+        setattr(obj, switch, hidden)

@@ -61,7 +61,7 @@ def player_of(sequence: Sequence, mirror: bpy.types.Object, light: bpy.types.Mat
 def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOrNothing) -> bpy.types.Object:
     """Let the result of a mirror play: the one that it has, or a new one."""
     mirror = player.mirror
-    obj = _object(context, mirror, player.sequence, whole)
+    obj = _object(context, player, whole)
     keep_mirror(mirror, whole)
     show_own_materials(obj)
     whole.after(forget_previews)
@@ -146,30 +146,43 @@ def stop_playing(obj: bpy.types.Object) -> None:
         forget_light(light)
 
 
-def _object(context: bpy.types.Context, mirror: bpy.types.Object, sequence: Sequence,
-            whole: AllOrNothing) -> bpy.types.Object:
-    """The result that is to play, which is the mirror's own; of several sequences the one that is called so, or a still
-    that its camera sees, and would see besides."""
-    name, called = sequence.name, f"{mirror.name} Reflection {sequence.name}".strip()
-    earlier = results_of(context, mirror)
-    if name:
-        every = every_result_of(context, mirror)
-        stills = [obj for obj in every
-                  if not plays(obj) and sequence.camera in ("", getattr(camera_of(obj), "name", ""))]
-        earlier = [obj for obj in every if obj.name == called] or stills
+def _object(context: bpy.types.Context, player: Player, whole: AllOrNothing) -> bpy.types.Object:
+    """The result that is to play: one that the mirror has, called as the user likes where it plays already, or a new
+    one."""
+    mirror, sequence = player.mirror, player.sequence
+    called = f"{mirror.name} Reflection {sequence.name}".strip()
+    earlier = _earlier(context, player, called)
     if not earlier:
         obj = new_object(context, mirror, whole)
-        if name:
+        if sequence.name:
             obj.name = called
         return obj
     obj = earlier[0]
     keep_object(obj, whole)
     keep_data(obj, whole)
     hide_discs(obj)
-    if name:
+    if sequence.name and not plays(obj):
         whole.undo(setattr, obj, "name", obj.name)
         obj.name = called
     return obj
+
+
+def _earlier(context: bpy.types.Context, player: Player, called: str) -> list:
+    """The results of a mirror that may play a sequence: the one that plays those files, else the mirror's own; of
+    several sequences the one that is called so, or a still that its camera sees, and would see besides."""
+    sequence, every = player.sequence, every_result_of(context, player.mirror)
+    files = _numberless(player.cache)
+    same = [obj for obj in every if plays(obj) and _numberless(obj.modifiers[NAME].cache_file) == files]
+    if same or not (sequence.name or sequence.camera):
+        return same or results_of(context, player.mirror)
+    stills = [obj for obj in every
+              if not plays(obj) and sequence.camera in ("", getattr(camera_of(obj), "name", ""))]
+    return [obj for obj in every if obj.name == called and sequence.name] or stills
+
+
+def _numberless(cache: bpy.types.CacheFile | None) -> str:
+    """What the files of a sequence are called, but for folder and number."""
+    return bpy.path.basename(cache.filepath).rsplit(".", 2)[0] if cache is not None else ""
 
 
 def material_of(name: str, library: str) -> bpy.types.Material | None:

@@ -25,7 +25,7 @@ class Sequence:
     placements : dict
         Where each mirror's reflection lies, by the mirror's name.
     camera : str
-        The name of its camera where others have sequences too; empty where it is right for every camera.
+        The name of its camera; empty where it is right for every camera, as markers choose them.
     layers : int
         How many faces of light lie over each other in those frames that were made just now.
     stretch : float

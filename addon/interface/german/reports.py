@@ -52,6 +52,8 @@ KEPT = {
     "'{}' stays moved, as you left it: clear it and generate again to have it on its mirror.":
         "'{}' bleibt verschoben, wie du es gelassen hast: entferne und erzeuge es neu, um es auf dem Spiegel zu "
         "haben.",
+    "Hidden, since what plays is right for every camera: {}.":
+        "Ausgeblendet, da für jede Kamera stimmt, was abgespielt wird: {}.",
     "Updated too, as a copy: {}.": "Auch erneuert, als Kopie: {}.",
     "'{}' shows other faces than before, and has lost what was made for those: {}.":
         "'{}' zeigt andere Flächen als vorher, und hat verloren, was für diese gemacht war: {}.",

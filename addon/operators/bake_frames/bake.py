@@ -143,10 +143,10 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
                     known[frame] = yield from part(steps, start, share, f"Frame {frame}")
                     tell(known[frame])
     placements = {mirror.name: of_each(plan.settings)(mirror).placement for mirror in mirrors}
-    several, render = len(takes) > 1, context.scene.render
+    render = context.scene.render
     stretch = render.frame_map_old / render.frame_map_new
     return [Sequence(plan.folder, [known[frame] for frame in plan.frames], name, placements,
-                     camera.name if several else "", baked.layers, stretch)
+                     camera.name if camera else "", baked.layers, stretch)
             for (name, camera), known in zip(takes, found)]
 
 

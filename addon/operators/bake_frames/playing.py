@@ -4,24 +4,26 @@ from __future__ import annotations
 import bpy
 
 from ...faults import AllOrNothing
-from ...frames import Sequence, light_of, play, player_of, show_by_camera
+from ...frames import Sequence, light_of, play, player_of, show_always, show_by_camera
 from ...reading import candidates
 from .plan import Plan
 from .thrown_light import playing_light
 
 
-def playing(context: bpy.types.Context, sequences: list[Sequence]) -> list:
-    """Let the results of the file play sequences: all or none of them; returns the objects."""
+def playing(context: bpy.types.Context, sequences: list[Sequence]) -> tuple[list, list]:
+    """Let the results of the file play sequences, all or none of them; the objects, and sentences on what is hidden."""
     mirrors, diffuse = candidates(context)
     with AllOrNothing() as whole:
         players = [player_of(sequence, mirror, light, whole)
                    for sequence in sequences for light in [light_of(sequence, whole)] for mirror in mirrors]
         shown = [(play(context, player, diffuse, whole), player.sequence.camera) for player in players]
-        if len(sequences) > 1:
+        if sequences[0].camera:
             show_by_camera(context.scene, shown)
-    return [obj for obj, _ in shown]
+        hidden = [other for obj, camera in shown if not camera for other in show_always(context, obj, whole)]
+    told = [f"Hidden, since what plays is right for every camera: {', '.join(repr(obj.name) for obj in hidden)}."]
+    return [obj for obj, _ in shown], told * bool(hidden)
 
 
 def showing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -> tuple[list, list]:
     """Let the file play what was baked by a plan: the objects, and sentences on what is left out."""
-    return playing_light(context, plan, sequences[0]) if plan.lamps else (playing(context, sequences), [])
+    return playing_light(context, plan, sequences[0]) if plan.lamps else playing(context, sequences)
