@@ -105,6 +105,17 @@ def curves_of(data: bpy.types.ID) -> list:
             for curve in bag.fcurves]
 
 
+def dices(scene: bpy.types.Scene, obj: bpy.types.Object) -> bool:
+    """Whether Cycles subdivides an object's last modifier as finely as the picture asks for; its own switch before
+    Blender 5.0, and among the experimental ones."""
+    last = obj.modifiers[-1] if obj.modifiers else None
+    if scene.render.engine != "CYCLES" or last is None or last.type != "SUBSURF" or not last.show_render:
+        return False
+    if bpy.app.version >= (5, 0, 0):
+        return last.use_adaptive_subdivision
+    return scene.cycles.feature_set == "EXPERIMENTAL" and obj.cycles.use_adaptive_subdivision
+
+
 def let_go_at_exit(cls: type) -> None:
     """Let a class of properties that have functions (for updates, of their own values) forget these when Python ends.
 

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from ... import core
-from ..reading import SURFACES, DiffuseScene, Participants, is_clear, is_opaque, materials_of, read_scene
+from ..reading import DiffuseScene, Participants, is_clear, is_opaque, materials_of, may_have_faces, read_scene
 
 ALL_CLEAR = "Light goes through all that is to be lit: select what it is to fall on, or give it the role Reflected."
 
@@ -14,7 +14,7 @@ def blocking(context: bpy.types.Context, chosen: Participants) -> list:
     """What else stands in the light's way: all that casts shadows and has parts that no light goes through."""
     part_takers = {*chosen.mirrors, *chosen.diffuse}
     return [obj for obj in context.view_layer.objects
-            if obj not in part_takers and (obj.type in SURFACES or obj.is_instancer) and obj.visible_get()
+            if obj not in part_takers and may_have_faces(obj) and obj.visible_get()
             and not obj.hide_render and obj.visible_shadow
             and obj.reflection_mesh.role not in {"REFLECTION", "CAUSTICS"}
             and any(map(is_opaque, materials_of(obj) or [None]))]

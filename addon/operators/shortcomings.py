@@ -7,6 +7,7 @@ from ...core import ReflectionError, ReflectionMesh
 from ..reading import (
     camera_of,
     every_result_of,
+    in_background_set,
     known_results,
     rendered_alone,
     rendered_otherwise,
@@ -22,6 +23,8 @@ DEPTH_OF_FIELD = ("Depth of field: the camera focuses on the mirror and not on w
                   "Virtual for flat mirrors, or blur after the render.")
 MOTION_BLUR = ("Motion blur: the reflection is that of one moment, and is blurred as what lies on the mirror; blur it "
                "after the render, or switch motion blur off.")
+STEREO = ("Stereoscopy: a reflection is right for one eye, and both show the same one; choose the placement Virtual "
+          "for flat mirrors, or render each eye by a camera that has its own.")
 CUTS = ("Markers change the camera: choose Render > Lock Interface, so that a render of the animation in this window "
         "shows each camera its own reflection.")
 # what is said where the result counts it
@@ -62,10 +65,12 @@ def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
 
 
 def blur_shortcomings(scene: bpy.types.Scene, placements: list[str]) -> list[str]:
-    """Sentences on what a render blurs otherwise than a mirror would, of results with these placements."""
+    """Sentences on what a render blurs, or shows to two eyes, otherwise than a mirror would, of results with these
+    placements."""
     camera = scene.camera
     focused = camera is not None and camera.type == "CAMERA" and camera.data.dof.use_dof
-    told = [DEPTH_OF_FIELD] if focused and any(placement != "VIRTUAL" for placement in placements) else []
+    on_mirrors = any(placement != "VIRTUAL" for placement in placements)
+    told = [DEPTH_OF_FIELD] * (focused and on_mirrors) + [STEREO] * (scene.render.use_multiview and on_mirrors)
     return told + [MOTION_BLUR] * scene.render.use_motion_blur
 
 
@@ -74,6 +79,8 @@ def render_shortcomings(context: bpy.types.Context, mirrors: list, diffuse: list
     mirrors and diffuse objects, and what is hidden in the viewport alone; and on what has no mesh."""
     told = _other_meshes(context.scene, mirrors + diffuse) + _hidden(rendered_alone(context, mirrors, diffuse))
     told += [CUTS] * _cuts_unlocked(context, mirrors)
+    told += [f"Renders show '{obj.name}' of the background set too, which no reflection shows: link it into this scene."
+             for obj in in_background_set(context, mirrors, diffuse)[:1]]
     told += [f"'{mirror.name}' has a linked reflection too: hide one of the two." for mirror in mirrors
              if _has_linked_result(context, mirror)]
     return told + [f"No reflection has hair, point clouds or volumes, as '{obj.name}' has: make meshes of them, or "

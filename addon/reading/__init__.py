@@ -14,7 +14,7 @@ from .meshes import (
     read_scene,
 )
 from .moves import moves
-from .not_reflected import rendered_alone, without_surface
+from .not_reflected import in_background_set, rendered_alone, without_surface
 from .read_view import NO_CAMERA, read_view, render_size
 from .rendered_otherwise import rendered_otherwise
 from .results import RESULTS, camera_of, every_result_of, has_linked_results, results_of, with_copies
@@ -25,6 +25,7 @@ from .roles import (
     can_take_part,
     candidates,
     choose,
+    may_have_faces,
     participants,
     rendered_collections,
     says_mirror,
@@ -34,8 +35,8 @@ from .roles import (
 
 __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
            "Placed", "RESULTS", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
-           "every_result_of", "forget_known", "has_linked_results", "is_clear", "is_mirror", "is_opaque",
-           "join_mirror", "join_scene", "known_results", "materials_of", "materials_shown", "moves", "participants",
-           "read_meshes", "read_mirror", "read_scene", "read_view", "register", "render_size", "rendered_alone",
-           "rendered_collections", "rendered_otherwise", "results_of", "says_mirror", "seen_in", "unregister",
-           "visible", "with_copies", "without_surface"]
+           "every_result_of", "forget_known", "has_linked_results", "in_background_set", "is_clear", "is_mirror",
+           "is_opaque", "join_mirror", "join_scene", "known_results", "materials_of", "materials_shown",
+           "may_have_faces", "moves", "participants", "read_meshes", "read_mirror", "read_scene", "read_view",
+           "register", "render_size", "rendered_alone", "rendered_collections", "rendered_otherwise", "results_of",
+           "says_mirror", "seen_in", "unregister", "visible", "with_copies", "without_surface"]

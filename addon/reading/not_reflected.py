@@ -18,6 +18,16 @@ def rendered_alone(context: bpy.types.Context, mirrors: list, diffuse: list) -> 
             if obj not in taking and obj.visible_glossy and can_take_part(obj) and rendered(obj)]
 
 
+def in_background_set(context: bpy.types.Context, mirrors: list, diffuse: list) -> list:
+    """What renders show of the scenes behind this one, where all that is seen in this one takes part."""
+    found: list = []
+    behind = context.scene.background_set
+    while behind is not None and _shows_all(context, mirrors, diffuse):
+        found += [obj for obj in behind.objects if can_take_part(obj) and obj.visible_glossy and not obj.hide_render]
+        behind = behind.background_set
+    return found
+
+
 def _shows_all(context: bpy.types.Context, mirrors: list, diffuse: list) -> bool:
     """Whether all that is seen takes part, and nothing was left out by choice."""
     is_seen, taking = seen_in(context), {*mirrors, *diffuse}
@@ -29,13 +39,32 @@ def without_surface(context: bpy.types.Context, mirrors: list, diffuse: list) ->
     """What mirrors would show in renders but no mesh can be read of: of diffuse objects, of what is selected with them,
     and where all that is seen takes part."""
     is_seen, everything = seen_in(context), _shows_all(context, mirrors, diffuse)
-    return [obj for obj in context.view_layer.objects if _no_surface(obj) and obj.visible_glossy and is_seen(obj) and (
-        obj in diffuse or not can_take_part(obj) and (everything or obj.select_get()))]
+    drawn = _drawn_without(context.evaluated_depsgraph_get())
+    return [obj for obj in context.view_layer.objects
+            if (obj in drawn or _has_hair(obj)) and obj.visible_glossy and is_seen(obj)
+            and (obj in diffuse or not can_take_part(obj) and (everything or obj.select_get()))]
 
 
-def _no_surface(obj: bpy.types.Object) -> bool:
-    """Whether renders show an object, or hair on it, of which no mesh can be read."""
-    return obj.type in NO_SURFACES or any(
-        modifier.show_render and modifier.particle_system.settings.type == "HAIR"
-        and modifier.particle_system.settings.render_type == "PATH"
-        for modifier in obj.modifiers if modifier.type == "PARTICLE_SYSTEM")
+def _drawn_without(depsgraph: bpy.types.Depsgraph) -> set:
+    """The objects that are, or of which nodes or instances make, what has no mesh."""
+    found = set()
+    for instance in depsgraph.object_instances:
+        evaluated = instance.object
+        if evaluated.type in NO_SURFACES and _is_anything(evaluated):
+            found.add(instance.parent.original if instance.is_instance else evaluated.original)
+    return found
+
+
+def _is_anything(evaluated: bpy.types.Object) -> bool:
+    """Whether there is anything in curves, a cloud or a volume: nodes may have left nothing."""
+    data = evaluated.data
+    if evaluated.type == "VOLUME":
+        return len(data.grids) > 0 or not any(modifier.type == "NODES" for modifier in evaluated.modifiers)
+    return len(data.curves if evaluated.type == "CURVES" else data.points) > 0
+
+
+def _has_hair(obj: bpy.types.Object) -> bool:
+    """Whether renders show hair of particles on an object."""
+    return any(modifier.show_render and modifier.particle_system.settings.type == "HAIR"
+               and modifier.particle_system.settings.render_type == "PATH"
+               for modifier in obj.modifiers if modifier.type == "PARTICLE_SYSTEM")

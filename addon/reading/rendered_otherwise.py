@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import bpy
 
+from ..compat import dices
+
 LEVELS = (("levels", "render_levels"), ("steps", "render_steps"))
 RESOLUTIONS = (("resolution_u", "render_resolution_u"), ("resolution_v", "render_resolution_v"))
 
@@ -14,6 +16,8 @@ def rendered_otherwise(scene: bpy.types.Scene, obj: bpy.types.Object) -> str:
     for modifier in obj.modifiers:
         if modifier.show_viewport != modifier.show_render or (modifier.show_render and _finer(scene, modifier)):
             return modifier.name
+    if dices(scene, obj):
+        return obj.modifiers[-1].name
     data = obj.data
     if obj.type == "META" and data.resolution != data.render_resolution:
         return data.name

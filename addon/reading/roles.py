@@ -104,10 +104,13 @@ def _looks_it(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | None
 
 
 def can_take_part(obj: bpy.types.Object) -> bool:
-    """Whether the object has faces to show, or instances of objects that may."""
-    if obj.reflection_mesh.role in {"IGNORE", *RESULTS}:
-        return False
-    return obj.type in GEOMETRY or obj.is_instancer
+    """Whether the object may have faces to show, or instances of objects that may."""
+    return obj.reflection_mesh.role not in {"IGNORE", *RESULTS} and may_have_faces(obj)
+
+
+def may_have_faces(obj: bpy.types.Object) -> bool:
+    """Whether an object may be seen as faces: by itself, as instances, or as what Geometry Nodes make of it."""
+    return obj.type in GEOMETRY or obj.is_instancer or any(modifier.type == "NODES" for modifier in obj.modifiers)
 
 
 def _by_role(objects: list, active: bpy.types.Object | None) -> tuple[list, list]:

@@ -84,6 +84,13 @@ LACKS = {
     "No reflection has hair, point clouds or volumes, as '{}' has: make meshes of them, or leave the mirror to Cycles.":
         "Keine Spiegelung hat Haare, Punktwolken oder Volumen wie '{}': mache Netze daraus, oder überlasse den Spiegel "
         "Cycles.",
+    "Renders show '{}' of the background set too, which no reflection shows: link it into this scene.":
+        "Gerendert ist auch '{}' aus der Hintergrundszene zu sehen, das keine Spiegelung zeigt: verknüpfe es mit "
+        "dieser Szene.",
+    "Stereoscopy: a reflection is right for one eye, and both show the same one; choose the placement Virtual for flat "
+    "mirrors, or render each eye by a camera that has its own.":
+        "Stereoskopie: eine Spiegelung stimmt für ein Auge, und beide zeigen dieselbe; wähle für ebene Spiegel die "
+        "Lage Virtuell, oder rendere jedes Auge mit einer Kamera, die ihre eigene hat.",
     "Renders show '{}', which is hidden in the viewport and so in no reflection: show it, or hide it in renders too.":
         "Gerendert ist '{}' zu sehen, in der Ansicht ausgeblendet und darum in keiner Spiegelung: zeige es, oder "
         "blende es auch im Render aus.",

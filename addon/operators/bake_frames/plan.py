@@ -12,7 +12,7 @@ from ...frames import frame_numbers, frame_text, is_done, read_record, record_pa
 from ...freshness import frame_difference, frame_origin
 from ...reading import NothingSeen, Participants, candidates, render_size, visible
 from ...settings import SAMPLES, SettingsOfMirrors, Wanted, of_each
-from ..shortcomings import DEPTH_OF_FIELD
+from ..shortcomings import DEPTH_OF_FIELD, STEREO
 
 NAMED = 8   # so many frames are named one by one
 
@@ -157,7 +157,7 @@ def blur_remarks(scene: bpy.types.Scene, cameras: tuple, thrown: bool = False) -
     if not thrown and any(camera and camera.type == "CAMERA" and camera.data.dof.use_dof
                           for camera in (cameras or [scene.camera, *marked])):
         told.append(DEPTH_OF_FIELD)
-    return told
+    return told + [STEREO] * (scene.render.use_multiview and not thrown)
 
 
 def layer_remarks(scene: bpy.types.Scene, layers: list) -> list[str]:

@@ -42,6 +42,9 @@ def test_what_a_render_blurs_otherwise_is_told(blank, capfd, placement):
     sentences = told()
     assert ("Depth of field: the camera focuses on the mirror" in sentences) == (placement == "LAYERED")
     assert "Motion blur: the reflection is that of one moment" in sentences
+    assert "Stereoscopy" not in sentences
+    blank.scene.render.use_multiview = True
+    assert ("Stereoscopy: a reflection is right for one eye" in told()) == (placement == "LAYERED")
 
 
 def subdivided(box, levels: int = 1, render: int = 2, name: str = "Rounder", **more):
@@ -87,6 +90,39 @@ def test_curves_and_metaballs_that_renders_make_finer_are_told(blank, room):
     assert otherwise(blank.scene, ring) == ring.data.name and not otherwise(blank.scene, ball)
 
 
+@pytest.mark.parametrize("engine", ["CYCLES", "BLENDER_WORKBENCH"])
+def test_a_mesh_that_cycles_dices_is_told(blank, room, engine):
+    """Cycles alone subdivides it as finely as the picture asks for."""
+    scene, box = blank.scene, parts.add("cube", "Box")
+    scene.render.engine = engine
+    subdivided(box, 1, 1)
+    assert not room("addon.reading").rendered_otherwise(scene, box)
+    if bpy.app.version >= (5, 0, 0):
+        box.modifiers[0].use_adaptive_subdivision = True
+    else:
+        scene.cycles.feature_set, box.cycles.use_adaptive_subdivision = "EXPERIMENTAL", True
+    assert room("addon.reading").rendered_otherwise(scene, box) == ("Rounder" if engine == "CYCLES" else "")
+
+
+@pytest.mark.parametrize("chosen", [False, True])
+def test_what_stands_in_the_background_set_is_told(blank, capfd, chosen):
+    """Renders show it, and a mirror that shows all that is there lacks it; where the user chose, it is meant."""
+    cube, mirror = parts.add("cube", "Box", location=(1.5, -1.5, 1.0)), parts.add_wall_mirror()
+    parts.add("cube", "Left", location=(-1.5, -1.5, 1.0))
+    mirror.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    scene = bpy.data.scenes.new("Set")
+    behind = parts.add("cone", "Cone", location=(0.0, -1.5, 1.0))
+    blank.scene.collection.objects.unlink(behind)
+    scene.collection.objects.link(behind)
+    for hidden in (False, True):
+        blank.scene.background_set, behind.hide_render = scene, hidden
+        parts.select(*([cube] if chosen else []), mirror)
+        parts.generate()
+        told = "Renders show 'Cone' of the background set too" in "".join(capfd.readouterr())
+        assert told == (not hidden and not chosen)
+        bpy.ops.reflection_mesh.clear()
+
+
 @pytest.mark.parametrize("hide", ["eye", "collection", "everywhere", "chosen"])
 def test_what_the_viewport_alone_hides_is_told(blank, capfd, hide):
     """A mirror that shows all that is there lacks what renders show of it; where the user chose, it is meant."""
@@ -115,8 +151,64 @@ def hairy(box):
     box.particle_systems[0].settings.type = "HAIR"
 
 
+def made_by_nodes(obj, kind: str, beside: bool = True) -> None:
+    """Let a node make something of an object's mesh, shown beside it; or, of nothing, instead."""
+    tree = bpy.data.node_groups.new("Nodes", "GeometryNodeTree")
+    for in_out in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=in_out, socket_type="NodeSocketGeometry")
+    given, shown, made = (tree.nodes.new(name) for name in ("NodeGroupInput", "NodeGroupOutput", kind))
+    join = tree.nodes.new("GeometryNodeJoinGeometry")
+    if beside:
+        tree.links.new(given.outputs[0], made.inputs[0])
+        tree.links.new(given.outputs[0], join.inputs[0])
+    tree.links.new(made.outputs[0], join.inputs[0])
+    tree.links.new(join.outputs[0], shown.inputs[0])
+    obj.modifiers.new("Nodes", "NODES").node_group = tree
+
+
+def curves(empty: bool):
+    """Adds an object of hair that has none of its own, or some; nodes make a cube of it."""
+    def change(_) -> None:
+        hair = bpy.data.hair_curves.new("Hair")
+        obj = bpy.data.objects.new("Hair", hair)
+        bpy.context.scene.collection.objects.link(obj)
+        if not empty:
+            hair.add_curves([3, 4])
+            return
+        made_by_nodes(obj, "GeometryNodeMeshCube", beside=False)
+    return change
+
+
+def test_what_nodes_make_of_hair_is_reflected(blank, capfd):
+    """A cube that they make of curves is one as any other, and there is no hair to miss."""
+    parts.add("cube", "Box", location=(2.0, -1.5, 1.0))
+    mirror = parts.add_wall_mirror()
+    mirror.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    places = []
+    for kind in ("hair", "mesh"):
+        if kind == "hair":
+            curves(empty=True)(None)
+            cube = bpy.data.objects["Hair"]
+        else:
+            bpy.data.objects.remove(cube)
+            cube = parts.add("cube", "Hair", size=1.0)
+        cube.location = (0.0, -1.5, 1.0)
+        parts.select(mirror)
+        result = parts.generate()
+        assert "Hair" in [source.object.name for source in result.reflection_mesh.sources]
+        where = parts.attribute(result, "reflected_position")
+        where = where[where[:, 0] < 0.6]
+        places.append((where.min(axis=0).tolist(), where.max(axis=0).tolist()))
+        bpy.ops.reflection_mesh.clear()
+    # triangles of the two cubes have other diagonals
+    assert places[0] == places[1]
+    assert "No reflection has hair" not in "".join(capfd.readouterr())
+
+
 @pytest.mark.parametrize(("change", "told"), [
-    (hairy, "Box"), (lambda box: bpy.ops.object.volume_add(), "Volume"), (lambda box: bpy.ops.object.empty_add(), "")])
+    (hairy, "Box"), (lambda box: made_by_nodes(box, "GeometryNodeMeshToPoints"), "Box"),
+    (lambda box: made_by_nodes(box, "GeometryNodeMeshToVolume"), "Box"), (curves(False), "Hair"), (curves(True), ""),
+    (lambda box: bpy.ops.object.volume_add(), "Volume"), (lambda box: bpy.ops.object.empty_add(), "")])
 def test_what_has_no_mesh_is_told(blank, capfd, change, told):
     """Renders show it in the mirror, and the reflection does not; where the user chose other things, it is meant."""
     box, other = parts.add("cube", "Box"), parts.add("cube", "Other", location=(1.5, -1.5, 1.0))
