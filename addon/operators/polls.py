@@ -5,14 +5,16 @@ What an operator finds out only as it works, it says then, in its report.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import islice
 
 import bpy
 from bpy.app.translations import pgettext_tip
 
 from ..illumination import is_glint, leaves_out_any, raises_layers
-from ..reading import NO_CAMERA, NO_MIRROR, RESULTS, has_linked_results, is_mirror, says_mirror
+from ..reading import NO_CAMERA, NO_MIRROR, RESULTS, can_take_part, has_linked_results, is_mirror, says_mirror
 
 LINKED_SCENE = "The scene is linked from another file: open that file, or choose a scene of this one."
+LOOKED_AT = 8           # selected objects
 LOOKED_THROUGH = 500    # objects: to look for roles in more takes longer than a redraw may
 Obstacle = Callable[[bpy.types.Context], str]
 
@@ -42,17 +44,24 @@ def has_camera(context: bpy.types.Context) -> str:
 
 
 def has_mirror(context: bpy.types.Context) -> str:
-    """Something is selected, or else active as a result or a mirror, or an object's role or material is that of a
-    mirror."""
+    """Something is selected that may be a mirror, or else active as a result or a mirror, or an object's role or
+    material is that of a mirror."""
     objects = context.view_layer.objects
     active = objects.active
-    if objects.selected or (active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}):
+    if active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}:
         return ""
-    if len(bpy.data.materials) > LOOKED_THROUGH:
+    selected = list(islice(objects.selected, LOOKED_AT + 1))
+    chosen = [obj for obj in selected if can_take_part(obj)]
+    if (len(selected) > LOOKED_AT or len(chosen) > 1 or len(bpy.data.materials) > LOOKED_THROUGH
+            or any(obj.reflection_mesh.role in RESULTS for obj in selected)):
         return ""
     # each is asked once, however many objects have it
-    mirrors = set(filter(is_mirror, bpy.data.materials))
-    return "" if _any(objects, lambda obj: says_mirror(obj, mirrors.__contains__)) else NO_MIRROR
+    mirrors = set(filter(is_mirror, bpy.data.materials)).__contains__
+    # what is selected may have been a mirror, or the roles say who is one
+    if selected and _any(context.scene.objects, lambda obj: (
+            obj.reflection_mesh.mirror in selected or obj.reflection_mesh.role == "MIRROR")):
+        return ""
+    return "" if _any(chosen or objects, lambda obj: says_mirror(obj, mirrors)) else NO_MIRROR
 
 
 def has_mirror_or_caustics(context: bpy.types.Context) -> str:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import string
+from itertools import product
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -215,6 +216,39 @@ def test_roles_and_results_need_no_selection(scene):
     assert not bpy.ops.reflection_mesh.generate.poll()
     bpy.data.objects["Mirror"].reflection_mesh.role = "MIRROR"
     assert bpy.ops.reflection_mesh.generate.poll()
+
+
+def test_a_button_that_is_grey_says_what_a_run_would(blank, room):
+    """Whatever is selected, whatever its role and its material, in all combinations: with one object that is no mirror,
+    as in a new file, the button is grey, and it is never grey where a run would find a mirror."""
+    reading = room("addon.reading")
+    ball, box, lamp = parts.add("uv_sphere", "Ball"), parts.add("cube", "Box"), None
+    bpy.ops.object.light_add()
+    lamp = blank.object
+    ball.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    result = parts.add("plane", "Result")
+    result.reflection_mesh.role = "REFLECTION"
+    kinds: dict = {}
+    for roles in product(("AUTO", "MIRROR", "DIFFUSE", "IGNORE"), repeat=2):
+        ball.reflection_mesh.role, box.reflection_mesh.role = roles
+        for mirror, chosen in product((None, ball, box), product((False, True), repeat=4)):
+            result.reflection_mesh.mirror = mirror
+            selected = [obj for obj, is_one in zip((ball, box, lamp, result), chosen) if is_one]
+            for active in (None, box, lamp):
+                parts.select(*selected)
+                blank.view_layer.objects.active = active
+                told = room("addon.operators.polls").has_mirror(blank)
+                kinds[bool(told), len(selected)] = True
+                if told:
+                    with pytest.raises(room("core").ReflectionError) as refused:
+                        reading.choose(blank)
+                    assert str(refused.value) == told
+    assert {(True, 0), (True, 1), (False, 1), (False, 2)} <= set(kinds)
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    assert [obj.name for obj in bpy.context.selected_objects] == ["Cube"]
+    assert not bpy.ops.reflection_mesh.generate.poll() and parts.refusal() == reading.NO_MIRROR
+    bpy.ops.object.select_all(action="SELECT")
+    assert not bpy.ops.reflection_mesh.generate.poll()
 
 
 def test_polls_do_not_look_through_crowds(scene, room, monkeypatch):
