@@ -190,11 +190,13 @@ def _lit(context: bpy.types.Context, results: list, samples: int | None, kind: s
 
 
 def _path_to_save(options: argparse.Namespace) -> str:
-    """Where the file is to be saved, which can be written."""
+    """Where the file is to be saved, which can be written and is no picture or page that was named by mistake."""
     if not (options.output or bpy.data.filepath):
         raise core.ReflectionError("There is no file to save to: open a .blend file or name one with --output.")
     path = os.path.abspath(options.output or bpy.data.filepath)
     check_place(path)
+    if options.output and not path.lower().endswith(".blend"):
+        raise core.ReflectionError(f"'{path}' is not the name of a .blend file: let it end so.")
     return path
 
 

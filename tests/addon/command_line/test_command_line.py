@@ -76,6 +76,7 @@ def test_objects_by_name(saved, room, tmp_path):
     (["generate", "--memory", "nan"], 1, "memory"),
     (["generate", "--placement", "NOWHERE"], 2, "NOWHERE"),
     (["generate", "--output", "{folder}/none/x.blend"], 1, "Error: '{folder}/none/x.blend' cannot be saved"),
+    (["generate", "--output", "{folder}/picture.png"], 1, "picture.png' is not the name of a .blend file"),
     (["compare", "--samples", "0"], 1, "sample"),
     (["polish"], 2, "polish"),
     ([], 2, "verb"),
@@ -96,7 +97,7 @@ def test_all_settings_reach_the_core(saved, room, tmp_path, capsys, monkeypatch,
     monkeypatch.setattr(room("addon.command_line.verbs"), "generation", told)
     assert room("addon.command_line").run([verb, "--tolerance", "2", "--placement", "VIRTUAL", "--method", "PARALLEL",
                                            "--depth", "3", "--memory", "0.5", "--hidden-faces", "--output",
-                                           str(tmp_path / "x")]) == 1
+                                           str(tmp_path / "x.blend")]) == 1
     expected = room("core").Settings(2.0, "VIRTUAL", "PARALLEL", 3, maximum_memory=0.5, hidden_faces=True)
     assert capsys.readouterr().err == f"Error: {expected}.\n"
 
