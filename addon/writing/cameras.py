@@ -79,10 +79,31 @@ def as_shown(scene: bpy.types.Scene) -> Callable[[], None]:
     return back
 
 
+def forget_deleted(scene: bpy.types.Scene) -> None:
+    """Let a scene and its markers look through no camera that was deleted: Blender would have forgotten it, did results
+    not know it."""
+    markers = [marker for marker in scene.timeline_markers if marker.camera is not None]
+    looking = {scene.camera, *(marker.camera for marker in markers)} - {None}
+    gone = {camera for camera in looking if not camera.users_scene}
+    if not gone or scene.library is not None:
+        return
+    known = {obj.reflection_mesh.camera for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
+    for marker in markers:
+        if marker.camera in gone & known:
+            marker.camera = None
+    # one that was in no scene from the first is the user's own affair
+    if scene.camera in gone and scene.reflection_mesh.seen_by == scene.camera:
+        scene.camera = scene.reflection_mesh.seen_by = None
+
+
 @persistent
 def _after_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     # a render's depsgraph tells of nothing that has happened in the file
-    if depsgraph.mode == "VIEWPORT" and depsgraph.id_type_updated("SCENE"):
+    if depsgraph.mode != "VIEWPORT":
+        return
+    if depsgraph.id_type_updated("COLLECTION"):
+        forget_deleted(scene)
+    if depsgraph.id_type_updated("SCENE"):
         show_for_camera(scene)
 
 

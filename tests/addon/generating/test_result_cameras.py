@@ -157,3 +157,30 @@ def test_a_result_of_a_deleted_camera_is_taken_over(scene):
     bpy.data.objects.remove(first)
     parts.select(cube, mirror)
     assert parts.generate() == result and not result.hide_render
+
+
+@pytest.mark.parametrize("made", [False, True])
+def test_a_camera_that_is_deleted_is_the_scenes_no_more(scene, made):
+    """With a result that knows it as without; a marker that bound it binds none. One that was in no scene stays."""
+    mirror, cube, result = scene
+    here, camera = bpy.context.scene, bpy.context.scene.camera
+    if not made:
+        bpy.data.objects.remove(result)
+        here.reflection_mesh.seen_by = None
+    here.timeline_markers.new("Cut", frame=5).camera = camera
+    name = camera.name
+    parts.select(camera)
+    bpy.ops.object.delete()
+    bpy.context.view_layer.update()
+    assert here.camera is None and here.timeline_markers["Cut"].camera is None
+    assert (name in bpy.data.objects) == made
+    assert not bpy.ops.reflection_mesh.generate.poll()
+    alone = bpy.data.objects.new("Alone", bpy.data.cameras.new("Alone"))
+    alone.location, alone.rotation_euler = (0.0, -6.0, 1.0), (1.45, 0.0, 0.0)
+    here.camera = alone
+    bpy.context.view_layer.update()
+    parts.select(cube, mirror)
+    parts.generate()
+    parts.add("cube", "Another")
+    bpy.context.view_layer.update()
+    assert here.camera == alone
