@@ -25,8 +25,15 @@ def copied_scene(context: bpy.types.Context, name: str) -> Iterator[tuple[bpy.ty
         with_cycles(scene)
         for other in [other for other in scene.view_layers if other.name != context.view_layer.name]:
             scene.view_layers.remove(other)
+        _forget_layer_settings(scene.view_layers[0])
         scene.cycles.seed = scene.cycles.seed + 1
         yield scene, back
+
+
+def _forget_layer_settings(layer: bpy.types.ViewLayer) -> None:
+    """What a view layer sets against its scene, which is told how to render, and against the objects' own materials."""
+    layer.use, layer.samples, layer.material_override = True, 0, None
+    layer.cycles.use_denoising = True
 
 
 def _keep_no_engine(scene: bpy.types.Scene) -> None:

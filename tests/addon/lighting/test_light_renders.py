@@ -104,3 +104,27 @@ def test_a_blender_without_the_denoiser_renders_with_noise(room):
     cycles = Cycles()
     room("addon.rendering").denoise(cycles)
     assert cycles.use_denoising is False
+
+
+@pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
+def test_light_does_not_go_by_what_the_view_layer_sets_for_itself(blank, room, kind):
+    """Its own samples, denoising switched off, one material for all, and not being rendered: bit for bit the same."""
+    scene_of(blank, "UV", "Rough")
+    layer, chosen, found = blank.view_layer, list(blank.selected_objects), []
+    for own in (False, True):
+        if own:
+            layer.samples, layer.use, layer.cycles.use_denoising = 1, False, False
+            layer.material_override = parts.material("Clay", "DIFFUSE")
+        parts.select(*chosen)
+        blank.view_layer.objects.active = bpy.data.objects["Mirror"]
+        result = parts.generate()
+        assert bpy.ops.reflection_mesh.light(samples=4, kind=kind) == {"FINISHED"}
+        material = result.material_slots[0].material
+        image = next(node.image for node in material.node_tree.nodes if node.type == "TEX_IMAGE")
+        pixels = np.empty(len(image.pixels), dtype=np.float32)
+        image.pixels.foreach_get(pixels)
+        found.append(pixels)
+        bpy.ops.reflection_mesh.clear()
+    assert found[0].size and np.array_equal(*found)
+    assert (layer.samples, layer.use, layer.cycles.use_denoising) == (1, False, False)
+    assert layer.material_override.name == "Clay"
