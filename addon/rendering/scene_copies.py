@@ -26,6 +26,8 @@ def copied_scene(context: bpy.types.Context, name: str) -> Iterator[tuple[bpy.ty
         for other in [other for other in scene.view_layers if other.name != context.view_layer.name]:
             scene.view_layers.remove(other)
         _forget_layer_settings(scene.view_layers[0])
+        # else what it animates is set again as it is rendered
+        scene.animation_data_clear()
         scene.cycles.seed = scene.cycles.seed + 1
         yield scene, back
 
