@@ -39,6 +39,15 @@ def tell(operator: bpy.types.Operator, kinds: set[str], sentence: str) -> None:
     operator.report(kinds, translated(sentence))
 
 
+def tell_done(operator: bpy.types.Operator, done: list[str], remarks: list[str]) -> None:
+    """Report what was done, and then what is to be said against it, what matters most last: that is what the status bar
+    shows, and the rest stands in the Info editor."""
+    for sentence in done:
+        tell(operator, {"INFO"}, sentence)
+    for remark in reversed(remarks):
+        tell(operator, {"WARNING"}, remark)
+
+
 def translated(sentence: str, depth: int = 0) -> str:
     """A sentence in the language of the interface, where it is one of those that are known; sentences and parts of some
     that stand in the places of its names are translated too."""

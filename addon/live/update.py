@@ -3,7 +3,7 @@ import time
 
 import bpy
 
-from ..faults import SteppedOperator, Steps, part, tell
+from ..faults import SteppedOperator, Steps, part, tell, tell_done
 from ..freshness import why_light_is_stale, why_stale
 from ..operators import polls
 from ..operators.generate import IN_OBJECT_MODE, generation
@@ -40,13 +40,15 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
         lit = [obj for obj in kept_light(context) if why_light_is_stale(context, obj)]
         if not chosen and not lit:
             tell(self, {"INFO"}, NOTHING_STALE)
+        told: list = []
+        remarks: list = []
         for number, group in enumerate(chosen):
             steps = generation(context, group, Wanted(context.scene), manners=Manners(preview_unlit=self._pressed))
             outcome = yield from part(steps, number / len(chosen), 1.0 / len(chosen))
-            for remark in outcome.remarks:
-                tell(self, {"WARNING"}, remark)
-            tell(self, {"INFO"}, outcome.summary(time.perf_counter() - started))
+            told.append(outcome.summary(time.perf_counter() - started))
+            remarks += outcome.remarks
         yield from self._light(context, lit)
+        tell_done(self, told + list(map(self._summary, lit)), remarks)
 
     def _light(self, context: bpy.types.Context, lit: list) -> Steps[None]:
         """Make the light anew that is stale, with all that falls on the same objects."""
@@ -54,8 +56,6 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
         for group in light_groups(context):
             if pairs & group.pairs:
                 yield from made_anew(context, group, {mirror: wanted(mirror) for mirror, _ in group.pairs})
-        for obj in lit:
-            tell(self, {"INFO"}, self._summary(obj))
 
     def _summary(self, light: bpy.types.Object) -> str:
         return f"'{light.name}': {len(light.data.polygons)} faces of light, {light.reflection_mesh.seconds:.2f} s"

@@ -12,7 +12,7 @@ import numpy as np
 
 from ... import core
 from ...core.caustics import most_layers
-from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
+from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell_done
 from ..frames import stop_playing
 from ..freshness import light_record
 from ..illumination import (
@@ -263,9 +263,7 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Opera
         thrown = yield from throwing(context, chosen, chosen_lamps(context), Asked(self.eyes, wanted, self.leave_out))
         self.show_used(wanted, chosen.mirrors)
         context.view_layer.update()
-        for remark in thrown.remarks:
-            tell(self, {"WARNING"}, remark)
-        tell(self, {"INFO"}, thrown.summary(time.perf_counter() - started))
+        tell_done(self, [thrown.summary(time.perf_counter() - started)], thrown.remarks)
 
 
 def register() -> None:

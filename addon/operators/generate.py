@@ -8,7 +8,7 @@ from functools import partial
 import bpy
 
 from ... import core
-from ..faults import SteppedOperator, Steps, part, tell
+from ..faults import SteppedOperator, Steps, part, tell_done
 from ..freshness import origin_of, record_of, settings_of
 from ..properties import ATTRIBUTES
 from ..reading import NothingSeen, Participants, choose, is_opaque, read_view
@@ -153,11 +153,8 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
                 obj.select_set(True)
                 context.view_layer.objects.active = obj
         placements = [settings.placement for settings in map(of_each(wanted), chosen.mirrors)]
-        for remark in outcome.remarks + lacks + blur_shortcomings(context.scene, placements):
-            tell(self, {"WARNING"}, remark)
-        for sentence in outcome.news:
-            tell(self, {"INFO"}, sentence)
-        tell(self, {"INFO"}, outcome.summary(time.perf_counter() - started))
+        tell_done(self, [*outcome.news, outcome.summary(time.perf_counter() - started)],
+                  outcome.remarks + lacks + blur_shortcomings(context.scene, placements))
 
 
 def register() -> None:

@@ -272,13 +272,13 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
         results, wanted = with_copies(context, chosen_results(context)), self.wanted(context)
         lights = wanted.lights(results)
         lit = yield from lighting_groups(context, lights, self.every)
-        if any(kind == "AUTO" and set(group) & set(lit) and _view_moves(context, group) and not are_few(group)
-               for group, _, kind in lights):
-            tell(self, {"INFO"}, FOR_THIS_FRAME)
+        advice = [FOR_THIS_FRAME] * any(
+            kind == "AUTO" and set(group) & set(lit) and _view_moves(context, group) and not are_few(group)
+            for group, _, kind in lights)
         self.show_used(wanted, [result.reflection_mesh.mirror for result in results])
-        for sentence in gloss_from_elsewhere(lit):
+        # what is told last stays in the status bar
+        for sentence in [summary(lit, time.perf_counter() - started), *advice, *gloss_from_elsewhere(lit)]:
             tell(self, {"INFO"}, sentence)
-        tell(self, {"INFO"}, summary(lit, time.perf_counter() - started))
 
 
 def register() -> None:

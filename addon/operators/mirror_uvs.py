@@ -23,7 +23,7 @@ from ..anamorphosis import (
     write_copy,
     write_own_map,
 )
-from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
+from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell_done
 from ..reading import Participants, choose, read_mirror, read_scene, read_view
 from ..settings import UsesSettings, Wanted, option
 from . import polls
@@ -191,9 +191,7 @@ class REFLECTION_MESH_OT_mirror_uvs(UsesSettings, SteppedOperator, bpy.types.Ope
         for obj in outcome.objects:
             if obj.name in context.view_layer.objects:
                 obj.select_set(True)
-        for remark in outcome.remarks:
-            tell(self, {"WARNING"}, remark)
-        tell(self, {"INFO"}, outcome.summary(time.perf_counter() - started))
+        tell_done(self, [outcome.summary(time.perf_counter() - started)], outcome.remarks)
 
 
 def register() -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import bpy
 
 from ... import compat
-from ...faults import BrowsingOperator, Steps, part, tell
+from ...faults import BrowsingOperator, Steps, part, tell_done
 from ...files import chosen_folder
 from ...frames import writes_usd
 from ...illumination import meant_lamps
@@ -70,15 +70,14 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
             elsewhere = yield from part(steps, 0.0, start := 0.9)
             # what others have just made is not made again
             plan = replace(plan, overwrite=False)
-        sequences = yield from part(baking(context, plan, written.append,
-                                           lambda sentence: tell(self, {"WARNING"}, sentence)), start, 1.0 - start)
-        _, remarks = showing(context, plan, sequences)
+        kept: list = []
+        sequences = yield from part(baking(context, plan, written.append, kept.append), start, 1.0 - start)
+        _, hidden = showing(context, plan, sequences)
         self.show_used(wanted, candidates(context)[0])
-        remarks += render_shortcomings(context, *candidates(context))
+        remarks = kept + hidden + render_shortcomings(context, *candidates(context))
         remarks += blur_remarks(context.scene, plan.cameras, bool(lamps))
-        for remark in remarks + layer_remarks(context.scene, [context.view_layer]):
-            tell(self, {"WARNING"}, remark)
-        tell(self, {"INFO"}, summary([plan], elsewhere + len(written), time.perf_counter() - started))
+        remarks += layer_remarks(context.scene, [context.view_layer])
+        tell_done(self, [summary([plan], elsewhere + len(written), time.perf_counter() - started)], remarks)
 
     def _words(self, context: bpy.types.Context, plan: Plan, given: dict) -> list[str]:
         """What the other processes are told."""

@@ -47,6 +47,18 @@ def test_what_a_render_blurs_otherwise_is_told(blank, capfd, placement):
     assert ("Stereoscopy: a reflection is right for one eye" in told()) == (placement == "LAYERED")
 
 
+def test_what_is_to_be_said_against_a_result_is_told_last(blank, capfd):
+    """The status bar shows the last report alone; the first sentence on a result is the most important one."""
+    box, mirror = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0)), parts.add_wall_mirror()
+    subdivided(box)
+    blank.scene.render.use_motion_blur = True
+    parts.select(box, mirror)
+    parts.generate()
+    told = [line for line in capfd.readouterr().out.splitlines() if line.startswith(("Info: ", "Warning: "))]
+    assert [line.split(":")[0] for line in told] == ["Info", "Warning", "Warning"]
+    assert "Motion blur" in told[1] and "another mesh of 'Box'" in told[2]
+
+
 def subdivided(box, levels: int = 1, render: int = 2, name: str = "Rounder", **more):
     modifier = box.modifiers.new(name, "SUBSURF")
     modifier.levels, modifier.render_levels = levels, render
