@@ -10,7 +10,7 @@ import numpy as np
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from ..lighting import forget_light, forget_previews, new_material
 from ..reading import camera_of, every_result_of, render_size, results_of
-from ..writing import forget_nodes, hide_discs, new_object, set_window, show_own_materials
+from ..writing import forget_nodes, hide_discs, new_object, result_name, set_window, show_own_materials
 from .play_nodes import NAME, unpacking_nodes
 from .sequence import Sequence, keyed
 from .write_frame import MESH_PATH, OBJECT_PATH
@@ -150,7 +150,7 @@ def _object(context: bpy.types.Context, player: Player, whole: AllOrNothing) -> 
     """The result that is to play: one that the mirror has, called as the user likes where it plays already, or a new
     one."""
     mirror, sequence = player.mirror, player.sequence
-    called = f"{mirror.name} Reflection {sequence.name}".strip()
+    called = result_name(mirror, sequence.name)
     earlier = _earlier(context, player, called)
     if not earlier:
         obj = new_object(context, mirror, whole)

@@ -127,16 +127,23 @@ def _fill(obj: bpy.types.Object, made: Reflection, whole: AllOrNothing, changes:
 def new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
     """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet; its name tells
     its camera where the mirror has results for others."""
-    name = f"{mirror.name} Reflection"
-    if every_result_of(context, mirror):
-        name = f"{name} {context.scene.camera.name}"
-    obj = new_beside(context, name, mirror, whole)
+    camera = context.scene.camera.name if every_result_of(context, mirror) else ""
+    obj = new_beside(context, result_name(mirror, camera), mirror, whole)
     for rays in RAYS:
         setattr(obj, rays, False)
     # Line Art takes creases from the sharp edges alone, and no lines where layers that touch sink into each other
     obj.lineart.use_crease_override, obj.lineart.crease_threshold = True, 0.0
     obj.lineart.usage = "NO_INTERSECTION"
     return obj
+
+
+def result_name(mirror: bpy.types.Object, told_by: str) -> str:
+    """What a result is called, and by what it is told from others of its mirror: so much of the mirror's long name that
+    Blender, which cuts the end, leaves the rest."""
+    end = f" Reflection {told_by}".rstrip()
+    longest = bpy.types.ID.bl_rna.properties["name"].length_max - 1
+    kept = max(longest - len(end.encode()), longest // 3)
+    return mirror.name.encode()[:kept].decode(errors="ignore") + end
 
 
 def new_beside(context: bpy.types.Context, name: str, other: bpy.types.Object,

@@ -184,3 +184,17 @@ def test_a_camera_that_is_deleted_is_the_scenes_no_more(scene, made):
     parts.add("cube", "Another")
     bpy.context.view_layer.update()
     assert here.camera == alone
+
+
+def test_a_mirror_of_a_long_name_leaves_room_for_what_its_results_are(scene):
+    """Blender cuts names at their end, in old versions after 63 bytes; letters may take two of them."""
+    mirror, cube, result = scene
+    for written in ("M", "Mä", "ä"):
+        bpy.data.objects.remove(result)
+        mirror.name = written * 300
+        parts.select(cube, mirror)
+        result = parts.generate()
+        assert result.name.endswith(" Reflection") and result.name.startswith(mirror.name[:20])
+    first, bpy.context.scene.camera = bpy.context.scene.camera, second_camera()
+    parts.select(mirror)
+    assert parts.generate().name.endswith(" Reflection Other") and first
