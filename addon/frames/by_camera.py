@@ -15,7 +15,9 @@ SWITCHES = ("hide_render", "hide_viewport")
 def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
     """Of cameras' players (object, name of the camera) show those of the one that looks: the scene's, or the one that a
     marker binds."""
-    bound = {marker.frame: marker.camera for marker in scene.timeline_markers if marker.camera}
+    # Blender cuts to no camera that renders hide
+    bound = {marker.frame: marker.camera for marker in scene.timeline_markers
+             if marker.camera and not marker.camera.hide_render}
     if not bound and len({name for _, name in players}) == 1:
         # a camera without results sees what is there
         scene.reflection_mesh.seen_by = None

@@ -84,6 +84,18 @@ def played_again(folder) -> dict:
     return played(folder / "again.blend", FRAMES, folder / "played", names)
 
 
+def test_a_marker_of_a_camera_that_renders_hide_is_no_cut(moving, room, tmp_path):
+    """Blender goes on looking through the one before, and sees its sequence."""
+    second = cuts()
+    second.hide_render = True
+    bpy.ops.wm.save_mainfile()
+    out = tmp_path / "out"
+    assert bake(room, "--output", out, "--light", "0", "--camera", "Camera", "Second") == 0
+    bpy.ops.wm.open_mainfile(filepath=str(out / "scene reflections.blend"))
+    assert shown(FRAMES) == dict.fromkeys(FRAMES, ["Mirror Reflection Camera"])
+    assert bpy.context.scene.camera.name == "Camera"
+
+
 def test_one_camera_of_two_takes_its_own_result(moving, room, tmp_path):
     """A still of the camera that looks stays, where another one is baked."""
     second = cuts()
