@@ -87,6 +87,7 @@ pictures: environment
 	$(RUN) -m tools.pictures.manual
 	$(RUN) -m tools.pictures.animation
 	$(RUN) -m tools.pictures.parts
+	$(RUN) -m tools.pictures.stained
 
 test: lint test-core test-addon
 

@@ -120,10 +120,7 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     seen, point = nodes.place[:, used], nodes.point[:, used]
     column = np.repeat(faces.column, 3)
     breathe()
-    weights = frames.weights(column, np.take(point, triangles.ravel(), axis=1))
-    breathe()
-    weights = np.maximum(weights, 0.0)
-    weights /= weights.sum(axis=0)
+    weights = _weights(frames, column, np.take(point, corner, axis=1))
     triangles, vertex, point = _on_sources(triangles, column, weights, point, frames, met)
     used, seen = used[vertex], seen[:, vertex]
     breathe()
@@ -209,6 +206,15 @@ def _on_whole_triangles(frames: SceneFrames, faces: Faces, met: SceneAndMirrors)
         return frames, faces
     source, column = distinct(met.sources(frames.triangle[faces.column]))
     return SceneFrames.of(met, source), replace(faces, column=column)
+
+
+def _weights(frames: SceneFrames, column: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates (3, k) of points (3, k) on triangles of the scene, or of their rims beside them."""
+    weights = frames.weights(column, points)
+    breathe()
+    weights = np.maximum(weights, 0.0)
+    weights /= weights.sum(axis=0)
+    return weights
 
 
 def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, point: np.ndarray, frames: SceneFrames,

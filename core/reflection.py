@@ -62,8 +62,7 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
     Raises
     ------
     ReflectionError
-        Where the mirror or the scene is empty, the mirror is not in the picture, or the eye lies on it; or where so
-        much lies over one another that the settings' `maximum_faces` is exceeded many times over.
+        Where the mirror or the scene is empty, the mirror is not in the picture, or the eye lies on it.
 
     Examples
     --------

@@ -26,7 +26,8 @@ ROWS = ("sample", "vertices", "faces", "median px", "p95 px", "p99 px", "max px"
 def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("scenes", nargs="*", help="NAME:DEPTH follows more than one bounce", default=[
-        "sphere", "flat_mirror", "cylinder", "water", "bowl", "suzanne", "mirrors", "mirrors:2"])
+        "sphere", "flat_mirror", "cylinder", "water", "bowl", "suzanne", "mirrors", "mirrors:2", "room", "bathroom",
+        "pond"])
     parser.add_argument("--tolerance", type=float, default=0.5)
     parser.add_argument("--placement", default="LAYERED")
     parser.add_argument("--runs", type=int, default=3)

@@ -22,6 +22,8 @@ from .write_results import Manners, Outcome, write_results
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
 IN_OBJECT_MODE = "Reflections are generated in Object Mode: leave the present mode first."
+SEES_NONE = ("The camera sees none of the reflected objects in this mirror; move the camera, the mirror or the "
+             "objects.")
 # what whoever presses a button gets unless it is set otherwise
 FOR_THE_EYE = ("preview", "collect", "select_alone")
 
@@ -74,8 +76,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             refused.append(f"{mirror.name}: {error}")
             continue
         if not len(result.positions):
-            refused.append(f"{mirror.name}: The camera sees none of the reflected objects in this mirror; move the "
-                           "camera, the mirror or the objects.")
+            refused.append(f"{mirror.name}: {SEES_NONE}")
             unseen += 1
             continue
         remarks += shortcomings(mirror.name, result)

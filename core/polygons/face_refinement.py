@@ -107,13 +107,10 @@ class FaceRefinement:
         breathe()
         worth = np.zeros(len(ends), dtype=bool)
         worth[edge[~self.beyond[faces.camera]]] = True
-        (right, up), (other_right, other_up) = (columns(pixels.T, end) for end in (a, b))
-        for one, other, size in ((right, other_right, self._view.resolution[0]),
-                                 (up, other_up, self._view.resolution[1])):
-            worth[open_] &= ~((np.maximum(one, other) < -MARGIN) | (np.minimum(one, other) > size + MARGIN))
+        worth[open_] &= self._in_picture(pixels, a, b)
         breathe()
         drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
-        length = np.sqrt((right - other_right)**2 + (up - other_up)**2)
+        length = np.sqrt(((columns(pixels.T, a) - columns(pixels.T, b))**2).sum(axis=0))
         # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight
         outline = np.zeros(len(ends), dtype=bool)
         outline[edge[faces.on_scene_edge]] = True
@@ -136,6 +133,15 @@ class FaceRefinement:
         marked[open_] = chosen
         place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]
         return marked, np.stack((straying, length)), chosen, (ends, edge, marked, (place, point, distance))
+
+    def _in_picture(self, pixels: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        """Which edges from nodes `a` to `b` (e,), at `pixels` (n, 2), are not all beside the picture."""
+        inside = np.ones(len(a), dtype=bool)
+        for place, size in zip(pixels.T, self._view.resolution):
+            one, other = place[a], place[b]
+            inside &= ~((np.maximum(one, other) < -MARGIN) | (np.minimum(one, other) > size + MARGIN))
+        breathe()
+        return inside
 
     def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Where on the mirror the middle of a drawn edge is seen."""

@@ -31,7 +31,8 @@ class Settings:
         How many bounces from mirror to mirror are followed; 1 for a single reflection. Larger than what there is to see
         costs nothing.
     maximum_faces : int
-        Refinement stops here and the result says so.
+        About how many there may be: refinement stops here, and what would take more is shown by rays, as where the
+        memory holds no more. The result says so.
     maximum_memory : float
         Gigabytes of arrays. What would need more is worked out more coarsely or refused, and the result says so;
         infinite for no bound.

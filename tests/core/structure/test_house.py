@@ -1,0 +1,82 @@
+"""How the house stands: one direction of flow, floors with one door each, no crooked rooms. Only the source is read."""
+import ast
+from collections import defaultdict
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[3]
+FILES = sorted(path for house in ("core", "addon") for path in (ROOT / house).rglob("*.py"))
+LINES, PARAMETERS = 50, 6
+
+
+@cache
+def tree_of(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+def imported(path: Path) -> list[tuple[str, ...]]:
+    """The modules that a file imports, as parts of their names: relative ones from the project's root."""
+    package, found = path.relative_to(ROOT).parts[:-1], []
+    for node in ast.walk(tree_of(path)):
+        if isinstance(node, ast.Import):
+            found += [tuple(name.name.split(".")) for name in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            base = package[:len(package) - node.level + 1] if node.level else ()
+            module = base + tuple(node.module.split(".") if node.module else ())
+            found += [module] if node.module else [(*module, name.name) for name in node.names]
+    return found
+
+
+def floor(parts: tuple[str, ...]) -> str:
+    """The package of a house that a module lies in; the house itself for rooms beside its door."""
+    return parts[1] if len(parts) > 1 and (ROOT / parts[0] / parts[1]).is_dir() else ""
+
+
+def test_the_core_knows_of_no_blender():
+    inside = [path for path in FILES if path.is_relative_to(ROOT / "core")]
+    assert len(inside) > 100
+    assert not [(path.name, module) for path in inside for module in imported(path)
+                if module[0] in ("bpy", "mathutils", "addon")]
+
+
+@pytest.mark.parametrize("house", ["core", "addon"])
+def test_no_arrow_runs_back_up(house):
+    stands_on = defaultdict(set)
+    for path in FILES:
+        own = path.relative_to(ROOT).parts
+        if own[0] == house and floor(own):
+            stands_on[floor(own)] |= {floor(module) for module in imported(path)
+                                      if module[0] == house and floor(module) not in ("", floor(own))}
+    left = dict(stands_on)
+    while ready := [name for name, below in left.items() if not below & left.keys()]:
+        for name in ready:
+            del left[name]
+    assert not left
+
+
+def test_floors_of_the_core_are_entered_by_their_door():
+    beside = []
+    for path in FILES:
+        own = path.relative_to(ROOT).parts
+        for module in imported(path):
+            # what has rooms itself is a floor of its own
+            if own[0] == module[0] == "core" and floor(module) not in ("", floor(own)) and len(module) > 2 \
+                    and not ROOT.joinpath(*module).is_dir():
+                beside.append(("/".join(own), ".".join(module)))
+    assert not beside
+
+
+def test_no_function_is_long_or_asks_for_much():
+    found = []
+    for path in FILES:
+        for node in ast.walk(tree_of(path)):
+            if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+                told = ast.get_docstring(node) is not None and len(node.body) > 1
+                lines = node.end_lineno - (node.body[1] if told else node).lineno + 1
+                asked = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+                count = len(asked) - (bool(asked) and asked[0].arg in ("self", "cls"))
+                if lines > LINES or count > PARAMETERS:
+                    found.append((path.relative_to(ROOT).as_posix(), node.name, lines, count))
+    assert not found
