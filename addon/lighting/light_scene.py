@@ -13,7 +13,7 @@ from .. import compat
 from ..faults import still_there
 from ..reading import is_opaque, materials_of
 from ..reading.materials import is_exact
-from ..rendering import copied_scene, denoise, look_through, put_swift_world, rendered
+from ..rendering import copied_scene, crop_to, denoise, look_through, put_swift_world, rendered
 from .cutting import cut_through
 from .picture_layout import shining_slots
 from .window import Window
@@ -156,10 +156,8 @@ def _prepare(scene: bpy.types.Scene, window: Window) -> None:
     for name in ("use_compositing", "use_sequencer", "use_motion_blur", "use_freestyle", "use_multiview", "use_stamp",
                  "film_transparent"):
         setattr(render, name, False)
-    width, height = window.size
-    render.use_border = render.use_crop_to_border = True
-    render.border_min_x, render.border_max_x = window.column / width, (window.column + window.width) / width
-    render.border_min_y, render.border_max_y = window.row / height, (window.row + window.height) / height
+    low = window.column, window.row
+    crop_to(render, low, (low[0] + window.width, low[1] + window.height), window.size)
     cycles.film_exposure, cycles.film_transparent_glass = 1.0, False
 
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import bpy
@@ -13,6 +13,7 @@ from ..files import has_room, is_whole, scratch_folder, scratch_is_full
 from ..reading import render_size
 
 SLOT = "Reflection Comparison"
+INSIDE = 0.5  # pixels from a border of a part: Blender rounds down, and would where rounding left a pixel's side below
 
 
 def with_cycles(scene: bpy.types.Scene) -> None:
@@ -44,6 +45,14 @@ def denoise(cycles: bpy.types.PropertyGroup, prefilter: str = "ACCURATE") -> Non
     except TypeError:
         # Linux distributions build Blender without it: then the light has the noise of its samples
         cycles.use_denoising = False
+
+
+def crop_to(render: bpy.types.RenderSettings, low: Sequence[int], high: Sequence[int], size: Sequence[int]) -> None:
+    """Let a part of a picture of `size` pixels be rendered alone: from columns and rows `low` to those before `high`,
+    counted from the lower left corner."""
+    render.use_border = render.use_crop_to_border = True
+    render.border_min_x, render.border_min_y = ((start + INSIDE) / count for start, count in zip(low, size))
+    render.border_max_x, render.border_max_y = (min((end + INSIDE) / count, 1.0) for end, count in zip(high, size))
 
 
 def rendered(scene: bpy.types.Scene) -> np.ndarray:

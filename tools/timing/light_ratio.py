@@ -80,16 +80,15 @@ def _render(scene, window, samples: int, denoise: Callable | None = None) -> flo
     """Processor seconds of a render of the window as the file has it, with what makes its settings denoise, or without
     denoising."""
     import bpy
+    from bl_ext.user_default.reflection_mesh.addon.rendering import crop_to
     copy = scene.copy()
     try:
         copy.cycles.samples, copy.cycles.use_denoising = samples, False
         if denoise is not None:
             denoise(copy.cycles)
-        render, (width, height) = copy.render, window.size
-        render.engine = "CYCLES"
-        render.use_border = render.use_crop_to_border = True
-        render.border_min_x, render.border_max_x = window.column / width, (window.column + window.width) / width
-        render.border_min_y, render.border_max_y = window.row / height, (window.row + window.height) / height
+        copy.render.engine = "CYCLES"
+        low = window.column, window.row
+        crop_to(copy.render, low, (low[0] + window.width, low[1] + window.height), window.size)
         begun = time.process_time()
         bpy.ops.render.render(scene=copy.name)
         return time.process_time() - begun

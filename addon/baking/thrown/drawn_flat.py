@@ -11,7 +11,7 @@ from mathutils import Matrix
 from ... import compat
 from ...faults import still_there
 from ...illumination import light_alone
-from ...rendering import copied_scene, look_through, rendered
+from ...rendering import copied_scene, crop_to, look_through, rendered
 from ...writing import MeshArrays, write_mesh
 
 NAME = "Thrown Light"
@@ -78,9 +78,8 @@ def _look_at(scene: bpy.types.Scene, low: np.ndarray, high: np.ndarray, side: in
         setattr(render, name, False)
     render.resolution_x = render.resolution_y = side
     render.resolution_percentage, render.pixel_aspect_x, render.pixel_aspect_y = 100, 1.0, 1.0
-    render.use_border = render.use_crop_to_border = render.film_transparent = True
-    render.border_min_x, render.border_min_y = (low / side).tolist()
-    render.border_max_x, render.border_max_y = (high / side).tolist()
+    render.film_transparent = True
+    crop_to(render, low.tolist(), high.tolist(), (side, side))
     cycles.film_exposure, cycles.samples, cycles.pixel_filter_type, cycles.filter_width = 1.0, SAMPLES, "BOX", 1.0
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.max_bounces, cycles.transparent_max_bounces = 0, LAYERS
