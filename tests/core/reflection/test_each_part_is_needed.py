@@ -15,16 +15,21 @@ import core.bounce
 import core.filling.square_cells
 import core.reflection
 from core import PointTree, Settings, TriangleMesh, View, reflect
-from core.cameras import Cameras
+from core.cameras import Cameras, picture_areas
 from core.culling import SceneAndMirrors
 from core.filling import Crowds
 from core.filling.crowds import Filled
 from core.filling.whole_squares import Holders
 from core.points.beams import Beams
 from core.polygons import FaceRefinement, Overlaps
-from core.trees import Magnification
+from core.trees import Bound, Magnification
 from core.visibility.mirror_visibility import DepthGrid
+from core.whole_faces import seams
+from core.whole_faces.division import Division
+from core.whole_faces.layers import Layers
+from core.whole_faces.sinking import Sinking
 from tests.inputs import shapes
+from tests.inputs.dense_scenes import dense, knots_in_a_ball
 from tests.oracles.judge import judge
 from tests.oracles.raster import rasterise
 from tests.oracles.true_map import case_of
@@ -33,6 +38,7 @@ from tests.oracles.truth_bounces import trace_bounces
 pytestmark = pytest.mark.slow
 
 BOUNCE, REFLECTION = core.bounce, core.reflection
+HIDDEN_AND_CLOSE = Layers.hidden_and_close
 BALLS = shapes.combine(shapes.icosphere((0.0, 0.0, 1.0), 0.8, 3), shapes.icosphere((0.5, -1.5, 1.0), 0.3, 3))
 FLOOR = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (3.0, 0.0, 0.0), (0.0, 3.0, 0.0)))
 BOXES = shapes.combine(*(shapes.box((x, y, 0.3), (0.4, 0.4, 1.0), 0.3) for x in (-0.8, 0.0, 0.8) for y in (-0.8, 0.6)))
@@ -40,6 +46,7 @@ ROOM = shapes.combine(shapes.box((0.0, 4.0, 2.0), (9.0, 1.0, 6.0)), shapes.box((
                       shapes.box((-4.0, 0.0, 2.0), (1.0, 9.0, 6.0)), shapes.box((4.0, 0.0, 2.0), (1.0, 9.0, 6.0)))
 WIDE_FLOOR = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (30.0, 0.0, 0.0), (0.0, 30.0, 0.0)))
 FINE_BALL = shapes.combine(shapes.icosphere((0.0, 0.0, 1.0), 0.8, 5))
+CROWD = shapes.combine(*(shapes.icosphere((x, -1.5, z), 0.15, 4) for x in (-0.6, 0.0, 0.6) for z in (0.5, 1.0, 1.6)))
 SMALL = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (192, 192), field_of_view=0.5)
 RAYS = {"maximum_memory": 1e-4}  # holds hardly a candidate, and leaves everything to rays
 ALL = {"hidden_faces": True}  # so that no ray shows what would be cut
@@ -76,6 +83,11 @@ def nobody_hidden(cameras: Cameras) -> tuple[Cameras, DepthGrid]:
     return cameras, DepthGrid.of(cameras)[0]
 
 
+def only_hidden(self: Layers, *given: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    hidden, close = HIDDEN_AND_CLOSE(self, *given)
+    return hidden, np.zeros_like(close)
+
+
 PARTS = {
     "refinement of the mirror": Part(BOUNCE, "refine_mirror", lambda cameras, *_: (cameras, 0), "coarse ball",
                                      "uncovered"),
@@ -106,6 +118,15 @@ PARTS = {
         cells, np.arange(len(cells))), (SMALL, BALLS, ROOM), "maximum", settings=RAYS),
     "what hides what rays show": Part(SceneAndMirrors, "hidden_within", lambda self, origin, ray, reach: np.zeros(
         len(reach), dtype=bool), (VIEW, FLOOR, BOXES), "uncovered", above=0.1, settings=RAYS),
+    "sinking faces": Part(Sinking, "too_deep", lambda self, patch, images, a, b: np.zeros(len(a), dtype=bool),
+                          "dense sphere_ortho", "uncovered", 10.0),
+    "layers that are close": Part(Layers, "hidden_and_close", only_hidden, "dense sphere", "uncovered", 5.0),
+    "the middles of whole faces": Part(Division, "strays_inside", lambda self, images, nodes: np.zeros(
+        nodes.shape[1], dtype=bool), "knots", "p99", 1.05),
+    "seams": Part(seams, "_on_edges", lambda *_: (np.zeros(0, dtype=np.int64),) * 2 + (np.zeros(0),), "dense sphere",
+                  "uncovered", 5.0),
+    "cameras that are full": Part(Crowds, "bound", lambda self, cameras: Bound(
+        self.limits.pairs, picture_areas(cameras)), (VIEW, BALLS, CROWD), "pairs"),
     "work beside the origin": Part(REFLECTION, "far_corner", lambda mirror: None, "far away", "maximum"),
     "images smaller than a pixel": Part(Magnification, "pixels", lambda self, cones, camera, sphere: np.full(
         len(camera), np.inf), "dust", "images", 10.0, settings={"method": "POINTS"}),
@@ -117,6 +138,9 @@ PARTS = {
 def scene_of(part: Part) -> tuple[View, TriangleMesh, TriangleMesh | PointTree]:
     if isinstance(part.scene, tuple):
         return part.scene
+    if part.scene.startswith("dense") or part.scene == "knots":
+        case = knots_in_a_ball() if part.scene == "knots" else dense(part.scene.split()[1], (256, 256), 0.24)
+        return case.view, case.mirror, case.scene
     sphere = case_of("sphere")
     if part.scene == "coarse ball":
         return sphere.view, shapes.combine(shapes.icosphere((0.0, 0.0, 1.3), 1.0, 1)), sphere.scene
