@@ -22,7 +22,8 @@ def cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, size: float,
     """Cells of crowded cameras, in those squares of `size` pixels that are not whole, that show something, the triangle
     (m,) that each shows, and how many rays were traced for it."""
     cells, square, places = _cells(cameras, size, squares)
-    first, group = groups(*square)
+    # a square may begin before the picture, where it has the number -1
+    first, group = groups(*(square - square.min(axis=1, keepdims=True, initial=0)))
     triangle = shown_triangles(met, cells.select(first), places[:, first])[group]
     middles = first_side(size) + (square[:, first].T + 0.5 + ASIDE) * size
     cells, cell = _round_middles(cells, first, middles)
