@@ -3,7 +3,7 @@ from .caustics import CausticMesh, Lamp, caustic_steps, caustics
 from .following import FollowedImages
 from .geometry import TriangleMesh
 from .reflection import ReflectionError, reflect, reflection_steps
-from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
+from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals, with_borders_closed
 from .solver import Images, project
 from .standing import Standing
 from .support import METHODS, PLACEMENTS, NothingInView, Settings, breathe, in_steps
@@ -13,4 +13,4 @@ from .views import View, draw
 __all__ = ["CausticMesh", "Discs", "FollowedImages", "Images", "Lamp", "METHODS", "NothingInView", "PLACEMENTS",
            "PicturePieces", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "Standing",
            "TriangleMesh", "View", "breathe", "caustic_steps", "caustics", "draw", "in_steps", "picture_pieces",
-           "project", "reflect", "reflecting_normals", "reflection_steps"]
+           "project", "reflect", "reflecting_normals", "reflection_steps", "with_borders_closed"]

@@ -10,6 +10,7 @@ import numpy as np
 from ...core import FollowedImages, ReflectionMesh, TriangleMesh, View
 from ...core.following import Followed
 from ..freshness import COARSE
+from ..reading import DiffuseScene
 from ..writing import vertices_written
 
 ATTRIBUTES = ("reflected_position", "mirror_position", "path_length")
@@ -67,17 +68,17 @@ class Track:
         return self.shown.mirror
 
     @classmethod
-    def of(cls, shown: Written, result: ReflectionMesh, view: View, mirror: TriangleMesh, scene: TriangleMesh
+    def of(cls, shown: Written, result: ReflectionMesh, view: View, mirror: TriangleMesh, scene: DiffuseScene
            ) -> Track | None:
         """The way of a result that was written just now; None where it cannot be followed: it shows mirrors in mirrors,
         or points. Works on arrays alone."""
         if result.discs is not None or (result.bounces > 1).any():
             return None
-        result, origin = vertices_written(result, mirror, view)
+        result, origin = vertices_written(result, mirror, view, scene)
         if any(len(result.positions) != count for count in shown.vertices):
             return None
         images = FollowedImages.of(view, mirror, result)
-        return cls(shown, origin, images, (len(mirror.triangles), len(scene.triangles)))
+        return cls(shown, origin, images, (len(mirror.triangles), len(scene.mesh.triangles)))
 
     def fits(self, objects: dict, mirror: TriangleMesh, scene: TriangleMesh) -> bool:
         """Whether the results, by their `session_uid`, are still those that were written, and what they show has not

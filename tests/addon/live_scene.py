@@ -34,7 +34,7 @@ class Clock:
         """Until nothing is left to do."""
         done = self.run(PAUSE)
         for _ in range(200):
-            if self.updater.at_rest:
+            if self.updater.at_rest and not self.updater.following.is_under_way:
                 break
             done += self.run(PAUSE)
         assert self.updater.at_rest

@@ -17,6 +17,9 @@ from drawn_lines import (
     seen_at,
     smooth,
 )
+from mathutils import Vector
+from mathutils.bvhtree import BVHTree
+from mathutils.interpolate import poly_3d_calc
 
 
 @pytest.fixture
@@ -83,6 +86,56 @@ def test_a_floor_has_no_lines_but_its_outline(blank):
     assert len(places) > 3000
     assert ((np.cross(a - b, b - c) * (eye - a)).sum(axis=1) > 0.0).all()
     assert line_art(result, "crease", "intersection", "edge_mark") == []
+
+
+def shows_floor(mirror: bpy.types.Object, spots: np.ndarray) -> np.ndarray:
+    """Whether a mirror shows, at spots (n, 2) of the picture, a floor of 14 x 14 at a height of 0: by rays."""
+    depsgraph, scene = bpy.context.evaluated_depsgraph_get(), bpy.context.scene
+    mesh, turn = mirror.data, np.array(mirror.matrix_world)[:3, :3]
+    mesh.calc_loop_triangles()
+    faces = [[(mesh.vertices[vertex].co, mesh.vertices[vertex].normal) for vertex in face.vertices]
+             for face in mesh.loop_triangles]
+    tree = BVHTree.FromPolygons([corner for face in faces for corner, _ in face],
+                                np.arange(3 * len(faces)).reshape(-1, 3).tolist())
+    into, eye = mirror.matrix_world.inverted(), scene.camera.matrix_world.translation
+    size = (scene.render.resolution_x, scene.render.resolution_y)
+    back = (scene.camera.calc_matrix_camera(depsgraph, x=size[0], y=size[1])
+            @ scene.camera.matrix_world.inverted()).inverted()
+    found = []
+    for spot in spots:
+        ahead = back @ Vector((*(2.0 * spot / size - 1.0), 1.0, 1.0))
+        way = (ahead.xyz / ahead.w - eye).normalized()
+        place, _, face, _ = tree.ray_cast(into @ eye, into.to_3x3() @ way)
+        if place is None:
+            found.append(False)
+            continue
+        weights = poly_3d_calc([corner for corner, _ in faces[face]], place)
+        normal = Vector(turn @ sum(weight * np.array(own) for weight, (_, own) in zip(weights, faces[face])))
+        on = way.reflect(normal.normalized())
+        again = tree.ray_cast(place + 1e-4 * (into.to_3x3() @ on), into.to_3x3() @ on)[0]
+        start = mirror.matrix_world @ place
+        down = start - (start.z / on.z) * on if on.z < 0.0 else Vector((np.inf, 0.0, 0.0))
+        found.append(again is None and max(abs(down.x), abs(down.y)) < 7.0)
+    return np.array(found)
+
+
+@pytest.mark.parametrize("kind, options", [
+    ("uv_sphere", {"radius": 2.2, "segments": 24, "ring_count": 12, "location": (0.07, 0.6, 2.2)}),
+    ("torus", {"major_radius": 1.6, "minor_radius": 0.7, "major_segments": 96, "minor_segments": 48,
+               "location": (0.0, 0.6, 2.3), "rotation": (1.3, 0.0, 0.0)})])
+def test_within_a_floor_there_are_no_lines(blank, kind, options):
+    """Of a coarse ball, parts of the mirror that show the floor whole and parts that are cut have borders of their own,
+    and so have cells that rays show in a ring."""
+    camera = blank.scene.camera
+    camera.location, camera.rotation_euler, camera.data.lens = (0.0, -9.0, 4.4), (1.26, 0.0, 0.0), 54.0
+    blank.scene.render.resolution_x = blank.scene.render.resolution_y = 400
+    floor, mirror = parts.add("plane", "Floor", size=14.0), parts.add(kind, "Mirror", **options)
+    smooth(mirror)
+    parts.select(floor, mirror)
+    points = dense(line_art(parts.generate()))
+    beside = np.array([[x, y] for x in (-2.5, 0.0, 2.5) for y in (-2.5, 0.0, 2.5) if x or y])
+    within = shows_floor(mirror, (points[::4, None] + beside).reshape(-1, 2)).reshape(-1, len(beside)).all(axis=1)
+    assert len(within) > 500 and within.mean() < 0.01
 
 
 def test_line_art_draws_the_silhouette_of_a_ball(blank):
