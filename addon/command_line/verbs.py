@@ -16,7 +16,7 @@ from ..illumination import chosen_lamps
 from ..operators.caustics import Asked, throwing
 from ..operators.clear import chosen_results
 from ..operators.generate import generation
-from ..operators.light import gloss_from_elsewhere, lighting_groups
+from ..operators.light import lighting_groups, unlike_the_mirror
 from ..operators.light import summary as lighting_summary
 from ..operators.mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
 from ..operators.print_sheet import DPI, check_print, printing
@@ -186,7 +186,7 @@ def _lit(context: bpy.types.Context, results: list, samples: int | None, kind: s
     started = time.perf_counter()
     wanted = Wanted(context.scene, given(argparse.Namespace(), light_samples=samples, light_kind=kind))
     lit = announced(lighting_groups(context, wanted.lights(with_copies(context, results)), every))
-    return "\n".join([*gloss_from_elsewhere(lit), lighting_summary(lit, time.perf_counter() - started)])
+    return "\n".join([*unlike_the_mirror(lit), lighting_summary(lit, time.perf_counter() - started)])
 
 
 def _path_to_save(options: argparse.Namespace) -> str:

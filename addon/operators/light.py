@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, View
-from ..baking import KeptMap, are_few, baked, can_be_baked, kept_map, vectors
+from ..baking import KeptMap, are_few, baked, can_be_baked, kept_map, random_by_island, vectors
 from ..faults import AllOrNothing, SteppedOperator, Steps, Undivided, part, tell
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
@@ -231,13 +231,19 @@ def _mirror_material(result: bpy.types.Object) -> bpy.types.Material | None:
     return None if reflecting is None or is_plain(reflecting) else reflecting
 
 
-def gloss_from_elsewhere(lit: list) -> list[str]:
-    """A sentence on the objects whose gloss `lit` do not show as it is, if there are any."""
-    names = sorted({name for result in lit for name in dull_objects(result)})
+def unlike_the_mirror(lit: list) -> list[str]:
+    """Sentences on the objects that `lit` show otherwise than their mirrors do, if there are any."""
+    dull = sorted({name for result in lit for name in dull_objects(result)})
+    random = random_by_island([result for result in lit if result.reflection_mesh.light_map is not None])
+    return ([f"The gloss of {_listed(dull)} is not what so close a curved mirror shows: choose Light: Picture for a "
+             f"still."] * bool(dull)
+            + [f"What is random by island on {_listed(random)} is so in other colours: choose Light: Picture for its "
+               f"own."] * bool(random))
+
+
+def _listed(names: list[str]) -> str:
     more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
-    listed = ", ".join(f"'{name}'" for name in names[:NAMED]) + more
-    return [f"The gloss of {listed} is not what so close a curved mirror shows: choose Light: Picture for a still."
-            ] * bool(names)
+    return ", ".join(f"'{name}'" for name in names[:NAMED]) + more
 
 
 def summary(lit: list, seconds: float) -> str:
@@ -277,7 +283,7 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
             for group, _, kind in lights)
         self.show_used(wanted, [result.reflection_mesh.mirror for result in results])
         # what is told last stays in the status bar
-        for sentence in [summary(lit, time.perf_counter() - started), *advice, *gloss_from_elsewhere(lit)]:
+        for sentence in [summary(lit, time.perf_counter() - started), *advice, *unlike_the_mirror(lit)]:
             tell(self, {"INFO"}, sentence)
 
 

@@ -245,3 +245,17 @@ def test_long_strips_take_the_room_that_they_have(room):
     finally:
         tracemalloc.stop()
     assert known.sum() == pytest.approx(12 * 0.5 * 2000 * 3, rel=0.02) and (large[known] == 1.0).all()
+
+
+@pytest.mark.parametrize(("output", "kind", "told"), [("Random Per Island", "OBJECTS", True),
+                                                      ("Random Per Island", "PICTURE", False),
+                                                      ("Pointiness", "OBJECTS", False)])
+def test_where_islands_have_other_colours_that_is_said(blank, capsys, output, kind, told):
+    """Islands are random by how a mesh is numbered, and what is baked is numbered otherwise."""
+    ball_scene(blank)
+    tree = bpy.data.objects["Floor"].active_material.node_tree
+    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    tree.links.new(tree.nodes.new("ShaderNodeNewGeometry").outputs[output], shader.inputs["Base Color"])
+    parts.generate()
+    assert bpy.ops.reflection_mesh.light("EXEC_DEFAULT", samples=1, kind=kind) == {"FINISHED"}
+    assert ("What is random by island on 'Floor' is so in other colours" in capsys.readouterr().out) == told
