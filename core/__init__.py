@@ -2,8 +2,9 @@
 from .caustics import CausticMesh, Lamp, caustic_steps, caustics
 from .following import FollowedImages
 from .geometry import TriangleMesh
+from .lines import with_borders_closed
 from .reflection import ReflectionError, reflect, reflection_steps
-from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals, with_borders_closed
+from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
 from .solver import Images, project
 from .standing import Standing
 from .support import METHODS, PLACEMENTS, NothingInView, Settings, breathe, in_steps

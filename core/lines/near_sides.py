@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import groups, ranges, shares
+from ..geometry import groups, in_order, ranges, shares
 from ..support import breathe
 
 BESIDE = 0.05  # pixels: a spot that is no farther from a line lies on it
@@ -20,15 +20,19 @@ def lengths(ways: np.ndarray) -> np.ndarray:
 
 def beside(spots: np.ndarray, start: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Which of the spots (n, 2) lie on which of the lines from `start` to `end` (m, 2), and how far along them."""
-    if not len(spots):
+    if not (len(spots) and len(start)):
         return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0)
     low = spots.min(axis=0) - 2.0 * CELL
     own = np.floor((spots - low) / CELL).astype(np.int64)
     width = int(own[:, 0].max()) + 3
     key = own[:, 1] * width + own[:, 0]
-    order = np.argsort(key, kind="stable")
+    order = in_order(key)
     key = key[order]
     line, cell = _crossed(start, end, low)
+    way = end - start
+    length = np.maximum(lengths(way), 1e-300)
+    lines = (*start.T.copy(), *(way.T / length), length)
+    places = spots.T.copy()
     found = []
     for row in (-1, 0, 1):
         middle = (cell[:, 1] + row) * width + cell[:, 0]
@@ -37,7 +41,7 @@ def beside(spots: np.ndarray, start: np.ndarray, end: np.ndarray) -> tuple[np.nd
         for part in shares(count, AT_ONCE):
             index, run = ranges(first[part], count[part])
             breathe()
-            found.append(_near(spots, start, end, order[index], line[part][run]))
+            found.append(_near(places, lines, order[index], line[part][run]))
     spot, line, along = (np.concatenate(part) for part in zip(*found, strict=True))
     some, _ = groups(spot, line)
     return spot[some], line[some], along[some]
@@ -56,12 +60,14 @@ def _crossed(start: np.ndarray, end: np.ndarray, low: np.ndarray) -> tuple[np.nd
     return line[new], cell[new]
 
 
-def _near(spots: np.ndarray, start: np.ndarray, end: np.ndarray, spot: np.ndarray,
+def _near(spots: np.ndarray, lines: tuple, spot: np.ndarray,
           line: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of pairs (k,) of a spot and a line those that lie together, and how far along."""
-    way, offset = end[line] - start[line], spots[spot] - start[line]
-    length = np.maximum(lengths(way), 1e-300)
-    along = (offset * way).sum(axis=1) / length
-    across = np.abs(offset[:, 0] * way[:, 1] - offset[:, 1] * way[:, 0]) / length
-    near = np.flatnonzero((across <= BESIDE) & (along >= 0.0) & (along <= length))
+    """Which pairs (k,) of one of the spots (2, n) and one of the lines, of which start, unit way and length are told,
+    lie together, and how far along."""
+    start_x, start_y, way_x, way_y, length = lines
+    right, up = spots[0][spot] - start_x[line], spots[1][spot] - start_y[line]
+    near = np.flatnonzero(np.abs(right * way_y[line] - up * way_x[line]) <= BESIDE)
+    right, up, spot, line = right[near], up[near], spot[near], line[near]
+    along = right * way_x[line] + up * way_y[line]
+    near = np.flatnonzero((along >= 0.0) & (along <= length[line]))
     return spot[near], line[near], along[near]

@@ -1,0 +1,89 @@
+"""Faces split where a vertex of another face, which shows the same surface, lies on one of their sides."""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..geometry import dot, doubled_areas, edge_lengths, in_order, ranges
+from ..result import ReflectionMesh
+from .borders import Borders
+from .joined_places import SAME, of_faces
+from .near_sides import beside, lengths
+from .surfaces import Surfaces
+
+THIN = 5e-4  # pixels: parts of faces are wider, which single precision does not turn over
+
+
+def with_sides_split(mesh: ReflectionMesh, surfaces: Surfaces,
+                     among: np.ndarray) -> tuple[ReflectionMesh, np.ndarray]:
+    """The result with those faces `among` (m,) bool split at the vertices that lie on one of their sides, but for those
+    of which parts would have no width; and which of its faces may have to be split on."""
+    parent, side, vertex = _on_sides(mesh, surfaces, among)
+    new = np.diff(parent, prepend=-1) != 0
+    first, count = np.flatnonzero(new), np.diff(np.append(np.flatnonzero(new), len(parent)))
+    parent, side = parent[first], side[first]
+    corners = mesh.triangles[parent[:, None], (side[:, None] + np.arange(3)) % 3]
+    # from the side's start to each of the vertices, and on to its end: a part of the face each
+    part, run = ranges(np.zeros(len(first), dtype=np.int64), count + 1)
+    before = np.where(part == 0, corners[run, 0], vertex[np.maximum(first[run] + part - 1, 0)])
+    after = np.where(part == count[run], corners[run, 1], vertex[np.minimum(first[run] + part, len(vertex) - 1)])
+    triangles = np.column_stack((before, after, corners[run, 2]))
+    spots = surfaces.pixels[triangles]
+    turned = np.sign(doubled_areas(surfaces.pixels[corners]))[run]
+    height = turned * doubled_areas(spots) / edge_lengths(spots).max(axis=1)
+    right = np.bincount(run[~(height > THIN)], minlength=len(first)) == 0
+    if not right.any():
+        return mesh, np.zeros_like(among)
+    run, triangles = run[right[run]], triangles[right[run]]
+    rest = np.ones(len(mesh.triangles), dtype=bool)
+    rest[parent[right]] = False
+    kept = np.concatenate((np.flatnonzero(rest), parent[run]))
+    order = in_order(kept)
+    arrays = of_faces(mesh, kept[order])
+    arrays["source_weights"] = np.concatenate(
+        (mesh.source_weights[rest], _weights(mesh, parent[run], side[run], triangles)))[order]
+    # what was not split may be on another side
+    again = np.zeros(len(mesh.triangles), dtype=bool)
+    again[parent[~right]] = True
+    waiting = np.concatenate((again[rest], np.ones(len(run), dtype=bool)))
+    split = replace(mesh, triangles=np.concatenate((mesh.triangles[rest], triangles))[order], **arrays)
+    return split, waiting[order]
+
+
+def _on_sides(mesh: ReflectionMesh, surfaces: Surfaces, among: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of faces `among` (m,) bool those (k,), in order, with vertices on a side, one side of each, and these vertices
+    from its start to its end: ends of borders of other faces, which show the surface going on."""
+    borders, pixels = Borders.of(mesh.triangles, surfaces.pixels), surfaces.pixels
+    vertex, holder = borders.ends()
+    borders = borders.of_faces(among)
+    row, line, along = beside(pixels[vertex], pixels[borders.start], pixels[borders.end])
+    length = lengths(pixels[borders.end] - pixels[borders.start])
+    inner = np.flatnonzero((along > SAME) & (along < length[line] - SAME))
+    row, line, along = row[inner], line[inner], along[inner]
+    inner = np.flatnonzero((mesh.triangles[borders.face[line]] != vertex[row, None]).all(axis=1))
+    row, line, along = row[inner], line[inner], along[inner]
+    vertex, holder, face, side = vertex[row], holder[row], borders.face[line], borders.side[line]
+    on = np.flatnonzero(surfaces.goes_on(mesh, (holder, face), (vertex, borders.start[line], borders.end[line])))
+    vertex, face, side, along = vertex[on], face[on], side[on], along[on]
+    order = np.lexsort((vertex, along, side, face))
+    vertex, face, side = vertex[order], face[order], side[order]
+    new = np.diff(face, prepend=-1) != 0
+    # of each face the side of its first vertex, and no vertex twice
+    own = (side == side[new][np.cumsum(new) - 1]) & (new | (np.diff(vertex, prepend=-1) != 0))
+    return face[own], side[own], vertex[own]
+
+
+def _weights(mesh: ReflectionMesh, parent: np.ndarray, side: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates (k, 3, 3) of the corners of parts of faces, in the source triangles of these; their first
+    two corners lie on a side."""
+    start, end = mesh.triangles[parent, side], mesh.triangles[parent, (side + 1) % 3]
+    own = mesh.source_weights[parent[:, None], (side[:, None] + np.arange(3)) % 3]
+    origin = mesh.reflected_position[start].T
+    way = mesh.reflected_position[end].T - origin
+    found = own.copy()
+    for corner in (0, 1):
+        offset = mesh.reflected_position[triangles[:, corner]].T - origin
+        share = np.clip(dot(offset, way) / np.maximum(dot(way, way), 1e-300), 0.0, 1.0)[:, None]
+        found[:, corner] = own[:, 0] * (1.0 - share) + own[:, 1] * share
+    return found
