@@ -96,6 +96,13 @@ def mark_for_freestyle(mesh: bpy.types.Mesh, domain: str, marks: np.ndarray) -> 
         attribute.data.foreach_set("value", marks)
 
 
+def line_art_of(obj: bpy.types.Object) -> list:
+    """The modifiers of an object that draw Line Art; before Blender 4.3 Grease Pencil had a list of its own."""
+    if bpy.app.version < (4, 3, 0):
+        return [modifier for modifier in obj.grease_pencil_modifiers if modifier.type == "GP_LINEART"]
+    return [modifier for modifier in obj.modifiers if modifier.type == "LINEART"] if obj.type == "GREASEPENCIL" else []
+
+
 def curves_of(data: bpy.types.ID) -> list:
     """The animation curves of what has its own action; in layers since Blender 4.4, and from 5.0 on in no other way."""
     action = data.animation_data.action

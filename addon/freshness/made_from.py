@@ -10,7 +10,7 @@ import numpy as np
 from ...core import ReflectionError, View
 from ..frames import plays
 from ..lighting import shows_preview
-from ..reading import read_view
+from ..reading import lines_drawn, read_view
 from ..settings import SETTINGS, Wanted
 from . import digests
 from .materials import colours_of, materials_of
@@ -24,20 +24,22 @@ _told: dict[int, tuple] = {}
 
 
 class Origin(NamedTuple):
-    """What a result is made from: the numbers of the view, and digests of the mirror, of the sources, of which
-    materials all of these show and of what the materials are made of; None where an earlier version did not tell."""
+    """What a result is made from: the numbers of the view, digests of the mirror, of the sources, of which materials
+    all of these show and of what the materials are made of (None where an earlier version did not tell), and whether
+    lines are drawn."""
 
     view: tuple[float, ...]
     mirror: str
     sources: str
     materials: str | None
     colours: str | None
+    lines: bool
 
 
 def origin_of(depsgraph: bpy.types.Depsgraph, view: View, mirror: bpy.types.Object, sources: list) -> Origin:
     """What a result would be made from now."""
     return Origin(view_numbers(view), digests.digest_of(depsgraph, [mirror]), digests.digest_of(depsgraph, sources),
-                  materials_of([mirror, *sources]), colours_of([mirror, *sources]))
+                  materials_of([mirror, *sources]), colours_of([mirror, *sources]), lines_drawn(depsgraph.scene))
 
 
 def record_of(origin: Origin, settings: dict) -> str:
@@ -111,7 +113,10 @@ def difference(made: Origin, now: Origin) -> str:
         return "the mirror has changed"
     if made.sources != now.sources:
         return "a reflected object has changed"
-    return "materials have been exchanged" if made.materials not in (None, now.materials) else ""
+    if made.materials not in (None, now.materials):
+        return "materials have been exchanged"
+    # the other way round there is nothing that anybody would see
+    return "lines are drawn now" if now.lines and not made.lines else ""
 
 
 def read_record(text: str) -> tuple[Origin, dict] | None:
@@ -120,8 +125,9 @@ def read_record(text: str) -> tuple[Origin, dict] | None:
         return None
     try:
         known = json.loads(text)
-        return Origin(tuple(float(number) for number in known["view"]), str(known["mirror"]), str(known["sources"]),
-                      known.get("materials"), known.get("colours")), dict(known.get("settings") or {})
+        origin = Origin(tuple(float(number) for number in known["view"]), str(known["mirror"]), str(known["sources"]),
+                        known.get("materials"), known.get("colours"), bool(known.get("lines")))
+        return origin, dict(known.get("settings") or {})
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
 

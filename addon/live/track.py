@@ -74,7 +74,7 @@ class Track:
         or points. Works on arrays alone."""
         if result.discs is not None or (result.bounces > 1).any():
             return None
-        result, origin = vertices_written(result, mirror, view, scene)
+        result, origin = vertices_written(result, mirror, view)
         if any(len(result.positions) != count for count in shown.vertices):
             return None
         images = FollowedImages.of(view, mirror, result)

@@ -28,6 +28,8 @@ class Record(NamedTuple):
     members : tuple
         Who takes part, by `session_uid`: the camera, whose results they are; these, copies among them; of each group
         its mirrors and its sources.
+    lines : bool
+        Whether lines are drawn.
     """
 
     view: tuple[float, ...]
@@ -35,11 +37,13 @@ class Record(NamedTuple):
     digests: tuple[tuple[str, ...], ...]
     colours: tuple[str | None, ...]
     members: tuple
+    lines: bool
 
     def same(self, other: Record | None) -> bool:
         """Whether both tell of the same, but for rounding."""
         return (other is not None and self.settings == other.settings and self.digests == other.digests
-                and self.members == other.members and same_view(self.view, other.view)
+                and self.members == other.members and self.lines == other.lines
+                and same_view(self.view, other.view)
                 and not any(one != last for one, last in zip(self.colours, other.colours) if None not in (one, last)))
 
 
@@ -62,9 +66,10 @@ def watched(context: bpy.types.Context, view: View, known: Record | None = None)
                    for group in chosen for mirror in group.mirrors]
         digests = tuple((origin.mirror, origin.sources, origin.materials) for _, origin in origins)
         colours = tuple(origin.colours if mirror in previewed else None for mirror, origin in origins)
+        lines = any(origin.lines for _, origin in origins)
     else:
-        digests, colours = known.digests, known.colours
-    record = Record(view_numbers(view), settings, digests, colours, _members(context, chosen))
+        digests, colours, lines = known.digests, known.colours, known.lines
+    record = Record(view_numbers(view), settings, digests, colours, _members(context, chosen), lines)
     return Watched(view, chosen, record)
 
 

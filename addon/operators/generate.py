@@ -11,10 +11,19 @@ from ... import core
 from ..faults import SteppedOperator, Steps, part, tell_done
 from ..freshness import origin_of, record_of, settings_of
 from ..properties import ATTRIBUTES
-from ..reading import NothingSeen, Participants, choose, is_opaque, read_view
+from ..reading import (
+    DiffuseScene,
+    MirrorSurface,
+    NothingSeen,
+    Participants,
+    choose,
+    is_opaque,
+    lines_drawn,
+    read_view,
+)
 from ..settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
 from ..standing import Kept, Stage
-from ..writing import Reflection, mesh_arrays, point_arrays
+from ..writing import MeshArrays, Reflection, mesh_arrays, point_arrays
 from . import polls
 from .shortcomings import blur_shortcomings, render_shortcomings, shortcomings, window_shortcomings
 from .write_results import Manners, Outcome, write_results
@@ -55,7 +64,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     depsgraph = context.evaluated_depsgraph_get()
     kept = Kept.of(depsgraph)
     meshes = kept.looked_at(depsgraph, chosen.mirrors, chosen.diffuse)
-    sources = chosen.diffuse + chosen.waiting
+    sources, lines = chosen.diffuse + chosen.waiting, lines_drawn(context.scene)
     origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources), settings_of(context.scene, mirror))
                for mirror in chosen.mirrors}
     joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
@@ -80,8 +89,9 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             unseen += 1
             continue
         remarks += shortcomings(mirror.name, result)
-        written = partial(mesh_arrays if result.discs is None else point_arrays, result, scene, surface, view)
-        arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0, f"{mirror.name}: Writing")
+        written = partial(_written, result, scene, surface, view, lines)
+        result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
+                                         f"{mirror.name}: Writing")
         prepared.append(Reflection(mirror, context.scene.camera, sources, result, arrays, view.resolution,
                                    own[index].placement, manners.attributes))
     if not prepared:
@@ -95,6 +105,16 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(outcome.results)
     return replace(outcome, remarks=remarks + outcome.remarks + refused,
                    read=(view, dict(zip(chosen.mirrors, surfaces)), scene))
+
+
+def _written(result: core.ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: core.View,
+             lines: bool) -> tuple[core.ReflectionMesh, MeshArrays]:
+    """A result as it is to be written, and its arrays: where lines are drawn, its faces share vertices."""
+    if result.discs is not None:
+        return result, point_arrays(result, scene, surface, view)
+    if lines:
+        result = core.with_borders_closed(result, view, scene.mesh, scene.source_object)
+    return result, mesh_arrays(result, scene, surface, view)
 
 
 def _trees(stage: Stage, kinds: list) -> Steps[None]:

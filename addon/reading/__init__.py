@@ -1,5 +1,6 @@
 """Blender's data as arrays: who takes part, meshes with their layers, materials, the view."""
 from .known_results import forget_known, known_results, register, unregister
+from .lines import lines_drawn
 from .materials import all_nodes, is_clear, is_mirror, is_opaque, materials_of, materials_shown
 from .meshes import (
     SURFACES,
@@ -36,7 +37,7 @@ from .roles import (
 __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
            "Placed", "RESULTS", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
            "every_result_of", "forget_known", "has_linked_results", "in_background_set", "is_clear", "is_mirror",
-           "is_opaque", "join_mirror", "join_scene", "known_results", "materials_of", "materials_shown",
+           "is_opaque", "join_mirror", "join_scene", "known_results", "lines_drawn", "materials_of", "materials_shown",
            "may_have_faces", "moves", "participants", "read_meshes", "read_mirror", "read_scene", "read_view",
            "register", "render_size", "rendered_alone", "rendered_collections", "rendered_otherwise", "results_of",
            "says_mirror", "seen_in", "unregister", "visible", "with_copies", "without_surface"]

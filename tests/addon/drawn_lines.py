@@ -10,9 +10,8 @@ INNER = -2
 EDGES = [(0, 1), (2, 3), (4, 5), (6, 7), (0, 2), (1, 3), (4, 6), (5, 7), (0, 4), (1, 5), (2, 6), (3, 7)]
 
 
-def line_art(source: bpy.types.Object, *kinds: str) -> list:
-    """The strokes that Line Art draws of an object in the render's pixels, (n, 2) each; by its defaults, or those
-    `kinds` alone."""
+def add_line_art(source: bpy.types.Object) -> tuple[bpy.types.Object, bpy.types.Modifier]:
+    """Line Art of an object, by its defaults: the object that draws it, and its modifier."""
     if bpy.app.version < (4, 3, 0):
         bpy.ops.object.gpencil_add(type="LINEART_OBJECT")
     else:
@@ -20,6 +19,13 @@ def line_art(source: bpy.types.Object, *kinds: str) -> list:
     drawn = bpy.context.object
     modifier = (drawn.grease_pencil_modifiers if bpy.app.version < (4, 3, 0) else drawn.modifiers)[0]
     modifier.source_type, modifier.source_object = "OBJECT", source
+    return drawn, modifier
+
+
+def line_art(source: bpy.types.Object, *kinds: str) -> list:
+    """The strokes that Line Art draws of an object in the render's pixels, (n, 2) each; by its defaults, or those
+    `kinds` alone."""
+    drawn, modifier = add_line_art(source)
     for kind in ("contour", "crease", "material", "edge_mark", "intersection", "loose") if kinds else ():
         setattr(modifier, f"use_{kind}", kind in kinds)
     evaluated = drawn.evaluated_get(bpy.context.evaluated_depsgraph_get())

@@ -26,7 +26,10 @@ def main(folder: Path) -> None:
         by_line_art = [_line_art(scratch / "plain.png"), None]
         by_freestyle = [_freestyle(scratch / "cycles.png"), None]
         import bpy
+        render = bpy.context.scene.render
+        render.use_freestyle = True  # results are made for lines where there are some
         bpy.ops.reflection_mesh.generate()
+        render.use_freestyle = False
         by_line_art[1] = _line_art(scratch / "reflected.png")
         bpy.ops.reflection_mesh.light(samples=128)
         by_freestyle[1] = _freestyle(scratch / "inked.png")

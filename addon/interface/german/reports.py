@@ -74,6 +74,7 @@ KEPT = {
     "the mirror has changed": "der Spiegel hat sich geändert",
     "a reflected object has changed": "ein gespiegeltes Objekt hat sich geändert",
     "materials have been exchanged": "Materialien wurden ausgetauscht",
+    "lines are drawn now": "jetzt werden Linien gezeichnet",
     "the colours of materials have changed": "die Farben von Materialien haben sich geändert",
     "mirrors have been shown or hidden": "Spiegel wurden ein- oder ausgeblendet",
     "the lamps or the world have changed": "die Lampen oder die Welt haben sich geändert",

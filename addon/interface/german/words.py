@@ -301,6 +301,7 @@ LIVE = {
     "its mirror or its lamp was removed: clear it": "sein Spiegel oder seine Lampe wurde entfernt: entferne es",
     "the settings have changed": "die Einstellungen haben sich geändert",
     "materials have been exchanged": "Materialien wurden ausgetauscht",
+    "lines are drawn now": "jetzt werden Linien gezeichnet",
     "the colours of materials have changed": "die Farben von Materialien haben sich geändert",
     "Live was stopped before it was exact":
         "Live wurde beendet, bevor sie genau war",

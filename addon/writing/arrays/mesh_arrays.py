@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ....core import ReflectionMesh, TriangleMesh, View, breathe, with_borders_closed
+from ....core import ReflectionMesh, TriangleMesh, View, breathe
 from ... import compat
 from ...reading.meshes import DiffuseScene, MirrorSurface
 from .mesh_edges import Edges
@@ -88,7 +88,7 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
     view : View
         Who sees it.
     """
-    result, origin = vertices_written(result, surface.mesh, view, scene)
+    result, origin = vertices_written(result, surface.mesh, view)
     breathe()
     source, mirror_face = result.source_face, result.mirror_face
     spans = mirror_face < 0
@@ -113,12 +113,10 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
                       own + shown, scene.materials, _lines(result, scene, edges), edges)
 
 
-def vertices_written(result: ReflectionMesh, mirror: TriangleMesh, view: View,
-                     scene: DiffuseScene) -> tuple[ReflectionMesh, np.ndarray]:
+def vertices_written(result: ReflectionMesh, mirror: TriangleMesh, view: View) -> tuple[ReflectionMesh, np.ndarray]:
     """A result with faces as `mesh_arrays` writes it: vertex by vertex, and relative to which place (3,)."""
     origin = origin_of(mirror)
-    closed = with_borders_closed(result, view, scene.mesh, scene.source_object)
-    return in_single_precision(closed, origin, view), origin
+    return in_single_precision(result, origin, view), origin
 
 
 def _normals(result: ReflectionMesh, scene: DiffuseScene) -> tuple[Attribute, ...]:

@@ -1,11 +1,13 @@
 """Results that are stale say so, and why."""
 from __future__ import annotations
 
+import json
 from types import SimpleNamespace
 
 import bpy
 import parts
 import pytest
+from drawn_lines import add_line_art
 from live_scene import generated, shape
 
 
@@ -80,6 +82,38 @@ def test_settings_that_no_longer_hold_do_not_count(scene, room):
     assert told(room, scene.result) == ""
     scene.ball.reflection_mesh.own_settings = False
     assert "settings" in told(room, scene.result)
+
+
+@pytest.mark.parametrize("how", ["line art", "freestyle"])
+def test_lines_that_are_drawn_now_make_it_stale(scene, room, how):
+    """And no longer drawn ones do not; the frames of an animation are no other matter."""
+    render, freshness = bpy.context.scene.render, room("addon.freshness")
+    chosen = room("addon.reading").Participants([scene.ball], [scene.leaf], [])
+    frame = lambda: freshness.frame_origin(bpy.context, chosen, False)  # noqa: E731
+    without = frame()
+    if how == "line art":
+        drawn, _ = add_line_art(scene.result)
+    else:
+        render.use_freestyle = True
+    assert told(room, scene.result) == "lines are drawn now"
+    assert freshness.frame_difference(without, frame()) == "lines are drawn now"
+    assert freshness.frame_difference(frame(), without) == ""
+    assert bpy.ops.reflection_mesh.update() == {"FINISHED"} and told(room, scene.result) == ""
+    if how == "line art":
+        bpy.data.objects.remove(drawn)
+    else:
+        render.use_freestyle = False
+    assert told(room, scene.result) == ""
+
+
+def test_of_an_old_file_lines_are_told_only_where_some_are_drawn(scene, room):
+    """Whose records know nothing of them."""
+    known = json.loads(scene.result.reflection_mesh.made_from)
+    del known["lines"]
+    scene.result.reflection_mesh.made_from = json.dumps(known)
+    assert told(room, scene.result) == ""
+    add_line_art(scene.result)
+    assert told(room, scene.result) == "lines are drawn now"
 
 
 def test_exchanged_materials_make_it_stale(scene, room):

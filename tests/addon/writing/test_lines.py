@@ -6,6 +6,7 @@ import pytest
 from drawn_lines import (
     BESIDE,
     INNER,
+    add_line_art,
     add_mirror,
     apart,
     cube_edges,
@@ -131,6 +132,7 @@ def test_within_a_floor_there_are_no_lines(blank, kind, options):
     blank.scene.render.resolution_x = blank.scene.render.resolution_y = 400
     floor, mirror = parts.add("plane", "Floor", size=14.0), parts.add(kind, "Mirror", **options)
     smooth(mirror)
+    add_line_art(mirror)
     parts.select(floor, mirror)
     points = dense(line_art(parts.generate()))
     beside = np.array([[x, y] for x in (-2.5, 0.0, 2.5) for y in (-2.5, 0.0, 2.5) if x or y])
