@@ -113,8 +113,7 @@ def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | No
     whole.undo(_remove, image)
     image.source, image.name = "SEQUENCE", f"Reflection Light {sequence.name}".strip()
     image.colorspace_settings.name = "Non-Color"
-    material = new_material(image.name, image, image, np.zeros((1, 1, 3), dtype=np.float32))
-    whole.undo(_remove, material)
+    material = new_material(image.name, image, image, np.zeros((1, 1, 3), dtype=np.float32), whole)
     tree = material.node_tree
     for node in tree.nodes:
         if node.type == "TEX_IMAGE":

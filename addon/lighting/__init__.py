@@ -4,7 +4,6 @@ from .light_scene import light_scene, white_of
 from .lit_results import (
     dull_objects,
     forget_light,
-    forget_map,
     is_lit,
     keep_light,
     light_lines,
@@ -16,7 +15,7 @@ from .preview import forget_previews, show_previews, shows_preview
 from .texels import beside_lamps, is_overexposed, pixel_kernel, texels_of
 from .window import Window
 
-__all__ = ["Window", "beside_lamps", "dull_objects", "forget_light", "forget_map", "forget_previews", "is_lit",
+__all__ = ["Window", "beside_lamps", "dull_objects", "forget_light", "forget_previews", "is_lit",
            "is_overexposed", "is_plain", "keep_light", "light_lines", "light_scene", "needs_light", "new_export_image",
            "new_image", "new_material", "pixel_kernel", "show_light", "show_object_light", "show_previews",
            "shows_preview", "texels_of", "white_of"]

@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import compat
 from ..faults import AllOrNothing, Steps, still_there
-from ..writing import UV_MAP
+from ..writing import UV_MAP, show_unblurred
 from .picture_layout import SHINING
 
 WRITING = "Writing"
@@ -51,15 +51,18 @@ def _packed(name: str, values: np.ndarray, whole: AllOrNothing, **options) -> St
 
 
 def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Image, texels: np.ndarray,
-                 apart: tuple[bpy.types.Image, bpy.types.Image] | None = None) -> bpy.types.Material:
+                 whole: AllOrNothing, apart: tuple[bpy.types.Image, bpy.types.Image] | None = None
+                 ) -> bpy.types.Material:
     """A material that emits an image where the map `UV_MAP` says: Cycles and EEVEE show `image`, or what of it is
     matte and what shines from two images `apart`, what follows the output for all engines shows `export_image`, in
-    nodes that exporters read.
+    nodes that exporters read. EEVEE shows a still by `show_unblurred`, and an animated picture, whose size changes, by
+    its own look-up.
 
     That of glTF makes an unlit material of a colour which is the surface itself; that of USD takes what it knows of
     the first Principled BSDF that it finds, be it connected or not.
     """
     material = bpy.data.materials.new(name)
+    whole.undo(_remove, material)
     tree = compat.use_nodes(material)
     tree.nodes.clear()
 
@@ -79,6 +82,9 @@ def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Imag
             tree.links.new(look.outputs["Color"], output.inputs["Surface"])
     if apart is not None:
         _put_apart(tree, add, spot, apart)
+    if image.source != "SEQUENCE":
+        exact = [node for node in tree.nodes if node.type == "TEX_IMAGE" and node != look]
+        show_unblurred(tree, exact, tree.get_output_node("CYCLES"), whole)
     # the last of both: what exporters begin at, and what solid view shows by texture
     output.is_active_output, tree.nodes.active = True, look
     told = add("ShaderNodeBsdfPrincipled", (200.0, -200.0), label="For USD")
@@ -107,6 +113,10 @@ def _put_apart(tree: bpy.types.NodeTree, add: Callable[..., bpy.types.Node], spo
         tree.links.new(look.outputs["Color"], socket)
     for output in [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL" and node.target != "ALL"]:
         tree.links.new(both.outputs[2], output.inputs["Surface"])
+
+
+def _remove(material: bpy.types.Material) -> None:
+    bpy.data.batch_remove(still_there([material]))
 
 
 def images_of(material: bpy.types.Material) -> list[bpy.types.Image]:

@@ -10,7 +10,7 @@ from ...core import View
 from ..baking import KeptMap, can_be_baked, lay_out
 from ..faults import AllOrNothing, Steps, finished, keep_data, keep_object, still_there
 from ..reading import DiffuseScene
-from ..writing import LONGEST_RECORD, show_own_materials
+from ..writing import LONGEST_RECORD, forget_mesh, forget_unblurred, show_own_materials, unblurred_in
 from .light_material import images_of, texels_shown
 from .needs_light import needs_light
 from .picture_layout import lay_out as lay_out_picture
@@ -61,20 +61,15 @@ def is_lit(result: bpy.types.Object) -> bool:
 
 
 def forget_light(material: bpy.types.Material) -> None:
-    """Remove a material of light and its images, where nothing else uses them."""
+    """Remove a material of light, its groups of nodes and its images, where nothing else uses them."""
     if not still_there([material]) or material.users or material.library is not None:
         return
-    images = set(images_of(material))
+    images, groups = set(images_of(material)), unblurred_in(material.node_tree)
     bpy.data.materials.remove(material)
+    forget_unblurred(groups)
     for image in images:
         if image.users == 0 and image.library is None:
             bpy.data.images.remove(image)
-
-
-def forget_map(mesh: bpy.types.Mesh) -> None:
-    """Remove a map of light, where nothing else uses it."""
-    if still_there([mesh]) and not mesh.users and mesh.library is None:
-        bpy.data.meshes.remove(mesh)
 
 
 def dull_objects(result: bpy.types.Object) -> list[str]:
@@ -113,7 +108,7 @@ def _show(result: bpy.types.Object, material: bpy.types.Material, told: str, lig
     if earlier is not None and earlier != material:
         whole.after(forget_light, earlier)
     if earlier_map is not None and earlier_map != light_map:
-        whole.after(forget_map, earlier_map)
+        whole.after(forget_mesh, earlier_map)
 
 
 def _keep_users_materials(result: bpy.types.Object) -> None:

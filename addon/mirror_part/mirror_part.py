@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import bpy
 
 from .. import compat
+from ..faults import AllOrNothing, still_there
 from ..lamps import ShownLamp, lamp_light
 from ..reading.materials import index_of, surface_shader
-from ..writing import UV_MAP
+from ..writing import UV_MAP, show_unblurred
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
 from .mirror_coordinates import MirrorCoordinates
@@ -35,14 +36,15 @@ class Surroundings:
 
 
 def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Material | None, opaque: bool,
-                        around: Surroundings) -> bpy.types.Material:
+                        around: Surroundings, whole: AllOrNothing) -> bpy.types.Material:
     """A material that shows light that stays with objects as `mirror` would: tinted, by Fresnel, mixed with what else
     it is; `None` shows all of the light.
 
-    Tints go by the true angle at the mirror, which the attribute `NORMAL` tells.
+    Tints go by the true angle at the mirror, which the attribute `NORMAL` tells. EEVEE has nodes of its own.
     """
     if mirror is None or not compat.uses_nodes(mirror):
         material = bpy.data.materials.new(name)
+        whole.undo(_remove, material)
         tree = compat.use_nodes(material)
         tree.nodes.clear()
         tree.nodes.new("ShaderNodeOutputMaterial")
@@ -50,6 +52,7 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
         shown = build.glow(build.lit)
     else:
         material = mirror.copy()
+        whole.undo(_remove, material)
         material.name = name
         tree = material.node_tree
         build = _Builder(tree, image, around)
@@ -68,10 +71,15 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
     for name_ in ("Displacement", "Volume"):
         for link in list(output.inputs[name_].links):
             tree.links.remove(link)
+    show_unblurred(tree, [build.light], output, whole)
     for node in tree.nodes:
         node.select = node == build.light
     tree.nodes.active = build.light
     return material
+
+
+def _remove(material: bpy.types.Material) -> None:
+    bpy.data.batch_remove(still_there([material]))
 
 
 class _Builder(ShaderBuilder):

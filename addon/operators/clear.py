@@ -6,9 +6,9 @@ import bpy
 from ..faults import in_one_sentence, tell
 from ..frames import stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
-from ..lighting import forget_light, forget_map, forget_previews
+from ..lighting import forget_light, forget_previews
 from ..reading import has_linked_results
-from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes
+from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes
 from . import polls
 
 IN_OBJECT_MODE = "Reflections are cleared in Object Mode: leave the present mode first."
@@ -43,7 +43,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
     for material in lights:
         forget_light(material)
     for mesh in maps:
-        forget_map(mesh)
+        forget_mesh(mesh)
     forget_previews()
     close_abandoned_windows()
     forget_collection(context.scene)

@@ -181,8 +181,7 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int,
     export_image = yield from part(new_export_image(f"{NAME} Export", texels, whole), 0.99, 0.01)
 
     def show() -> Steps[None]:
-        material = new_material(NAME, image, export_image, texels, apart)
-        whole.undo(bpy.data.materials.remove, material)
+        material = new_material(NAME, image, export_image, texels, whole, apart)
         for result in lit:
             yield from show_light(result, material, view, window, whole)
     return show
@@ -217,8 +216,7 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int,
         for result in lit:
             around = Surroundings(result.reflection_mesh.mirror, lamps_before(result, lamps),
                                   LaterMirrors.of(result, context.scene.objects))
-            material = new_object_material(NAME, image, _mirror_material(result), opaque, around)
-            whole.undo(bpy.data.materials.remove, material)
+            material = new_object_material(NAME, image, _mirror_material(result), opaque, around, whole)
             yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets, light.dull),
                                          whole)
     return show

@@ -1,0 +1,71 @@
+"""What EEVEE shows of a lit reflection, and of light that mirrors throw, against Cycles."""
+from __future__ import annotations
+
+import bpy
+import caustic_scene
+import eevee
+import numpy as np
+import parts
+import pytest
+from lamp_scenes import principled, scene_of
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module", autouse=True)
+def rendering():
+    if not eevee.is_there():
+        pytest.skip("EEVEE cannot render here: it needs OpenGL.")
+
+
+def lit_ball(context: bpy.types.Context, kind: str) -> bpy.types.Object:
+    """A ball that shows a floor of tiles, lit; its result alone is rendered, and returned."""
+    scene_of(context)
+    box, floor, wall = (bpy.data.objects[name] for name in ("Box", "Floor", "Mirror"))
+    tiles = principled("Tiles")
+    checks = tiles.node_tree.nodes.new("ShaderNodeTexChecker")
+    checks.inputs["Scale"].default_value = 24.0
+    shader = next(node for node in tiles.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    uv = tiles.node_tree.nodes.new("ShaderNodeUVMap")
+    tiles.node_tree.links.new(uv.outputs[0], checks.inputs["Vector"])
+    tiles.node_tree.links.new(checks.outputs["Color"], shader.inputs["Base Color"])
+    floor.data.materials[0] = tiles
+    ball = parts.add("uv_sphere", "Ball", radius=1.2, location=(0.0, 0.0, 0.8), segments=48, ring_count=24)
+    ball.data.polygons.foreach_set("use_smooth", np.ones(len(ball.data.polygons), dtype=bool))
+    ball.data.materials.append(wall.data.materials[0])
+    bpy.data.objects.remove(wall)
+    parts.select(box, floor, ball)
+    result = parts.generate()
+    bpy.ops.reflection_mesh.light(samples=8, kind=kind)
+    for obj in context.scene.objects:
+        obj.hide_render = obj != result and obj != context.scene.camera
+    context.scene.render.film_transparent, context.scene.view_settings.view_transform = True, "Raw"
+    return result
+
+
+@pytest.mark.parametrize("kind, least", [("PICTURE", 40.0), ("OBJECTS", 36.0)])
+def test_a_lit_ball_looks_as_in_cycles(blank, room, kind, least):
+    """By EEVEE's own look-up of the image it is 22 and 26 dB from Cycles."""
+    lit_ball(blank, kind)
+    by_cycles, by_eevee = (eevee.linear(room, one) for one in (False, True))
+    inside = (by_cycles[..., 3] > 0.99) & (by_eevee[..., 3] > 0.99)
+    assert inside.sum() > 500
+    error = (np.clip(by_cycles, 0.0, 1.0) - np.clip(by_eevee, 0.0, 1.0))[..., :3][inside]
+    assert -10.0 * np.log10((error**2).mean()) > least
+
+
+def test_caustics_are_as_bright_as_in_cycles(blank, room):
+    caustic_scene.scene_of()
+    bpy.ops.reflection_mesh.caustics()
+    thrown = [obj for obj in blank.scene.objects if obj.reflection_mesh.role == "CAUSTICS"]
+    told = []
+    for engine in (False, True):
+        both = []
+        for hidden in (False, True):
+            for obj in thrown:
+                obj.hide_render = hidden
+            both.append(eevee.linear(room, engine)[..., :3])
+        told.append(both[0] - both[1])
+    by_cycles, by_eevee = told
+    assert by_cycles.sum() > 10.0
+    assert np.allclose(by_eevee.sum(axis=(0, 1)), by_cycles.sum(axis=(0, 1)), rtol=0.03)
