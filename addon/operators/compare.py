@@ -175,12 +175,16 @@ class REFLECTIONMESH_OT_compare(UsesSettings, BrowsingOperator, SettingsOptions,
                                        default="//reflection comparison", subtype="FILE_PATH",
                                        options=compat.RELATIVE_PATH)
     samples: bpy.props.IntProperty(name="Samples", default=16, min=0, soft_max=1024,
+                                   options={"SKIP_SAVE"},
                                    description="Samples per pixel of the pictures; 0: as the scene is set")
-    what: bpy.props.EnumProperty(name="What", items=WHAT, options=set(), description="What is compared with Cycles")
-    converged: bpy.props.IntProperty(name="Reference Samples", default=REFERENCE, min=1, soft_max=65536, options=set(),
+    what: bpy.props.EnumProperty(name="What", items=WHAT, options={"SKIP_SAVE"},
+                                description="What is compared with Cycles")
+    converged: bpy.props.IntProperty(name="Reference Samples", default=REFERENCE, min=1, soft_max=65536,
+                                     options={"SKIP_SAVE"},
                                      description="Of caustics: samples per pixel of Cycles' own that all is compared "
                                      "with")
-    rays: bpy.props.IntProperty(name="Rays", default=RAYS, min=1, soft_max=100_000_000, options=set(),
+    rays: bpy.props.IntProperty(name="Rays", default=RAYS, min=1, soft_max=100_000_000,
+                               options={"SKIP_SAVE"},
                                 description="Of caustics: rays traced one by one for each of them")
 
     @classmethod

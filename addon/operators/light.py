@@ -262,7 +262,7 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
 
     samples: option("light_samples", name="Samples")
     kind: option("light_kind")
-    every: bpy.props.BoolProperty(name="Even Those That Need None", default=False, options=set(),
+    every: bpy.props.BoolProperty(name="Even Those That Need None", default=False, options={"SKIP_SAVE"},
                                   description="Also reflections that look right as they are: for files that carry "
                                   "pictures but not all materials, as glTF and USD")
 

@@ -169,11 +169,11 @@ class REFLECTION_MESH_OT_mirror_uvs(UsesSettings, SteppedOperator, bpy.types.Ope
     tolerance: option("tolerance")
     memory: option("memory")
     target: bpy.props.EnumProperty(name="Write On", description="What gets the UV map", items=TARGETS, default="COPY",
-                                   options=set())
+                                   options={"SKIP_SAVE"})
     frame: bpy.props.EnumProperty(name="Picture Fills", description="What the borders of the picture stand for",
-                                  items=FRAMES, default="CAMERA", options=set())
+                                  items=FRAMES, default="CAMERA", options={"SKIP_SAVE"})
     picture: bpy.props.StringProperty(name="Picture", description="Image in this file, or image file, to put on the "
-                                      "copies; empty for the map alone", subtype="FILE_PATH", options=set())
+                                      "copies; empty for the map alone", subtype="FILE_PATH", options={"SKIP_SAVE"})
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

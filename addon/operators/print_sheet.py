@@ -78,9 +78,9 @@ class REFLECTION_MESH_OT_print_sheet(BrowsingOperator, bpy.types.Operator):
                                        subtype="FILE_PATH", options=compat.RELATIVE_PATH)
     filter_glob: bpy.props.StringProperty(default="*.png;*.svg", options={"HIDDEN"})
     picture: bpy.props.StringProperty(name="Picture", description="Image in this file, or image file; empty for what "
-                                      "the object shows", options=set())
+                                      "the object shows", options={"SKIP_SAVE"})
     dpi: bpy.props.FloatProperty(name="Dots per Inch", description="How fine the print is", default=DPI, min=FEWEST,
-                                 max=MOST, precision=0, options=set())
+                                 max=MOST, precision=0, options={"SKIP_SAVE"})
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
