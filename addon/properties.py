@@ -67,6 +67,8 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object)
     lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object)
     eyes: IntProperty(name="Lamp Places", description="On how many places of its lamp these caustics come from")
+    keeps_own: BoolProperty(name="Keeps Cycles' Own", description="Cycles adds caustics of its own to these: that was "
+                            "asked for")
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
                                 type=ReflectionSource)
     camera: PointerProperty(name="Camera", description="The camera that this reflection is right for; none: the "

@@ -13,7 +13,8 @@ from ... import core
 from ..faults import STATUS, sentence
 from ..files import check_place, save_blend
 from ..illumination import chosen_lamps
-from ..operators.caustics import Asked, throwing
+from ..operators.asked_light import asked_again, remember
+from ..operators.caustics import throwing
 from ..operators.clear import chosen_results
 from ..operators.generate import generation
 from ..operators.light import lighting_groups, unlike_the_mirror
@@ -93,12 +94,14 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_caustics(verb: argparse.ArgumentParser) -> None:
     _add_participants(verb)
-    verb.add_argument("--eyes", type=int, default=1, metavar="N",
-                      help="places on each lamp that its light comes from (1)")
+    verb.add_argument("--eyes", type=int, metavar="N",
+                      help="places on each lamp that its light comes from (else as before, or 1)")
     verb.add_argument("--tolerance", type=float, metavar="PIXELS", help="how far off a point may be")
     verb.add_argument("--depth", type=int, metavar="BOUNCES", help="followed from mirror to mirror")
     verb.add_argument("--memory", type=float, metavar="GB", help="what the work may take")
-    verb.add_argument("--keep-own", dest="leave_out", action="store_false", help="let Cycles add caustics of its own")
+    verb.add_argument("--keep-own", dest="leave_out", action="store_false", default=None,
+                      help="let Cycles add caustics of its own (else as before)")
+    verb.add_argument("--replace-own", dest="leave_out", action="store_true", help="let it add none (else as before)")
     _add_output(verb)
     verb.set_defaults(work=_caustics)
 
@@ -156,8 +159,11 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
 def _caustics(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
     started = time.perf_counter()
-    asked = Asked(options.eyes, Wanted(context.scene, given(options)), options.leave_out)
-    thrown = announced(throwing(context, _chosen(context, options), chosen_lamps(context), asked))
+    chosen, lamps = _chosen(context, options), chosen_lamps(context)
+    wanted = Wanted(context.scene, given(options))
+    asked = asked_again(context, chosen, lamps, wanted, (options.eyes, options.leave_out))
+    thrown = announced(throwing(context, chosen, lamps, asked))
+    remember(thrown.objects, asked)
     save_blend(path)
     print(*thrown.remarks, thrown.summary(time.perf_counter() - started), sep="\n")
 

@@ -37,30 +37,18 @@ from ..illumination import (
     write_caustics,
 )
 from ..reading import DiffuseScene, Participants, choose, materials_shown, read_mirror, read_scene
-from ..settings import SettingsOfMirrors, UsesSettings, option
+from ..settings import UsesSettings, option
 from . import polls
+from .asked_light import Asked, asked_again, remember
 
 IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
 NOTHING_LIT = "Light falls on nothing but lamps: select what it is to fall on, or give it the role Reflected."
+AS_BEFORE = ("eyes", "leave_out")  # where they are not given
 READING = 0.05  # share of the work
 
 
 class NothingThrown(core.ReflectionError):
     """No mirror throws any light on the objects at the moment."""
-
-
-@dataclass(frozen=True)
-class Asked:
-    """What is asked for: places on each lamp, the same for all or by (mirror, lamp); the settings of each mirror;
-    whether Cycles' own caustics are left out; and whether materials that fit are kept."""
-
-    eyes: int | dict
-    settings: SettingsOfMirrors
-    leave_out: bool
-    keep_materials: bool = False
-
-    def places(self, mirror: bpy.types.Object, lamp: bpy.types.Object) -> int:
-        return self.eyes.get((mirror, lamp), 1) if isinstance(self.eyes, dict) else self.eyes
 
 
 @dataclass(frozen=True)
@@ -213,7 +201,7 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
             whole.after(stop_playing, obj)
             objects.append(obj)
             unknown += strange
-            if wanted.leave_out:
+            if wanted.leaves_out(made.mirror, made.lamp):
                 remarks += leave_out(scene, made.mirror, made.lamp, shown[made.mirror], whole)
             else:
                 follow_lamp(made.lamp)
@@ -246,12 +234,13 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Opera
     tolerance: option("tolerance")
     depth: option("depth")
     memory: option("memory")
-    eyes: bpy.props.IntProperty(name="Lamp Places", default=1, min=1, soft_max=64, max=4096, options=set(),
+    eyes: bpy.props.IntProperty(name="Lamp Places", default=1, min=1, soft_max=64, max=4096, options={"SKIP_SAVE"},
                                 description="Places on each lamp that its light comes from: one is sharp, more are as "
-                                "soft as the lamp is large")
-    leave_out: bpy.props.BoolProperty(name="Replace Cycles' Own", default=True, options=set(),
+                                "soft as the lamp is large; as many as before, where this is not given")
+    leave_out: bpy.props.BoolProperty(name="Replace Cycles' Own", default=True, options={"SKIP_SAVE"},
                                       description="The lamps do not light these mirrors any more, so that Cycles does "
-                                      "not add caustics of its own; clearing brings that back")
+                                      "not add caustics of its own; clearing brings that back. As before, where this "
+                                      "is not given")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -259,9 +248,16 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Opera
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        chosen, wanted = choose(context), self.wanted(context)
-        thrown = yield from throwing(context, chosen, chosen_lamps(context), Asked(self.eyes, wanted, self.leave_out))
+        chosen, wanted, lamps = choose(context), self.wanted(context), chosen_lamps(context)
+        given = [getattr(self, name) if self.properties.is_property_set(name) else None for name in AS_BEFORE]
+        asked = asked_again(context, chosen, lamps, wanted, tuple(given))
+        thrown = yield from throwing(context, chosen, lamps, asked)
+        remember(thrown.objects, asked)
         self.show_used(wanted, chosen.mirrors)
+        pairs = [(obj.reflection_mesh.mirror, obj.reflection_mesh.lamp) for obj in thrown.objects]
+        for name, used in zip(AS_BEFORE, (asked.places, asked.leaves_out)):
+            if len({used(*pair) for pair in pairs}) == 1:
+                setattr(self, name, used(*pairs[0]))
         context.view_layer.update()
         tell_done(self, [thrown.summary(time.perf_counter() - started)], thrown.remarks)
 

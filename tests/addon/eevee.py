@@ -23,8 +23,8 @@ def engine() -> str:
 
 
 def is_there() -> bool:
-    """Whether EEVEE can render: tried apart, since Blender ends where it has no OpenGL, and by Workbench, which needs the
-    same and is there sooner."""
+    """Whether EEVEE can render: tried apart, since Blender ends where it has no OpenGL, and by Workbench, which needs
+    the same and is there sooner."""
     try:
         tried = subprocess.run([sys.executable, "-c", TRIAL], capture_output=True, text=True, timeout=120)
     except subprocess.TimeoutExpired:

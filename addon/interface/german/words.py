@@ -45,12 +45,18 @@ OPERATORS = {
     "Places on each lamp that its caustics come from; 0: as many as they were generated with":
         "Orte auf jeder Lampe, von denen ihre Kaustik kommt; 0: so viele, wie sie beim Erzeugen hatte",
     "Lamp Places": "Orte je Lampe",
-    "Places on each lamp that its light comes from: one is sharp, more are as soft as the lamp is large":
-        "Orte auf jeder Lampe, von denen ihr Licht kommt: einer ist scharf, mehr sind so weich, wie die Lampe groß ist",
+    "Places on each lamp that its light comes from: one is sharp, more are as soft as the lamp is large; as many as "
+    "before, where this is not given":
+        "Orte auf jeder Lampe, von denen ihr Licht kommt: einer ist scharf, mehr sind so weich, wie die Lampe groß "
+        "ist; so viele wie zuvor, wo das nicht angegeben ist",
     "Replace Cycles' Own": "Die von Cycles ersetzen",
     "The lamps do not light these mirrors any more, so that Cycles does not add caustics of its own; clearing brings "
     "that back": "Die Lampen beleuchten diese Spiegel nicht mehr, damit Cycles keine eigene Kaustik hinzufügt; "
         "Entfernen stellt das wieder her",
+    "The lamps do not light these mirrors any more, so that Cycles does not add caustics of its own; clearing brings "
+    "that back. As before, where this is not given":
+        "Die Lampen beleuchten diese Spiegel nicht mehr, damit Cycles keine eigene Kaustik hinzufügt; Entfernen stellt "
+        "das wieder her. Wie zuvor, wo das nicht angegeben ist",
     "Bake Reflection Frames": "Spiegelungen backen",
     "Write the reflections of a range of frames to files, and let them play; they need no extension to be seen":
         "Schreibt die Spiegelungen einer Reihe von Einzelbildern in Dateien und spielt sie ab; zu sehen sind sie ohne "

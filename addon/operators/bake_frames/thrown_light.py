@@ -11,7 +11,8 @@ from ...frames import Sequence, play_caustics, player_of, told_apart
 from ...illumination import follow_layers, leave_out, lights_renders, places_kept
 from ...reading import NothingSeen, candidates, materials_shown, visible
 from ...settings import of_each
-from ..caustics import Asked, NothingThrown, name_of, throwing
+from ..asked_light import Asked
+from ..caustics import NothingThrown, name_of, throwing
 from ..clear import remove_caustics
 from .plan import Plan
 
