@@ -13,7 +13,7 @@ thrown away (BLENDER_USER_RESOURCES), opens the room, and
 6. bakes frames, found by F3, into a folder chosen in the file browser, ends that by ESC, and goes on with the same keys
    (where Blender was built without USD, after the grey button has said so, with a stand-in for its writing alone);
 7. shows the panel in Object properties, and the menu;
-8. asks every operator of the extension whether it can run, in every editor and in every mode.
+8. asks every operator and panel of the extension whether it can run, in every editor and in every mode.
 
 Pictures go to the folder WINDOW_SHOTS, build/window where that is not set.
 """
@@ -27,6 +27,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import bpy
 from hands import ROOT, Screen, built_zip, run, settled, shot, turned_to_tab, waiting
+from polls import polls_of_the_extension
 
 GENERATE = 106  # pixels below the upper end of the sidebar, at the resolution scale of 1
 PANEL = 266  # the panel in Object properties, above the window's lower end
@@ -235,8 +236,8 @@ def elsewhere(screen: Screen):
 
 
 def everywhere(screen: Screen):
-    """Every operator's poll, in every editor and in every mode: none may fail."""
-    names = [name for name in dir(bpy.ops.reflection_mesh) if not name.startswith("_")]
+    """Every poll of an operator or a panel, in every editor and in every mode: none may fail."""
+    polls = polls_of_the_extension()
     editors = [item.identifier for item in bpy.types.Area.bl_rna.properties["type"].enum_items
                if item.identifier != "EMPTY"]
     told = {}
@@ -246,12 +247,13 @@ def everywhere(screen: Screen):
         for editor in editors:
             screen.area.type = editor
             with bpy.context.temp_override(window=screen.window, area=screen.area):
-                for name in names:
-                    told[mode, editor, name] = getattr(bpy.ops.reflection_mesh, name).poll()
+                for name, cls in polls.items():
+                    told[mode, editor, name] = cls.poll(bpy.context)
         screen.area.type = "VIEW_3D"
         yield 0.3
-    assert told["OBJECT", "VIEW_3D", "generate"] and not told["EDIT", "VIEW_3D", "generate"]
-    print(f"{len(told)} polls of {len(names)} operators in {len(editors)} editors.", flush=True)
+    button = "REFLECTION_MESH_OT_generate"
+    assert told["OBJECT", "VIEW_3D", button] and not told["EDIT", "VIEW_3D", button]
+    print(f"{len(told)} polls of {len(polls)} operators and panels in {len(editors)} editors.", flush=True)
 
 
 run(steps)
