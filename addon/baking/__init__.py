@@ -2,7 +2,7 @@
 from .islands import random_by_island
 from .object_bake import ObjectLight, baked
 from .object_map import KeptMap, kept_map, lay_out, write_mirror_normals
-from .seen_sources import are_few, can_be_baked, vectors
+from .seen_sources import are_few, can_be_baked
 
 __all__ = ["KeptMap", "ObjectLight", "are_few", "baked", "can_be_baked", "kept_map", "lay_out", "random_by_island",
-           "vectors", "write_mirror_normals"]
+           "write_mirror_normals"]

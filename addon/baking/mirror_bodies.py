@@ -10,8 +10,8 @@ import numpy as np
 from ...core import TriangleMesh, View, breathe
 from ...core.geometry import area_normals, unit
 from ...core.trees import BoxTree, first_hits
-from ..reading import join_scene, read_meshes
-from .seen_sources import corner_vertices, face_values, vectors
+from ..reading import join_scene, read_meshes, vectors
+from .seen_sources import corner_vertices, face_values
 
 NEAR = 1e-5     # of what mirrors measure: what comes nearer touches
 ASKED = 1024    # faces of a result that tell which side of its mirror reflects

@@ -9,9 +9,9 @@ import numpy as np
 from ...core import View, reflecting_normals
 from ..faults import Steps
 from ..mirror_part import NORMAL
-from ..reading import DiffuseScene
+from ..reading import DiffuseScene, vectors
 from ..writing import light_layer
-from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, vectors, weights_of
+from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, weights_of
 
 WRITING = "Writing"
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core import ReflectionError, View, breathe
 from ...core.geometry import distinct, edge_numbers
-from ..reading import DiffuseScene
+from ..reading import DiffuseScene, vectors
 from .sight import places_of_sight
 
 ONE_EYE = 0.2   # radians between how an object is seen and how from one place, from which on gloss would be wrong
@@ -147,13 +147,6 @@ def triangles_by_source(scene: DiffuseScene) -> list:
 def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
     """The vertices (n, 3) of a mesh of triangles."""
     return _values(mesh, ".corner_vert", len(mesh.loops)).reshape(-1, 3)
-
-
-def vectors(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
-    """An attribute of the points, (n, 3) float64."""
-    values = np.empty((len(mesh.vertices), 3), dtype=np.float32)
-    mesh.attributes[name].data.foreach_get("vector", values.reshape(-1))
-    return values.astype(np.float64)
 
 
 def weights_of(corners: np.ndarray, points: np.ndarray) -> np.ndarray:

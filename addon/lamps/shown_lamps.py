@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core import ReflectionError
 from ..illumination import eyes_of, has_a_size, is_glint
-from ..reading import seen_in
+from ..reading import seen_in, vectors
 
 KNOWN = ("mirror_position", "reflected_position", "bounces")  # what a result must tell
 CHUNK = 1 << 14  # faces at once
@@ -103,7 +103,7 @@ def lamps_before(result: bpy.types.Object, lamps: list[ShownLamp]) -> tuple[Show
     corners = corners.reshape(-1, 3)[bounces == 1]
     if not len(corners):
         return ()
-    start, end = (_vectors(mesh, name)[corners] for name in KNOWN[:2])
+    start, end = (vectors(mesh, name)[corners] for name in KNOWN[:2])
     # most beams are told from a lamp by their boxes along the scene's own axes
     low = np.minimum(start.min(axis=1), end.min(axis=1))
     high = np.maximum(start.max(axis=1), end.max(axis=1))
@@ -135,9 +135,3 @@ def _slabs(start: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray, 
     axes /= np.maximum(np.linalg.norm(axes, axis=2, keepdims=True), 1e-30)
     along = np.einsum("kni,nci->knc", axes, np.concatenate((start, end), axis=1))
     return axes, along.min(axis=2), along.max(axis=2)
-
-
-def _vectors(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
-    values = np.empty((len(mesh.vertices), 3), dtype=np.float32)
-    mesh.attributes[name].data.foreach_get("vector", values.reshape(-1))
-    return values.astype(np.float64)

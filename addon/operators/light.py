@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, View
-from ..baking import KeptMap, are_few, baked, can_be_baked, kept_map, random_by_island, vectors
+from ..baking import KeptMap, are_few, baked, can_be_baked, kept_map, random_by_island
 from ..faults import AllOrNothing, SteppedOperator, Steps, Undivided, part, tell
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
@@ -39,6 +39,7 @@ from ..reading import (
     read_scene,
     read_view,
     seen_in,
+    vectors,
     with_copies,
 )
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option

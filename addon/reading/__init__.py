@@ -13,6 +13,7 @@ from .meshes import (
     read_meshes,
     read_mirror,
     read_scene,
+    vectors,
 )
 from .moves import moves
 from .not_reflected import in_background_set, rendered_alone, without_surface
@@ -40,4 +41,4 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "is_opaque", "join_mirror", "join_scene", "known_results", "lines_drawn", "materials_of", "materials_shown",
            "may_have_faces", "moves", "participants", "read_meshes", "read_mirror", "read_scene", "read_view",
            "register", "render_size", "rendered_alone", "rendered_collections", "rendered_otherwise", "results_of",
-           "says_mirror", "seen_in", "unregister", "visible", "with_copies", "without_surface"]
+           "says_mirror", "seen_in", "unregister", "vectors", "visible", "with_copies", "without_surface"]
