@@ -37,10 +37,12 @@ def compare(context: bpy.types.Context, options: argparse.Namespace) -> None:
         raise ReflectionError("The comparison has no folder: open a .blend file or name one with --output.")
     if min(options.samples, options.reference) < 1:
         raise ReflectionError("A comparison takes at least one sample: raise --samples and --reference.")
+    if options.rays < 1:
+        raise ReflectionError("A comparison of caustics takes at least one ray: raise --rays.")
     folder = os.path.abspath(folder)
     samples = 0 if options.scene_samples else options.samples
     if options.what == "CAUSTICS" or (options.what == "AUTO" and means_caustics(context)):
-        effort = Effort(samples or context.scene.cycles.samples, options.reference, max(options.rays, 1))
+        effort = Effort(samples or context.scene.cycles.samples, options.reference, options.rays)
         print(light_summary(announced(light_comparison(context, folder, effort)), folder))
         return
     wanted = Wanted(context.scene, given(options))

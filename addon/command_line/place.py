@@ -35,7 +35,7 @@ def placed(context: bpy.types.Context, options: argparse.Namespace) -> Iterator[
     ReflectionError
         Where there is no such scene, view layer or camera.
     """
-    scene = context.scene if options.scene is None else named(bpy.data.scenes, options.scene, "scene", "the file")
+    scene = named(bpy.data.scenes, options.scene, "scene", "the file") if options.scene else context.scene
     layer = _layer(context, scene, options.view_layer if isinstance(options.view_layer, str) else None)
     with ExitStack() as stack:
         if (scene, layer) != (context.scene, context.view_layer):

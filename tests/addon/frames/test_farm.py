@@ -128,6 +128,17 @@ def test_a_job_of_open_job_description(scene, blender, wanted, tmp_path):
 
 
 @needs_openjd
+@pytest.mark.parametrize("name", ["Other", "Scene"])
+def test_a_job_of_a_scene_that_is_not_the_files_own(scene, blender, room, tmp_path, name):
+    """The other scene has no mirror, and a job for it fails; that of the first, which is not the open one, is done."""
+    bpy.context.window.scene = bpy.data.scenes.new("Other")
+    bpy.ops.wm.save_mainfile()
+    done = subprocess.run(**openjd(scene, blender, tmp_path / "frames", "-p", f"Scene={name}", "-p", "Samples=0",
+                                   "--step", "Bake", "--tasks", json.dumps([{"Frame": "1"}])), check=False)
+    assert (done.returncode == 0) == (name == "Scene"), done.stdout[-3000:]
+
+
+@needs_openjd
 def test_a_job_that_fails_says_so(scene, blender, tmp_path):
     (tmp_path / "frames").write_text("a file, no folder")
     done = subprocess.run(**openjd(scene, blender, tmp_path / "frames", "--step", "Bake"), check=False)
