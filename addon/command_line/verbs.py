@@ -21,6 +21,7 @@ from ..operators.light import lighting_groups, unlike_the_mirror
 from ..operators.light import summary as lighting_summary
 from ..operators.mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
 from ..operators.print_sheet import DPI, check_print, printing
+from ..operators.shortcomings import scene_shortcomings
 from ..reading import Participants, choose, with_copies
 from ..settings import Wanted
 from .bake_verb import add_bake
@@ -135,9 +136,10 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     if options.light is not FILES and options.light < 0:
         raise core.ReflectionError("Light takes at least one sample: raise --light.")
     started = time.perf_counter()
-    wanted = Wanted(context.scene, given(options))
-    outcome = announced(generation(context, _chosen(context, options), wanted, preview=True))
-    told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
+    wanted, chosen = Wanted(context.scene, given(options)), _chosen(context, options)
+    outcome = announced(generation(context, chosen, wanted, preview=True))
+    told = [*outcome.news, *outcome.remarks, *scene_shortcomings(context, chosen, wanted),
+            outcome.summary(time.perf_counter() - started)]
     if options.light:
         # the view layer knows new objects only from its next update on
         context.view_layer.update()

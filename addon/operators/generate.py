@@ -25,7 +25,7 @@ from ..settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
 from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, point_arrays
 from . import polls
-from .shortcomings import blur_shortcomings, render_shortcomings, shortcomings, window_shortcomings
+from .shortcomings import scene_shortcomings, shortcomings, window_shortcomings
 from .write_results import Manners, Outcome, write_results
 
 # share of the work that reading takes, before the mirrors are reflected one by one
@@ -163,7 +163,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
         attributes = self.attributes if self.properties.is_property_set("attributes") else None
         outcome = yield from generation(context, chosen, wanted, self.preview, Manners(attributes, self.collect))
         self.show_used(wanted, chosen.mirrors)
-        lacks = render_shortcomings(context, chosen.mirrors, chosen.diffuse)    # of what is still selected
+        lacks = scene_shortcomings(context, chosen, wanted)
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
         if self.select_alone:
@@ -173,9 +173,8 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
             if obj.name in context.view_layer.objects:
                 obj.select_set(True)
                 context.view_layer.objects.active = obj
-        placements = [settings.placement for settings in map(of_each(wanted), chosen.mirrors)]
         tell_done(self, [*outcome.news, outcome.summary(time.perf_counter() - started)],
-                  outcome.remarks + lacks + blur_shortcomings(context.scene, placements))
+                  outcome.remarks + lacks)
 
 
 def register() -> None:

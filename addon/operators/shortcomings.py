@@ -5,6 +5,7 @@ import bpy
 
 from ...core import ReflectionError, ReflectionMesh
 from ..reading import (
+    Participants,
     camera_of,
     every_result_of,
     in_background_set,
@@ -13,6 +14,7 @@ from ..reading import (
     rendered_otherwise,
     without_surface,
 )
+from ..settings import SettingsOfMirrors, of_each
 from ..writing import what_is_in_the_way
 
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
@@ -62,6 +64,14 @@ def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
     told += [sentence.format(count=counts[what], points=len(result.positions)) for what, sentence in SENTENCES.items()
              if counts.get(what)]
     return [f"{name}: {sentence}" for sentence in told]
+
+
+def scene_shortcomings(context: bpy.types.Context, chosen: Participants, settings: SettingsOfMirrors) -> list[str]:
+    """Sentences on what renders of the scene show otherwise than reflections that were just generated: of what is
+    chosen still, before new objects are known."""
+    placements = [own.placement for own in map(of_each(settings), chosen.mirrors)]
+    return (render_shortcomings(context, chosen.mirrors, chosen.diffuse)
+            + blur_shortcomings(context.scene, placements))
 
 
 def blur_shortcomings(scene: bpy.types.Scene, placements: list[str]) -> list[str]:

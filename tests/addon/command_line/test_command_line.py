@@ -41,6 +41,20 @@ def test_generate_saves_the_file(saved, room, capsys):
     assert faces_in(saved) > 0
 
 
+def test_generate_says_what_the_button_says(saved, room, capfd):
+    """Each warning, of what is blurred and of what renders show otherwise, is a line of the verb's too."""
+    scene, box = bpy.context.scene, bpy.data.objects["Box"]
+    scene.camera.data.dof.use_dof = scene.render.use_motion_blur = True
+    rounder = box.modifiers.new("Rounder", "SUBSURF")
+    rounder.levels, rounder.render_levels = 1, 2
+    bpy.ops.reflection_mesh.generate()
+    button = {line.removeprefix("Warning: ") for line in capfd.readouterr().out.splitlines()
+              if line.startswith("Warning: ")}
+    assert len(button) >= 3
+    assert room("addon.command_line").run(["generate"]) == 0
+    assert button <= set(capfd.readouterr().out.splitlines())
+
+
 def test_generate_to_another_file(saved, room, tmp_path):
     before = saved.read_bytes()
     output = tmp_path / "other.blend"
@@ -78,6 +92,7 @@ def test_objects_by_name(saved, room, tmp_path):
     (["generate", "--output", "{folder}/none/x.blend"], 1, "Error: '{folder}/none/x.blend' cannot be saved"),
     (["generate", "--output", "{folder}/picture.png"], 1, "picture.png' is not the name of a .blend file"),
     (["compare", "--samples", "0"], 1, "sample"),
+    (["compare", "--what", "CAUSTICS", "--rays", "0"], 1, "at least one ray: raise --rays"),
     (["polish"], 2, "polish"),
     ([], 2, "verb"),
 ])
