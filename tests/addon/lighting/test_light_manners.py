@@ -43,7 +43,8 @@ def test_what_is_lit_is_the_result_alone(blank):
         ("OBJECT", result.reflection_mesh.light_material)}
     new = {kind: set(names) - set(before["data"][kind]) for kind, names in after["data"].items()}
     assert {kind: names for kind, names in new.items() if names} == {
-        "materials": {"Reflection Light"}, "images": {"Reflection Light", "Reflection Light Export"}}
+        "materials": {"Reflection Light"}, "images": {"Reflection Light", "Reflection Light Export"},
+        "node_groups": {"Reflection Light Unblurred"}}
     assert {**after, "data": 0} == {**before, "data": 0}
     image = bpy.data.images["Reflection Light"]
     assert image.packed_file is not None and image.size[0] <= SIZE
