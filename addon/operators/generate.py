@@ -31,8 +31,6 @@ from .write_results import Manners, Outcome, write_results
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
 IN_OBJECT_MODE = "Reflections are generated in Object Mode: leave the present mode first."
-SEES_NONE = ("The camera sees none of the reflected objects in this mirror; move the camera, the mirror or the "
-             "objects.")
 # what whoever presses a button gets unless it is set otherwise
 FOR_THE_EYE = ("preview", "collect", "select_alone")
 
@@ -85,7 +83,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             refused.append(f"{mirror.name}: {error}")
             continue
         if not len(result.positions):
-            refused.append(f"{mirror.name}: {SEES_NONE}")
+            refused.append(f"{mirror.name}: The camera sees none of the reflected objects in this mirror; move the "
+                           "camera, the mirror or the objects.")
             unseen += 1
             continue
         remarks += shortcomings(mirror.name, result)
@@ -99,10 +98,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     kept.within(max(one.maximum_memory for one in own))
     yield 1.0, "Writing"
     outcome = write_results(context, prepared, view, scene, preview, manners)
-    for obj in [obj for obj, _ in outcome.results] + outcome.copies:
-        obj.reflection_mesh.made_from = origins[obj.reflection_mesh.mirror]
-    for obj, _ in outcome.results:
-        obj.reflection_mesh.seconds = (time.perf_counter() - started) / len(outcome.results)
+    _record(outcome, origins, time.perf_counter() - started)
     return replace(outcome, remarks=remarks + outcome.remarks + refused,
                    read=(view, dict(zip(chosen.mirrors, surfaces)), scene))
 
@@ -115,6 +111,14 @@ def _written(result: core.ReflectionMesh, scene: DiffuseScene, surface: MirrorSu
     if lines:
         result = core.with_borders_closed(result, view, scene.mesh, scene.source_object)
     return result, mesh_arrays(result, scene, surface, view)
+
+
+def _record(outcome: Outcome, origins: dict, seconds: float) -> None:
+    """Let results keep what they were made from, and how long that took."""
+    for obj in [obj for obj, _ in outcome.results] + outcome.copies:
+        obj.reflection_mesh.made_from = origins[obj.reflection_mesh.mirror]
+    for obj, _ in outcome.results:
+        obj.reflection_mesh.seconds = seconds / len(outcome.results)
 
 
 def _trees(stage: Stage, kinds: list) -> Steps[None]:

@@ -68,9 +68,9 @@ class WholeSquares:
         """Squares of a grid in crowded cameras. Where light goes on, at no `last` bounce, those that show a mirror are
         left out."""
         holders = Holders(cameras, grid)
-        square = holders.inner()
+        square = holders.inner
         row, column = np.divmod(square, max(grid.size[0], 1))
-        owner = holders.lattice[2 * row + 1, 2 * column + 1]
+        owner = holders.in_middles[row, column]
         middles = places_at(cameras.select(owner), grid.pixels(column + 0.5, row + 0.5))[0]
         triangle = shown_triangles(met, cameras.select(owner), middles)
         whole = np.zeros(grid.size[::-1], dtype=bool)
@@ -111,34 +111,40 @@ class Holders:
 
     Attributes
     ----------
-    lattice : (2 height + 1, 2 width + 1) int64
-        The camera at columns and rows and halfway between them, -1 where there is none.
+    at_corners : (height + 1, width + 1) int32
+        The camera at the corners of the squares, -1 where there is none.
+    in_middles : (height, width) int32
+        That in their middles.
+    inner : (n,) int64
+        The squares, row after row, that the cameras cover, all over one part of the mirror: nine places of each lie in
+        cameras, between those side by side the mirror does not leap, and it does not rise at the sides.
     """
 
     def __init__(self, cameras: Cameras, grid: SquareGrid) -> None:
         self.cameras, self.size = cameras, grid.size
         self._spots = grid.spots(rows(cameras.view.pixels(cameras.places.T)))[:, cameras.corners.T]
-        self.lattice = self._at(2, np.zeros(2))
+        lattice = self._at(2, np.zeros(2))
+        self.inner = self._inner(lattice)
+        # copies: the lattice is four times as large
+        self.at_corners, self.in_middles = lattice[::2, ::2].copy(), lattice[1::2, 1::2].copy()
 
     def _at(self, finer: int, shift: np.ndarray) -> np.ndarray:
         """The camera at the columns and rows of a grid that is so many times `finer`, and a `shift` (2,) from there."""
         width, height = finer * np.array(self.size) + 1
         spots = finer * (self._spots - shift.reshape(2, 1, 1)) + 0.5
         covered = Covered.of(spots, np.zeros(spots.shape[1:]), (width, height), False)
-        owner = np.full(width * height, -1)
+        owner = np.full(width * height, -1, dtype=np.int32)  # of a picture's size: half of what int64 takes
         owner[covered.pixel] = covered.face
         breathe()
         return owner.reshape(height, width)
 
-    def inner(self) -> np.ndarray:
-        """The squares (n,), row after row, that the cameras cover, all over one part of the mirror: nine places of each
-        lie in cameras, between those side by side the mirror does not leap, and it does not rise at the sides."""
-        held = self.lattice >= 0
+    def _inner(self, lattice: np.ndarray) -> np.ndarray:
+        held = lattice >= 0
         held = held[:, :-2:2] & held[:, 1::2] & held[:, 2::2]
         square = np.flatnonzero(held[:-2:2] & held[1::2] & held[2::2])
         row, column = np.divmod(square, max(self.size[0], 1))
         spots = np.stack((2 * column[:, None] + NINE[0], 2 * row[:, None] + NINE[1]))
-        holder = self.lattice[spots[1], spots[0]]
+        holder = lattice[spots[1], spots[0]]
         several = np.flatnonzero((holder != holder[:, :1]).any(axis=1))
         return np.delete(square, several[self._uneven(holder[several], spots[:, several])])
 
@@ -173,7 +179,7 @@ class Holders:
         aside = self._at(1, ASIDE)
         padded = np.pad(whole, 1)
         moved = padded[:-1, :-1] & padded[1:, :-1] & padded[:-1, 1:] & padded[1:, 1:] & (aside >= 0)
-        holder, moved = np.where(moved, aside, self.lattice[::2, ::2]).ravel()[point], moved.ravel()[point]
+        holder, moved = np.where(moved, aside, self.at_corners).ravel()[point], moved.ravel()[point]
         row, column = np.divmod(point, self.size[0] + 1)
         return holder, np.stack((column, row), axis=1) + moved[:, None] * ASIDE, moved
 

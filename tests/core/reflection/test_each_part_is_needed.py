@@ -112,7 +112,7 @@ PARTS = {
     "the eye's plane": Part(REFLECTION, "cut_before_eye", lambda cameras: cameras, (LOW, WIDE_FLOOR, ROOM), "faces"),
     "filling by rays": Part(Crowds, "filled", lambda self, candidates: Filled(
         candidates, np.zeros((0, 3), dtype=np.int64), 0, 0, False), "sphere", "uncovered", 10.0, settings=RAYS),
-    "whole squares": Part(Holders, "inner", lambda self: np.zeros(0, dtype=np.int64),
+    "whole squares": Part(Holders, "_inner", lambda self, lattice: np.zeros(0, dtype=np.int64),
                           (SMALL, FINE_BALL, ROOM), "faces", settings=RAYS),
     "middles of cells": Part(core.filling.square_cells, "_round_middles", lambda cells, some, spots: (
         cells, np.arange(len(cells))), (SMALL, BALLS, ROOM), "maximum", settings=RAYS),
