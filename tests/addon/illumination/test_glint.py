@@ -187,7 +187,7 @@ def test_the_shell_of_a_mesh_is_made_anew_and_follows_it(blank, room):
     lamp.modifiers.new("Finer", "SUBSURF")
     lamp.keyframe_insert("location")
     parts.select(floor, lamp, other, mirror)
-    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", leave_out=True) == {"FINISHED"}
     assert all(parts.state()["data"][kind] == names for kind, names in made.items() if kind != "actions")
     shell, = lamp.children
     bpy.context.view_layer.update()
