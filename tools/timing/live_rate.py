@@ -44,11 +44,18 @@ def measured(name: str) -> list[str]:
 
     def look() -> str:
         nonlocal now
-        started = time.process_time()
         done = updater.step(bpy.context, now)
         now += LOOK
-        taken.setdefault(done, []).append(time.process_time() - started)
         return done
+
+    def update() -> float:
+        """Milliseconds of one update, however many looks it takes."""
+        started = time.process_time()
+        while (done := look()) == "working":
+            pass
+        seconds = time.process_time() - started
+        taken.setdefault(done, []).append(seconds)
+        return 1000.0 * seconds
 
     def rest() -> float:
         """Milliseconds of work until all is exact."""
@@ -64,17 +71,14 @@ def measured(name: str) -> list[str]:
         bpy.context.scene.camera.location.x += STEP
         bpy.context.view_layer.update()
         updater.note(False)
-        look()
+        update()
     followed = 1000.0 * median(taken["followed"]) if "followed" in taken else None
     exact = rest()
     updater.following.tracks, updater._pace.tolerance = [], 16.0
     bpy.context.scene.camera.location.x += STEP
     bpy.context.view_layer.update()
     updater.note(False)
-    started = time.process_time()
-    while look() == "working":
-        pass
-    anew = 1000.0 * (time.process_time() - started)
+    anew = update()
     way = ["–", "–"] if followed is None else [f"{followed:.0f}", f"{1000.0 / followed:.0f}"]
     return [name, str(faces), *way, f"{anew:.0f}", f"{exact:.0f}"]
 
