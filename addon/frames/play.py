@@ -121,7 +121,7 @@ def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | No
             node.image_user.frame_start = node.image_user.frame_duration = 1
             node.image_user.use_auto_refresh = True
             keyed(tree, node.image_user, "frame_offset",
-                 sequence.times({record.frame: record.frame - 1 for record in lit}))
+                  sequence.times({record.frame: record.frame - 1 for record in lit}))
     return material
 
 
