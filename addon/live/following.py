@@ -57,10 +57,10 @@ class Following:
             view, surfaces, scene = outcome.read
             for obj, result in outcome.results:
                 mirror = obj.reflection_mesh.mirror
-                self._meshes[mirror.session_uid] = surfaces[mirror].mesh, scene.mesh
+                self._meshes[mirror.session_uid] = meshes = surfaces[mirror].mesh, scene.mesh
                 written = [obj, *(copy for copy in outcome.copies if copy.reflection_mesh.mirror == mirror)]
                 shown = Written.of(written, mirror, work.settings[mirror.session_uid].placement)
-                wanted.append(partial(Track.of, shown, result, view, surfaces[mirror].mesh, scene))
+                wanted.append(partial(Track.of, shown, result, view, *meshes))
                 if not work.exact:
                     for one in written:
                         one.reflection_mesh.made_from = COARSE

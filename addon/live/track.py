@@ -10,7 +10,6 @@ import numpy as np
 from ...core import FollowedImages, ReflectionMesh, TriangleMesh, View
 from ...core.following import Followed
 from ..freshness import COARSE
-from ..reading import DiffuseScene
 from ..writing import vertices_written
 
 ATTRIBUTES = ("reflected_position", "mirror_position", "path_length")
@@ -68,7 +67,7 @@ class Track:
         return self.shown.mirror
 
     @classmethod
-    def of(cls, shown: Written, result: ReflectionMesh, view: View, mirror: TriangleMesh, scene: DiffuseScene
+    def of(cls, shown: Written, result: ReflectionMesh, view: View, mirror: TriangleMesh, scene: TriangleMesh
            ) -> Track | None:
         """The way of a result that was written just now; None where it cannot be followed: it shows mirrors in mirrors,
         or points. Works on arrays alone."""
@@ -78,7 +77,7 @@ class Track:
         if any(len(result.positions) != count for count in shown.vertices):
             return None
         images = FollowedImages.of(view, mirror, result)
-        return cls(shown, origin, images, (len(mirror.triangles), len(scene.mesh.triangles)))
+        return cls(shown, origin, images, (len(mirror.triangles), len(scene.triangles)))
 
     def fits(self, objects: dict, mirror: TriangleMesh, scene: TriangleMesh) -> bool:
         """Whether the results, by their `session_uid`, are still those that were written, and what they show has not
