@@ -16,6 +16,11 @@ def still_there(items: list) -> list:
     return [item for item in items if _is_there(item)]
 
 
+def remove_new(item: bpy.types.ID) -> None:
+    """Remove data that was made, for the case that what follows fails; between two steps others may have done so."""
+    bpy.data.batch_remove(still_there([item]))
+
+
 def _is_there(item: bpy.types.ID) -> bool:
     try:
         return bool(item.name)

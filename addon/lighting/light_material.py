@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from .. import compat
-from ..faults import AllOrNothing, Steps, still_there
+from ..faults import AllOrNothing, Steps, remove_new
 from ..writing import UV_MAP, show_unblurred
 from .picture_layout import SHINING
 
@@ -38,8 +38,7 @@ def _packed(name: str, values: np.ndarray, whole: AllOrNothing, **options) -> St
         rgba = np.ones((height, width, 4), dtype=np.float32)
         rgba[..., :channels] = values
     image = bpy.data.images.new(name, width, height, alpha=channels == 4, **options)
-    # between two steps others may have removed it
-    whole.undo(lambda: bpy.data.batch_remove(still_there([image])))
+    whole.undo(remove_new, image)
     # light is not darker where less of it is seen
     image.alpha_mode = "CHANNEL_PACKED"
     yield 0.0, WRITING
@@ -62,7 +61,7 @@ def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Imag
     the first Principled BSDF that it finds, be it connected or not.
     """
     material = bpy.data.materials.new(name)
-    whole.undo(_remove, material)
+    whole.undo(remove_new, material)
     tree = compat.use_nodes(material)
     tree.nodes.clear()
 
@@ -113,10 +112,6 @@ def _put_apart(tree: bpy.types.NodeTree, add: Callable[..., bpy.types.Node], spo
         tree.links.new(look.outputs["Color"], socket)
     for output in [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL" and node.target != "ALL"]:
         tree.links.new(both.outputs[2], output.inputs["Surface"])
-
-
-def _remove(material: bpy.types.Material) -> None:
-    bpy.data.batch_remove(still_there([material]))
 
 
 def images_of(material: bpy.types.Material) -> list[bpy.types.Image]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 
 from .. import compat
-from ..faults import AllOrNothing, still_there
+from ..faults import AllOrNothing, remove_new
 from ..lamps import ShownLamp, lamp_light
 from ..reading.materials import index_of, surface_shader
 from ..writing import UV_MAP, show_unblurred
@@ -44,7 +44,7 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
     """
     if mirror is None or not compat.uses_nodes(mirror):
         material = bpy.data.materials.new(name)
-        whole.undo(_remove, material)
+        whole.undo(remove_new, material)
         tree = compat.use_nodes(material)
         tree.nodes.clear()
         tree.nodes.new("ShaderNodeOutputMaterial")
@@ -52,7 +52,7 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
         shown = build.glow(build.lit)
     else:
         material = mirror.copy()
-        whole.undo(_remove, material)
+        whole.undo(remove_new, material)
         material.name = name
         tree = material.node_tree
         build = _Builder(tree, image, around)
@@ -76,10 +76,6 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
         node.select = node == build.light
     tree.nodes.active = build.light
     return material
-
-
-def _remove(material: bpy.types.Material) -> None:
-    bpy.data.batch_remove(still_there([material]))
 
 
 class _Builder(ShaderBuilder):

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import bpy
 
-from ...faults import AllOrNothing, still_there
+from ...faults import AllOrNothing, remove_new, still_there
 from .copied_nodes import copied
 from .shader_builder import ShaderBuilder
 
@@ -55,7 +55,7 @@ def _unblurred(image: bpy.types.Image, whole: AllOrNothing) -> bpy.types.NodeTre
     from its own texels alone, and its border's beyond it."""
     group = bpy.data.node_groups.new(f"{image.name} Unblurred", "ShaderNodeTree")
     # whoever takes back what shows it may have removed it
-    whole.undo(_remove, group)
+    whole.undo(remove_new, group)
     group[MARK] = True
     for name, kind, way in (("Vector", "Vector", "INPUT"), ("Color", "Color", "OUTPUT"), ("Alpha", "Float", "OUTPUT")):
         group.interface.new_socket(name, in_out=way, socket_type=f"NodeSocket{kind}")
@@ -116,7 +116,3 @@ def _number(build: ShaderBuilder, share, first, second) -> bpy.types.NodeSocket:
     for value, socket in zip((share, first, second), (node.inputs[0], node.inputs[2], node.inputs[3])):
         build.feed(value, socket)
     return node.outputs[0]
-
-
-def _remove(group: bpy.types.NodeTree) -> None:
-    bpy.data.batch_remove(still_there([group]))
