@@ -75,8 +75,9 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
     count = len(whole.same)
     places, points = (np.concatenate(both, axis=1) for both in ((whole.place, bounce.nodes.place),
                                                                 (whole.point, bounce.nodes.point)))
+    sources = met.on_patch(whole.source)
     turned = _turned(mirror_map, whole.nodes, places, places,
-                     rows(met.positions[met.triangles[whole.source]].swapaxes(0, 1)))
+                     rows(met.positions[met.triangles[sources]].swapaxes(0, 1)))
     nodes = np.where(turned[:, None], whole.nodes[:, [0, 2, 1]], whole.nodes)
     # vertices that the faces of cameras have already
     vertex_of = np.full(places.shape[1], -1)
@@ -91,7 +92,7 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
     weights = np.where(turned[:, None, None], np.eye(3)[[0, 2, 1]], np.eye(3))
     part = np.flatnonzero(whole.split)
     if len(part):
-        source, column = distinct(whole.source[part])
+        source, column = distinct(sources[part])
         frames = SceneFrames.of(met, source)
         own = np.maximum(frames.weights(np.repeat(column, 3), points[:, nodes[part].ravel()]), 0.0)
         weights[part] = (own / own.sum(axis=0)).T.reshape(-1, 3, 3)
@@ -152,7 +153,7 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
         "triangles": triangles, "reflected_position": point.T, "mirror_position": seen.T, "path_length": path,
         "image_parity": np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned)).astype(np.int8),
         "mirror_normals": _mirror_normals(first_map, seen, mirror_map.leaving(owner, uv)),
-        "source_face": frames.triangle[faces.column],
+        "source_face": met.of_scene(frames.triangle[faces.column]),
         "source_weights": weights,
         "mirror_face": np.where((corner_face == face[:, None]).all(axis=1), mirror_map.first(face), -1),
         "map_face": face}, used

@@ -126,6 +126,8 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
         raise ReflectionError("The reflected objects have no faces with an area; select objects with faces to reflect.")
     known = scene if isinstance(scene, Standing) and scene.tree is tree and scene.mirrors is mirrors else None
     mirror, given, met = _with_mirrors(view, tree, mirror, mirrors, known)
+    if isinstance(tree, SceneTree) and not settings.hidden_faces:
+        met = met.from_outside(view)
     progress.done("tree")
 
     cameras, uncut, (pixels, overlaid) = _seen_cameras(view, mirror, met, settings, progress)
@@ -223,12 +225,12 @@ def _whole_first(cameras: Cameras, uncut: int, task: Task,
                  showing: np.ndarray) -> tuple[WholeFaces | None, Task]:
     """The faces that a part of the mirror shows whole, drawn from the images of their vertices, and the task with what
     is left; cameras that have not been cut have no corners behind the first `uncut`."""
-    settings, limits, tree = task.settings, task.limits, task.met.tree
-    if not isinstance(tree, SceneTree) or not _draws_whole(settings):
+    settings, limits = task.settings, task.limits
+    if not isinstance(task.met.tree, SceneTree) or not _draws_whole(settings):
         return None, task
     task.progress.next(0.15, "whole faces")
     eligible = _entire(cameras, uncut) & ~showing[cameras.face]
-    whole = whole_faces(cameras, eligible, tree, task.reach(cameras), settings, limits.pieces)
+    whole = whole_faces(cameras, eligible, task.met, task.reach(cameras), settings, limits.pieces)
     if whole is None:
         return None, task
     drawn = int(whole.drawn.sum())

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, connected, following
+from ..geometry import TriangleMesh, connected, following, solid_angles
 from ..views import View
 from .mirror_map import MirrorMap
 from .reflection_map import ReflectionMap
@@ -95,7 +95,7 @@ def _outwards(view: View, triangles: np.ndarray, corners: np.ndarray) -> np.ndar
     sixfold = np.einsum("ij,ij->i", corners[:, 0] - corners.mean(axis=(0, 1)), _normals(corners))
     volume = np.bincount(body, sixfold)
     if not view.orthographic:
-        around = np.abs(np.bincount(body, _solid_angles(view.eye, corners))) > 2.0 * np.pi
+        around = np.abs(np.bincount(body, solid_angles(view.eye, corners))) > 2.0 * np.pi
         volume = np.where(around, -volume, volume)
     return volume[body]
 
@@ -112,20 +112,6 @@ def _closed(triangles: np.ndarray) -> bool:
     count = int(triangles.max()) + 1
     forth, back = np.sort(a * count + b), np.sort(b * count + a)
     return bool((forth == back).all() and (forth[1:] != forth[:-1]).all())
-
-
-def _solid_angles(point: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """The solid angles (n,) of triangles (n, 3, 3) as a point sees them, negative from behind; their sum over 4 pi is
-    how often closed ones wind round the point.
-
-    A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 1983.
-    """
-    a, b, c = (corners[:, k] - point for k in range(3))
-    la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
-    numerator = np.einsum("ij,ij->i", a, np.cross(b, c))
-    denominator = (la * lb * lc + np.einsum("ij,ij->i", a, b) * lc + np.einsum("ij,ij->i", b, c) * la
-                   + np.einsum("ij,ij->i", c, a) * lb)
-    return 2.0 * np.arctan2(numerator, denominator)
 
 
 def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.ndarray) -> Cameras:

@@ -15,7 +15,19 @@ import numpy as np
 from ..cameras import Cameras, MirrorSurface
 from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, in_order, others, rows, unit
 from ..support import breathe
-from ..trees import Bound, Cones, PointTree, SceneTree, Touching, bounded_trace, curve_leaves, depth_for, first_crossed
+from ..trees import (
+    Bound,
+    Cones,
+    Fronts,
+    PointTree,
+    SceneTree,
+    Touching,
+    bounded_trace,
+    curve_leaves,
+    depth_for,
+    first_crossed,
+)
+from ..views import View
 from .candidates import Candidates
 from .mirrors_shown import MirrorsShown
 from .scene_pieces import ScenePieces
@@ -36,7 +48,8 @@ class SceneAndMirrors:
     positions : (n, 3) float64
     triangles : (m, 3) int64
     diffuse : int
-        How many triangles are diffuse, pieces of some among them; the others are the mirrors'.
+        How many triangles are diffuse, pieces of some among them, and behind these all as they are drawn together; the
+        others are the mirrors'.
     pieces : ScenePieces, optional
         What is left to the cameras of a patch; their triangles are numbered behind those of the scene.
     surface : MirrorSurface
@@ -62,12 +75,30 @@ class SceneAndMirrors:
         self.size = float(np.ptp(mirrors.positions[mirrors.triangles.ravel()], axis=0).max())
         self.surface = MirrorSurface(mirrors)
         self._beyond = rows(mirrors.opposite_corners)
+        self.outward: np.ndarray | None = None
+        self._fronts: tuple[Fronts | None, Fronts | None] = (None, None)
+        self._piece_fronts: Fronts | None = None
         self._number(None)
+
+    def from_outside(self, view: View) -> SceneAndMirrors:
+        """The same, without what closed bodies turn away from the view, which looks from outside."""
+        seen = copy(self)
+        assert isinstance(self.tree, SceneTree)
+        fronts = []
+        for tree in (self.tree, self.mirror_tree):
+            outward = tree.bodies.outward_from(view)
+            fronts.append(Fronts.of(tree.mesh, outward) if outward.any() else None)
+            seen.outward = outward if tree is self.tree else seen.outward
+        seen._fronts = fronts[0], fronts[1]
+        return seen
 
     def _number(self, pieces: ScenePieces | None) -> None:
         mesh, mirrors, self.pieces = self.tree.mesh, self.mirrors, pieces
         positions = mesh.positions if pieces is None else pieces.mesh.positions
         triangles = [mesh.triangles] if pieces is None else [mesh.triangles, pieces.mesh.triangles]
+        self._merged = sum(map(len, triangles))  # the first that is drawn together
+        if pieces is not None and pieces.merged is not None:
+            triangles.append(pieces.merged)
         self.diffuse = sum(map(len, triangles))
         self.positions = np.concatenate((positions, mirrors.positions))
         self.triangles = np.concatenate((*triangles, mirrors.triangles + len(positions)))
@@ -76,14 +107,25 @@ class SceneAndMirrors:
         """The same, where the cameras of a patch have to show these pieces alone."""
         left = copy(self)
         left._number(pieces)
+        if self.outward is not None:
+            left._piece_fronts = Fronts.of(pieces.mesh, self.outward[pieces.source])
         return left
 
     def sources(self, triangle: np.ndarray) -> np.ndarray:
-        """The triangles of the scene that diffuse triangles (n,) lie in."""
+        """The triangles that diffuse triangles (n,) lie in: of the scene, or as they are drawn together."""
         if self.pieces is None:
             return triangle
         whole = len(self.tree.mesh.triangles)
-        return np.where(triangle < whole, triangle, np.append(self.pieces.source, 0)[np.maximum(triangle - whole, 0)])
+        return np.where(triangle < whole, triangle,
+                        self.on_patch(np.append(self.pieces.source, 0)[np.maximum(triangle - whole, 0)]))
+
+    def on_patch(self, source: np.ndarray) -> np.ndarray:
+        """Triangles (n,) of the scene as whole faces and pieces show them, drawn together if any are."""
+        return source if self.pieces is None or self.pieces.merged is None else source + self._merged
+
+    def of_scene(self, source: np.ndarray) -> np.ndarray:
+        """The triangles of the scene that `sources` and `on_patch` (n,) are."""
+        return np.where(source < self._merged, source, source - self._merged)
 
     @property
     def bounds(self) -> tuple[np.ndarray, float]:
@@ -113,13 +155,14 @@ class SceneAndMirrors:
         """Cameras and diffuse triangles that may be seen in them."""
         assert isinstance(self.tree, SceneTree)  # points have a trace of their own
         if self.pieces is None:
-            return _traced(self.tree, cameras, bound)
+            return _traced(self.tree, cameras, bound, self._fronts[0])
         on_patch = self.pieces.holds(cameras)
         found = []
-        for tree, first, own in ((self.tree, 0, ~on_patch),
-                                 (self.pieces.tree, len(self.tree.mesh.triangles), on_patch)):
+        for tree, first, own, fronts in ((self.tree, 0, ~on_patch, self._fronts[0]),
+                                         (self.pieces.tree, len(self.tree.mesh.triangles), on_patch,
+                                          self._piece_fronts)):
             chosen = np.flatnonzero(own)
-            part = _traced(tree, cameras.select(chosen), bound.select(chosen)).among(chosen, len(cameras))
+            part = _traced(tree, cameras.select(chosen), bound.select(chosen), fronts).among(chosen, len(cameras))
             found.append(replace(part, triangle=first + part.triangle))
         return Touching.joined(found)
 
@@ -160,7 +203,7 @@ class SceneAndMirrors:
             surface, face = cameras.mirror_map.last(cameras.face)
             if (self._outside * dot(sides[1], surface.face_normal[:, face]) > 0.0).all():
                 return Touching.none(len(cameras))
-        return _traced(self.mirror_tree, cameras, bound,
+        return _traced(self.mirror_tree, cameras, bound, self._fronts[1],
                        lambda camera, triangle: self._above(sides, camera, triangle))
 
     def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
@@ -248,13 +291,20 @@ class SceneAndMirrors:
         return inner
 
 
-def _traced(tree: SceneTree, cameras: Cameras, bound: Bound,
+def _traced(tree: SceneTree, cameras: Cameras, bound: Bound, fronts: Fronts | None,
             asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None) -> Touching:
-    """`bounded_trace` of cameras, those side by side that look nearly the same way."""
+    """`bounded_trace` of cameras, those side by side that look nearly the same way, without what turns away."""
     family = _families(cameras)
     order = in_order(family)
-    by_order = None if asked is None else lambda camera, triangle: asked(order[camera], triangle)
-    found = bounded_trace(tree, Cones.around(cameras.select(order)), bound.select(order), by_order, family[order])
+    cones = Cones.around(cameras.select(order))
+
+    def counting(cone: np.ndarray, triangle: np.ndarray) -> np.ndarray:
+        kept = np.ones(len(cone), dtype=bool) if fronts is None else fronts.may_show(cones, cone, triangle)
+        if asked is not None:
+            kept[kept] = asked(order[cone[kept]], triangle[kept])
+        return kept
+
+    found = bounded_trace(tree, cones, bound.select(order), counting, family[order])
     return found.among(order, len(order))
 
 

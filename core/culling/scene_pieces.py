@@ -24,6 +24,9 @@ class ScenePieces:
     mesh : TriangleMesh
         The pieces between the scene's vertices and, numbered behind these, the nodes that triangles were split at.
     source : (k,) int64, the triangle of the scene that each is a piece of, or is
+    merged : (m, 3) int64, optional
+        The scene's triangles between the vertices that stand for their corners, where small parts have been drawn
+        together: pieces are pieces of these.
     on_patch : (m,) bool, the mirror's triangles on which nothing but these pieces is left to show
     cells : PictureCells
         Where in the picture on the patch pieces are seen.
@@ -35,6 +38,7 @@ class ScenePieces:
     on_patch: np.ndarray
     cells: PictureCells
     open: np.ndarray
+    merged: np.ndarray | None = None
 
     @cached_property
     def tree(self) -> SceneTree:

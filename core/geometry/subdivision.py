@@ -93,6 +93,20 @@ def areas(corners: np.ndarray) -> np.ndarray:
     return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
 
 
+def solid_angles(point: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """The solid angles (n,) of triangles (n, 3, 3) as a point sees them, negative from behind; their sum over 4 pi is
+    how often closed ones wind round the point.
+
+    A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 1983.
+    """
+    a, b, c = (corners[:, k] - point for k in range(3))
+    la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
+    numerator = np.einsum("ij,ij->i", a, np.cross(b, c))
+    denominator = (la * lb * lc + np.einsum("ij,ij->i", a, b) * lc + np.einsum("ij,ij->i", b, c) * la
+                   + np.einsum("ij,ij->i", c, a) * lb)
+    return 2.0 * np.arctan2(numerator, denominator)
+
+
 def shared_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Edges of triangles (n, 3), each once.
 

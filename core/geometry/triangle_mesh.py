@@ -118,8 +118,15 @@ class TriangleMesh:
         found = np.empty(len(self.triangles), dtype=bool)
         for start in range(0, len(found), _CHUNK):
             part = slice(start, start + _CHUNK)
-            found[part] = has_area(*_areas(rows(self.positions.take(self.triangles[part].T, axis=0, mode="clip"))))
+            found[part] = areal(rows(self.positions.take(self.triangles[part].T, axis=0, mode="clip")))
         return found
+
+    @cached_property
+    def places(self) -> np.ndarray:
+        """The first vertex (n,) in the place of each, in a mesh in its canonical order: those follow each other."""
+        new = np.ones(len(self.positions), dtype=bool)
+        new[1:] = (self.positions[1:] != self.positions[:-1]).any(axis=1)
+        return np.flatnonzero(new)[np.cumsum(new) - 1]
 
     @cached_property
     def place_of(self) -> np.ndarray:
@@ -164,6 +171,11 @@ def area_normals(corners: np.ndarray) -> np.ndarray:
     before = np.where(first, edge[2], np.where(second, edge[0], edge[1]))
     after = np.where(first, edge[0], np.where(second, edge[1], edge[2]))
     return cross(before, after)
+
+
+def areal(corners: np.ndarray) -> np.ndarray:
+    """Which triangles with corners (3, 3, m), component and corner first, have an area that is more than rounding."""
+    return has_area(*_areas(corners))
 
 
 def has_area(area: np.ndarray, size: np.ndarray) -> np.ndarray:

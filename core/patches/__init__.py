@@ -4,6 +4,7 @@ In come cameras and points; out come the mirror's triangles, places on them and 
 (N. Greene, IEEE CG&A 1986), and Newton's method walks from there.
 """
 from .patch import Patch, speck
-from .walk import Starts, changes, find, find_near, jacobians
+from .patch_nodes import Descent, Walk
+from .walk import Starts, find, jacobians
 
-__all__ = ["Patch", "Starts", "changes", "find", "find_near", "jacobians", "speck"]
+__all__ = ["Descent", "Patch", "Starts", "Walk", "find", "jacobians", "speck"]

@@ -7,10 +7,9 @@ import numpy as np
 
 from ..cameras import INSIDE, drawn_in, least_weight, settle
 from ..geometry import rows
-from ..patches import Patch
+from ..patches import Descent, Patch, Walk
 from ..support import breathe
-from ..trees import PointTree
-from .patch_nodes import Descent, Walk
+from ..trees import SMALL, PointTree
 from .point_images import PointImages
 
 AT_ONCE = 8192  # vertices: what their arrays take fits the cache
@@ -32,10 +31,9 @@ def images_on_patch(patch: Patch, tree: PointTree,
         Nodes visited, vertices looked for, both together, images found.
     """
     walk = Walk(patch)
-    descent, wanted = Descent(walk, tree), 0
+    descent, wanted = Descent(walk, tree, SMALL), 0
     found, left = [PointImages.none()], [PointImages.none()]
     for some in descent.vertices():
-        descent.covered[some.vertex] = False
         wanted += len(some.vertex)
         for start in range(0, len(some.vertex), AT_ONCE):
             breathe()
@@ -51,7 +49,8 @@ def images_on_patch(patch: Patch, tree: PointTree,
     found += [sure, _over_border(patch, lost, tree, elsewhere)]
     images = PointImages.joined(found)
     counts = {"nodes_visited": walk.asked - wanted, "pairs": wanted, "projections": walk.asked, "roots": len(images)}
-    return replace(images, uv=drawn_in(images.uv)), descent.covered, counts
+    stood_for = descent.standing != np.arange(len(descent.standing))
+    return replace(images, uv=drawn_in(images.uv)), stood_for, counts
 
 
 def _split(patch: Patch, vertex: np.ndarray, stood: np.ndarray, looked: tuple) -> tuple[PointImages, PointImages]:

@@ -5,13 +5,16 @@ In come meshes and the rays of cameras; out come pairs that may meet, and what r
 """
 from .bounded_trace import Bound, Touching, bounded_trace
 from .box_tree import BoxTree
+from .closed_bodies import Fronts
 from .cones import Balls, Cones
 from .first_crossed import first_crossed
 from .first_hits import first_hits, meet
 from .magnification import Magnification
 from .node_tree import curve_leaves, depth_for, median_leaves
-from .point_tree import PointTree
+from .point_tree import SMALL, PointTree
 from .scene_tree import SceneTree
+from .vertex_tree import VertexTree
 
-__all__ = ["Balls", "Bound", "BoxTree", "Cones", "Magnification", "PointTree", "SceneTree", "Touching", "bounded_trace",
-           "curve_leaves", "depth_for", "first_crossed", "first_hits", "median_leaves", "meet"]
+__all__ = ["SMALL", "Balls", "Bound", "BoxTree", "Cones", "Fronts", "Magnification", "PointTree", "SceneTree",
+           "Touching", "VertexTree", "bounded_trace", "curve_leaves", "depth_for", "first_crossed", "first_hits",
+           "median_leaves", "meet"]

@@ -105,11 +105,11 @@ def depth_for(count: int, bucket: int) -> int:
     return max(0, int(np.ceil(np.log2(max(count, 1) / bucket))))
 
 
-def curve_leaves(points: np.ndarray, depth: int) -> np.ndarray:
-    """Leaf of each point (n, 3) in a complete tree, of equal parts of a Z curve through all of them.
+def along_curve(points: np.ndarray) -> np.ndarray:
+    """The order (n,) of points (n, 3), at least one, along a Z curve.
 
-    Its order is that of a tree that halves the widest box along x, y and z in turn, and comes from one sort
-    (C. Lauterbach et al., "Fast BVH Construction on GPUs", Eurographics 2009).
+    It is that of a tree that halves the widest box along x, y and z in turn, and comes from one sort (C. Lauterbach et
+    al., "Fast BVH Construction on GPUs", Eurographics 2009).
     """
     count = len(points)
     low, size = points.min(axis=0), np.ptp(points, axis=0).max()
@@ -119,8 +119,13 @@ def curve_leaves(points: np.ndarray, depth: int) -> np.ndarray:
         breathe()
         cell = np.minimum((points[:, axis] - low[axis]) * (most / (size if size > 0.0 else 1.0)), most)
         code |= _spread(cell.astype(np.uint64)) << np.uint64(axis)
-    leaf = np.empty(count, dtype=np.int64)
-    leaf[np.argsort(code, kind="stable")] = np.arange(count) * 2**depth // max(count, 1)
+    return np.argsort(code, kind="stable")
+
+
+def curve_leaves(points: np.ndarray, depth: int) -> np.ndarray:
+    """Leaf of each point (n, 3) in a complete tree, of equal parts of a Z curve through all of them."""
+    leaf = np.empty(len(points), dtype=np.int64)
+    leaf[along_curve(points)] = np.arange(len(points)) * 2**depth // len(points)
     return leaf
 
 

@@ -1,21 +1,17 @@
-"""k-d tree over the vertices of a dense diffuse scene, for its rendering as points.
-
-Nodes hold vertices, not triangles. A node whose image in a camera is surely smaller than a pixel is not opened there:
-the vertex nearest its middle stands for all, so that the work is bounded by what the picture can show.
-"""
+"""The vertices of a dense diffuse scene, for its rendering as points: of those that lie within a pixel one is shown."""
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, columns, cross, norm, ordered, ranges, rows, unit
+from ..geometry import TriangleMesh, columns, cross, ordered, rows, unit
 from ..support import breathe
 from .cones import Cones
 from .magnification import Magnification
-from .node_tree import NodeTree, depth_for, median_leaves, node_spheres
+from .node_tree import depth_for, median_leaves, node_spheres
+from .vertex_tree import BUCKET, VertexTree
 
-BUCKET = 4
 SMALL = 1.0  # pixels: the image of a node that one of its vertices may stand for
 
 
@@ -42,7 +38,7 @@ class PointPairs:
 
 
 @dataclass(frozen=True)
-class PointTree(NodeTree):
+class PointTree(VertexTree):
     """The vertices of a diffuse scene, those of triangles with an area, or all where there are no triangles; build it
     once with `PointTree.build` while the scene stands still.
 
@@ -114,32 +110,6 @@ class PointTree(NodeTree):
             radii.append(np.zeros(int(touching.sum())))
         camera, vertex, radius = (np.concatenate(parts) for parts in (cameras, vertices, radii))
         return PointPairs(camera, vertex, radius, visited, covered)
-
-    def held(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The vertices (m,) in nodes (n,), and in which of the n each is."""
-        begin, end = self.runs(level, node)
-        entry, run = ranges(begin, end - begin)
-        return self.order[entry], run
-
-    def small(self, level: int, node: np.ndarray, scale: np.ndarray) -> np.ndarray:
-        """Which nodes (n,) one vertex may stand for where a scene unit is `scale` (n,) pixels long."""
-        # an empty one, of radius -inf, has none
-        return 2.0 * np.abs(self.spheres[level][3, node]) * scale < SMALL
-
-    def representatives(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The vertex nearest the middle of each node, and how far from it the node's other vertices are at most."""
-        if not len(node):
-            return np.zeros(0, dtype=np.int64), np.zeros(0)
-        held, run = self.held(level, node)
-        middle = self.spheres[level][:3, node]
-        points = rows(self.mesh.positions[held])
-        away = norm(points - middle[:, run])
-        first = np.flatnonzero(np.diff(run, prepend=-1))
-        nearest = np.flatnonzero(away == np.minimum.reduceat(away, first)[run])
-        _, once = np.unique(run[nearest], return_index=True)
-        vertex = held[nearest[once]]
-        spread = norm(points - rows(self.mesh.positions[vertex])[:, run])
-        return vertex, np.maximum.reduceat(spread, first)
 
 
 def _surface(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -13,13 +13,16 @@ from functools import cached_property
 
 import numpy as np
 
-from ..geometry import Order, TriangleMesh, columns, dot, in_order, ordered, ranges, rows, shares
+from ..geometry import Order, TriangleMesh, columns, dot, in_order, largest, ordered, ranges, rows, shares
 from ..support import breathe
 from .box_tree import BoxTree
+from .closed_bodies import ClosedBodies
 from .cones import Balls, Cones
-from .node_tree import NODES_AT_ONCE, NodeTree, curve_leaves, depth_for, node_spheres
+from .node_tree import NODES_AT_ONCE, NodeTree, along_curve, depth_for, node_spheres
+from .vertex_tree import VertexTree
 
 BUCKET = 16
+AT_ONCE = 16384  # triangles: what their arrays take fits the cache
 LEAST_FAMILY = 1.5  # cones: to look for fewer together costs more than it spares
 
 
@@ -31,6 +34,8 @@ class SceneTree(NodeTree):
     ----------
     triangle_spheres : (4, m) float64
         Centre and radius around each triangle of the mesh.
+    curve : (v,) int64
+        Vertices of triangles with an area, along a space-filling curve.
 
     Examples
     --------
@@ -43,6 +48,7 @@ class SceneTree(NodeTree):
     """
 
     triangle_spheres: np.ndarray
+    curve: np.ndarray
 
     @classmethod
     def build(cls, mesh: TriangleMesh) -> SceneTree:
@@ -55,24 +61,17 @@ class SceneTree(NodeTree):
     @classmethod
     def of_ordered(cls, mesh: TriangleMesh, given: Order | None = None) -> SceneTree:
         """The tree of a mesh that is in its canonical order."""
-        positions = rows(mesh.positions)
-        a, b, c = (columns(positions, corner) for corner in mesh.triangles.T)
-        breathe()
-        # as three arrays: minima along an axis of three are several times slower
-        low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-        breathe()
-        centre = 0.5 * (low + high)
-        radius = np.sqrt(np.maximum(np.maximum(*(dot(away, away) for away in (a - centre, b - centre))),
-                                    dot(c - centre, c - centre)))
+        low, high, spheres_of_each = _boxes_and_spheres(mesh)
         areal = np.flatnonzero(mesh.areal)
         breathe()
         some = np.zeros(len(mesh.positions), dtype=bool)
         some[mesh.triangles[areal].ravel()] = True
         used = np.flatnonzero(some)
         leaf_of_vertex = np.zeros(len(mesh.positions), dtype=np.int64)
-        depth = depth_for(len(used), BUCKET)
+        depth, curve = depth_for(len(used), BUCKET), used
         if len(used):
-            leaf_of_vertex[used] = curve_leaves(mesh.positions[used], depth)
+            curve = used[along_curve(mesh.positions[used])]
+            leaf_of_vertex[curve] = np.arange(len(curve)) * 2**depth // len(curve)
         leaf = leaf_of_vertex[mesh.triangles[areal, 0]]
         breathe()
         order = in_order(leaf)
@@ -81,7 +80,17 @@ class SceneTree(NodeTree):
         breathe()
         spheres = node_spheres(low[:, order], high[:, order], leaf_start, depth)
         return cls(mesh, Order.unchanged(mesh) if given is None else given, depth, spheres, leaf_start, order,
-                   np.concatenate((centre, radius[None])))
+                   spheres_of_each, curve)
+
+    @cached_property
+    def vertices(self) -> VertexTree:
+        """For vertices that are looked for by themselves."""
+        return VertexTree.along_curve(self.mesh, self.given, self.curve)
+
+    @cached_property
+    def bodies(self) -> ClosedBodies:
+        """Of which nothing is seen from behind."""
+        return ClosedBodies.of(self.mesh)
 
     @cached_property
     def boxes(self) -> BoxTree:
@@ -142,6 +151,23 @@ class SceneTree(NodeTree):
                 yield own[touching], chosen[touching], visited
                 visited = 0
         wanted[np.repeat(~some, size)] = False
+
+
+def _boxes_and_spheres(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Low and high corner (3, m) of the box round each triangle, and centre and radius (4, m) of the sphere."""
+    positions, count = rows(mesh.positions), len(mesh.triangles)
+    low, high, spheres = np.empty((3, count)), np.empty((3, count)), np.empty((4, count))
+    for start in range(0, count, AT_ONCE):
+        breathe()
+        part = slice(start, start + AT_ONCE)
+        corners = [columns(positions, corner) for corner in mesh.triangles[part].T]
+        a, b, c = corners
+        # as three arrays: minima along an axis of three are several times slower
+        low[:, part], high[:, part] = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+        centre = 0.5 * (low[:, part] + high[:, part])
+        spheres[:3, part] = centre
+        spheres[3, part] = np.sqrt(largest(np.stack([dot(corner - centre, corner - centre) for corner in corners])))
+    return low, high, spheres
 
 
 def _not_too_many(cone: np.ndarray, tests: np.ndarray, wanted: np.ndarray, enough: np.ndarray) -> np.ndarray:

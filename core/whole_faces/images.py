@@ -1,13 +1,15 @@
 """Nodes of the whole faces: points of the scene with their images on the patch."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from ..geometry import ColumnArrays
 from ..patches import Patch, Starts, find, jacobians
 from ..support import breathe
+
+AT_ONCE = 16384  # points: what their arrays take fits the cache
 
 
 @dataclass(frozen=True)
@@ -43,13 +45,26 @@ class Images(ColumnArrays):
     @classmethod
     def near(cls, patch: Patch, points: np.ndarray, member: np.ndarray, uv: np.ndarray, s: np.ndarray) -> Images:
         """Images of points (3, n) from the eye, looked for from starts."""
-        member, uv, s, found = find(patch, member, uv, s, points)
-        breathe()
-        place = patch.places(member, uv)
-        breathe()
-        pixel = patch.pixels(place)
-        found &= np.isfinite(pixel).all(axis=0)
-        return cls(points, member, uv, s, found, place, pixel, np.full((2, 3, len(s)), np.nan))
+        return cls.at(patch, points, *find(patch, member, uv, s, points))
+
+    @classmethod
+    def at(cls, patch: Patch, points: np.ndarray, member: np.ndarray, uv: np.ndarray, s: np.ndarray,
+           found: np.ndarray) -> Images:
+        """Images of points (3, n) from the eye, which are known but for where they lie in the picture."""
+        count = len(s)
+        place, pixel = np.empty((3, count)), np.empty((2, count))
+        for start in range(0, count, AT_ONCE):
+            breathe()
+            part = slice(start, start + AT_ONCE)
+            place[:, part] = patch.places(member[part], uv[:, part])
+            pixel[:, part] = patch.pixels(place[:, part])
+        found = found & np.isfinite(pixel).all(axis=0)
+        return cls(points, member, uv, s, found, place, pixel, np.full((2, 3, count), np.nan))
+
+    def put(self, node: np.ndarray, others: Images) -> None:
+        """Put the images of `others` (k) in the place of those of nodes (k,)."""
+        for field in fields(self):
+            getattr(self, field.name)[..., node] = getattr(others, field.name)
 
     def several(self, nodes: np.ndarray) -> np.ndarray:
         """Which faces (3, f) lie over several triangles of the mirror."""

@@ -8,11 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import ColumnArrays, doubled_areas, parent_side, rows, split
+from ..geometry import ColumnArrays, columns, cross, dot, doubled_areas, largest, norm, parent_side, rows, split
 from ..patches import Patch
+from ..support import breathe
 from ..views import box
 from .images import Images
 
+AT_ONCE = 16384  # pieces: what their arrays take fits the cache
 NEAR = 0.5  # pixels from the box of a face: where its bent edges may lie
 
 
@@ -49,14 +51,41 @@ class Pieces(ColumnArrays):
                       unsplit & self.lost[own, parent], unsplit & self.done[own, parent])
 
 
+def turned_away(images: Images, pieces: Pieces, outward: np.ndarray) -> np.ndarray:
+    """Which pieces (f,) turn their backs to all places on the patch where they are seen; `outward` (f,) is 1 for those
+    that show the side of their normals alone, -1 the other side, 0 both."""
+    found = np.zeros(len(pieces), dtype=bool)
+    asked = np.flatnonzero(outward != 0.0)
+    for start in range(0, len(asked), AT_ONCE):
+        breathe()
+        some = asked[start:start + AT_ONCE]
+        nodes = columns(pieces.nodes, some)
+        a, b, c = (columns(images.point, node) for node in nodes)
+        places = [columns(images.place, node) for node in nodes]
+        normal = cross(b - a, c - a)
+        normal *= outward[some]
+        # between three places the mirror bulges by less than they are apart
+        bulge = largest(np.stack([norm(places[k] - places[(k + 1) % 3]) for k in range(3)]))
+        away = np.ones(len(some), dtype=bool)
+        for node, place in zip(nodes, places):
+            away &= columns(images.found, node) & (dot(normal, place - a) < -bulge * norm(normal))
+        found[some] = away
+    return found
+
+
 def whole(patch: Patch, images: Images, pieces: Pieces) -> np.ndarray:
     """Which pieces (f,) are seen whole on the patch."""
-    found, lost = images.found[pieces.nodes], pieces.lost
-    all_found = found[0] & found[1] & found[2] & ~(lost[0] | lost[1] | lost[2])
-    chosen = np.flatnonzero(all_found)
-    spots = images.pixel[:, pieces.nodes[:, chosen]]
-    low, high = box(spots)
-    # with a corner on the patch, what touches no border lies on it whole
-    all_found[chosen] = (patch.border.holds(low - NEAR, high + NEAR) & (doubled_areas(spots.T) != 0.0)
-                         & ~patch.border.touched(low - NEAR, high + NEAR))
-    return all_found
+    every = np.empty(len(pieces), dtype=bool)
+    for start in range(0, len(every), AT_ONCE):
+        breathe()
+        part = slice(start, start + AT_ONCE)
+        found, lost = columns(images.found, pieces.nodes[:, part]), pieces.lost[:, part]
+        all_found = found[0] & found[1] & found[2] & ~(lost[0] | lost[1] | lost[2])
+        chosen = np.flatnonzero(all_found)
+        spots = columns(images.pixel, pieces.nodes[:, start + chosen])
+        low, high = box(spots)
+        # with a corner on the patch, what touches no border lies on it whole
+        all_found[chosen] = (patch.border.holds(low - NEAR, high + NEAR) & (doubled_areas(spots.T) != 0.0)
+                             & ~patch.border.touched(low - NEAR, high + NEAR))
+        every[part] = all_found
+    return every

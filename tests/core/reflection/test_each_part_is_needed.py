@@ -14,6 +14,8 @@ import pytest
 import core.bounce
 import core.filling.square_cells
 import core.reflection
+import core.whole_faces.merging
+import core.whole_faces.whole
 from core import PointTree, Settings, TriangleMesh, View, reflect
 from core.cameras import Cameras, picture_areas
 from core.culling import SceneAndMirrors
@@ -23,6 +25,7 @@ from core.filling.whole_squares import Holders
 from core.points.beams import Beams
 from core.polygons import FaceRefinement, Overlaps
 from core.trees import Bound, Magnification
+from core.trees.closed_bodies import ClosedBodies
 from core.visibility.mirror_visibility import DepthGrid
 from core.whole_faces import seams
 from core.whole_faces.division import Division
@@ -120,6 +123,12 @@ PARTS = {
         len(reach), dtype=bool), (VIEW, FLOOR, BOXES), "uncovered", above=0.1, settings=RAYS),
     "sinking faces": Part(Sinking, "too_deep", lambda self, patch, images, a, b: np.zeros(len(a), dtype=bool),
                           "dense sphere_ortho", "uncovered", 10.0),
+    "bodies that turn away": Part(ClosedBodies, "outward_from", lambda self, view: np.zeros(len(self.outward)),
+                                  "sphere", "faces", 1.2),
+    "small parts drawn together": Part(core.whole_faces.whole, "TOGETHER", 0.0, "fine knots", "faces", 1.3),
+    "outlines of what is drawn together": Part(core.whole_faces.merging, "_on_outline", lambda tree, images, standing:
+                                               np.zeros(len(standing), dtype=bool), "fine knots", "uncovered", 1.5,
+                                               settings={"tolerance": 1.0}),
     "layers that are close": Part(Layers, "hidden_and_close", only_hidden, "dense sphere", "uncovered", 5.0),
     "the middles of whole faces": Part(Division, "strays_inside", lambda self, images, nodes: np.zeros(
         nodes.shape[1], dtype=bool), "knots", "p99", 1.05),
@@ -138,8 +147,10 @@ PARTS = {
 def scene_of(part: Part) -> tuple[View, TriangleMesh, TriangleMesh | PointTree]:
     if isinstance(part.scene, tuple):
         return part.scene
-    if part.scene.startswith("dense") or part.scene == "knots":
-        case = knots_in_a_ball() if part.scene == "knots" else dense(part.scene.split()[1], (256, 256), 0.24)
+    if part.scene.startswith("dense") or part.scene.endswith("knots"):
+        knots = {"knots": (1024, 1024), "fine knots": (64, 64)}
+        case = knots_in_a_ball(knots[part.scene]) if part.scene in knots else \
+            dense(part.scene.split()[1], (256, 256), 0.24)
         return case.view, case.mirror, case.scene
     sphere = case_of("sphere")
     if part.scene == "coarse ball":

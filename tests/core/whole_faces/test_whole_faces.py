@@ -79,6 +79,7 @@ def test_other_placements_show_the_same(name):
 def test_vertices_of_whole_faces_lie_on_the_true_map(name, monkeypatch):
     # squares that rays fill span several triangles of the mirror too, and show images of any parity
     monkeypatch.setattr(limits, "DENSE", np.inf)
+    monkeypatch.setattr(whole_room, "TOGETHER", 0.0)
     case, _, _ = made(name, placement="LAYERED")
     mesh = reflect(case.view, case.mirror, case.scene)
     several = mesh.mirror_face < 0
@@ -92,8 +93,10 @@ def test_vertices_of_whole_faces_lie_on_the_true_map(name, monkeypatch):
 
 
 @pytest.mark.parametrize("name", SMOOTH)
-def test_sources_are_told_of_whole_faces_too(name):
-    case, mesh, _ = made(name, placement="LAYERED")
+def test_sources_are_told_of_whole_faces_too(name, monkeypatch):
+    monkeypatch.setattr(whole_room, "TOGETHER", 0.0)
+    case, _, _ = made(name, placement="LAYERED")
+    mesh = reflect(case.view, case.mirror, case.scene)
     sources = case.scene.positions[case.scene.triangles[mesh.source_face]]
     given = np.einsum("fkj,fjx->fkx", mesh.source_weights, sources)
     size = np.ptp(case.scene.positions, axis=0).max()

@@ -1,7 +1,7 @@
 """The tree of vertices descended by the images that a patch shows of its nodes.
 
 Newton's method finds the image of a node's middle, and the map's derivative there tells so closely where what the node
-holds is seen that two more steps find it, without cones or cubics. A node smaller than a pixel is not opened.
+holds is seen that two more steps find it, without cones or cubics. A node smaller than what is seen is not opened.
 """
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import columns, dot, norm, unit
-from ..patches import Patch, changes, find, find_near
 from ..support import breathe
-from ..trees import Cones, PointTree, median_leaves
+from ..trees import Cones, VertexTree, median_leaves
+from .patch import Patch
+from .walk import changes, find, find_near
 
 NODES_AT_ONCE = 2048  # what they hold fits the cache
 RAYS, SHEAVES = 9, 6  # two to the power of so many rays from all over the patch, and parts of it
@@ -118,21 +119,22 @@ class NodeVertices:
 
 
 class Descent:
-    """How the vertices of a tree come to a patch.
+    """How the vertices of a tree come to a patch, of nodes smaller than `least` pixels one.
 
     Attributes
     ----------
-    covered : (v,) bool
-        Vertices of the mesh in nodes of which one stands for all.
+    standing : (v,) int64
+        For each vertex of the mesh the one that stands for it.
     """
 
-    def __init__(self, walk: Walk, tree: PointTree) -> None:
-        self.walk, self.tree = walk, tree
+    def __init__(self, walk: Walk, tree: VertexTree, least: float) -> None:
+        self.walk, self.tree, self.least = walk, tree, least
         self.sheaves = _sheaves(walk.patch)
-        self.covered = np.zeros(len(tree.mesh.positions), dtype=bool)
+        self.standing = np.arange(len(tree.mesh.positions))
+        self._small: list[tuple[int, np.ndarray, np.ndarray, np.ndarray]] = []
 
     def vertices(self) -> Generator[NodeVertices, None, None]:
-        """Those that the patch may show; of a node smaller than a pixel one."""
+        """Those that the patch may show; of a small node one."""
         tree = self.tree
         level, node = tree.top()
         waiting: list[tuple[int, np.ndarray, NodeImages | None, np.ndarray]] = [(level, node, None, node)]
@@ -161,10 +163,37 @@ class Descent:
     def _opened(self, level: int, node: np.ndarray, images: NodeImages,
                 row: np.ndarray) -> tuple[np.ndarray, NodeVertices]:
         """Which nodes (n,), seen about where the images (n,) tell, are to be opened; vertices that stand for others."""
-        small = images.found[row] & self.tree.small(level, node, LARGER * images.scale[row])
+        scale = LARGER * images.scale[row]
+        small = images.found[row] & self.tree.small(level, node, scale, self.least)
         some = np.flatnonzero(small)
-        self.covered[self.tree.held(level, node[some])[0]] = True
-        return ~small, NodeVertices(images, row[some], *self.tree.representatives(level, node[some]))
+        vertex, stood = self._stand(level, node[some])
+        self._small.append((level, node[some], vertex, scale[some]))
+        return ~small, NodeVertices(images, row[some], vertex, stood)
+
+    def _stand(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The vertices that stand for all in nodes (n,) from now on, and how far from these the others are at most."""
+        vertex, stood = self.tree.representatives(level, node)
+        held, run = self.tree.held(level, node)
+        self.standing[held] = vertex[run]
+        return vertex, stood
+
+    def part(self, asked: np.ndarray, least: float) -> None:
+        """Let nodes of which a vertex `asked` (v,) stands for all fall apart into such as are smaller than `least`
+        pixels."""
+        tree = self.tree
+        for level, node, vertex, scale in self._small:
+            breathe()
+            node, scale = node[asked[vertex]], scale[asked[vertex]]
+            held = tree.held(level, node)[0]
+            self.standing[held] = held
+            while len(node):
+                small = tree.small(level, node, scale, least)
+                self._stand(level, node[small])
+                node, scale = node[~small], scale[~small]
+                if level == tree.depth:
+                    break
+                level, node, parent = tree.below(level, node)
+                scale = scale[parent]
 
     def _may_be_seen(self, sphere: np.ndarray) -> np.ndarray:
         """Which spheres (4, n) some ray of the patch may touch."""

@@ -1,0 +1,188 @@
+"""Closed bodies: from outside nothing is seen of them from behind.
+
+A ray that comes from outside meets a closed surface from its front first, unless it overlaps itself the wrong way. It
+is closed where its oriented triangles have no border; how often it winds round a place is then a whole number, 0
+outside, and nowhere less where it is turned the right way (A. Jacobson et al., "Robust inside-outside segmentation
+using generalized winding numbers", SIGGRAPH 2013).
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry import TriangleMesh, columns, connected, cross, dot, others, rows, solid_angles
+from ..support import breathe
+from ..views import Covered, View
+from .cones import Cones
+
+AT_ONCE = 16384  # triangles: what their arrays take fits the cache
+LINES = 1 << 16  # that bodies are looked through along, all together
+FEWEST, MOST = 4, 64  # of them along each side of one body
+TOGETHER = 1e-9  # of a body's size: what lies closer is met at once
+SCATTERED = 2654435761  # odd: sums of few of its multiples are equal by no accident
+# right, up and along the lines: askew to whatever people build
+FRAME = np.linalg.qr(np.array([[0.83, -0.46, 0.31], [0.37, 0.71, 0.59], [-0.41, -0.53, 0.74]]))[0]
+
+
+@dataclass(frozen=True)
+class ClosedBodies:
+    """Closed bodies (k) among the triangles (m) of a mesh.
+
+    Attributes
+    ----------
+    mesh : TriangleMesh
+    border : (v,) int64
+        Vertices at which the surface ends, or turns its other side.
+    body : (m,) int64
+        The body that each triangle bounds, -1 for none.
+    outward : (m,) float64
+        1 where its normal points out of the body, -1 where into it, 0 where it bounds none.
+    low, high : (3, k) float64
+        The boxes round the bodies along the directions of `FRAME`.
+    """
+
+    mesh: TriangleMesh
+    border: np.ndarray
+    body: np.ndarray
+    outward: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+    @classmethod
+    def of(cls, mesh: TriangleMesh) -> ClosedBodies:
+        """Those of a mesh in its canonical order."""
+        triangles = mesh.triangles
+        ends = _ends(mesh)[mesh.places]
+        border = np.flatnonzero(ends)
+        part = connected(mesh.places[triangles])
+        closed = np.ones(int(part.max(initial=-1)) + 1, dtype=bool)
+        closed[part[ends[triangles].any(axis=1)]] = False
+        number = np.where(closed, np.cumsum(closed) - 1, -1)
+        body = number[part] if len(part) else part
+        breathe()
+        some = np.flatnonzero(body >= 0)
+        low, high = (np.full((3, int(closed.sum())), end) for end in (np.inf, -np.inf))
+        outward = np.zeros(len(triangles))
+        if not len(some):
+            return cls(mesh, border, body, outward, low, high)
+        spots = FRAME @ rows(mesh.positions)
+        owner = np.full(len(mesh.positions), -1)
+        owner[triangles[some].ravel()] = np.repeat(body[some], 3)
+        used = np.flatnonzero(owner >= 0)
+        for axis in range(3):
+            np.minimum.at(low[axis], owner[used], spots[axis, used])
+            np.maximum.at(high[axis], owner[used], spots[axis, used])
+            breathe()
+        own, corner = body[some], triangles[some].T
+        facing, volume = _up_and_volume(spots, corner, 0.5 * (low + high), own)
+        sides = np.sign(np.bincount(own, volume, minlength=low.shape[1]))
+        facing *= sides[own]
+        sides[_overlapping(spots, corner, own, facing, (low, high))] = 0.0
+        outward[some] = sides[own]
+        return cls(mesh, border, body, outward, low, high)
+
+    def outward_from(self, view: View) -> np.ndarray:
+        """What `outward` (m,) is of bodies from outside of which the view looks, 0 of all others: what it sees in
+        mirrors it sees from outside as well, since on the way there nothing is in between."""
+        if view.orthographic or not self.low.shape[1]:
+            return self.outward
+        eye = (FRAME @ view.eye.ravel())[:, None]
+        outside = ((eye < self.low) | (eye > self.high)).any(axis=0)
+        for body in np.flatnonzero(~outside):
+            corners = self.mesh.positions[self.mesh.triangles[self.body == body]]
+            outside[body] = abs(solid_angles(view.eye, corners).sum()) < 2.0 * np.pi
+        return np.where((self.body >= 0) & np.append(outside, False)[self.body], self.outward, 0.0)
+
+
+@dataclass(frozen=True)
+class Fronts:
+    """From where triangles (m) can be seen.
+
+    Attributes
+    ----------
+    plane : (4, m) float64
+        Unit normal to the side that a triangle shows, and how high it lies along it; zero where it shows both.
+    """
+
+    plane: np.ndarray
+
+    @classmethod
+    def of(cls, mesh: TriangleMesh, outward: np.ndarray) -> Fronts:
+        """Those of a mesh that shows its outer side, where that is told (m,)."""
+        normal = rows(mesh.face_normals()) * outward
+        return cls(np.concatenate((normal, dot(normal, rows(mesh.positions[mesh.triangles[:, 0]]))[None])))
+
+    def may_show(self, cones: Cones, cone: np.ndarray, triangle: np.ndarray) -> np.ndarray:
+        """Whether rays of the cones (p,) may come from where the triangles (p,) can be seen."""
+        normal = columns(self.plane, triangle)
+        height = dot(normal, columns(cones.centre, cone))
+        height -= normal[3]
+        return height >= -(1.0 + TOGETHER) * columns(cones.radius, cone)
+
+
+def _ends(mesh: TriangleMesh) -> np.ndarray:
+    """Which vertices (v,), the first in each place, are such at which the surface ends."""
+    number = (np.arange(len(mesh.positions)) * SCATTERED) & 0x7fffffff
+    # round an inner vertex each neighbour comes once after it and once before it
+    total = np.zeros(len(number))
+    for start in range(0, len(mesh.triangles), AT_ONCE):
+        breathe()
+        corner = columns(mesh.places, mesh.triangles[start:start + AT_ONCE].T)
+        named = columns(number, corner)
+        for k in range(3):
+            after, before = others(k)
+            np.add.at(total, corner[k], named[after] - named[before])
+    return total != 0.0
+
+
+def _up_and_volume(spots: np.ndarray, corner: np.ndarray, middle: np.ndarray,
+                   body: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of triangles with `corner` (3, n) among spots (3, v): 1 where they face up, -1 down; and six times their cones'
+    volumes from the middles (3, k) of their bodies (n,)."""
+    facing, volume = np.empty(len(body)), np.empty(len(body))
+    for start in range(0, len(body), AT_ONCE):
+        breathe()
+        part = slice(start, start + AT_ONCE)
+        a, b, c = (columns(spots, of_all) for of_all in corner[:, part])
+        normal = cross(b - a, c - a)
+        facing[part] = np.sign(normal[2])
+        volume[part] = dot(normal, a - columns(middle, body[part]))
+    return facing, volume
+
+
+def _overlapping(spots: np.ndarray, corner: np.ndarray, body: np.ndarray, facing: np.ndarray,
+                 boxes: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+    """Bodies (k,) that some line from above leaves before it has entered them: it enters those of triangles with
+    `corner` (3, n) among spots (3, v) where these are `facing` (n,) up, and leaves where down."""
+    low, high = boxes
+    count = low.shape[1]
+    side = int(np.clip(np.sqrt(LINES / count), FEWEST, MOST))
+    across = int(np.ceil(np.sqrt(count)))
+    size = np.where(high[:2] > low[:2], high[:2] - low[:2], 1.0)
+    tile = np.stack((np.arange(count) % across, np.arange(count) // across))
+    own, pixel, depth, sign = [], [], [], []
+    for start in range(0, len(body), AT_ONCE):
+        part = slice(start, start + AT_ONCE)
+        of_body = body[part]
+        ends = columns(spots, corner[:, part])
+        seen = ((ends[:2] - columns(low[:2], of_body)[:, None]) / columns(size, of_body)[:, None]
+                + columns(tile, of_body)[:, None]) * side
+        covered = Covered.of(seen, ends[2], (across * side, across * side), False)
+        own.append(of_body[covered.face])
+        sign.append(facing[part][covered.face])
+        pixel.append(covered.pixel)
+        depth.append(covered.order)
+    owner, entering, line, height = (np.concatenate(parts) for parts in (own, sign, pixel, depth))
+    breathe()
+    order = np.lexsort((-height - entering * TOGETHER * (high[2] - low[2])[owner], line))
+    entering, line = entering[order], line[order]
+    inside = np.cumsum(entering)
+    first = np.flatnonzero(np.diff(line, prepend=-1))
+    inside -= np.repeat(inside[first] - entering[first], np.diff(np.append(first, len(line))))
+    last = np.append(first, len(line))[1:] - 1
+    wrong = inside < 0.0
+    wrong[last] |= inside[last] != 0.0
+    found = np.zeros(count, dtype=bool)
+    found[owner[order[wrong]]] = True
+    return found

@@ -1,0 +1,113 @@
+"""What of the pieces is drawn, what is left to cameras, and what nobody sees."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..geometry import columns
+from ..patches import Patch
+from ..support import breathe
+from ..views import box
+from .images import Images
+from .layers import Layers
+from .pieces import AT_ONCE, Pieces, turned_away, whole
+from .sinking import Sinking
+
+SMALL, MANY = 4.0, 50_000  # pixels: images of edges bend less; how many faces are worth a look before the others
+ROOM, FAR = 2.0, 64.0  # pixels round a piece; by which edges that leave the patch may be longer
+WAYS = ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2))  # from corner to corner of a triangle
+
+
+def shown_or_behind(images: Images, pieces: Pieces, outward: np.ndarray | None) -> tuple[Pieces, np.ndarray]:
+    """The pieces without those that turn away and are too small to be bent; the nodes (3, k) of these, which lie behind
+    others."""
+    if outward is None:
+        return pieces, np.zeros((3, 0), dtype=np.int64)
+    away = np.flatnonzero(turned_away(images, pieces, outward[pieces.source]))
+    low, high = box(images.pixel[:, pieces.nodes[:, away]])
+    away = away[(high - low).max(axis=0) < SMALL]
+    shown = np.ones(len(pieces), dtype=bool)
+    shown[away] = False
+    return pieces.select(shown), pieces.nodes[:, away]
+
+
+def without_hidden(patch: Patch, images: Images, pieces: Pieces, sinking: Sinking) -> Pieces:
+    """The pieces without those that others hide, where many are so small that none is divided before that is told."""
+    found = images.found[pieces.nodes]
+    small = np.flatnonzero(found[0] & found[1] & found[2])
+    low, high = box(images.pixel[:, pieces.nodes[:, small]])
+    small = small[(high - low).max(axis=0) < SMALL]
+    if len(small) < MANY:
+        return pieces
+    small = small[whole(patch, images, pieces.select(small))]
+    kept = np.ones(len(pieces), dtype=bool)
+    kept[small] = ~Layers(patch, images, sinking).hidden(pieces.nodes[:, small])
+    return pieces.select(kept)
+
+
+def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: np.ndarray,
+                   near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Which of the pieces (f,) are drawn, of those `shown` (n,) whole, and which are left to cameras, where `behind`
+    them lie such with nodes (3, k), and before them triangles of the scene with corners `near` (3, 3, t)."""
+    patch, images = layers.patch, layers.images
+    found = images.found[pieces.nodes]
+    found = np.flatnonzero(found[0] & found[1] & found[2])
+    found = found[~_beyond(patch, images, pieces.nodes[:, found])]
+    breathe()
+    drawn, left = np.zeros(len(pieces), dtype=bool), np.ones(len(pieces), dtype=bool)
+    drawn[shown] = True
+    left[shown] = False
+    drawn &= np.isin(np.arange(len(pieces)), found)
+    nodes = pieces.nodes[:, found]
+    nodes = np.concatenate((nodes, _behind_some(patch, images, nodes, behind)), axis=1)
+    solid = np.zeros(nodes.shape[1], dtype=bool)
+    solid[:len(found)] = drawn[found]
+    hidden, close = (told[:len(found)] for told in layers.hidden_and_close(nodes, solid, near))
+    breathe()
+    drawn[found] &= ~hidden & ~close
+    left[found] |= close
+    over = np.flatnonzero(drawn)
+    over = over[_over_what_goes_through(patch, images, pieces.nodes, over)]
+    breathe()
+    drawn[over], left[over] = False, True
+    return drawn, left
+
+
+def _behind_some(patch: Patch, images: Images, nodes: np.ndarray, behind: np.ndarray) -> np.ndarray:
+    """Those of the faces (3, k) `behind` that may lie behind some of the faces (3, f) which sink."""
+    if not behind.shape[1]:
+        return behind
+    several = nodes[:, images.several(nodes)]
+    cells = patch.border.unmarked().with_boxes(*box(images.pixel[:, several]))
+    kept = np.empty(behind.shape[1], dtype=bool)
+    for start in range(0, len(kept), AT_ONCE):
+        breathe()
+        part = slice(start, start + AT_ONCE)
+        kept[part] = cells.touched(*box(columns(images.pixel, behind[:, part])))
+    return behind[:, kept]
+
+
+def _beyond(patch: Patch, images: Images, nodes: np.ndarray) -> np.ndarray:
+    """Which pieces (3, f), all with three images, lie outside of the picture."""
+    low, high = box(images.pixel[:, nodes])
+    return ((high < -ROOM) | (low > np.array(patch.view.resolution)[:, None] + ROOM)).any(axis=0)
+
+
+def _over_what_goes_through(patch: Patch, images: Images, nodes: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Which of the `faces` (n,) among pieces (3, f) lie over several triangles of the mirror where pieces are seen that
+    go through it: these may lie closer behind them than they sink."""
+    found, ahead = images.found[nodes], images.distance[nodes] > 0.0
+    boxes: list[tuple[np.ndarray, np.ndarray]] = []
+    for a, b in WAYS:
+        through = np.flatnonzero(found[a] & ~found[b] & ~ahead[b])
+        if not len(through):
+            continue
+        start, end = nodes[a, through], nodes[b, through]
+        images.moved(patch, start)
+        way = images.point[:, end] - images.point[:, start]
+        spot = images.pixel[:, start]
+        other = spot + np.clip((images.moving[:, :, start] * way).sum(axis=1), -FAR, FAR)
+        boxes.append((np.minimum(spot, other) - ROOM, np.maximum(spot, other) + ROOM))
+    if not boxes:
+        return np.zeros(len(faces), dtype=bool)
+    cells = patch.border.unmarked().with_boxes(*(np.concatenate(side, axis=1) for side in zip(*boxes)))
+    return images.several(nodes[:, faces]) & cells.touched(*box(images.pixel[:, nodes[:, faces]]))

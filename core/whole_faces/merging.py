@@ -1,0 +1,132 @@
+"""Vertices of which the picture cannot show more than one: the nearest to the middle of their node stands for all.
+
+The tree of the vertices is descended by the images of its nodes' middles, as for points, so that the work is bounded by
+what the picture shows and not by the scene. A triangle goes on between those that stand for its corners, or is gone
+where these are two (J. Rossignac, P. Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993):
+vertices are moved together, never apart, so that no crack opens. What an outline runs through is drawn together in
+smaller parts.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry import TriangleMesh, areal, columns, cross, dot, doubled_areas, groups, rows
+from ..patches import Descent, Patch, Walk
+from ..support import breathe
+from ..trees import SceneTree
+from .images import Images
+
+AT_ONCE = 16384  # triangles: what their arrays take fits the cache
+OUTLINE = 1 / 3  # of the size of what is drawn together: that of what an outline runs through
+
+
+@dataclass(frozen=True)
+class Merged:
+    """A scene of which small parts have been drawn together.
+
+    Attributes
+    ----------
+    images : Images
+        Of the scene's vertices; those that others stand for have none.
+    triangles : (m, 3) int64
+        The scene's triangles between the vertices that stand for their corners.
+    left : (k,) int64, rising
+        Those that have an area still, one of several in the same place.
+    """
+
+    images: Images
+    triangles: np.ndarray
+    left: np.ndarray
+
+    @classmethod
+    def of(cls, patch: Patch, tree: SceneTree, least: float) -> Merged:
+        """The scene with nodes of its vertices drawn together whose images on the patch are smaller than `least`
+        pixels; as it is where that is none."""
+        mesh = tree.mesh
+        points = rows(mesh.positions) - patch.eye
+        descent = Descent(Walk(patch), tree.vertices, least)
+        images = _images(patch, descent, points)
+        standing = _in_one_place(mesh, descent.standing)
+        own = np.arange(len(standing))
+        if (standing == own).all():
+            return cls(images, mesh.triangles, np.flatnonzero(mesh.areal))
+        breathe()
+        descent.part(_on_outline(tree, images, standing), OUTLINE * least)
+        alone = _in_one_place(mesh, descent.standing)
+        new = np.flatnonzero((alone == own) & (standing != own))
+        near = standing[new]
+        images.put(new, Images.near(patch, columns(points, new), images.member[near], columns(images.uv, near),
+                                    images.distance[near]))
+        standing = alone
+        breathe()
+        triangles, moved = columns(standing, mesh.triangles), np.zeros(len(own), dtype=bool)
+        moved[standing[standing != own]] = True
+        corner = columns(moved, triangles.T)
+        asked = np.flatnonzero((corner[0] | corner[1] | corner[2]) & mesh.areal)
+        breathe()
+        left = mesh.areal.copy()
+        left[asked] = _distinct(mesh, images, triangles[asked])
+        return cls(images, triangles, np.flatnonzero(left))
+
+
+def _images(patch: Patch, descent: Descent, points: np.ndarray) -> Images:
+    """Images of the points (3, v) that stand for themselves, looked for from those of their nodes."""
+    count = points.shape[1]
+    member, uv, s = np.zeros(count, dtype=np.int64), np.zeros((2, count)), np.zeros(count)
+    found, asked = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
+    for some in descent.vertices():
+        vertex = some.vertex
+        asked[vertex] = True
+        member[vertex], uv[:, vertex], s[vertex], found[vertex] = descent.walk.images(
+            columns(points, vertex), some.nodes, some.node)
+    images = Images.at(patch, points, member, uv, s, found)
+    lost = np.flatnonzero(asked & ~images.found)
+    images.put(lost, Images.of(patch, columns(points, lost)))
+    return images
+
+
+def _in_one_place(mesh: TriangleMesh, standing: np.ndarray) -> np.ndarray:
+    """What stands for each vertex (v,), the same for those in one place, where anything stands for another."""
+    if (standing == np.arange(len(standing))).all():
+        return standing
+    return standing[mesh.places]
+
+
+def _on_outline(tree: SceneTree, images: Images, standing: np.ndarray) -> np.ndarray:
+    """Which vertices (v,) stand for some at which the surface ends, or for triangles of which some are seen from the
+    front and some from behind."""
+    mesh = tree.mesh
+    found, back = np.zeros((2, len(standing)), dtype=bool)
+    for start in range(0, len(mesh.triangles), AT_ONCE):
+        breathe()
+        corner = mesh.triangles[start:start + AT_ONCE].T
+        node = columns(standing, corner)
+        some = np.flatnonzero((node != corner).any(axis=0))
+        corner, node = corner[:, some], node[:, some]
+        a, b, c = (mesh.positions.take(of_all, axis=0).T for of_all in corner)
+        normal = cross(b - a, c - a)
+        for stands in node:
+            # what one vertex stands for is seen from one place
+            height = dot(normal, columns(images.point, stands) - columns(images.place, stands))
+            found[stands[height < 0.0]] = True
+            back[stands[height > 0.0]] = True
+    found &= back
+    found[standing[tree.bodies.border]] = True
+    return found
+
+
+def _distinct(mesh: TriangleMesh, images: Images, triangles: np.ndarray) -> np.ndarray:
+    """Which triangles (n, 3) have an area; of several between the same vertices one, seen from the front if any is."""
+    a, b, c = triangles.T
+    kept = np.flatnonzero((a != b) & (b != c) & (c != a))
+    kept = kept[areal(rows(mesh.positions.take(triangles[kept].T, axis=0)))]
+    breathe()
+    # a mirror turns what it shows over
+    front = doubled_areas(images.pixel[:, triangles[kept]].transpose(1, 2, 0)) < 0.0
+    kept = np.concatenate((kept[front], kept[~front]))
+    first, _ = groups(*np.sort(triangles[kept], axis=1).T)
+    found = np.zeros(len(triangles), dtype=bool)
+    found[kept[first]] = True
+    return found

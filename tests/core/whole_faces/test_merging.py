@@ -1,0 +1,67 @@
+"""Parts of a scene below a pixel are drawn together, and nobody sees it."""
+import numpy as np
+import pytest
+
+import core.whole_faces.whole as whole_room
+from core import Settings, TriangleMesh, reflect
+from tests.inputs.dense_scenes import dense, knots_in_a_ball
+from tests.oracles.judge import compare
+from tests.oracles.truth import trace
+
+pytestmark = pytest.mark.slow
+
+
+def judged(case, mesh):
+    return compare(case.view, case.mirror, mesh, trace(case.view, case.mirror, case.scene)).numbers
+
+
+@pytest.mark.parametrize(("name", "size"), [("sphere", 64), ("sphere_ortho", 96), ("knots", 48)])
+def test_a_scene_finer_than_the_picture_has_fewer_faces_and_looks_as_it_is(name, size, monkeypatch):
+    case = knots_in_a_ball((size, size)) if name == "knots" else dense(name, (size, size), 0.04)
+    mesh = reflect(case.view, case.mirror, case.scene)
+    monkeypatch.setattr(whole_room, "TOGETHER", 0.0)
+    apart = reflect(case.view, case.mirror, case.scene)
+    assert len(mesh.triangles) < 0.75 * len(apart.triangles)
+    numbers, before = judged(case, mesh), judged(case, apart)
+    # a pixel of these mirrors is 0.02 to 0.12 %
+    assert numbers["p99"] < 0.35 and numbers["uncovered"] < before["uncovered"] + 0.13
+
+
+def test_vertices_are_moved_onto_vertices():
+    case = dense("sphere", (96, 96), 0.06)
+    mesh = reflect(case.view, case.mirror, case.scene)
+    whole = np.unique(mesh.triangles[mesh.mirror_face < 0])
+    # the others lie on edges that bend, or are a neighbour's
+    known = np.isin(_named(mesh.reflected_position[whole]), _named(case.scene.positions))
+    assert known.mean() > 0.6
+
+
+def test_the_tolerance_says_what_is_drawn_together():
+    case = dense("sphere", (192, 192), 0.06)
+    faces = [len(reflect(case.view, case.mirror, case.scene, Settings(tolerance=tolerance)).triangles)
+             for tolerance in (0.25, 1.0, 4.0)]
+    assert faces[0] > 1.2 * faces[1] > 1.4 * faces[2]
+
+
+def test_all_of_the_geometry_is_kept_where_it_is_asked_for():
+    case = dense("sphere", (96, 96), 0.12)
+    every = reflect(case.view, case.mirror, case.scene, Settings(hidden_faces=True))
+    seen = reflect(case.view, case.mirror, case.scene)
+    shown = np.unique(seen.source_face)
+    assert len(np.unique(every.source_face)) > 1.5 * len(shown)
+
+
+def test_corners_in_one_place_move_together():
+    """Faces that share no vertex, as in many files: no crack opens between them."""
+    case = dense("sphere", (96, 96), 0.06)
+    scene = case.scene
+    soup = TriangleMesh(scene.positions[scene.triangles].reshape(-1, 3),
+                        np.arange(scene.triangles.size).reshape(-1, 3))
+    mesh = reflect(case.view, case.mirror, soup)
+    numbers = compare(case.view, case.mirror, mesh, trace(case.view, case.mirror, scene)).numbers
+    assert numbers["hole"] < 0.05 and len(mesh.triangles) < 1.2 * len(
+        reflect(case.view, case.mirror, scene).triangles)
+
+
+def _named(points: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(np.round(points, 9) + 0.0).view([("", float)] * 3).ravel()
