@@ -12,11 +12,12 @@ from mathutils import Matrix
 from ...core import ReflectionError, View
 from .. import compat
 from ..faults import still_there
+from ..reading.materials import glows
 from ..rendering import copied_scene, denoise, look_through, put_swift_world
 from ..writing import UV_MAP
 from .bake_targets import new_target
 from .stand_ins import StandIn, new_object, swap_names
-from .texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved, shines
+from .texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class BakeScene:
             # what a bake tells of albedo and normals has hardly any noise
             denoise(scene.cycles, "FAST")
         scene.camera.matrix_world = Matrix.Translation(seen_from)
-        apart = self.clamped is not None and self._any(owner, shines)
+        apart = self.clamped is not None and self._any(owner, glows)
         for switch in self.switches:
             switch.default_value = float(apart)
         try:
@@ -59,7 +60,7 @@ class BakeScene:
         if not self._any(owner, has_pattern):
             return None
         found = self.matte(owner, size, samples)
-        return found + self._own_light(owner, size, samples) if self._any(owner, shines) else found
+        return found + self._own_light(owner, size, samples) if self._any(owner, glows) else found
 
     def matte(self, owner: int, size: tuple[int, int], samples: int) -> np.ndarray:
         """What part of the light that falls on a participant it sends back as what is matte does, as `bake` has

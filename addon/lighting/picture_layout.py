@@ -11,7 +11,7 @@ import numpy as np
 
 from ...core import View
 from ..faults import Steps
-from ..reading.materials import emits
+from ..reading.materials import glows
 from ..writing import UV_MAP, light_layer, place_of
 from .window import Window
 
@@ -106,9 +106,10 @@ def _write_spots(mesh: bpy.types.Mesh, spots: np.ndarray) -> None:
 
 
 def shining_slots(result: bpy.types.Object) -> set[int]:
-    """The slots of a result whose faces show what shines by itself; none where it has points alone."""
+    """The slots of a result whose faces show what has a light of its own, be it a part of what is seen; none where it
+    has points alone."""
     mesh = result.data
-    return {number for number, material in enumerate(mesh.materials) if len(mesh.polygons) and emits(material)}
+    return {number for number, material in enumerate(mesh.materials) if len(mesh.polygons) and glows(material)}
 
 
 def _write_shining(result: bpy.types.Object) -> None:

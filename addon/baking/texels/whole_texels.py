@@ -19,13 +19,6 @@ def has_pattern(material: bpy.types.Material | None) -> bool:
     return any(node.type == "UVMAP" or node.type.startswith("TEX_") for node in _nodes(material))
 
 
-def shines(material: bpy.types.Material | None) -> bool:
-    """Whether a material may have a light of its own."""
-    strengths = [node.inputs["Emission Strength"] for node in _nodes(material) if node.type == "BSDF_PRINCIPLED"]
-    return (any(node.type == "EMISSION" for node in _nodes(material))
-            or any(strength.is_linked or strength.default_value > 0.0 for strength in strengths))
-
-
 def is_glossy(material: bpy.types.Material | None) -> bool:
     """Whether a material looks otherwise from elsewhere, to an eye that sees no measurements."""
     return any(node.type in METALS | GLASSES or node.type == "BSDF_PRINCIPLED" and (

@@ -185,7 +185,8 @@ def test_results_that_lie_in_their_mirror_or_behind_it_are_lit_in_collections_to
     assert wall.visible_camera == seen
 
 
-def test_what_shines_is_as_bright_up_to_its_outline_and_what_is_beside_as_dark(blank, room):
+@pytest.mark.parametrize("kind", ["Emission", "Principled"])
+def test_what_shines_is_as_bright_up_to_its_outline_and_what_is_beside_as_dark(blank, room, kind):
     """Bulbs of a few pixels, up to thirty times as bright as white, before a wall and the sky: no texel between
     them and what lies beside could be both."""
     scene_of(blank)
@@ -195,10 +196,7 @@ def test_what_shines_is_as_bright_up_to_its_outline_and_what_is_beside_as_dark(b
         bulbs.append(parts.add("uv_sphere", f"Bulb {number}", segments=16, ring_count=8, radius=0.1 + 0.02 * number,
                                location=(x, -1.0, z)))
         bulbs[-1].visible_camera = bulbs[-1].visible_diffuse = False
-        bulbs[-1].data.materials.append(parts.material(f"Fire {number}"))
-        shader = bulbs[-1].data.materials[0].node_tree.nodes[0]
-        shader.inputs["Color"].default_value = (1.0, 0.6, 0.2, 1.0)
-        shader.inputs["Strength"].default_value = (4.0, 12.0, 30.0)[number % 3]
+        bulbs[-1].data.materials.append(fire(f"Fire {number}", kind, (1.0, 0.6, 0.2), (4.0, 12.0, 30.0)[number % 3]))
     back = parts.add("plane", "Back", size=2.0, location=(-1.0, -3.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
     back.visible_camera = False
     back.data.materials.append(principled("Paint", (0.2, 0.3, 0.2)))
@@ -213,3 +211,13 @@ def test_what_shines_is_as_bright_up_to_its_outline_and_what_is_beside_as_dark(b
     assert psnr(picture(room), reference) > min(40.0, psnr(other, reference) - 1.5)
     bpy.ops.reflection_mesh.clear()
     assert not [image for image in bpy.data.images if image.name.startswith("Reflection Light")]
+
+
+def fire(name: str, kind: str, colour: tuple, strength: float):
+    """What shines, by a shader that does nothing else or as a part of a matte one."""
+    if kind == "Principled":
+        return principled(name, (0.3, 0.3, 0.3), **{"Emission Color": (*colour, 1.0), "Emission Strength": strength})
+    made = parts.material(name)
+    shader = made.node_tree.nodes[0]
+    shader.inputs["Color"].default_value, shader.inputs["Strength"].default_value = (*colour, 1.0), strength
+    return made
