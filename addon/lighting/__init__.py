@@ -1,6 +1,6 @@
 """Light on reflections: what Cycles shows in their mirrors, rendered once, on the faces that show it."""
 from .light_material import new_export_image, new_image, new_material
-from .light_scene import light_scene, white_of
+from .light_scene import light_scene, paper_white_of, white_of
 from .lit_results import (
     dull_objects,
     forget_light,
@@ -17,5 +17,5 @@ from .window import Window
 
 __all__ = ["Window", "beside_lamps", "dull_objects", "forget_light", "forget_previews", "is_lit",
            "is_overexposed", "is_plain", "keep_light", "light_lines", "light_scene", "needs_light", "new_export_image",
-           "new_image", "new_material", "pixel_kernel", "show_light", "show_object_light", "show_previews",
-           "shows_preview", "texels_of", "white_of"]
+           "new_image", "new_material", "paper_white_of", "pixel_kernel", "show_light", "show_object_light",
+           "show_previews", "shows_preview", "texels_of", "white_of"]

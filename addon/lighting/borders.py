@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core import breathe
-from ..rendering import continued
+from ..rendering import continued, grown, sum_around
 
 SEEN_WHOLE = 0.995  # of a pixel: coverage from which it shows nothing else
 SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
@@ -14,14 +14,15 @@ BRIGHTEST_GAP = 2.0  # times what results show beside a gap that is thinner than
 
 
 def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: np.ndarray,
-                             rings: int) -> tuple[np.ndarray, np.ndarray]:
+                             rings: int, thin_too: bool = True) -> tuple[np.ndarray, np.ndarray]:
     """What results show in pixels that they cover in part, where the light beside them, continued for a filter's width
     of `rings`, tells, as near to what they show within as that leaves open: beside a lamp it leaves much; and which
     pixels (height, width) are known so.
 
     In a gap that is thinner than a pixel, be it one before a lamp, no such light is near, and what lies on its other
     side may be very different: there what results show goes on as it is within, as far as something between darkness
-    and twice as bright a light in the gap allows.
+    and twice as bright a light in the gap allows. What is so thin that no pixel shows much of it shows, with
+    `thin_too`, what all the pixels around have of it together.
     """
     border = (coverage > UNSEEN) & (coverage < SEEN_WHOLE)
     apart = (coverage <= UNSEEN) & (opacity > UNSEEN)
@@ -47,7 +48,27 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
         sound = told[row] & (exact + open_ >= 0.0).all(axis=1)
         shown = np.where(sound[:, None], np.maximum(near, 0.0), guess)
         alone[row, border[row]] = shown[border[row]]
-    return alone, coverage > SEEN_PARTLY
+    known = coverage > SEEN_PARTLY
+    thin = border & ~grown(known, 1) if thin_too else np.zeros_like(known)
+    if thin.any():
+        breathe()
+        together, enough = _together(light, coverage, opacity, beside, told | (coverage >= SEEN_WHOLE))
+        thin &= enough
+        alone[thin], known = together[thin], known | thin
+    return alone, known
+
+
+def _together(light: np.ndarray, coverage: np.ndarray, opacity: np.ndarray, beside: np.ndarray,
+              told: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What each pixel and its neighbours show of results in the mean, and which have enough of them to tell."""
+    bright = beside[..., :3] / np.maximum(beside[..., 3:], UNSEEN)
+    breathe()
+    own = light - np.maximum(opacity - coverage, 0.0)[..., None] * bright
+    breathe()
+    whole = sum_around(np.where(told[..., None], own, 0.0))
+    breathe()
+    amount = sum_around(np.where(told, coverage, 0.0))
+    return np.maximum(whole, 0.0) / np.maximum(amount, UNSEEN)[..., None], amount > SEEN_PARTLY
 
 
 def filled(picture: np.ndarray, known: np.ndarray, needed: np.ndarray) -> np.ndarray:

@@ -21,7 +21,7 @@ from .window import Window
 COVERAGE_SAMPLES = 64  # where a result ends; elsewhere as few tell that it does not
 INNER_SAMPLES, UNEVEN = 8, 0.01
 STEADY_SAMPLES = 64  # from which on what sharp mirrors show has albedo and normals with hardly any noise
-PLAIN_WHITE, ROLLED_OFF_WHITE = 1.0, 8.0
+PLAIN_WHITE, ROLLED_OFF_WHITE = 1.0, 16.0
 
 
 @dataclass(frozen=True)
@@ -146,8 +146,14 @@ def _is_opaque(obj: bpy.types.Object) -> bool:
 
 def white_of(scene: bpy.types.Scene) -> float:
     """The linear light from which on a scene's pictures are white; where a view rolls highlights off, nearly."""
-    view = scene.view_settings
-    return (PLAIN_WHITE if view.view_transform in {"Standard", "Raw"} else ROLLED_OFF_WHITE) / 2.0 ** view.exposure
+    plain = scene.view_settings.view_transform in {"Standard", "Raw"}
+    return paper_white_of(scene) * (PLAIN_WHITE if plain else ROLLED_OFF_WHITE)
+
+
+def paper_white_of(scene: bpy.types.Scene) -> float:
+    """The linear light that white paper in full light has in a scene's pictures; what is brighter is overexposed, be
+    it that the view rolls that off."""
+    return 0.5 ** scene.view_settings.exposure
 
 
 def _prepare(scene: bpy.types.Scene, window: Window) -> None:

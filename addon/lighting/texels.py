@@ -13,7 +13,7 @@ import numpy as np
 from ...core import breathe, in_steps
 from ..faults import Steps, part
 from ..rendering import grown
-from .borders import SEEN_PARTLY, filled, without_what_lies_beside
+from .borders import SEEN_PARTLY, UNSEEN, filled, without_what_lies_beside
 
 REACH = 3           # texels around the covered ones that filters and interpolation may ask for
 FINE = 512          # places across a pixel at which its filter is summed
@@ -29,7 +29,7 @@ LEAST_RESPONSE = 0.2  # of a wave that a wide filter hardly lets through no more
 
 
 def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float = np.inf,
-              opacity: np.ndarray | None = None) -> Steps[np.ndarray]:
+              opacity: np.ndarray | None = None, thin_too: bool = True) -> Steps[np.ndarray]:
     """The texels whose picture is `light` where results cover it; yields (fraction, stage).
 
     Parameters
@@ -44,18 +44,23 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white
         From which on light looks white. Around brighter lamps texels would have to be below zero.
     opacity : (height, width) float32, optional
         The part of each pixel that anything covers which is in `light`; 1 where it is not given.
+    thin_too : bool
+        Whether what covers no pixel well is told from what all around show of it: not where that may be a lamp.
 
     Returns
     -------
     texels : (height, width, 3) float32, zero farther than `REACH` from what is covered.
     """
     yield 0.0, SHARPENING
-    return (yield from part(in_steps(partial(_texels, light, coverage, kernel, white, opacity)), 0.0, 1.0, SHARPENING))
+    steps = in_steps(partial(_texels, light, coverage, kernel, white, opacity, thin_too))
+    return (yield from part(steps, 0.0, 1.0, SHARPENING))
 
 
 def is_overexposed(light: np.ndarray, coverage: np.ndarray, white: float) -> bool:
-    """Whether light (height, width, 3) is brighter than white where faces with a `coverage` (height, width) are."""
-    return bool((light[coverage > SEEN_PARTLY] > white).any())
+    """Whether faces with a `coverage` (height, width) are brighter than white by light (height, width, 3), be it that
+    they cover no pixel whole."""
+    share = np.where(coverage > SEEN_PARTLY, coverage, 1.0)[..., None]
+    return bool((light > white * share)[coverage > UNSEEN].any())
 
 
 def beside_lamps(coverage: np.ndarray, shining: np.ndarray) -> np.ndarray:
@@ -66,11 +71,11 @@ def beside_lamps(coverage: np.ndarray, shining: np.ndarray) -> np.ndarray:
 
 
 def _texels(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float,
-            opacity: np.ndarray | None) -> np.ndarray:
+            opacity: np.ndarray | None, thin_too: bool) -> np.ndarray:
     needed = grown(coverage > 0.0, REACH)
     whole = np.ones(coverage.shape) if opacity is None else opacity.astype(np.float64)
     alone, known = without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64), whole,
-                                            len(kernel) // 2)
+                                            len(kernel) // 2, thin_too)
     filtered = filled(alone, known, needed)
     sharp = _sharpened(filtered, kernel, white)
     breathe()

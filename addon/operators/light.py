@@ -22,6 +22,7 @@ from ..lighting import (
     new_export_image,
     new_image,
     new_material,
+    paper_white_of,
     pixel_kernel,
     show_light,
     show_object_light,
@@ -173,11 +174,12 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int,
     white = white_of(context.scene)
     texels = yield from part(texels_of(light[..., :3], coverage, kernel, white, opacity), 0.93, 0.04)
     image, apart = (yield from part(new_image(NAME, texels, whole), 0.97, 0.01)), None
-    if lamps_apart and is_overexposed(light[..., :3], shining, white):
+    if lamps_apart and is_overexposed(light[..., :3], shining, paper_white_of(context.scene)):
         # what shines ends where its faces do, however bright it is: between texels it could not
         apart = []
         for name, part_of in (("Matte", beside_lamps(coverage, shining)), ("Shining", shining)):
-            found = yield from part(texels_of(light[..., :3], part_of, kernel, white, opacity), 0.98, 0.005)
+            found = yield from part(texels_of(light[..., :3], part_of, kernel, white, opacity, name == "Shining"), 0.98,
+                                    0.005)
             apart.append((yield from part(new_image(f"{NAME} {name}", found, whole), 0.985, 0.0)))
     export_image = yield from part(new_export_image(f"{NAME} Export", texels, whole), 0.99, 0.01)
 

@@ -221,3 +221,25 @@ def fire(name: str, kind: str, colour: tuple, strength: float):
     shader = made.node_tree.nodes[0]
     shader.inputs["Color"].default_value, shader.inputs["Strength"].default_value = (*colour, 1.0), strength
     return made
+
+
+@pytest.mark.parametrize("view", ["Standard", "AgX"])
+def test_lamps_thinner_than_a_pixel_have_their_own_colours(blank, room, view):
+    """Tubes of a quarter of a pixel beside one of two pixels, in another colour; what rolls highlights off shows
+    how far above white they are."""
+    scene_of(blank)
+    bpy.data.objects.remove(bpy.data.objects["Box"])
+    tubes = []
+    for number, (width, colour) in enumerate(((0.03, (0.1, 0.3, 1.0)), (0.004, (1.0, 0.2, 0.1)),
+                                              (0.004, (0.2, 1.0, 0.3)))):
+        tubes.append(parts.add("cylinder", f"Tube {number}", radius=width, depth=1.4, rotation=(0.0, 1.4, 0.0),
+                               location=(0.0, -1.0, 1.5 - 0.35 * number)))
+        tubes[-1].visible_camera = False
+        tubes[-1].data.materials.append(fire(f"Fire {number}", "Emission", colour, 14.0))
+    parts.select(bpy.data.objects["Floor"], *tubes, bpy.data.objects["Mirror"])
+    blank.scene.view_settings.view_transform = view
+    blank.scene.cycles.samples = 256
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)

@@ -58,6 +58,20 @@ def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):
     assert np.abs(found[:, 8:] - own).max() < 0.02 and (found[:, :5] == 0.0).all()
 
 
+def test_what_covers_no_pixel_well_shows_what_pixels_have_of_it_together(room):
+    """Two wires of a fifth of a pixel, before nothing, which another thing is much nearer to one of."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    coverage = np.zeros((24, 30))
+    coverage[:, 4], coverage[:, 5], coverage[:, 14], coverage[:, 20:] = 0.12, 0.08, 0.2, 1.0
+    own = np.zeros((24, 30, 3))
+    own[:, :8], own[:, 8:17], own[:, 17:] = (0.8, 0.1, 0.1), (9.0, 3.0, 0.0), (0.1, 0.1, 0.9)
+    beside = np.array((0.5, 0.4, 0.3))
+    light = coverage[..., None] * own + (1.0 - coverage[..., None]) * beside
+    found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
+                                      texels.pixel_kernel("BOX", 1.0)))
+    assert np.abs(found[:, 4:6] - own[:, 4:6]).max() < 0.05 and np.abs(found[:, 14] - own[:, 14]).max() < 0.3
+
+
 def test_beside_a_lamp_a_result_ends_as_it_is_within(room):
     """What is taken out of a pixel that holds both is a hundred times brighter: a hundredth more is all that there is,
     and a hundredth less is a spark."""
