@@ -2,13 +2,15 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
 
 from ... import compat
 from .material_nodes import all_nodes
 from .surface_shaders import surface_shaders
 
-SHARP_ROUGHNESS = 0.1
-FULL_METALLIC = 0.9
+# as Blender holds them, in single precision: a tenth there is more than 0.1
+SHARP_ROUGHNESS = float(np.float32(0.1))
+FULL_METALLIC = float(np.float32(0.9))
 MIRRORS = {"BSDF_GLOSSY", "BSDF_METALLIC"}
 """Shaders that are nothing but a mirror where they are sharp."""
 ROUGHENED = {"BSDF_PRINCIPLED", "BSDF_GLASS", "BSDF_REFRACTION"}

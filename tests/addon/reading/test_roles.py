@@ -139,6 +139,7 @@ def test_objects_in_a_hidden_collection_are_left_out(four, room):
 
 @pytest.mark.parametrize(("kind", "roughness", "metallic", "expected"), [
     ("GLOSSY", 0.0, 1.0, True), ("GLOSSY", 0.05, 1.0, True), ("GLOSSY", 0.4, 1.0, False),
+    ("GLOSSY", 0.1, 1.0, True), ("PRINCIPLED", 0.1, 0.9, True), ("GLOSSY", 0.101, 1.0, False),
     ("PRINCIPLED", 0.0, 1.0, True), ("PRINCIPLED", 0.0, 0.0, False), ("PRINCIPLED", 0.5, 1.0, False),
     ("DIFFUSE", 0.0, 0.0, False), ("EMISSION", 0.0, 0.0, False)])
 def test_mirror_materials(blank, room, kind, roughness, metallic, expected):
