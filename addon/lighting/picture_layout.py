@@ -54,7 +54,10 @@ def _cut(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray) -> Steps[None]:
             cut.from_mesh(mesh)
             yield 0.0, WRITING
             cut.edges.ensure_lookup_table()
-            bmesh.ops.subdivide_edges(cut, edges=[cut.edges[edge] for edge in edges.tolist()], cuts=1)
+            # each new vertex is joined with the corner across: what is left to be divided into triangles could, where
+            # it is thin, have the uncut side again
+            bmesh.ops.subdivide_edges(cut, edges=[cut.edges[edge] for edge in edges.tolist()], cuts=1,
+                                      use_single_edge=True)
             yield 0.0, WRITING
             bmesh.ops.triangulate(cut, faces=[face for face in cut.faces if len(face.verts) > 3])
             yield 0.0, WRITING
