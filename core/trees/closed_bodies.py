@@ -85,13 +85,18 @@ class ClosedBodies:
     def outward_from(self, view: View) -> np.ndarray:
         """What `outward` (m,) is of bodies from outside of which the view looks, 0 of all others: what it sees in
         mirrors it sees from outside as well, since on the way there nothing is in between."""
-        if view.orthographic or not self.low.shape[1]:
-            return self.outward
-        eye = (FRAME @ view.eye.ravel())[:, None]
-        outside = ((eye < self.low) | (eye > self.high)).any(axis=0)
-        for body in np.flatnonzero(~outside):
-            corners = self.mesh.positions[self.mesh.triangles[self.body == body]]
-            outside[body] = abs(solid_angles(view.eye, corners).sum()) < 2.0 * np.pi
+        count = self.low.shape[1]
+        if view.orthographic:
+            # what its plane cuts some of its rays begin in
+            ends = np.array(np.meshgrid(*[(False, True)] * 3)).reshape(3, 8, 1)
+            corners = FRAME.T @ np.where(ends, self.high[:, None], self.low[:, None]).reshape(3, -1)
+            outside = (view.depths(corners.T) > 0.0).reshape(8, count).all(axis=0)
+        else:
+            eye = (FRAME @ view.eye.ravel())[:, None]
+            outside = ((eye < self.low) | (eye > self.high)).any(axis=0)
+            for body in np.flatnonzero(~outside):
+                corners = self.mesh.positions[self.mesh.triangles[self.body == body]]
+                outside[body] = abs(solid_angles(view.eye, corners).sum()) < 2.0 * np.pi
         return np.where((self.body >= 0) & np.append(outside, False)[self.body], self.outward, 0.0)
 
 
