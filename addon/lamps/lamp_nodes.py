@@ -6,6 +6,7 @@ that is shaded, so that a lamp's outline is as sharp as the picture.
 from __future__ import annotations
 
 import bpy
+import numpy as np
 
 from ..writing.nodes.shader_builder import ShaderBuilder
 from .shown_lamps import ShownLamp
@@ -77,6 +78,12 @@ class _Way:
         """By the cone of a spot lamp, or the spread of an area lamp, as `illumination.Eye.share` has them."""
         build, cosine = self.build, self.build.dot(self.ahead, tuple(lamp.axes[:, 2]))
         if lamp.spot:
+            if not np.allclose(lamp.axes.T @ lamp.axes, np.eye(3), atol=1e-6):
+                # its cone is drawn out
+                sides = [build.dot(self.ahead, tuple(axis)) for axis in lamp.axes.T[:2]]
+                squares = [build.calculated("MULTIPLY", side, side) for side in (*sides, cosine)]
+                whole = build.calculated("ADD", build.calculated("ADD", *squares[:2]), squares[2])
+                cosine = build.calculated("DIVIDE", cosine, build.calculated("SQRT", whole))
             smooth = build.add("ShaderNodeMapRange", interpolation_type="SMOOTHSTEP")
             for name, value in (("Value", cosine), ("From Min", lamp.cone[0]), ("From Max", sum(lamp.cone))):
                 build.feed(value, smooth.inputs[name])

@@ -23,7 +23,7 @@ class ShownLamp:
     place : (3,) float64
         Its middle, in world space.
     axes : (3, 3) float64
-        World axes x, y, z, unit columns; it shines along -z.
+        World axes x, y, z; it shines along -z. Unit columns, but for spots as `illumination.Eye` has it.
     shape : {'RECTANGLE', 'ELLIPSE', 'BALL', 'DISC'}
         The first two lie across z; a disc faces what sees it.
     size : tuple of float

@@ -8,6 +8,7 @@ import numpy as np
 from ....core import Lamp, TriangleMesh
 
 AT_ONCE = 1 << 22
+RIM, BETWEEN = 256, 1.001  # places on the rim of a spot lamp's cone, and how much wider it may be between them
 NARROWEST = 4e-3  # radians: what a lamp's light is split for, as if its cone were no narrower
 
 
@@ -21,7 +22,8 @@ class Eye:
     power : (3,) float64
         Red, green and blue: intensity along the axis in W/sr, or a sun's irradiance in W/m2.
     axes : (3, 3) float64
-        World axes x, y, z of the lamp, unit columns; it shines along -z.
+        World axes x, y, z of the lamp, unit columns; it shines along -z. Of a spot lamp, whose cone is drawn out as it
+        is scaled, what turns ways @ axes into its own space.
     kind : str
         As `bpy.types.Light.type`.
     cone : tuple of float
@@ -48,10 +50,22 @@ class Eye:
             return self.lamp
         if self.facets is not None:
             return replace(self.lamp, pattern=self.share)
-        half = float(np.arccos(np.clip(self.cone[0], -1.0, 1.0)) if self.kind == "SPOT"
-                     else np.arctan2(1.0, max(self.cone[0], 0.0)))
-        narrow = 0.5 * half if self.kind == "SPOT" or self.cone[0] > 0.0 else np.inf
+        if self.kind == "SPOT":
+            axis, half, least = self._drawn_cone()
+            return replace(self.lamp, pattern=self.share, narrow=max(0.5 * least, NARROWEST), cone=(axis, half))
+        half = float(np.arctan2(1.0, max(self.cone[0], 0.0)))
+        narrow = 0.5 * half if self.cone[0] > 0.0 else np.inf
         return replace(self.lamp, pattern=self.share, narrow=max(narrow, NARROWEST), cone=(-self.axes[:, 2], half))
+
+    def _drawn_cone(self) -> tuple[np.ndarray, float, float]:
+        """The axis (3,) of a spot lamp's cone in the world, and the angles from it that its rim has at most, and at
+        least."""
+        sine, angle = np.sqrt(max(1.0 - self.cone[0]**2, 0.0)), np.linspace(0.0, 2.0 * np.pi, RIM, endpoint=False)
+        rim = np.stack((sine * np.cos(angle), sine * np.sin(angle), np.full(RIM, -self.cone[0])))
+        axis, rim = (np.linalg.solve(self.axes.T, ways) for ways in (np.array((0.0, 0.0, -1.0)), rim))
+        axis, rim = axis / np.linalg.norm(axis), rim / np.linalg.norm(rim, axis=0)
+        off = np.arctan2(np.linalg.norm(np.cross(axis, rim.T), axis=1), axis @ rim)
+        return axis, float(off.max()) * BETWEEN, float(off.min())
 
     def share(self, places: np.ndarray) -> np.ndarray:
         """How much of the power goes towards `places` (..., 3)."""

@@ -1,7 +1,8 @@
 """Blender's lamps as places that light comes from, each with its share of the lamp's power, in Cycles' units.
 
 A point or spot lamp of P watts has the intensity P / (4 pi) in W/sr, within the cone and its blend; an area lamp the
-radiance P / (pi A) in W/m2/sr on its front; a sun is given by its irradiance in W/m2.
+radiance P / (pi A) in W/m2/sr on its front; a sun is given by its irradiance in W/m2. A lamp that is not normalised is
+given by its radiance: of a lamp P / pi, of a sun the irradiance of a whole sky of it, unless it has no size.
 """
 from __future__ import annotations
 
@@ -13,6 +14,7 @@ from ... import compat
 from .eye import Eye, across
 from .mesh_lamps import eyes_of_mesh, is_mesh_lamp
 
+FLAT = 1e-9  # volume that unit axes span: with less they lie in a plane
 SPREAD_LEAST = 1e-3  # radians: narrower area lamps are taken for as wide
 
 
@@ -98,7 +100,8 @@ def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, 
     data, matrix = evaluated.data, np.array(evaluated.matrix_world, dtype=np.float64)
     length = np.linalg.norm(matrix[:3, :3], axis=0)
     # a mesh may be flat
-    if not np.isfinite(matrix).all() or (lamp.type == "LIGHT" and not (length > 0.0).all()):
+    if not np.isfinite(matrix).all() or (lamp.type == "LIGHT" and not _has_volume(matrix[:3, :3] / np.where(
+            length > 0.0, length, 1.0))):
         raise ReflectionError(f"The lamp '{lamp.name}' has a scale of zero or a position that is no number: clear its "
                               "transform.")
     if lamp.type != "LIGHT":
@@ -106,34 +109,52 @@ def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, 
         if not eyes:
             raise NoLight(f"The lamp '{lamp.name}' gives no light to the mirror: raise the strength of its emission.")
         return eyes
-    axes, place = matrix[:3, :3] / length, matrix[:3, 3]
-    power = np.array(data.color, dtype=np.float64) * data.energy * 2.0**getattr(data, "exposure", 0.0)
-    power = power * light_of_nodes(data)[0]
-    if getattr(data, "use_temperature", False):
-        power = power * np.array(data.temperature_color, dtype=np.float64)
+    axes, place, cone = matrix[:3, :3] / length, matrix[:3, 3], (0.0, 0.0)
+    power = _strength(data)
     if not (power > 0.0).any():
         raise NoLight(f"The lamp '{lamp.name}' gives no light: raise its power.")
     if data.type == "SUN":
         offsets = np.tan(0.5 * data.angle) * _disc(count)
         ways = -axes[:, 2] + offsets @ axes[:, :2].T
+        power = power * _of_size(data, np.pi * np.sin(min(0.5 * data.angle, 0.5 * np.pi))**2, 1.0)
         return [Eye(Lamp.shining(way), power / count, axes, "SUN", (0.0, 0.0)) for way in ways]
-    cone, normalised = (0.0, 0.0), getattr(data, "normalize", True)
     if data.type == "AREA":
         size = np.array((data.size, data.size_y if data.shape in {"RECTANGLE", "ELLIPSE"} else data.size))
         size = size * length[:2]
-        area = size.prod() * (np.pi / 4.0 if data.shape in {"DISK", "ELLIPSE"} else 1.0)
-        power = power / np.pi * (1.0 if normalised else area)
-        spots = 0.5 * _disc(count) if data.shape in {"DISK", "ELLIPSE"} else _square(count)
+        round_ = data.shape in {"DISK", "ELLIPSE"}
+        power = power / np.pi * _of_size(data, size.prod() * (np.pi / 4.0 if round_ else 1.0), 1.0)
+        spots = 0.5 * _disc(count) if round_ else _square(count)
         offsets, cone = (spots * size) @ axes[:, :2].T, _spread(data.spread)
     else:
         radius = data.shadow_soft_size
-        power = power / (4.0 * np.pi) if normalised or not radius > 0.0 else power * np.pi * radius**2 / np.pi
+        power = power / np.pi * _of_size(data, np.pi * radius**2, 0.25)
         # a ball looks like a disc, as bright everywhere
         offsets = radius * _disc(count) @ across(towards.mean(axis=0) - place).T
     if data.type == "SPOT":
         half = np.cos(0.5 * data.spot_size)
         cone = half, max((1.0 - half) * data.spot_blend, 1e-6)
+        # the cone lies in the lamp's own space: scale draws it out
+        axes = np.linalg.inv(matrix[:3, :3]).T
     return [Eye(Lamp(place + offset), power / count, axes, data.type, cone) for offset in offsets]
+
+
+def _has_volume(axes: np.ndarray) -> bool:
+    return bool(abs(np.linalg.det(axes)) > FLAT)
+
+
+def _strength(data: bpy.types.Light) -> np.ndarray:
+    """Red, green and blue (3,) of a lamp's power, whatever its size."""
+    power = np.array(data.color, dtype=np.float64) * data.energy * 2.0**getattr(data, "exposure", 0.0)
+    if getattr(data, "use_temperature", False):
+        power = power * np.array(data.temperature_color, dtype=np.float64)
+    return power * light_of_nodes(data)[0]
+
+
+def _of_size(data: bpy.types.Light, size: float, normalised: float) -> float:
+    """What a lamp's power is multiplied by: its size, where that counts. Cycles takes one without any for one of 1."""
+    if getattr(data, "normalize", True):
+        return normalised
+    return float(size) if size > 0.0 else 1.0
 
 
 def light_of_nodes(data: bpy.types.Light) -> tuple[np.ndarray, bool]:
