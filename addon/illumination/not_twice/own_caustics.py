@@ -28,10 +28,12 @@ def makes_own_caustics(materials: list) -> tuple[bool, bool]:
 
 def leave_out_own_caustics(scene: bpy.types.Scene, lamp: bpy.types.Object, mirror: bpy.types.Object,
                            whole: AllOrNothing) -> bool:
-    """Let a lamp not light a mirror, which goes on to show it; False where the user has linked the lamp otherwise, or
-    the lamp is not the file's own, and nothing has changed."""
+    """Let a lamp not light a mirror, which goes on to show it, unless the user has taken it out already; False where
+    the user has linked the lamp otherwise, or the lamp is not the file's own, and nothing has changed."""
     linking = lamp.light_linking
     collection = linking.receiver_collection
+    if collection is not None and not collection.get(_MARK) and not _lit_by(collection, mirror):
+        return True
     if lamp.library is not None or (collection is not None and not _is_ours(collection, lamp)):
         return False
     if collection is None:
@@ -109,6 +111,19 @@ def let_lamps_light_mirrors(lamps: list, back: ExitStack) -> None:
 def _leaves_out_some(lamp: bpy.types.Object) -> bool:
     collection = lamp.light_linking.receiver_collection
     return collection is not None and _is_ours(collection, lamp)
+
+
+def _lit_by(collection: bpy.types.Collection, obj: bpy.types.Object) -> bool:
+    """Whether a lamp that is linked to a collection lights an object: not what is excluded, and where something is
+    included nothing else. Of what tells of an object the last counts, and objects come after collections."""
+    states = [(entry.light_linking.link_state, obj.name in child.all_objects)
+              for entry, child in zip(collection.collection_children, collection.children)]
+    states += [(entry.light_linking.link_state, child == obj)
+               for entry, child in zip(collection.collection_objects, collection.objects)]
+    told = [state for state, holds in states if holds]
+    if told:
+        return told[-1] == "INCLUDE"
+    return all(state == "EXCLUDE" for state, _ in states)
 
 
 _MARK = "reflection_mesh_left_out"
