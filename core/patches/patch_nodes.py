@@ -12,7 +12,7 @@ import numpy as np
 
 from ..geometry import columns, dot, norm, unit
 from ..support import breathe
-from ..trees import Cones, VertexTree, median_leaves
+from ..trees import Cones, StandIns, VertexTree, median_leaves
 from .patch import Patch
 from .walk import changes, find, find_near
 
@@ -119,7 +119,7 @@ class NodeVertices:
 
 
 class Descent:
-    """How the vertices of a tree come to a patch, of nodes smaller than `least` pixels one.
+    """How the vertices of a tree come to a patch, of nodes smaller than `least` pixels one, or one of each `part` (v,).
 
     Attributes
     ----------
@@ -127,11 +127,11 @@ class Descent:
         For each vertex of the mesh the one that stands for it.
     """
 
-    def __init__(self, walk: Walk, tree: VertexTree, least: float) -> None:
-        self.walk, self.tree, self.least = walk, tree, least
+    def __init__(self, walk: Walk, tree: VertexTree, least: float, part: np.ndarray | None = None) -> None:
+        self.walk, self.tree, self.least, self.part = walk, tree, least, part
         self.sheaves = _sheaves(walk.patch)
         self.standing = np.arange(len(tree.mesh.positions))
-        self._small: list[tuple[int, np.ndarray, np.ndarray, np.ndarray]] = []
+        self._small: list[tuple[int, np.ndarray, np.ndarray]] = []
 
     def vertices(self) -> Generator[NodeVertices, None, None]:
         """Those that the patch may show; of a small node one."""
@@ -166,25 +166,26 @@ class Descent:
         scale = LARGER * images.scale[row]
         small = images.found[row] & self.tree.small(level, node, scale, self.least)
         some = np.flatnonzero(small)
-        vertex, stood = self._stand(level, node[some])
-        self._small.append((level, node[some], vertex, scale[some]))
-        return ~small, NodeVertices(images, row[some], vertex, stood)
+        stand = self._stand(level, node[some])
+        self._small.append((level, node[some], scale[some]))
+        return ~small, NodeVertices(images, row[some][stand.node], stand.vertex, stand.radius)
 
-    def _stand(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The vertices that stand for all in nodes (n,) from now on, and how far from these the others are at most."""
-        vertex, stood = self.tree.representatives(level, node)
-        held, run = self.tree.held(level, node)
-        self.standing[held] = vertex[run]
-        return vertex, stood
+    def _stand(self, level: int, node: np.ndarray) -> StandIns:
+        """The vertices that stand for all in nodes (n,) from now on."""
+        stand = self.tree.stand_ins(level, node, self.part)
+        self.standing[stand.held] = stand.vertex[stand.own]
+        return stand
 
-    def part(self, asked: np.ndarray, least: float) -> None:
-        """Let nodes of which a vertex `asked` (v,) stands for all fall apart into such as are smaller than `least`
-        pixels."""
+    def fall_apart(self, asked: np.ndarray, least: float) -> None:
+        """Let small nodes that hold a vertex which some `asked` (v,) one stands for fall apart into such as are smaller
+        than `least` pixels."""
         tree = self.tree
-        for level, node, vertex, scale in self._small:
+        for level, node, scale in self._small:
             breathe()
-            node, scale = node[asked[vertex]], scale[asked[vertex]]
-            held = tree.held(level, node)[0]
+            held, run = tree.held(level, node)
+            some = np.zeros(len(node), dtype=bool)
+            some[run[asked[self.standing[held]]]] = True
+            held, node, scale = held[some[run]], node[some], scale[some]
             self.standing[held] = held
             while len(node):
                 small = tree.small(level, node, scale, least)

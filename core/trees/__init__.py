@@ -13,8 +13,8 @@ from .magnification import Magnification
 from .node_tree import curve_leaves, depth_for, median_leaves
 from .point_tree import SMALL, PointTree
 from .scene_tree import SceneTree
-from .vertex_tree import VertexTree
+from .vertex_tree import StandIns, VertexTree
 
 __all__ = ["SMALL", "Balls", "Bound", "BoxTree", "Cones", "Fronts", "Magnification", "PointTree", "SceneTree",
-           "Touching", "VertexTree", "bounded_trace", "curve_leaves", "depth_for", "first_crossed", "first_hits",
-           "median_leaves", "meet"]
+           "StandIns", "Touching", "VertexTree", "bounded_trace", "curve_leaves", "depth_for", "first_crossed",
+           "first_hits", "median_leaves", "meet"]

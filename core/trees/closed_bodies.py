@@ -34,6 +34,8 @@ class ClosedBodies:
     mesh : TriangleMesh
     border : (v,) int64
         Vertices at which the surface ends, or turns its other side.
+    part : (v,) int64
+        The part of the mesh that each vertex is of: what hangs together by vertices in one place.
     body : (m,) int64
         The body that each triangle bounds, -1 for none.
     outward : (m,) float64
@@ -44,6 +46,7 @@ class ClosedBodies:
 
     mesh: TriangleMesh
     border: np.ndarray
+    part: np.ndarray
     body: np.ndarray
     outward: np.ndarray
     low: np.ndarray
@@ -60,12 +63,14 @@ class ClosedBodies:
         closed[part[ends[triangles].any(axis=1)]] = False
         number = np.where(closed, np.cumsum(closed) - 1, -1)
         body = number[part] if len(part) else part
+        part_of = np.zeros(len(mesh.positions), dtype=np.int64)
+        part_of[triangles.ravel()] = np.repeat(part, 3)
         breathe()
         some = np.flatnonzero(body >= 0)
         low, high = (np.full((3, int(closed.sum())), end) for end in (np.inf, -np.inf))
         outward = np.zeros(len(triangles))
         if not len(some):
-            return cls(mesh, border, body, outward, low, high)
+            return cls(mesh, border, part_of, body, outward, low, high)
         spots = FRAME @ rows(mesh.positions)
         owner = np.full(len(mesh.positions), -1)
         owner[triangles[some].ravel()] = np.repeat(body[some], 3)
@@ -80,7 +85,7 @@ class ClosedBodies:
         facing *= sides[own]
         sides[_overlapping(spots, corner, own, facing, (low, high))] = 0.0
         outward[some] = sides[own]
-        return cls(mesh, border, body, outward, low, high)
+        return cls(mesh, border, part_of, body, outward, low, high)
 
     def outward_from(self, view: View) -> np.ndarray:
         """What `outward` (m,) is of bodies from outside of which the view looks, 0 of all others: what it sees in

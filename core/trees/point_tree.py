@@ -92,11 +92,11 @@ class PointTree(VertexTree):
         def stood_for(level: int, cone: np.ndarray, node: np.ndarray) -> np.ndarray:
             small = magnification.pixels(cones, cone, columns(self.spheres[level], node)) < SMALL
             nodes, inverse = np.unique(node[small], return_inverse=True)
-            covered[self.held(level, nodes)[0]] = True
-            vertex, radius = self.representatives(level, nodes)
+            stand = self.stand_ins(level, nodes)
+            covered[stand.held] = True
             cameras.append(cone[small])
-            vertices.append(vertex[inverse])
-            radii.append(radius[inverse])
+            vertices.append(stand.vertex[inverse])
+            radii.append(stand.radius[inverse])
             return small
 
         for cone, leaf, tested in self.descended(cones, np.ones(len(cones.radius), dtype=bool), stood_for):

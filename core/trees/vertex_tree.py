@@ -9,10 +9,29 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Order, TriangleMesh, norm, ranges, rows
+from ..geometry import Order, TriangleMesh, columns, groups, in_order, norm, ranges, rows
 from .node_tree import NodeTree, depth_for, node_spheres
 
 BUCKET = 4
+
+
+@dataclass(frozen=True)
+class StandIns:
+    """Vertices (k) of which each stands for some.
+
+    Attributes
+    ----------
+    held, own : (m,) int64, the vertices that some stand for, and which of the k that is
+    vertex : (k,) int64
+    radius : (k,) float64, of the sphere round it that holds what it stands for
+    node : (k,) int64, which of the nodes that were asked for each is of
+    """
+
+    held: np.ndarray
+    own: np.ndarray
+    vertex: np.ndarray
+    radius: np.ndarray
+    node: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -39,17 +58,22 @@ class VertexTree(NodeTree):
         # an empty one, of radius -inf, has none
         return 2.0 * np.abs(self.spheres[level][3, node]) * scale < least
 
-    def representatives(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The vertex nearest the middle of each node, and how far from it the node's other vertices are at most."""
-        if not len(node):
-            return np.zeros(0, dtype=np.int64), np.zeros(0)
+    def stand_ins(self, level: int, node: np.ndarray, part: np.ndarray | None = None) -> StandIns:
+        """The vertex nearest the middle of each node (n,), which stands for all that the node holds; or for each `part`
+        (v,) of it one."""
         held, run = self.held(level, node)
-        middle = self.spheres[level][:3, node]
+        own = run
+        if part is not None and len(held):
+            _, own = groups(run, part[held])
+            order = in_order(own)
+            held, run, own = held[order], run[order], own[order]
         points = rows(self.mesh.positions[held])
-        away = norm(points - middle[:, run])
-        first = np.flatnonzero(np.diff(run, prepend=-1))
-        nearest = np.flatnonzero(away == np.minimum.reduceat(away, first)[run])
-        _, once = np.unique(run[nearest], return_index=True)
+        away = norm(points - columns(self.spheres[level][:3, node], run))
+        first = np.flatnonzero(np.diff(own, prepend=-1))
+        if not len(first):
+            return StandIns(held, own, held, np.zeros(0), run)
+        nearest = np.flatnonzero(away == np.minimum.reduceat(away, first)[own])
+        _, once = np.unique(own[nearest], return_index=True)
         vertex = held[nearest[once]]
-        spread = norm(points - rows(self.mesh.positions[vertex])[:, run])
-        return vertex, np.maximum.reduceat(spread, first)
+        spread = norm(points - columns(rows(self.mesh.positions[vertex]), own))
+        return StandIns(held, own, vertex, np.maximum.reduceat(spread, first), run[first])

@@ -4,7 +4,8 @@ The tree of the vertices is descended by the images of its nodes' middles, as fo
 what the picture shows and not by the scene. A triangle goes on between those that stand for its corners, or is gone
 where these are two (J. Rossignac, P. Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993):
 vertices are moved together, never apart, so that no crack opens. What an outline runs through is drawn together in
-smaller parts.
+smaller parts, what would be lost, as wires and leaves, not at all, and nothing with what it does not hang together
+with, as cloth with skin.
 """
 from __future__ import annotations
 
@@ -12,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, areal, columns, cross, dot, doubled_areas, groups, rows
+from ..geometry import TriangleMesh, areal, columns, cross, dot, doubled_areas, groups, norm, rows
 from ..patches import Descent, Patch, Walk
 from ..support import breathe
 from ..trees import SceneTree
@@ -20,6 +21,7 @@ from .images import Images
 
 AT_ONCE = 16384  # triangles: what their arrays take fits the cache
 OUTLINE = 1 / 3  # of the size of what is drawn together: that of what an outline runs through
+LEFT = 0.6  # of a surface's area: where less is left something is lost, and not only smoothed
 
 
 @dataclass(frozen=True)
@@ -46,14 +48,15 @@ class Merged:
         pixels; as it is where that is none."""
         mesh = tree.mesh
         points = rows(mesh.positions) - patch.eye
-        descent = Descent(Walk(patch), tree.vertices, least)
+        descent = Descent(Walk(patch), tree.vertices, least, tree.bodies.part)
         images = _images(patch, descent, points)
         standing = _in_one_place(mesh, descent.standing)
         own = np.arange(len(standing))
         if (standing == own).all():
             return cls(images, mesh.triangles, np.flatnonzero(mesh.areal))
         breathe()
-        descent.part(_on_outline(tree, images, standing), OUTLINE * least)
+        descent.fall_apart(_on_outline(tree, images, standing), OUTLINE * least)
+        descent.fall_apart(_lost(mesh, _in_one_place(mesh, descent.standing)), 0.0)
         alone = _in_one_place(mesh, descent.standing)
         new = np.flatnonzero((alone == own) & (standing != own))
         near = standing[new]
@@ -115,6 +118,23 @@ def _on_outline(tree: SceneTree, images: Images, standing: np.ndarray) -> np.nda
     found &= back
     found[standing[tree.bodies.border]] = True
     return found
+
+
+def _lost(mesh: TriangleMesh, standing: np.ndarray) -> np.ndarray:
+    """Which vertices (v,) stand for so much that too little of the surface is left."""
+    before, after = np.zeros((2, len(standing)))
+    for start in range(0, len(mesh.triangles), AT_ONCE):
+        breathe()
+        corner = mesh.triangles[start:start + AT_ONCE].T
+        node = columns(standing, corner)
+        some = np.flatnonzero((node != corner).any(axis=0))
+        node = node[:, some]
+        for total, ends in ((before, corner[:, some]), (after, node)):
+            a, b, c = (mesh.positions.take(of_all, axis=0).T for of_all in ends)
+            area = norm(cross(b - a, c - a))
+            for stands in node:
+                np.add.at(total, stands, area)
+    return after < LEFT * before
 
 
 def _distinct(mesh: TriangleMesh, images: Images, triangles: np.ndarray) -> np.ndarray:

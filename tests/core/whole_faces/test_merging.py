@@ -4,8 +4,10 @@ import pytest
 
 import core.whole_faces.whole as whole_room
 from core import Settings, TriangleMesh, reflect
+from tests.inputs import fine_scenes
 from tests.inputs.dense_scenes import dense, knots_in_a_ball
 from tests.oracles.judge import compare
+from tests.oracles.true_map import picture_areas
 from tests.oracles.truth import trace
 
 pytestmark = pytest.mark.slow
@@ -61,6 +63,29 @@ def test_corners_in_one_place_move_together():
     numbers = compare(case.view, case.mirror, mesh, trace(case.view, case.mirror, scene)).numbers
     assert numbers["hole"] < 0.05 and len(mesh.triangles) < 1.2 * len(
         reflect(case.view, case.mirror, scene).triangles)
+
+
+@pytest.mark.parametrize("case", [fine_scenes.crown(), fine_scenes.fence()], ids=["leaves", "wires"])
+def test_leaves_and_wires_below_a_pixel_are_not_lost(case, monkeypatch):
+    areas = []
+    for together in (2.0, 0.0):
+        monkeypatch.setattr(whole_room, "TOGETHER", together)
+        mesh = reflect(case.view, case.mirror, case.scene)
+        areas.append(np.abs(picture_areas(case.view, mesh)).sum())
+        numbers = judged(case, mesh)
+        assert numbers["hole"] < 0.05 and numbers["p99"] < 0.35
+    assert abs(areas[0] / areas[1] - 1.0) < 0.03
+
+
+def test_what_does_not_hang_together_stays_apart():
+    case = fine_scenes.coat()
+    mesh = reflect(case.view, case.mirror, case.scene)
+    assert mesh.counts["whole"] > 1000 and len(mesh.triangles) < 0.7 * len(case.scene.triangles) / 2
+    half = len(case.scene.triangles) // 2
+    radius = np.linalg.norm(mesh.reflected_position - (-1.0, -2.6, 0.9), axis=1)[mesh.triangles]
+    outer = mesh.source_face >= half
+    # the smallest balls round and in the two of icosahedra
+    assert (radius[outer] > 0.6025).all() and (radius[~outer] < 0.6015).all() and 0.3 < outer.mean() < 0.7
 
 
 def _named(points: np.ndarray) -> np.ndarray:
