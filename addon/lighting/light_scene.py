@@ -14,6 +14,7 @@ from ..faults import still_there
 from ..reading import is_opaque, materials_of
 from ..reading.materials import is_exact
 from ..rendering import copied_scene, crop_to, denoise, look_through, put_swift_world, rendered
+from .clear_air import clear_air, is_of_fog
 from .cutting import cut_through
 from .picture_layout import shining_slots
 from .window import Window
@@ -27,11 +28,13 @@ PLAIN_WHITE, ROLLED_OFF_WHITE = 1.0, 16.0
 @dataclass(frozen=True)
 class LightScene:
     """A copy of the user's scene that renders one window of its picture; `alone` where the camera sees no more in it
-    than the mirrors, `before` these the objects that cut through them, `exact` where mirrors have no roughness."""
+    than the mirrors, `before` these the objects that cut through them, `fog` what has been cleared before them, `exact`
+    where mirrors have no roughness."""
 
     scene: bpy.types.Scene
     results: list
     before: list
+    fog: list
     alone: bool
     exact: bool
 
@@ -58,11 +61,11 @@ class LightScene:
         scene.world = None
         made: list = [opaque, shining]
         unseen = [mirror for mirror in {result.reflection_mesh.mirror for result in self.results} - {None}
-                  if mirror.visible_camera and (self.alone or mirror.reflection_mesh.camera_hidden)]
+                  if mirror.visible_camera and (self.alone or mirror.reflection_mesh.camera_hidden)] + self.fog
         try:
             # results may lie in their mirrors or behind them
-            for mirror in unseen:
-                mirror.visible_camera = False
+            for obj in unseen:
+                obj.visible_camera = False
             scene.collection.children.link(others)
             for obj in list(scene.collection.objects):
                 scene.collection.objects.unlink(obj)
@@ -83,8 +86,8 @@ class LightScene:
             seen = rendered(scene)
             return seen[..., 3], seen[..., 0]
         finally:
-            for mirror in still_there(unseen):
-                mirror.visible_camera = True
+            for obj in still_there(unseen):
+                obj.visible_camera = True
             bpy.data.batch_remove([*still_there(made), stage, others])
 
 
@@ -104,6 +107,10 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
                 mirror.visible_camera = True
         mirrors = {result.reflection_mesh.mirror for result in results} - {None}
         others, parts = _seen_others(context, {*results, *mirrors})
+        # where a mirror stands in fog, Cycles knows of it on the way from there by the way to there alone
+        fog = [obj for obj in others if is_of_fog(obj)]
+        clear_air(scene, fog, back)
+        others = [obj for obj in others if obj not in fog]
         hidden = [obj for obj in others if obj.library is None and obj not in parts]
         alone = len(hidden) == len(others) and len(mirrors) == len(results) and all(map(_is_opaque, mirrors))
         before = _cutting(context, mirrors, hidden) if alone else []
@@ -114,7 +121,7 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
             back.callback(setattr, obj, "visible_camera", True)
             obj.visible_camera = False
         exact = all(is_exact(material) for mirror in mirrors for material in materials_of(mirror))
-        yield LightScene(scene, results, before, alone, exact)
+        yield LightScene(scene, results, before, fog, alone, exact)
 
 
 def _seen_others(context: bpy.types.Context, lit: set) -> tuple[list, set]:

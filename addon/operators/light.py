@@ -32,6 +32,7 @@ from ..lighting import (
 from ..mirror_part import LaterMirrors, Surroundings, new_object_material
 from ..reading import (
     camera_of,
+    has_fog,
     has_linked_results,
     is_mirror,
     is_opaque,
@@ -53,6 +54,7 @@ NAMED = 3
 IN_OBJECT_MODE = "Reflections are lit in Object Mode: leave the present mode first."
 FOR_THIS_FRAME = ("So many objects are reflected that their light was made for this frame alone: bake frames for an "
                   "animation, or choose Light: Objects to keep it while things move.")
+FOG = "Fog before what mirrors show is not in light on the objects: choose Light: Picture for a still."
 NOTHING_TO_LIGHT = "The scene has no reflection to light: generate one first."
 LINKED_TO_LIGHT = ("The reflections are linked from another file: light them in that file, save it, and reload the "
                    "library here.")
@@ -168,6 +170,8 @@ def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int,
         light = scene.light(samples)
         yield 0.9, Undivided("Cycles renders what reflections cover")
         coverage, shining = scene.coverage()
+    # what was clear for a while counts as changed only now
+    context.view_layer.update()
     cycles = context.scene.cycles
     kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
     opacity = light[..., 3] if scene.alone else None
@@ -232,11 +236,13 @@ def _mirror_material(result: bpy.types.Object) -> bpy.types.Material | None:
     return None if reflecting is None or is_plain(reflecting) else reflecting
 
 
-def unlike_the_mirror(lit: list) -> list[str]:
-    """Sentences on the objects that `lit` show otherwise than their mirrors do, if there are any."""
+def unlike_the_mirror(scene: bpy.types.Scene, lit: list) -> list[str]:
+    """Sentences on what `lit` show otherwise than their mirrors do, if there is anything."""
     dull = sorted({name for result in lit for name in dull_objects(result)})
-    random = random_by_island([result for result in lit if result.reflection_mesh.light_map is not None])
-    return ([f"The gloss of {_listed(dull)} is not what so close a curved mirror shows: choose Light: Picture for a "
+    on_objects = [result for result in lit if result.reflection_mesh.light_map is not None]
+    random = random_by_island(on_objects)
+    return ([FOG] * bool(on_objects and has_fog(scene))
+            + [f"The gloss of {_listed(dull)} is not what so close a curved mirror shows: choose Light: Picture for a "
              f"still."] * bool(dull)
             + [f"What is random by island on {_listed(random)} is so in other colours: choose Light: Picture for its "
                f"own."] * bool(random))
@@ -284,7 +290,7 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
             for group, _, kind in lights)
         self.show_used(wanted, [result.reflection_mesh.mirror for result in results])
         # what is told last stays in the status bar
-        for sentence in [summary(lit, time.perf_counter() - started), *advice, *unlike_the_mirror(lit)]:
+        for sentence in [summary(lit, time.perf_counter() - started), *advice, *unlike_the_mirror(context.scene, lit)]:
             tell(self, {"INFO"}, sentence)
 
 

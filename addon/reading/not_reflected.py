@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import bpy
 
+from .materials import all_fog, fog_of
 from .roles import can_take_part, rendered_in, seen_in
 
 NO_SURFACES = {"CURVES", "POINTCLOUD", "VOLUME"}
@@ -41,8 +42,13 @@ def without_surface(context: bpy.types.Context, mirrors: list, diffuse: list) ->
     is_seen, everything = seen_in(context), _shows_all(context, mirrors, diffuse)
     drawn = _drawn_without(context.evaluated_depsgraph_get())
     return [obj for obj in context.view_layer.objects
-            if (obj in drawn or _has_hair(obj)) and obj.visible_glossy and is_seen(obj)
+            if (obj in drawn or _has_hair(obj) or all_fog(obj)) and obj.visible_glossy and is_seen(obj)
             and (obj in diffuse or not can_take_part(obj) and (everything or obj.select_get()))]
+
+
+def has_fog(scene: bpy.types.Scene) -> bool:
+    """Whether the world of a scene, or an object that renders show, is fog."""
+    return fog_of(scene.world) is not None or any(all_fog(obj) and not obj.hide_render for obj in scene.objects)
 
 
 def _drawn_without(depsgraph: bpy.types.Depsgraph) -> set:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 
 from ...core import ReflectionError
-from .materials import is_mirror
+from .materials import all_fog, is_mirror
 from .results import RESULTS, meant, of_results
 
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
@@ -104,8 +104,8 @@ def _looks_it(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | None
 
 
 def can_take_part(obj: bpy.types.Object) -> bool:
-    """Whether the object may have faces to show, or instances of objects that may."""
-    return obj.reflection_mesh.role not in {"IGNORE", *RESULTS} and may_have_faces(obj)
+    """Whether the object may have faces to show, or instances of objects that may: fog has none."""
+    return obj.reflection_mesh.role not in {"IGNORE", *RESULTS} and may_have_faces(obj) and not all_fog(obj)
 
 
 def may_have_faces(obj: bpy.types.Object) -> bool:

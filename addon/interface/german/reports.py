@@ -21,6 +21,8 @@ DONE = {
     "The gloss of {} is not what so close a curved mirror shows: choose Light: Picture for a still.":
         "Der Glanz von {} ist nicht der, den ein so naher gekrümmter Spiegel zeigt: wähle Licht: Bild für ein "
         "Standbild.",
+    "Fog before what mirrors show is not in light on the objects: choose Light: Picture for a still.":
+        "Nebel vor dem, was Spiegel zeigen, ist nicht im Licht auf den Objekten: wähle Licht: Bild für ein Standbild.",
     "What is random by island on {} is so in other colours: choose Light: Picture for its own.":
         "Was auf {} nach Inseln zufällig ist, hat andere Farben: wähle Licht: Bild für die eigenen.",
     "{}: {} faces of light, {} s": "{}: {} Flächen aus Licht, {} s",

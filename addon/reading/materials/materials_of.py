@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import bpy
 
+from .opaque_materials import is_fog
+
 
 def materials_of(obj: bpy.types.Object) -> list:
     """One for each slot, None where that is empty."""
@@ -10,6 +12,12 @@ def materials_of(obj: bpy.types.Object) -> list:
     if obj.instance_type != "COLLECTION" or obj.instance_collection is None:
         return own
     return own + [material for other in obj.instance_collection.all_objects for material in materials_of(other)]
+
+
+def all_fog(obj: bpy.types.Object) -> bool:
+    """Whether an object shows no surface, but what fills it."""
+    shown = materials_of(obj)
+    return bool(shown) and all(map(is_fog, shown))
 
 
 def materials_shown(depsgraph: bpy.types.Depsgraph, objects: list) -> dict:

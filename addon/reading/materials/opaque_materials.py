@@ -16,7 +16,21 @@ def is_opaque(material: bpy.types.Material | None) -> bool:
     """Whether no light goes through `material`, as far as its nodes tell, whether they reach its output or not."""
     if material is None or not compat.uses_nodes(material):
         return True
-    return not any(_lets_through(node) for node in all_nodes(material.node_tree))
+    return not (is_fog(material) or any(_lets_through(node) for node in all_nodes(material.node_tree)))
+
+
+def fog_of(owner: bpy.types.Material | bpy.types.World | None) -> bpy.types.NodeSocket | None:
+    """The socket into which a material's, or a world's, nodes put fog or what else fills a volume; None where there is
+    nothing."""
+    output = owner.node_tree.get_output_node("ALL") if owner is not None and compat.uses_nodes(owner) else None
+    socket = None if output is None else output.inputs["Volume"]
+    return socket if socket is not None and socket.is_linked else None
+
+
+def is_fog(material: bpy.types.Material | None) -> bool:
+    """Whether `material` fills what it bounds and is no surface: light goes straight through its faces."""
+    socket = fog_of(material)
+    return socket is not None and not socket.node.inputs["Surface"].is_linked
 
 
 def _lets_through(node: bpy.types.Node) -> bool:

@@ -1,0 +1,100 @@
+"""Fog in the world, and fog that mirrors stand in: what is seen through it is seen through it once."""
+from __future__ import annotations
+
+import bpy
+import parts
+import pytest
+from lamp_scenes import lit_state, picture, psnr, scene_of, shader_of
+
+
+def filled(owner, node: str = "ShaderNodeVolumeScatter", density: float = 0.1) -> None:
+    """Fill a world, or what a material bounds."""
+    if bpy.app.version < (5, 0, 0):
+        owner.use_nodes = True
+    tree = owner.node_tree
+    fog = tree.nodes.new(node)
+    fog.inputs["Density"].default_value = density
+    tree.links.new(fog.outputs[0], tree.get_output_node("ALL").inputs["Volume"])
+
+
+def room_of_fog(name: str = "Fog") -> bpy.types.Object:
+    """A cube of fog from before the box to behind the mirror; the camera stands before it."""
+    cube = parts.add("cube", name, size=6.0, location=(0.0, 0.5, 1.0))
+    made = bpy.data.materials.new(name)
+    filled(made, density=0.12)
+    tree = made.node_tree
+    for link in list(tree.get_output_node("ALL").inputs["Surface"].links):
+        tree.links.remove(link)
+    cube.data.materials.append(made)
+    return cube
+
+
+def in_a_collection(cube: bpy.types.Object) -> None:
+    branch = bpy.data.collections.new("Air")
+    bpy.context.scene.collection.children.link(branch)
+    branch.objects.link(cube)
+    bpy.context.scene.collection.objects.unlink(cube)
+
+
+@pytest.mark.parametrize("kind", ["world", "absorbing world", "cube", "cube in a collection", "half open"])
+def test_fog_before_a_mirror_is_seen_once(blank, room, kind):
+    mirror = scene_of(blank)
+    if "world" in kind:
+        filled(blank.scene.world, "ShaderNodeVolumeAbsorption" if "absorbing" in kind else "ShaderNodeVolumeScatter")
+    else:
+        cube = room_of_fog()
+        if "collection" in kind:
+            in_a_collection(cube)
+        cube.select_set(True)
+    if kind == "half open":
+        shader_of(mirror.data.materials[0]).inputs["Alpha"].default_value = 0.7
+    reference, other = picture(room), picture(room, seed=7)
+    result = parts.generate()
+    before = lit_state()
+    assert bpy.ops.reflection_mesh.light(samples=64, kind="PICTURE") == {"FINISHED"}
+    blank.view_layer.update()
+    assert not result.reflection_mesh.light_stale
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    after = lit_state()
+    assert all(after[name] == before[name] for name in ("rays", "worlds", "cycles"))
+
+
+def test_fog_has_its_own_materials_back_after_an_error(blank, room, monkeypatch):
+    scene_of(blank)
+    filled(blank.scene.world)
+    cube = room_of_fog()
+    parts.generate()
+    before, slot = lit_state(), cube.material_slots[0]
+
+    def fails(*arguments):
+        assert slot.material != cube.data.materials[0]
+        raise room("core").ReflectionError("It failed: try again.")
+    monkeypatch.setattr(room("addon.lighting.light_scene"), "rendered", fails)
+    with pytest.raises(RuntimeError, match="It failed: try again."):
+        bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
+    assert lit_state() == before
+    assert (slot.link, slot.material) == ("DATA", cube.data.materials[0])
+    assert len(bpy.data.worlds) == 1 and [made.name for made in bpy.data.materials].count("Fog") == 1
+
+
+def test_fog_is_no_object_that_is_reflected(blank, capfd):
+    """Its faces would hide what stands in it."""
+    mirror = scene_of(blank)
+    room_of_fog()
+    parts.select(mirror)
+    result = parts.generate()
+    assert {source.object.name for source in result.reflection_mesh.sources} == {"Box", "Floor"}
+    assert "No reflection has hair, point clouds or volumes, as 'Fog' has" in "".join(capfd.readouterr())
+
+
+@pytest.mark.parametrize(("kind", "fog"), [("OBJECTS", "world"), ("OBJECTS", "cube"), ("OBJECTS", ""),
+                                           ("PICTURE", "world")])
+def test_fog_that_light_on_the_objects_lacks_is_told(blank, capfd, kind, fog):
+    scene_of(blank)
+    if fog == "world":
+        filled(blank.scene.world)
+    elif fog:
+        room_of_fog()
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=1, kind=kind)
+    assert ("Fog before what mirrors show" in "".join(capfd.readouterr())) == (kind == "OBJECTS" and bool(fog))
