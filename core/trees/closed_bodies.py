@@ -21,6 +21,7 @@ LINES = 1 << 16  # that bodies are looked through along, all together
 FEWEST, MOST = 4, 64  # of them along each side of one body
 TOGETHER = 1e-9  # of a body's size: what lies closer is met at once
 SCATTERED = 2654435761  # odd: sums of few of its multiples are equal by no accident
+STARTS = np.stack(np.meshgrid(*2 * [np.linspace(0.0, 1.0, 3)]), axis=-1).reshape(-1, 2)  # of rays, over the picture
 # right, up and along the lines: askew to whatever people build
 FRAME = np.linalg.qr(np.array([[0.83, -0.46, 0.31], [0.37, 0.71, 0.59], [-0.41, -0.53, 0.74]]))[0]
 
@@ -89,19 +90,20 @@ class ClosedBodies:
 
     def outward_from(self, view: View) -> np.ndarray:
         """What `outward` (m,) is of bodies from outside of which the view looks, 0 of all others: what it sees in
-        mirrors it sees from outside as well, since on the way there nothing is in between."""
-        count = self.low.shape[1]
-        if view.orthographic:
-            # what its plane cuts some of its rays begin in
-            ends = np.array(np.meshgrid(*[(False, True)] * 3)).reshape(3, 8, 1)
-            corners = FRAME.T @ np.where(ends, self.high[:, None], self.low[:, None]).reshape(3, -1)
-            outside = (view.depths(corners.T) > 0.0).reshape(8, count).all(axis=0)
-        else:
-            eye = (FRAME @ view.eye.ravel())[:, None]
-            outside = ((eye < self.low) | (eye > self.high)).any(axis=0)
-            for body in np.flatnonzero(~outside):
-                corners = self.mesh.positions[self.mesh.triangles[self.body == body]]
-                outside[body] = abs(solid_angles(view.eye, corners).sum()) < 2.0 * np.pi
+        mirrors it sees from outside as well, since on the way there nothing is in between. It looks from where it
+        does not cut off any more what is near: a camera that stands before a room may so look into it."""
+        if not self.low.shape[1]:
+            return self.outward
+        starts = view.starts(STARTS * view.resolution)
+        spots, ahead = FRAME @ starts.T, FRAME @ view.forward
+        outside = ((spots.max(axis=1)[:, None] < self.low) | (spots.min(axis=1)[:, None] > self.high)).any(axis=0)
+        # all of them lie in one plane
+        height = ahead @ (0.5 * (self.low + self.high) - spots[:, :1])
+        outside |= np.abs(height) > (1.0 + TOGETHER) * (np.abs(ahead) @ (0.5 * (self.high - self.low)))
+        # where an orthographic view starts it cuts bodies between its points as well
+        for body in np.flatnonzero(~outside) if not view.orthographic else ():
+            corners = self.mesh.positions[self.mesh.triangles[self.body == body]]
+            outside[body] = all(abs(solid_angles(start, corners).sum()) < 2.0 * np.pi for start in starts)
         return np.where((self.body >= 0) & np.append(outside, False)[self.body], self.outward, 0.0)
 
 

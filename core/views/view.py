@@ -195,6 +195,16 @@ class View:
         directions /= np.linalg.norm(directions, axis=1, keepdims=True)
         return np.broadcast_to(self.eye, directions.shape).copy(), directions
 
+    def starts(self, pixels: np.ndarray) -> np.ndarray:
+        """World places (n, 3) from which on the rays through `pixels` (n, 2) see: what lies nearer is cut off."""
+        origins, ways = self.rays(pixels)
+        slope, offset = self.projection[2, 2:]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            near = (1.0 + offset) / slope if self.orthographic else max(offset / (slope - 1.0), 0.0)
+        if not np.isfinite(near):
+            return origins
+        return origins + ways * (near / (ways @ self.forward))[:, None]
+
 
 def _place(given, name: str) -> np.ndarray:
     wrong = f"The {name} must be three finite numbers up to 1e40."

@@ -16,7 +16,8 @@ def crown(resolution=(128, 128), leaves: int = 9000, size: float = 0.012) -> Sce
     middle = rng.normal(size=(leaves, 3))
     middle *= 0.55 / np.linalg.norm(middle, axis=1, keepdims=True)
     corners = middle[:, None] + (-1.2, -2.4, 1.2) + rng.normal(scale=size, size=(leaves, 3, 3))
-    return _before_a_ball("crown", resolution, TriangleMesh(corners.reshape(-1, 3), np.arange(3 * leaves).reshape(-1, 3)))
+    triangles = np.arange(3 * leaves).reshape(-1, 3)
+    return _before_a_ball("crown", resolution, TriangleMesh(corners.reshape(-1, 3), triangles))
 
 
 def fence(resolution=(128, 128), wires: int = 60, thick: float = 0.004) -> Scene:

@@ -78,6 +78,22 @@ def test_only_what_is_looked_at_from_outside_turns_away(eye, outside):
     assert bool(ClosedBodies.of(own).outward_from(view).any()) == outside
 
 
+@pytest.mark.parametrize(("near", "outside"), [(0.1, True), (2.5, False), (9.0, True)])
+@pytest.mark.parametrize("orthographic", [False, True])
+def test_a_view_looks_from_where_it_cuts_off_no_more(near, outside, orthographic):
+    """Before a room it looks into that where the wall between is nearer than its near clipping plane."""
+    own, _ = ordered(shapes.combine(BALL), shading=False)
+    view = View.looking_at((0.0, -2.5, 0.0), (0.0, 0.0, 0.0), (64, 48), field_of_view=0.1,
+                           orthographic_scale=0.2 * orthographic)
+    lens, far = view.projection.copy(), 100.0
+    # as OpenGL defines it
+    lens[2, 2:] = ((-2.0 / (far - near), -(far + near) / (far - near)) if orthographic
+                   else (-(far + near) / (far - near), -2.0 * far * near / (far - near)))
+    view = View(view.camera_to_world, lens, view.resolution)
+    assert bool(ClosedBodies.of(own).outward_from(view).all()) == outside
+    assert bool(ClosedBodies.of(own).outward_from(view).any()) == outside
+
+
 def test_a_cone_loses_no_triangle_that_some_place_in_it_sees_from_the_front():
     rng = np.random.default_rng(7)
     mesh, _ = ordered(RING, shading=False)

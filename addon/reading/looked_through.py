@@ -1,0 +1,35 @@
+"""What the camera looks through though its materials let no light through: walls that are taken away for it alone."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+
+def looked_through(context: bpy.types.Context, mirrors: list, diffuse: list) -> bool:
+    """Whether the camera may see mirrors from within an object that it does not see itself."""
+    unseen = [obj for obj in diffuse if _is_unseen(obj, context.view_layer)]
+    if not unseen:
+        return False
+    depsgraph = context.evaluated_depsgraph_get()
+    boxes = [_box(obj.evaluated_get(depsgraph)) for obj in mirrors]
+    # boxes tell nothing of where instances are
+    return any(obj.is_instancer or any(_meet(_box(obj.evaluated_get(depsgraph)), box) for box in boxes)
+               for obj in unseen)
+
+
+def _is_unseen(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> bool:
+    if not obj.visible_camera or obj.indirect_only_get(view_layer=layer):
+        return True
+    inner = obj.instance_collection if obj.instance_type == "COLLECTION" else None
+    return inner is not None and not all(other.visible_camera for other in inner.all_objects)
+
+
+def _box(evaluated: bpy.types.Object) -> np.ndarray:
+    """The lowest and the highest corner (2, 3) of the box round an object, in world space."""
+    matrix = np.array(evaluated.matrix_world, dtype=np.float64)
+    corners = np.array(evaluated.bound_box, dtype=np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    return np.stack((corners.min(axis=0), corners.max(axis=0)))
+
+
+def _meet(one: np.ndarray, other: np.ndarray) -> bool:
+    return bool(((one[0] <= other[1]) & (other[0] <= one[1])).all())
