@@ -200,10 +200,11 @@ class View:
         origins, ways = self.rays(pixels)
         slope, offset = self.projection[2, 2:]
         with np.errstate(divide="ignore", invalid="ignore"):
-            near = (1.0 + offset) / slope if self.orthographic else max(offset / (slope - 1.0), 0.0)
+            near = (1.0 + offset) / slope if self.orthographic else offset / (slope - 1.0)
         if not np.isfinite(near):
             return origins
-        return origins + ways * (near / (ways @ self.forward))[:, None]
+        # nothing is seen behind the eye's plane
+        return origins + ways * (max(near, 0.0) / (ways @ self.forward))[:, None]
 
 
 def _place(given, name: str) -> np.ndarray:
