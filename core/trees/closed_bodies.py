@@ -40,7 +40,7 @@ class ClosedBodies:
     body : (m,) int64
         The body that each triangle bounds, -1 for none.
     outward : (m,) float64
-        1 where its normal points out of the body, -1 where into it, 0 where it bounds none.
+        1 where its normal points out of the body that it bounds, 0 where it bounds none.
     low, high : (3, k) float64
         The boxes round the bodies along the directions of `FRAME`.
     """
@@ -82,10 +82,10 @@ class ClosedBodies:
             breathe()
         own, corner = body[some], triangles[some].T
         facing, volume = _up_and_volume(spots, corner, 0.5 * (low + high), own)
-        sides = np.sign(np.bincount(own, volume, minlength=low.shape[1]))
-        facing *= sides[own]
-        sides[_overlapping(spots, corner, own, facing, (low, high))] = 0.0
-        outward[some] = sides[own]
+        # a room has its front within: who looks into it from outside does so through what is culled there
+        proper = np.bincount(own, volume, minlength=low.shape[1]) > 0.0
+        proper &= ~_overlapping(spots, corner, own, facing, (low, high))
+        outward[some[proper[own]]] = 1.0
         return cls(mesh, border, part_of, body, outward, low, high)
 
     def outward_from(self, view: View) -> np.ndarray:

@@ -53,7 +53,7 @@ class Pieces(ColumnArrays):
 
 def turned_away(images: Images, pieces: Pieces, outward: np.ndarray) -> np.ndarray:
     """Which pieces (f,) turn their backs to all places on the patch where they are seen; `outward` (f,) is 1 for those
-    that show the side of their normals alone, -1 the other side, 0 both."""
+    that show the side of their normals alone, 0 for others."""
     found = np.zeros(len(pieces), dtype=bool)
     asked = np.flatnonzero(outward != 0.0)
     for start in range(0, len(asked), AT_ONCE):
@@ -63,7 +63,6 @@ def turned_away(images: Images, pieces: Pieces, outward: np.ndarray) -> np.ndarr
         a, b, c = (columns(images.point, node) for node in nodes)
         places = [columns(images.place, node) for node in nodes]
         normal = cross(b - a, c - a)
-        normal *= outward[some]
         # between three places the mirror bulges by less than they are apart
         bulge = largest(np.stack([norm(places[k] - places[(k + 1) % 3]) for k in range(3)]))
         away = np.ones(len(some), dtype=bool)
