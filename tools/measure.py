@@ -8,6 +8,7 @@ medians over the runs. Judge on Blender 4.5: Cycles 5.2 packs shading normals an
 from __future__ import annotations
 
 import argparse
+import importlib
 import json
 import os
 import statistics
@@ -63,6 +64,7 @@ def measure(path: Path, folder: Path, depth: int, options: argparse.Namespace) -
         started = time.perf_counter()
         bpy.ops.reflection_mesh.generate(tolerance=options.tolerance, placement=options.placement, depth=depth)
         generate.append(time.perf_counter() - started)
+    lighting = importlib.import_module(extension_zip.PACKAGE + ".addon.lighting")
     results = [obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"]
     sources = {source.object for result in results for source in result.reflection_mesh.sources}
     bpy.ops.reflection_mesh.compare(filepath=str(folder), samples=4)
@@ -75,7 +77,7 @@ def measure(path: Path, folder: Path, depth: int, options: argparse.Namespace) -
             *(moved[key] for key in ("median", "p95", "p99", "max")),
             *(share[key] for key in ("hole", "spill", "wrong_layer", "all")),
             # what lamps light is judged with its light, elsewhere
-            None if any(obj.type == "LIGHT" for obj in bpy.data.objects) else report["picture"]["mirror"]["rmse"],
+            None if any(map(lighting.needs_light, results)) else report["picture"]["mirror"]["rmse"],
             seconds, reference, reference / seconds]
 
 
