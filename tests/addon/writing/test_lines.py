@@ -198,12 +198,14 @@ def test_marks_lie_on_the_marked_edge(blank, room, chosen):
 
 
 def test_line_art_takes_creases_from_sharp_edges(cube):
-    """The three edges round the corner of a cube that is nearest; where its surface turns over, contours come first."""
+    """The three edges round the corner of a cube that is nearest; where its surface turns over, it ends, in contours."""
     parts.select(cube, add_mirror("ball"))
-    strokes = line_art(parts.generate(), "crease")
+    result = parts.generate()
+    strokes, contours = line_art(result, "crease"), line_art(result, "contour")
     expected, _ = cube_edges(cube, "ball")
     assert len(strokes) and off_lines(dense(strokes), expected).max() < 1.5
-    assert off_lines(np.concatenate(expected), strokes).max() < 1.5
+    assert sum(off_lines(edge, strokes).max() < 1.5 for edge in expected) == 3
+    assert off_lines(np.concatenate(expected), strokes + contours).max() < 1.5
 
 
 @pytest.mark.parametrize("angle, sharp", [(30.0, False), (50.0, True)])

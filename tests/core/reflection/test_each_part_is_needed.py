@@ -125,7 +125,7 @@ PARTS = {
                           "dense sphere_ortho", "uncovered", 10.0),
     "bodies that turn away": Part(ClosedBodies, "outward_from", lambda self, view: np.zeros(len(self.outward)),
                                   "sphere", "faces", 1.2),
-    "small parts drawn together": Part(core.whole_faces.whole, "TOGETHER", 0.0, "fine knots", "faces", 1.3),
+    "small parts drawn together": Part(core.whole_faces.whole, "TOGETHER", 0.0, "fine knots", "faces", 1.2),
     "outlines of what is drawn together": Part(core.whole_faces.merging, "_on_outline", lambda tree, images, standing:
                                                np.zeros(len(standing), dtype=bool), "fine knots", "uncovered", 1.5,
                                                settings={"tolerance": 1.0}),
