@@ -22,7 +22,7 @@ STEPS, LOOKS = 2, 40  # of Newton's method between looks at where it is; of such
 NEAR_LOOKS = 6  # of one step each, from a near start
 FEW = 4  # looks after which most have arrived
 ARRIVED = 1e-7  # of a mirror triangle: the step after which the next is rounding
-NEARLY = 3e-5  # the same, where the next is about the square of this
+NEARLY = 1e-5  # the same, where the next is about the square of this
 LONGEST = 1.5  # mirror triangles: no step goes further
 INSIDE = 1e-6  # of a triangle: rounding
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import core.whole_faces.whole as whole_room
 from core import SceneTree, Settings, TriangleMesh, View, reflect
 from core.cameras import covered_pixels, pixels_of, with_pieces
 from core.cameras.camera_splitting import in_picture
@@ -70,12 +71,13 @@ def test_pixels_that_show_much_of_the_scene_are_filled_by_rays_sooner_than_cut(t
     whole = reflect(case.view, case.mirror, scene, Settings(tolerance=tolerance, hidden_faces=True))
     assert whole.counts["dense"] == 0 < filled.counts["dense"] and filled.counts["crowded"] == 0
     monkeypatch.setattr(limits, "DENSE", np.inf)
+    monkeypatch.setattr(whole_room, "TOGETHER", 0.0)  # what is cut is all that the picture asks for
     exact = reflect(case.view, case.mirror, scene, Settings(tolerance=tolerance))
     assert filled.counts["candidates"] < 0.5 * exact.counts["candidates"]
     assert len(filled.triangles) < 0.75 * len(exact.triangles)
     numbers, before = (compare(case.view, case.mirror, mesh, truth).numbers for mesh in (filled, exact))
-    # through the pixels' middles go the rays that a ray tracer takes; one pixel is 0.07 %
-    assert numbers["p99"] < 0.5 * tolerance and numbers["uncovered"] <= before["uncovered"] < max(0.1, 0.11 * tolerance)
+    # through the pixels' middles go the rays that a ray tracer takes
+    assert numbers["p99"] < 0.5 * tolerance and numbers["uncovered"] <= before["uncovered"] < max(0.1, 0.1 * tolerance)
 
 
 def first_triangle(scene, origin, ray):
