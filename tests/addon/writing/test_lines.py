@@ -198,7 +198,7 @@ def test_marks_lie_on_the_marked_edge(blank, room, chosen):
 
 
 def test_line_art_takes_creases_from_sharp_edges(cube):
-    """The three edges round the corner of a cube that is nearest; where its surface turns over, it ends, in contours."""
+    """The three edges round the corner of a cube that is nearest; where its surface turns over there are contours."""
     parts.select(cube, add_mirror("ball"))
     result = parts.generate()
     strokes, contours = line_art(result, "crease"), line_art(result, "contour")
