@@ -127,8 +127,8 @@ PARTS = {
                                   "sphere", "faces", 1.2),
     "small parts drawn together": Part(core.whole_faces.whole, "TOGETHER", 0.0, "fine knots", "faces", 1.2),
     "outlines of what is drawn together": Part(core.whole_faces.merging, "_on_outline", lambda tree, images, standing:
-                                               np.zeros(len(standing), dtype=bool), "fine knots", "uncovered", 1.5,
-                                               settings={"tolerance": 1.0}),
+                                               np.zeros(len(standing), dtype=bool), "outlined knots", "uncovered", 2.5,
+                                               settings={"tolerance": 2.0}),
     "layers that are close": Part(Layers, "hidden_and_close", only_hidden, "dense sphere", "uncovered", 5.0),
     "the middles of whole faces": Part(Division, "strays_inside", lambda self, images, nodes: np.zeros(
         nodes.shape[1], dtype=bool), "knots", "p99", 1.05),
@@ -148,7 +148,7 @@ def scene_of(part: Part) -> tuple[View, TriangleMesh, TriangleMesh | PointTree]:
     if isinstance(part.scene, tuple):
         return part.scene
     if part.scene.startswith("dense") or part.scene.endswith("knots"):
-        knots = {"knots": (1024, 1024), "fine knots": (64, 64)}
+        knots = {"knots": (1024, 1024), "fine knots": (64, 64), "outlined knots": (96, 96)}
         case = knots_in_a_ball(knots[part.scene]) if part.scene in knots else \
             dense(part.scene.split()[1], (256, 256), 0.24)
         return case.view, case.mirror, case.scene
