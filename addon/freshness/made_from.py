@@ -10,7 +10,7 @@ import numpy as np
 from ...core import ReflectionError, View
 from ..frames import plays
 from ..lighting import shows_preview
-from ..reading import lines_drawn, read_view
+from ..reading import lines_drawn, looked_through, read_view
 from ..settings import SETTINGS, Wanted
 from . import digests
 from .materials import colours_of, materials_of
@@ -25,8 +25,8 @@ _told: dict[int, tuple] = {}
 
 class Origin(NamedTuple):
     """What a result is made from: the numbers of the view, digests of the mirror, of the sources, of which materials
-    all of these show and of what the materials are made of (None where an earlier version did not tell), and whether
-    lines are drawn."""
+    all of these show and of what the materials are made of (None where an earlier version did not tell), whether lines
+    are drawn, and whether the camera may look through a source that it does not see (or None)."""
 
     view: tuple[float, ...]
     mirror: str
@@ -34,12 +34,14 @@ class Origin(NamedTuple):
     materials: str | None
     colours: str | None
     lines: bool
+    through: bool | None
 
 
 def origin_of(depsgraph: bpy.types.Depsgraph, view: View, mirror: bpy.types.Object, sources: list) -> Origin:
     """What a result would be made from now."""
     return Origin(view_numbers(view), digests.digest_of(depsgraph, [mirror]), digests.digest_of(depsgraph, sources),
-                  materials_of([mirror, *sources]), colours_of([mirror, *sources]), lines_drawn(depsgraph.scene))
+                  materials_of([mirror, *sources]), colours_of([mirror, *sources]), lines_drawn(depsgraph.scene),
+                  looked_through(depsgraph, [mirror], sources))
 
 
 def record_of(origin: Origin, settings: dict) -> str:
@@ -115,7 +117,9 @@ def difference(made: Origin, now: Origin) -> str:
         return "a reflected object has changed"
     if made.materials not in (None, now.materials):
         return "materials have been exchanged"
-    # the other way round there is nothing that anybody would see
+    # of both the other way round there is nothing that anybody would see
+    if now.through and made.through is False:
+        return "the camera looks through a reflected object now"
     return "lines are drawn now" if now.lines and not made.lines else ""
 
 
@@ -126,7 +130,8 @@ def read_record(text: str) -> tuple[Origin, dict] | None:
     try:
         known = json.loads(text)
         origin = Origin(tuple(float(number) for number in known["view"]), str(known["mirror"]), str(known["sources"]),
-                        known.get("materials"), known.get("colours"), bool(known.get("lines")))
+                        known.get("materials"), known.get("colours"), bool(known.get("lines")),
+                        known.get("through"))
         return origin, dict(known.get("settings") or {})
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None

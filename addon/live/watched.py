@@ -21,8 +21,8 @@ class Record(NamedTuple):
     view : tuple of float
     settings : dict of int to Settings
         Of each mirror, by its `session_uid`.
-    digests : tuple of (str, ...)
-        Of each mirror, its sources, and which materials these show.
+    digests : tuple of (str, str, str, bool)
+        Of each mirror, its sources, which materials these show, and whether the camera looks through one.
     colours : tuple of (str or None)
         Of what the materials are made of, where a result shows previews of them.
     members : tuple
@@ -34,7 +34,7 @@ class Record(NamedTuple):
 
     view: tuple[float, ...]
     settings: dict[int, Settings]
-    digests: tuple[tuple[str, ...], ...]
+    digests: tuple[tuple, ...]
     colours: tuple[str | None, ...]
     members: tuple
     lines: bool
@@ -64,7 +64,7 @@ def watched(context: bpy.types.Context, view: View, known: Record | None = None)
         depsgraph, previewed = context.evaluated_depsgraph_get(), _previewed(context)
         origins = [(mirror, origin_of(depsgraph, view, mirror, group.diffuse))
                    for group in chosen for mirror in group.mirrors]
-        digests = tuple((origin.mirror, origin.sources, origin.materials) for _, origin in origins)
+        digests = tuple((origin.mirror, origin.sources, origin.materials, origin.through) for _, origin in origins)
         colours = tuple(origin.colours if mirror in previewed else None for mirror, origin in origins)
         lines = any(origin.lines for _, origin in origins)
     else:

@@ -69,7 +69,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
     scene, surfaces = stage.scene, stage.surfaces
-    if not all(map(is_opaque, scene.materials)) or looked_through(context, chosen.mirrors, chosen.diffuse):
+    if not all(map(is_opaque, scene.materials)) or looked_through(depsgraph, chosen.mirrors, chosen.diffuse):
         own = [replace(one, hidden_faces=True) for one in own]
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     yield from _trees(stage, kinds)

@@ -5,12 +5,11 @@ import bpy
 import numpy as np
 
 
-def looked_through(context: bpy.types.Context, mirrors: list, diffuse: list) -> bool:
+def looked_through(depsgraph: bpy.types.Depsgraph, mirrors: list, diffuse: list) -> bool:
     """Whether the camera may see mirrors from within an object that it does not see itself."""
-    unseen = [obj for obj in diffuse if _is_unseen(obj, context.view_layer)]
+    unseen = [obj for obj in diffuse if _is_unseen(obj, depsgraph.view_layer)]
     if not unseen:
         return False
-    depsgraph = context.evaluated_depsgraph_get()
     boxes = [_box(obj.evaluated_get(depsgraph)) for obj in mirrors]
     # boxes tell nothing of where instances are
     return any(obj.is_instancer or any(_meet(_box(obj.evaluated_get(depsgraph)), box) for box in boxes)

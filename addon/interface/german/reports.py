@@ -77,6 +77,7 @@ KEPT = {
     "a reflected object has changed": "ein gespiegeltes Objekt hat sich geändert",
     "materials have been exchanged": "Materialien wurden ausgetauscht",
     "lines are drawn now": "jetzt werden Linien gezeichnet",
+    "the camera looks through a reflected object now": "die Kamera blickt jetzt durch ein gespiegeltes Objekt",
     "the colours of materials have changed": "die Farben von Materialien haben sich geändert",
     "mirrors have been shown or hidden": "Spiegel wurden ein- oder ausgeblendet",
     "the lamps or the world have changed": "die Lampen oder die Welt haben sich geändert",

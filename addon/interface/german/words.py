@@ -51,9 +51,6 @@ OPERATORS = {
         "ist; so viele wie zuvor, wo das nicht angegeben ist",
     "Replace Cycles' Own": "Die von Cycles ersetzen",
     "The lamps do not light these mirrors any more, so that Cycles does not add caustics of its own; clearing brings "
-    "that back": "Die Lampen beleuchten diese Spiegel nicht mehr, damit Cycles keine eigene Kaustik hinzufügt; "
-        "Entfernen stellt das wieder her",
-    "The lamps do not light these mirrors any more, so that Cycles does not add caustics of its own; clearing brings "
     "that back. As before, where this is not given":
         "Die Lampen beleuchten diese Spiegel nicht mehr, damit Cycles keine eigene Kaustik hinzufügt; Entfernen stellt "
         "das wieder her. Wie zuvor, wo das nicht angegeben ist",
@@ -308,6 +305,7 @@ LIVE = {
     "the settings have changed": "die Einstellungen haben sich geändert",
     "materials have been exchanged": "Materialien wurden ausgetauscht",
     "lines are drawn now": "jetzt werden Linien gezeichnet",
+    "the camera looks through a reflected object now": "die Kamera blickt jetzt durch ein gespiegeltes Objekt",
     "the colours of materials have changed": "die Farben von Materialien haben sich geändert",
     "Live was stopped before it was exact":
         "Live wurde beendet, bevor sie genau war",

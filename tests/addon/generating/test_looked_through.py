@@ -60,3 +60,29 @@ def test_what_a_camera_looks_into_from_outside_is_in_its_mirrors(blank, way):
         areas.append(area_in_the_picture(parts.generate(hidden_faces=everything, placement="SURFACE")))
         bpy.ops.reflection_mesh.clear()
     assert areas[0] == pytest.approx(4.0, rel=0.01) and areas[1] > 0.99 * areas[0]
+
+
+def test_a_wall_that_the_camera_no_longer_sees_makes_what_is_behind_it_stale(blank, room):
+    """And a wall that it sees again does not: nobody would see a difference. Frames tell the same."""
+    outside = parts.add("cube", "Room", size=5.0, location=(0.0, -1.2, 1.2))
+    mirror = parts.add("plane", "Mirror", size=2.0, location=(0.0, 1.0, 1.0), rotation=(np.pi / 2, 0.0, 0.0))
+    mirror.reflection_mesh.role = "MIRROR"
+    blank.scene.camera.location.y = -6.0
+    leaf = parts.add("plane", "Leaf", size=0.4, location=(0.4, 0.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
+    blank.view_layer.update()
+    freshness, chosen = room("addon.freshness"), room("addon.reading").Participants([mirror], [outside, leaf], [])
+    parts.select(mirror)
+    result = parts.generate(placement="SURFACE")
+    seen, few = freshness.frame_origin(bpy.context, chosen, False), area_in_the_picture(result)
+    assert freshness.why_stale(bpy.context, result) == ""
+    outside.visible_camera = False
+    blank.view_layer.update()
+    assert freshness.why_stale(bpy.context, result) == "the camera looks through a reflected object now"
+    unseen_now = freshness.frame_origin(bpy.context, chosen, False)
+    assert freshness.frame_difference(seen, unseen_now) == freshness.why_stale(bpy.context, result)
+    assert freshness.frame_difference(unseen_now, seen) == ""
+    assert bpy.ops.reflection_mesh.update() == {"FINISHED"} and freshness.why_stale(bpy.context, result) == ""
+    assert area_in_the_picture(result) > few + 1.0
+    outside.visible_camera = True
+    blank.view_layer.update()
+    assert freshness.why_stale(bpy.context, result) == ""
