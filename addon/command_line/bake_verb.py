@@ -27,7 +27,7 @@ from ..operators.shortcomings import render_shortcomings
 from ..reading import candidates
 from ..settings import Wanted
 from ..writing import show_in_layer
-from .options import given, whole_number
+from .options import add_own, given, whole_number
 from .place import camera_of, forget_chance, layer_of
 from .progress import announced
 
@@ -44,8 +44,7 @@ def add_bake(parser: argparse.ArgumentParser) -> None:
                         help="reflections, or the light of lamps that mirrors throw")
     parser.add_argument("--eyes", type=whole_number, metavar="N",
                         help="places on each lamp that its caustics come from (else as they were generated)")
-    parser.add_argument("--keep-own", dest="leave_out", action="store_false",
-                        help="let Cycles add caustics of its own")
+    add_own(parser)
     parser.add_argument("--view-layer", nargs="+", default=[], metavar="NAME",
                         help="the view layers, each with a sequence of its own, that the others do not show (else the "
                         "file's own)")

@@ -34,6 +34,13 @@ def add_light(parser: argparse.ArgumentParser, option: str) -> None:
                         help="light of the picture, or light that stays with the objects")
 
 
+def add_own(parser: argparse.ArgumentParser) -> None:
+    """The options for what Cycles makes of its own of the light that mirrors throw."""
+    parser.add_argument("--keep-own", dest="leave_out", action="store_false", default=None,
+                        help="let Cycles add caustics of its own (else as before)")
+    parser.add_argument("--replace-own", dest="leave_out", action="store_true", help="let it add none (else as before)")
+
+
 def given(options: argparse.Namespace, **more) -> dict:
     """The settings that were given, by their names; `more` are those whose options are called otherwise."""
     values = {name: getattr(options, name, None) for name in SETTINGS} | more

@@ -28,7 +28,7 @@ from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
 from .compare_verb import add_compare
 from .opening import open_file
-from .options import add_light, add_settings, given
+from .options import add_light, add_own, add_settings, given
 from .place import add_place, placed
 from .progress import announced
 
@@ -100,9 +100,7 @@ def _add_caustics(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--tolerance", type=float, metavar="PIXELS", help="how far off a point may be")
     verb.add_argument("--depth", type=int, metavar="BOUNCES", help="followed from mirror to mirror")
     verb.add_argument("--memory", type=float, metavar="GB", help="what the work may take")
-    verb.add_argument("--keep-own", dest="leave_out", action="store_false", default=None,
-                      help="let Cycles add caustics of its own (else as before)")
-    verb.add_argument("--replace-own", dest="leave_out", action="store_true", help="let it add none (else as before)")
+    add_own(verb)
     _add_output(verb)
     verb.set_defaults(work=_caustics)
 

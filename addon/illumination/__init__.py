@@ -20,6 +20,7 @@ from .light_sources import (
 from .mirrors import MirrorColours, MirrorPart, Tint, parts_of, places_on_mirror, stains, textured
 from .not_twice import (
     bring_back_abandoned,
+    bring_back_own_caustics,
     follow_lamp,
     leave_out,
     leave_out_own_caustics,
@@ -32,9 +33,9 @@ from .transparent_layers import bring_back_layers, follow_layers, raises_layers
 from .write_caustics import Caustic, caustics_object, places_kept, results_with, write_caustics
 
 __all__ = ["Caustic", "Eye", "MirrorColours", "MirrorPart", "MirrorPlaces", "NoLight", "Tint", "adds_light",
-           "blockers_of", "blocking", "bring_back_abandoned", "bring_back_layers", "caustic_arrays",
-           "caustics_object", "chosen_lamps", "eyes_of", "follow_lamp", "follow_layers", "forget_added_light",
-           "has_a_size", "is_glint", "leave_out", "leave_out_own_caustics", "leaves_out", "leaves_out_any",
-           "let_lamps_light_mirrors", "light_alone", "light_of_nodes", "lights_renders", "makes_own_caustics",
-           "meant_lamps", "parts_of", "places_kept", "places_on_mirror", "radiance_of", "raises_layers", "receiving",
-           "results_with", "stains", "textured", "write_caustics"]
+           "blockers_of", "blocking", "bring_back_abandoned", "bring_back_layers", "bring_back_own_caustics",
+           "caustic_arrays", "caustics_object", "chosen_lamps", "eyes_of", "follow_lamp", "follow_layers",
+           "forget_added_light", "has_a_size", "is_glint", "leave_out", "leave_out_own_caustics", "leaves_out",
+           "leaves_out_any", "let_lamps_light_mirrors", "light_alone", "light_of_nodes", "lights_renders",
+           "makes_own_caustics", "meant_lamps", "parts_of", "places_kept", "places_on_mirror", "radiance_of",
+           "raises_layers", "receiving", "results_with", "stains", "textured", "write_caustics"]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..illumination import places_kept, results_with
+from ..illumination import bring_back_own_caustics, places_kept, results_with
 from ..reading import Participants
 from ..settings import SettingsOfMirrors
 
@@ -32,12 +32,24 @@ def asked_again(context: bpy.types.Context, chosen: Participants, lamps: list, s
     """What is `given` of places and of leaving out, and else what the light that there is was generated with."""
     eyes, leave_out = given
     if leave_out is None:
-        leave_out = {(mirror, lamp): not obj.reflection_mesh.keeps_own for mirror in chosen.mirrors for lamp in lamps
-                     for obj in results_with(context, mirror, lamp)[:1]}
+        leave_out = left_out_before(context, [(mirror, lamp) for mirror in chosen.mirrors for lamp in lamps])
     return Asked(places_kept(context, chosen.mirrors, lamps) if eyes is None else eyes, settings, leave_out)
+
+
+def left_out_before(context: bpy.types.Context, pairs: list) -> dict:
+    """Whether Cycles' own caustics were left out, by those (mirror, lamp) of `pairs` whose light is there."""
+    return {pair: not obj.reflection_mesh.keeps_own for pair in pairs for obj in results_with(context, *pair)[:1]}
 
 
 def remember(objects: list, asked: Asked) -> None:
     """Let light know what it was asked for, for the next time; how many places it comes from it knows."""
-    for record in [obj.reflection_mesh for obj in objects]:
-        record.keeps_own = not asked.leaves_out(record.mirror, record.lamp)
+    for obj in objects:
+        keep_own(obj, not asked.leaves_out(obj.reflection_mesh.mirror, obj.reflection_mesh.lamp))
+
+
+def keep_own(light: bpy.types.Object, keeps: bool) -> None:
+    """Let light know whether Cycles adds caustics of its own, and its lamp light the mirror again if so."""
+    record = light.reflection_mesh
+    record.keeps_own = keeps
+    if keeps:
+        bring_back_own_caustics(record.lamp, record.mirror)

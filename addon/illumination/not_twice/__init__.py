@@ -6,6 +6,7 @@ from .cycles_caustics import leave_out
 from .glint import follow_lamp
 from .own_caustics import (
     bring_back_abandoned,
+    bring_back_own_caustics,
     leave_out_own_caustics,
     leaves_out,
     leaves_out_any,
@@ -13,5 +14,5 @@ from .own_caustics import (
     makes_own_caustics,
 )
 
-__all__ = ["bring_back_abandoned", "follow_lamp", "leave_out", "leave_out_own_caustics", "leaves_out",
-           "leaves_out_any", "let_lamps_light_mirrors", "makes_own_caustics"]
+__all__ = ["bring_back_abandoned", "bring_back_own_caustics", "follow_lamp", "leave_out", "leave_out_own_caustics",
+           "leaves_out", "leaves_out_any", "let_lamps_light_mirrors", "makes_own_caustics"]

@@ -41,7 +41,8 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
                                 "generated with")
     leave_out: bpy.props.BoolProperty(name="Replace Cycles' Own", default=True, options={"SKIP_SAVE"},
                                       description="The lamps do not light these mirrors any more, so that Cycles does "
-                                      "not add caustics of its own; clearing brings that back")
+                                      "not add caustics of its own; clearing brings that back. As before, where this "
+                                      "is not given")
     filepath: bpy.props.StringProperty(name="Folder", description="Folder for the files of the frames", default=FOLDER,
                                        subtype="FILE_PATH", options=compat.RELATIVE_PATH)
     frames: bpy.props.StringProperty(name="Frames", default="", options={"SKIP_SAVE"},
@@ -62,7 +63,7 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
         wanted = self.wanted(context)
         lamps = tuple(meant_lamps(context)) if self.what == "CAUSTICS" else ()
         plan = plan_of(context, chosen_folder(self.filepath), self.frames, wanted, overwrite=self.overwrite,
-                       lamps=lamps, eyes=self.eyes, leave_out=self.leave_out)
+                       lamps=lamps, eyes=self.eyes, leave_out=self._leave_out)
         written: list = []
         elsewhere, start = 0, 0.0
         if self.jobs > 1:
@@ -84,7 +85,11 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
         words = ["bake", "--what", self.what, "--output", plan.folder, *words_of(given)]
         words += ["--scene", context.scene.name, "--view-layer", context.view_layer.name]
         words += ["--eyes", str(self.eyes)] if self.eyes else []
-        return words + ["--overwrite"] * self.overwrite + ["--keep-own"] * (not self.leave_out)
+        return words + ["--overwrite"] * self.overwrite
+
+    @property
+    def _leave_out(self) -> bool | None:
+        return self.leave_out if self.properties.is_property_set("leave_out") else None
 
 
 def register() -> None:

@@ -39,8 +39,8 @@ class Plan:
         Whose light is baked that mirrors throw, instead of reflections; empty for these.
     eyes : int
         Places on each lamp; 0: as many as its light was made with last.
-    leave_out : bool
-        Cycles' own caustics of these lamps.
+    leave_out : bool or None
+        Cycles' own caustics of these lamps; None: those that were left out when their light was made last.
     """
 
     folder: str
@@ -52,7 +52,7 @@ class Plan:
     overwrite: bool = False
     lamps: tuple = ()
     eyes: int = 0
-    leave_out: bool = True
+    leave_out: bool | None = None
 
     @property
     def takes(self) -> list:

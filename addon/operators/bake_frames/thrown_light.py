@@ -11,7 +11,7 @@ from ...frames import Sequence, play_caustics, player_of, told_apart
 from ...illumination import follow_layers, leave_out, lights_renders, places_kept
 from ...reading import NothingSeen, candidates, materials_shown, visible
 from ...settings import of_each
-from ..asked_light import Asked
+from ..asked_light import Asked, keep_own, left_out_before
 from ..caustics import NothingThrown, name_of, throwing
 from ..clear import remove_caustics
 from .plan import Plan
@@ -118,6 +118,8 @@ def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) ->
     mirrors, diffuse = candidates(context)
     pairs, scene = pairs_of(mirrors, plan.lamps), context.scene
     lit = [obj for obj in diffuse if obj not in plan.lamps]
+    before = left_out_before(context, list(pairs.values())) if plan.leave_out is None else {}
+    left_out = {pair: before.get(pair, plan.leave_out is not False) for pair in pairs.values()}
     objects: list = []
     told: list = []
     shown = materials_shown(context.evaluated_depsgraph_get(), [mirror for mirror, _ in pairs.values()])
@@ -126,8 +128,9 @@ def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) ->
         for key, player in players.items():
             obj = play_caustics(context, player, key, pairs[key], lit, whole)
             obj.reflection_mesh.eyes = sequence.records[-1].made_with["places"][key]
+            whole.after(keep_own, obj, not left_out[pairs[key]])
             objects.append(obj)
-            told += leave_out(scene, *pairs[key], shown[pairs[key][0]], whole) if plan.leave_out else []
+            told += leave_out(scene, *pairs[key], shown[pairs[key][0]], whole) if left_out[pairs[key]] else []
         materials = (slot.material for obj in lit for slot in obj.material_slots)
         told += follow_layers(scene, sequence.layers, materials, whole)
     return objects, told

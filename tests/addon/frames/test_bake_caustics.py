@@ -182,3 +182,30 @@ def test_it_is_told_what_cannot_be(thrown, room, tmp_path, capsys):
     bpy.context.view_layer.update()
     assert bake(room, "--what", "CAUSTICS", "--output", out, "--frames", "1") == 1
     assert "There is no lamp" in faults.one_sentence(capsys.readouterr().err)
+
+
+def test_cycles_own_is_left_out_of_frames_as_it_was_of_the_still(thrown, room, tmp_path):
+    """By the operator and the verb, where nothing is said; else as it is said, and the next time again."""
+    bake_frames, lamp = bpy.ops.reflection_mesh.bake, bpy.data.objects["Lamp"]
+    options = {"what": "CAUSTICS", "frames": "1", "filepath": str(tmp_path / "out")}
+    bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", leave_out=False)
+    record, told = bpy.data.objects["Mirror Caustics"].reflection_mesh, []
+    for said in ({}, {"leave_out": True}, {}, {"leave_out": False}):
+        assert bake_frames("EXEC_DEFAULT", **options, **said) == {"FINISHED"}
+        told.append((record.keeps_own, lamp.light_linking.receiver_collection is None))
+    assert told == [(True, True), (False, False), (False, False), (True, True)]
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", leave_out=False)
+    bpy.ops.wm.save_mainfile()
+    for words, linked in (([], False), (["--replace-own"], True), (["--keep-own"], False)):
+        bpy.ops.wm.open_mainfile(filepath=str(thrown))
+        assert bake(room, "--what", "CAUSTICS", "--output", tmp_path / "out", "--frames", "1", *words) == 0
+        bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "scene caustics.blend"))
+        assert (bpy.data.objects["Lamp"].light_linking.receiver_collection is not None) == linked
+
+
+def test_what_was_left_out_comes_back_where_it_is_kept(thrown):
+    lamp = bpy.data.objects["Lamp"]
+    for leave_out in (True, False):
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", leave_out=leave_out) == {"FINISHED"}
+        assert (lamp.light_linking.receiver_collection is not None) == leave_out
