@@ -81,13 +81,21 @@ def test_it_goes_where_the_lamp_goes_and_has_its_nodes(blank, tmp_path):
     assert shown.sum() >= 8 and np.abs(found[shown].mean(axis=0) / expected[shown].mean(axis=0) - 1.0).max() < 0.01
 
 
+def thrown_as_by_live(room) -> None:
+    """Makes light anew, and neither leaves anything more out nor brings it back."""
+    context, light = bpy.context, room("addon.operators.asked_light")
+    asked = light.Asked(1, room("addon.settings").Wanted(context.scene), False)
+    lamps = room("addon.illumination").chosen_lamps(context)
+    for _ in room("addon.operators.caustics").throwing(context, room("addon.reading").choose(context), lamps, asked):
+        pass
+
+
 def test_it_is_made_anew_with_the_light_and_as_bright_as_the_lamp(blank, room):
     floor, mirror, lamp = looked_into()
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
     made = parts.state()["data"]
     lamp.data.energy, lamp.data.shadow_soft_size = 30.0, 0.1
-    # as live updates do, which leave nothing more out
-    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", leave_out=False) == {"FINISHED"}
+    thrown_as_by_live(room)
     glint, = lamp.children
     assert (glint.data.energy, round(glint.data.shadow_soft_size, 6)) == (30.0, 0.1)
     lamp.data.use_nodes = True
@@ -180,7 +188,7 @@ def test_the_shell_of_a_mesh_is_made_anew_and_follows_it(blank, room):
     strength = lamp.active_material.node_tree.nodes["Emission"].inputs["Strength"]
     strength.default_value = 3.0
     parts.select(floor, lamp, other, mirror)
-    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", leave_out=False) == {"FINISHED"}
+    thrown_as_by_live(room)
     shines = [node.inputs["Strength"].default_value for node in shell.active_material.node_tree.nodes
               if node.name == room("addon.illumination.not_twice.shining_shell").SHINE]
     assert shines == [3.0]
