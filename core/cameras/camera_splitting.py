@@ -3,13 +3,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import groups, shared_edges, split, unit
+from ..geometry import columns, cross, dot, groups, shared_edges, split, unit
 from ..support import breathe
 from .reflection_map import ReflectionMap
 from .three_ray_cameras import Cameras
 
 WELD = 1e-9  # of the mirror's size: corners closer than this are one
 SAME_RAY = 1e-6  # radians: at a sharp edge of the mirror each side has rays of its own
+ROUNDING = 1e-12  # of its size: a thinner camera is seen edge on, by whatever rounding says
+BESIDE = 1.5  # times the picture: the border at which edges that reach far beyond it are split
+ON_BORDER = 1e-6  # of an edge's length
 CORNERS_AT_ONCE = 32768  # new ones: what their arrays take fits the cache
 
 
@@ -34,11 +37,12 @@ def split_cameras(cameras: Cameras,
     return cameras.select(seen), parent[seen], chosen[edge].any(axis=1)[parent[seen]]
 
 
-def edge_middles(cameras: Cameras, ends: np.ndarray,
-                 first: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places (3, e) halfway along edges `ends` (e, 2), and origins and directions of the true rays there."""
+def edge_middles(cameras: Cameras, ends: np.ndarray, first: np.ndarray,
+                 share: np.ndarray | float = 0.5) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places (3, e) halfway, or a `share` (e,) of the way, along edges `ends` (e, 2), and origins and directions of the
+    true rays there."""
     mirror_map = cameras.mirror_map
-    middles = 0.5 * (cameras.places[:, ends[:, 0]] + cameras.places[:, ends[:, 1]])
+    middles = (1.0 - share) * cameras.places[:, ends[:, 0]] + share * cameras.places[:, ends[:, 1]]
     face = cameras.face[first // 3]
     return middles, *mirror_map.leave(face, mirror_map.coordinates(face, middles))
 
@@ -90,12 +94,50 @@ def true_rays(mirror_map: ReflectionMap, face: np.ndarray, places: np.ndarray) -
     return origins, rays
 
 
+def shares_in_picture(cameras: Cameras, ends: np.ndarray) -> np.ndarray:
+    """How far along edges `ends` (e, 2) each is best split: halfway, or, where more of it than half lies beside the
+    picture, at the picture's border, so that what is left has no ends far outside."""
+    clip = cameras.view.clip(cameras.places.T).T
+    share = np.full(len(ends), 0.5)
+    apart = BESIDE * clip[3] - np.abs(clip[:2]).max(axis=0) < 0.0
+    out = np.flatnonzero(apart[ends].any(axis=1))
+    first, last = np.zeros(len(out)), np.ones(len(out))
+    for axis in (0, 1):
+        for side in (1.0, -1.0):
+            start, end = ((BESIDE * clip[3] + side * clip[axis])[corner] for corner in ends[out].T)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                crossing = start / (start - end)
+            first = np.where((start < 0.0) & (end > 0.0), np.maximum(first, crossing), first)
+            last = np.where((start > 0.0) & (end < 0.0), np.minimum(last, crossing), last)
+            last = np.where((start <= 0.0) & (end <= 0.0), -1.0, last)
+    border = np.where(first > 1.0 - last, first, last)
+    # an edge that ends at the border has been split there
+    share[out] = np.where((last - first > ON_BORDER) & (last - first < 0.5), border, 0.5)
+    return share
+
+
 def in_picture(cameras: Cameras) -> np.ndarray:
-    """Which cameras may touch the picture: not all three corners beyond the same side of the view's pyramid."""
+    """Which cameras may touch the picture: neither a side of the view's pyramid nor one of theirs parts them."""
     view = cameras.view
     clip = view.clip(cameras.places.T)
     margin = 1.0 + 2.0 / np.array(view.resolution)
     x, y, w = clip[:, 0], clip[:, 1], clip[:, 3]
     depth = view.depths(cameras.places.T)
     outside = np.stack((x > w * margin[0], -x > w * margin[0], y > w * margin[1], -y > w * margin[1], depth <= 0.0))
-    return ~np.any(outside[:, cameras.corners].all(axis=2), axis=0)
+    of_corners = outside[:, cameras.corners]
+    seen = ~np.any(of_corners.all(axis=2), axis=0)
+    crossing = np.flatnonzero(seen & of_corners.any(axis=(0, 2)))
+    seen[crossing] = ~_parted(np.stack((x, y, w)), cameras.corners[crossing], margin)
+    return seen
+
+
+def _parted(clip: np.ndarray, corners: np.ndarray, margin: np.ndarray) -> np.ndarray:
+    """Whether one side of triangles with `corners` (n, 3) at homogeneous `clip` (3, c) has all of the picture beyond
+    it. That holds behind the eye too: a pixel is seen in the triangle where none of its weights is negative."""
+    a, b, c = (columns(clip, corner) for corner in corners.T)
+    sides = np.stack([cross(b, c), cross(c, a), cross(a, b)])
+    volume = dot(a, sides[0])
+    size = np.sqrt(dot(a, a) * dot(b, b) * dot(c, c))
+    picture = np.array([(margin[0] * i, margin[1] * j, 1.0) for i in (-1, 1) for j in (-1, 1)])
+    beyond = np.einsum("pk,skn->spn", picture, sides) * np.sign(volume) < 0.0
+    return beyond.all(axis=1).any(axis=0) & (np.abs(volume) > ROUNDING * size)

@@ -20,15 +20,16 @@ import numpy as np
 from ..geometry import columns, dot, norm, shared_edges, unit
 from ..support import breathe
 from ..views import LampView
-from .camera_splitting import edge_middles, in_picture, split_at
+from .camera_splitting import edge_middles, in_picture, shares_in_picture, split_at
 from .shading_horizon import beyond_horizon
 from .three_ray_cameras import Cameras
 
-LEVELS = 12
+LEVELS = 48
 BESIDE = 8.0  # times the tolerance: what rays may stray by beside an edge
 INDEPENDENT = 1e-6  # sine between the motions along two edges: below, as on a fold, nothing can be solved in them
 ROUNDING = 1e-14  # radians: what unit vectors are rounded by must not split a flat mirror
 PARTED = 0.5  # cosine between the rays of a lamp's light at the ends of an edge, behind the first mirror
+THIN = 0.05  # pixels: nothing moves across a camera that is no wider
 SHORTEST_EDGE = 0.5  # pixels: a shorter edge cannot stray by a visible amount
 
 
@@ -57,8 +58,9 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
         if sum(map(len, finished)) + len(cameras) > maximum:
             break
         ends, first, edge = shared_edges(cameras.corners)
-        middles, origins, rays = edge_middles(cameras, ends, first)
-        edges = _Edges.of(cameras, ends, rays)
+        share = shares_in_picture(cameras, ends)
+        middles, origins, rays = edge_middles(cameras, ends, first, share)
+        edges = _Edges.of(cameras, ends, share, rays)
         marked = _straying(cameras, edges, reach) > tolerance
         marked |= _straying_beside(cameras, edges, edge, reach) > BESIDE * tolerance
         marked |= _parted(cameras, edges)
@@ -105,13 +107,14 @@ class _Edges:
     turns: np.ndarray
 
     @classmethod
-    def of(cls, cameras: Cameras, ends: np.ndarray, middle_rays: np.ndarray) -> _Edges:
+    def of(cls, cameras: Cameras, ends: np.ndarray, share: np.ndarray, middle_rays: np.ndarray) -> _Edges:
         a, b = ends[:, 0], ends[:, 1]
         with np.errstate(invalid="ignore", over="ignore"):
             pixels = cameras.view.pixels(cameras.places.T)
             lengths = np.linalg.norm(pixels[a] - pixels[b], axis=1)
-        given = unit(cameras.rays[:, a] + cameras.rays[:, b])
-        turns = unit(middle_rays) - given
+        given = unit((1.0 - share) * cameras.rays[:, a] + share * cameras.rays[:, b])
+        # what strays grows from either end
+        turns = (unit(middle_rays) - given) / (4.0 * share * (1.0 - share))
         return cls(ends, pixels, lengths, given, np.where(norm(turns) > ROUNDING, turns, 0.0))
 
 
@@ -149,12 +152,14 @@ def _straying_beside(cameras: Cameras, edges: _Edges, edge: np.ndarray, reach: f
     area = uu * vv - uv**2
     area = np.where(area > INDEPENDENT**2 * uu * vv, area, np.inf)
     right, up = (edges.pixels[cameras.corners[:, k]] - edges.pixels[cameras.corners[:, 0]] for k in (1, 2))
+    # what moves within a sliver moves along it, for which its edges have been asked
+    wide = ~(np.abs(right[:, 0] * up[:, 1] - right[:, 1] * up[:, 0]) < THIN * edges.lengths[edge].max(axis=1))
     straying = np.zeros(len(edges.ends))
     for side in edge.T:
         moved = across(reach * columns(edges.turns, side))
         a, b = dot(moved, u), dot(moved, v)
         found = np.linalg.norm(((vv * a - uv * b) / area)[:, None] * right + ((uu * b - uv * a) / area)[:, None] * up,
                                axis=1)
-        told = (edges.lengths[side] >= SHORTEST_EDGE) & np.isfinite(found)
+        told = wide & (edges.lengths[side] >= SHORTEST_EDGE) & np.isfinite(found)
         np.maximum.at(straying, side, np.where(told, found, 0.0))
     return straying

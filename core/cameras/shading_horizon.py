@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import edge_lengths, following, split
+from ..geometry import dot, edge_lengths, following, split
 from ..support import breathe
 from .camera_splitting import split_cameras
 from .three_ray_cameras import Cameras
 
 STEPS = 30
 CAMERAS_AT_ONCE = 4096
-LEVELS = 6  # of splits before the cut, for cameras across which the horizon bulges
+LEVELS = 20  # of splits before the cut, for cameras across which the horizon bulges
 LONG_EDGE = 8.0  # pixels: in a smaller camera a bulge does not matter
 ON_LINE = 1e-6  # rise of rays on the horizon itself, which belong to both its sides
 _PROBES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [1 / 3] * 3]).T
@@ -26,18 +26,37 @@ def beyond_horizon(cameras: Cameras) -> np.ndarray:
 
 
 def _lifted_probes(cameras: Cameras, slack: float) -> np.ndarray:
-    """(7, n): whether the rays at the corners, the edges' middles and the middle of the cameras are lifted."""
+    """(8, n): whether the rays at the corners, the edges' middles and the middle of the cameras are lifted, and where
+    an eye close above a large mirror looks down on it."""
     mirror_map = cameras.mirror_map
-    found = np.zeros((_PROBES.shape[1], len(cameras)), dtype=bool)
+    found = np.zeros((_PROBES.shape[1] + 1, len(cameras)), dtype=bool)
     grazing = np.flatnonzero(mirror_map.grazing[cameras.face])
     for start in range(0, len(grazing), CAMERAS_AT_ONCE):
         breathe()
         near = grazing[start:start + CAMERAS_AT_ONCE]
-        places = np.einsum("xnk,kp->xpn", cameras.places[:, cameras.corners[near]], _PROBES).reshape(3, -1)
+        corners = cameras.places[:, cameras.corners[near]]
+        below = _nearest(corners, cameras.view.eye)[:, None]
+        places = np.concatenate((np.einsum("xnk,kp->xpn", corners, _PROBES), below), axis=1).reshape(3, -1)
         face = np.tile(cameras.face[near], len(found))
         lifted = mirror_map.lifted(face, mirror_map.coordinates(face, places), slack)
         found[:, near] = lifted.reshape(len(found), -1)
     return found
+
+
+def _nearest(corners: np.ndarray, eye: np.ndarray) -> np.ndarray:
+    """The places (3, n) of triangles with `corners` (3, n, 3), as [component, triangle, corner], that are nearest to
+    the eye."""
+    away = corners - eye[:, None, None]
+    sides = corners[:, :, [1, 2, 0]] - corners
+    share = np.clip(-dot(away, sides) / np.maximum(dot(sides, sides), 1e-300), 0.0, 1.0)
+    on_sides = away + share * sides
+    distance = dot(on_sides, on_sides)
+    side = np.argmin(distance, axis=1)
+    normal = np.cross(sides[:, :, 0], sides[:, :, 1], axis=0)
+    below = dot(away[:, :, 0], normal) / np.maximum(dot(normal, normal), 1e-300) * normal
+    inside = np.all(dot(np.cross(sides, below[:, :, None] - away, axis=0), normal[:, :, None]) > 0.0, axis=1)
+    nearest = np.where(inside, below, np.take_along_axis(on_sides, side[None, :, None], axis=2)[:, :, 0])
+    return nearest + eye[:, None]
 
 
 def cut_at_horizon(cameras: Cameras) -> Cameras:

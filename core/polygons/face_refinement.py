@@ -11,18 +11,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..cameras import ALONG_UV, Cameras, ReflectionMap
-from ..geometry import SceneFrames, columns, dot, falling, norm, shared_edges
+from ..cameras import Cameras, ReflectionMap
+from ..geometry import SceneFrames, columns, dot, doubled_areas, edge_lengths, largest, norm, shared_edges, smallest
 from ..support import breathe
 from ..views import View
 from .polygon_corners import Nodes
+from .straying import straying
 from .triangulation import Faces
 
-LEVELS = 10
-EDGES_AT_ONCE = 32768
+LEVELS = 20
 SHORTEST_EDGE = 0.25  # pixels
-MARGIN = 2.0  # pixels round the picture: nobody sees an edge beyond
-STRETCH = 4.0
+THIN = 0.01  # pixels: what a face shows that is no wider
+MARGIN = 2.0  # pixels round the picture: nobody sees a face beyond
+FORESHORTENED = 4.0  # times as far from the eye's plane as its other end: an edge that is halved in the picture
 NEAR_MIDDLE = 0.45  # of an edge: how far from its middle it may be split
 
 
@@ -64,13 +65,13 @@ class FaceRefinement:
             if not len(faces):
                 break
             breathe()
-            marked, straying, chosen, middle = self._marked(nodes, pixels, faces, done, tolerance)
+            marked, strayed, chosen, middle = self._marked(nodes, pixels, faces, done, tolerance)
             ends, edge, choice, middle_nodes = middle
             stop = level == LEVELS or sum(map(len, finished)) + len(faces) + 2 * marked.sum() > maximum
             if stop or not marked.any():
                 finished.append(faces)
-                return nodes, Faces.joined(finished), np.concatenate((*left, straying), axis=1), int(marked.sum())
-            left.append(straying[:, ~chosen])
+                return nodes, Faces.joined(finished), np.concatenate((*left, strayed), axis=1), int(marked.sum())
+            left.append(strayed[:, ~chosen])
             new = np.full(len(ends), -1)
             new[choice] = np.arange(marked.sum()) + len(nodes.distance)
             nodes = nodes.joined(*middle_nodes)
@@ -93,21 +94,15 @@ class FaceRefinement:
         camera, column = faces.camera[face[open_]], faces.column[face[open_]]
         breathe()
         mirror_face = self.cameras.face[camera]
-        place = self._middle(nodes, a, b)
+        share, place = self._middle(nodes, a, b)
         breathe()
-        shown = 0.5 * (nodes.point[:, a] + nodes.point[:, b])
+        shown = (1.0 - share) * nodes.point[:, a] + share * nodes.point[:, b]
         breathe()
         uv = self._map.coordinates(mirror_face, place)
-        parts = []
-        for start in range(0, max(len(column), 1), EDGES_AT_ONCE):
-            breathe()
-            part = slice(start, start + EDGES_AT_ONCE)
-            parts.append(self._straying(mirror_face[part], uv[:, part], column[part], shown[:, part]))
-        drift, error, point, distance = (np.concatenate(side, axis=-1) for side in zip(*parts))
+        drift, error, point, distance = straying(self.cameras, self.frames, mirror_face, uv, column, shown)
         breathe()
         worth = np.zeros(len(ends), dtype=bool)
-        worth[edge[~self.beyond[faces.camera]]] = True
-        worth[open_] &= self._in_picture(pixels, a, b)
+        worth[edge[~self.beyond[faces.camera] & self._in_picture(pixels, faces.nodes)]] = True
         breathe()
         drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
         length = np.sqrt(((columns(pixels.T, a) - columns(pixels.T, b))**2).sum(axis=0))
@@ -115,40 +110,58 @@ class FaceRefinement:
         outline = np.zeros(len(ends), dtype=bool)
         outline[edge[faces.on_scene_edge]] = True
         outline = outline[open_]
-        straying = np.minimum(error, length)
+        left = np.minimum(error, length)
         chosen = (np.minimum(np.where(outline, 2.0 * drift, error), length) > tolerance) & (length > SHORTEST_EDGE)
         breathe()
         along = np.flatnonzero(chosen & outline)
-        if len(along):
-            on_face, target = mirror_face[along], shown[:, along]
+        # an end many times as near as the other: the edge's middle is seen far from the middle of its image, and what
+        # is seen there is nearest to another point of it
+        for target in (shown, None):
+            target = _nearest(nodes.point, a[along], b[along], point[:, along]) if target is None else target[:, along]
+            on_face = mirror_face[along]
             found, s = self._map.locate(on_face, uv[:, along], distance[along], target)
             spot = self._map.places(on_face, found)
             away = np.linalg.norm(self._view.pixels(spot.T) - self._view.pixels(place[:, along].T), axis=1)
             good = (away <= NEAR_MIDDLE * length[along]) & self._map.meets(on_face, found, s, target)
-            # an image at the edge's end, or none, straightens nothing however often the edge is split
-            chosen[along[~good]] = False
-            along = along[good]
             # a point of the edge: the triangle on its other side shares the node
-            point[:, along], place[:, along], distance[along] = target[:, good], spot[:, good], s[good]
+            settled, along = along[good], along[~good]
+            point[:, settled], place[:, settled], distance[settled] = target[:, good], spot[:, good], s[good]
+            if not len(along):
+                break
+        # an image at the edge's end, or none, straightens nothing however often the edge is split
+        chosen[along] = False
         marked[open_] = chosen
         place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]
-        return marked, np.stack((straying, length)), chosen, (ends, edge, marked, (place, point, distance))
+        return marked, np.stack((left, length)), chosen, (ends, edge, marked, (place, point, distance))
 
-    def _in_picture(self, pixels: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Which edges from nodes `a` to `b` (e,), at `pixels` (n, 2), are not all beside the picture."""
-        inside = np.ones(len(a), dtype=bool)
+    def _in_picture(self, pixels: np.ndarray, corners: np.ndarray) -> np.ndarray:
+        """Which faces with nodes `corners` (m, 3), at `pixels` (n, 2), are not all beside the picture, nor too thin to
+        be seen. What a face shows in the picture is decided by its edges beside it too."""
+        inside = np.ones(len(corners), dtype=bool)
         for place, size in zip(pixels.T, self._view.resolution):
-            one, other = place[a], place[b]
-            inside &= ~((np.maximum(one, other) < -MARGIN) | (np.minimum(one, other) > size + MARGIN))
+            spots = np.take(place, corners.T)
+            inside &= ~((largest(spots) < -MARGIN) | (smallest(spots) > size + MARGIN))
         breathe()
-        return inside
+        spots = pixels[corners]
+        return inside & ~(np.abs(doubled_areas(spots)) < THIN * edge_lengths(spots).max(axis=1))
 
-    def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Where on the mirror the middle of a drawn edge is seen."""
-        if not self.virtual or self._view.orthographic:
-            return 0.5 * (nodes.place[:, a] + nodes.place[:, b])
-        weight_a, weight_b = 1.0 + self._ways(nodes, a), 1.0 + self._ways(nodes, b)
-        return (weight_a * nodes.place[:, a] + weight_b * nodes.place[:, b]) / (weight_a + weight_b)
+    def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """How far along drawn edges from nodes `a` to `b` (e,) each is best split, and where on the mirror that is.
+
+        That is halfway, or, where an end is several times as near as the other, halfway in the picture: half of such an
+        edge in space is little in the picture, however often it is halved.
+        """
+        start, end = (nodes.place[:, node] for node in (a, b))
+        if self._view.orthographic:
+            return np.full(len(a), 0.5), 0.5 * (start + end)
+        weight_a, weight_b = (1.0 + self._ways(nodes, a), 1.0 + self._ways(nodes, b)) if self.virtual else (1.0, 1.0)
+        depth_a, depth_b = self._view.depths(start.T) * weight_a, self._view.depths(end.T) * weight_b
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = depth_a / depth_b
+            share = np.where((ratio > FORESHORTENED) | ((ratio > 0.0) & (ratio < 1.0 / FORESHORTENED)),
+                             depth_a / (depth_a + depth_b), 0.5)
+        weight_a, weight_b = (1.0 - share) * weight_a, share * weight_b
+        return share, (weight_a * start + weight_b * end) / (weight_a + weight_b)
 
     def _ways(self, nodes: Nodes, node: np.ndarray) -> np.ndarray:
         """How far behind the mirror nodes are seen, to their distance from the eye."""
@@ -156,44 +169,9 @@ class FaceRefinement:
             return nodes.distance[node]
         return nodes.distance[node] / norm(self._view.directions(nodes.place[:, node].T).T)
 
-    def _straying(self, face: np.ndarray, uv: np.ndarray, column: np.ndarray, shown: np.ndarray):
-        """Pixels between the places where `shown` is drawn and where it is truly seen, and as much of them as an eye
-        could tell inside a face; what is truly seen there, and its s.
 
-        Near a caustic the picture of a point is drawn out in one direction, and a shift in that direction shows
-        nothing: none counts for more than `STRETCH` times the pixels it would be where the picture is drawn out least.
-        """
-        origin, ray, moves = self._map.linearise(face, uv, *ALONG_UV)
-        frames = self.frames
-        base, first, second, normal = (columns(row, column) for row in
-                                       (frames.origin, frames.first, frames.second, frames.normal))
-        speed = falling(normal, ray)
-        s = np.maximum(dot(normal, base - origin) / speed, 0.0)
-        point = origin + s * ray
-        moving = []
-        for move, change in moves:
-            free = move + s * change
-            moving.append(free - dot(normal, free) / speed * ray)
-        off = shown - point
-        (a, c), (b, d), right = ((dot(first, along), dot(second, along)) for along in (*moving, off))
-        x, y = _solve(a, b, c, d, *right)
-        place = self._map.places(face, uv)
-        gradients = self._view.pixel_gradients(place)
-        seen_u, seen_v = (np.stack([dot(gradient, span) for gradient in gradients]) for span in self._map.spans(face))
-        drift = np.hypot(*(x * seen_u + y * seen_v))
-        motion = [norm(x * moving[0] + y * moving[1]) for x, y in
-                  (_solve(seen_u[0], seen_v[0], seen_u[1], seen_v[1], *step) for step in ((1.0, 0.0), (0.0, 1.0)))]
-        with np.errstate(over="ignore"):
-            coarse = norm(off) / np.maximum(np.maximum(*motion), 1e-300)
-            return drift, np.minimum(drift, STRETCH * coarse), point, s
-
-
-def _solve(a, b, c, d, right_x, right_y):
-    """x, y with a x + b y = right_x and c x + d y = right_y; zero where a, b, c and d are."""
-    straight, crossed = a * d, b * c
-    determinant = straight - crossed
-    # a map that rounding cannot tell from singular moves far, but not infinitely far
-    least = 1e-14 * (np.abs(straight) + np.abs(crossed))
-    determinant = np.where(np.abs(determinant) > least, determinant, least)
-    inverse = np.divide(1.0, determinant, out=np.zeros_like(determinant), where=np.abs(determinant) > 1e-150)
-    return (d * right_x - b * right_y) * inverse, (a * right_y - c * right_x) * inverse
+def _nearest(points: np.ndarray, a: np.ndarray, b: np.ndarray, seen: np.ndarray) -> np.ndarray:
+    """The points (3, e) of edges from nodes `a` to `b` (e,) at `points` (3, n) that are nearest to what is `seen`."""
+    start, way = columns(points, a), columns(points, b) - columns(points, a)
+    share = dot(seen - start, way) / np.maximum(dot(way, way), 1e-300)
+    return start + np.clip(share, 0.0, 1.0) * way

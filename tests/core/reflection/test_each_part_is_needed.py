@@ -17,7 +17,7 @@ import core.reflection
 import core.whole_faces.merging
 import core.whole_faces.whole
 from core import PointTree, Settings, TriangleMesh, View, reflect
-from core.cameras import Cameras, picture_areas
+from core.cameras import Cameras, camera_splitting, mirror_refinement, picture_areas
 from core.culling import SceneAndMirrors
 from core.filling import Crowds
 from core.filling.crowds import Filled
@@ -31,7 +31,7 @@ from core.whole_faces import seams
 from core.whole_faces.division import Division
 from core.whole_faces.layers import Layers
 from core.whole_faces.sinking import Sinking
-from tests.inputs import shapes
+from tests.inputs import near_eyes, shapes
 from tests.inputs.dense_scenes import dense, knots_in_a_ball
 from tests.oracles.judge import judge
 from tests.oracles.raster import rasterise
@@ -101,6 +101,10 @@ PARTS = {
     "caustics": Part(BOUNCE, "split_at_caustics", lambda cameras, frames, nodes, faces: (nodes, faces, 0), "bowl",
                      "folded"),
     "the horizon": Part(REFLECTION, "cut_at_horizon", lambda cameras: cameras, "sphere", "cameras", 1.3),
+    "the picture's border": Part(mirror_refinement, "shares_in_picture", lambda cameras, ends: np.full(len(ends), 0.5),
+                                 near_eyes.drawn(151), "cameras", 3.0),
+    "cameras beside the picture": Part(camera_splitting, "_parted", lambda clip, corners, margin: np.zeros(
+        len(corners), dtype=bool), near_eyes.drawn(181), "cameras", 1.5),
     "the mirror's own body": Part(REFLECTION, "without_occluded", lambda mirror, cameras, grid: (cameras, 0, 0),
                                   "torus", "spill", 10.0),
     "hidden cameras": Part(REFLECTION, "without_hidden", nobody_hidden, "torus", "self_occluded", 1.5),

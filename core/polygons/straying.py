@@ -1,0 +1,85 @@
+"""How far what is drawn along edges strays from the true map: a point of a diffuse triangle's plane is drawn where its
+true image is not, or shows what is truly seen elsewhere. Divided by the true map's derivative that is pixels.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from ..cameras import ALONG_UV, Cameras
+from ..geometry import SceneFrames, columns, dot, falling, norm
+from ..support import breathe
+
+EDGES_AT_ONCE = 32768
+STRETCH = 4.0
+
+
+def straying(cameras: Cameras, frames: SceneFrames, face: np.ndarray, uv: np.ndarray, column: np.ndarray,
+             shown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """What is drawn at (u, v) `uv` (2, e) of mirror faces `face` (e,) beside what the true map has there.
+
+    Near a caustic the picture of a point is drawn out in one direction, and a shift in that direction shows
+    nothing: none counts for more than `STRETCH` times the pixels it would be where the picture is drawn out least.
+
+    Parameters
+    ----------
+    column : (e,) int64
+        Of the `frames`: the diffuse triangle that is drawn.
+    shown : (3, e) float64
+        The point of it that is drawn there.
+
+    Returns
+    -------
+    drift, error : (e,) float64
+        Pixels between the place where `shown` is drawn and where it is truly seen, and as much of them as an eye could
+        tell inside a face.
+    point : (3, e) float64
+        What is truly seen there.
+    s : (e,) float64
+        How far along its ray.
+    """
+    parts = []
+    for start in range(0, max(len(column), 1), EDGES_AT_ONCE):
+        breathe()
+        part = slice(start, start + EDGES_AT_ONCE)
+        parts.append(_straying(cameras, frames, face[part], uv[:, part], column[part], shown[:, part]))
+    drift, error, point, s = (np.concatenate(side, axis=-1) for side in zip(*parts))
+    return drift, error, point, s
+
+
+def _straying(cameras: Cameras, frames: SceneFrames, face: np.ndarray, uv: np.ndarray, column: np.ndarray,
+              shown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """`straying`, of so many as fit the cache."""
+    mirror_map = cameras.mirror_map
+    origin, ray, moves = mirror_map.linearise(face, uv, *ALONG_UV)
+    base, first, second, normal = (columns(row, column) for row in
+                                   (frames.origin, frames.first, frames.second, frames.normal))
+    speed = falling(normal, ray)
+    s = np.maximum(dot(normal, base - origin) / speed, 0.0)
+    point = origin + s * ray
+    moving = []
+    for move, change in moves:
+        free = move + s * change
+        moving.append(free - dot(normal, free) / speed * ray)
+    off = shown - point
+    (a, c), (b, d), right = ((dot(first, along), dot(second, along)) for along in (*moving, off))
+    x, y = _solve(a, b, c, d, *right)
+    place = mirror_map.places(face, uv)
+    gradients = cameras.view.pixel_gradients(place)
+    seen_u, seen_v = (np.stack([dot(gradient, span) for gradient in gradients]) for span in mirror_map.spans(face))
+    drift = np.hypot(*(x * seen_u + y * seen_v))
+    motion = [norm(x * moving[0] + y * moving[1]) for x, y in
+              (_solve(seen_u[0], seen_v[0], seen_u[1], seen_v[1], *step) for step in ((1.0, 0.0), (0.0, 1.0)))]
+    with np.errstate(over="ignore"):
+        coarse = norm(off) / np.maximum(np.maximum(*motion), 1e-300)
+        return drift, np.minimum(drift, STRETCH * coarse), point, s
+
+
+def _solve(a, b, c, d, right_x, right_y):
+    """x, y with a x + b y = right_x and c x + d y = right_y; zero where a, b, c and d are."""
+    straight, crossed = a * d, b * c
+    determinant = straight - crossed
+    # a map that rounding cannot tell from singular moves far, but not infinitely far
+    least = 1e-14 * (np.abs(straight) + np.abs(crossed))
+    determinant = np.where(np.abs(determinant) > least, determinant, least)
+    inverse = np.divide(1.0, determinant, out=np.zeros_like(determinant), where=np.abs(determinant) > 1e-150)
+    return (d * right_x - b * right_y) * inverse, (a * right_y - c * right_x) * inverse
