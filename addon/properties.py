@@ -79,6 +79,10 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     origin: FloatVectorProperty(name="Origin", size=3, description="Where it was generated, in world space")
     basis: FloatVectorProperty(name="Basis", size=16, description="Its own transform when it was generated; zero where "
                                "that is not known")
+    landmarks: IntVectorProperty(name="Landmarks", size=4, description="Vertices by which its mesh is known again "
+                                 "where transforms have been applied; zero where there are none")
+    landmark_places: FloatVectorProperty(name="Landmark Places", size=12, description="Where these were generated, in "
+                                         "its own space")
     materials: CollectionProperty(name="Materials", type=ReflectionMaterial,
                                   description="The materials of its mesh when it was generated")
     attributes: EnumProperty(name="Attributes", description="What its points and faces know", items=ATTRIBUTES,

@@ -6,11 +6,12 @@ from typing import NamedTuple
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from ...core import FollowedImages, ReflectionMesh, TriangleMesh, View
 from ...core.following import Followed
 from ..freshness import COARSE
-from ..writing import vertices_written
+from ..writing import applied_to, forget_landmarks, vertices_written
 
 ATTRIBUTES = ("reflected_position", "mirror_position", "path_length")
 
@@ -83,7 +84,8 @@ class Track:
         """Whether the results, by their `session_uid`, are still those that were written, and what they show has not
         changed but for its place."""
         results = [objects.get(uid) for uid in self.shown.results]
-        return (all(obj is not None and len(obj.data.vertices) == self.images.source.size for obj in results)
+        return (all(obj is not None and len(obj.data.vertices) == self.images.source.size
+                    and applied_to(obj) == Matrix.Identity(4) for obj in results)
                 and (len(mirror.triangles), len(scene.triangles)) == self.triangles)
 
     def seen(self, view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Followed:
@@ -100,6 +102,7 @@ class Track:
             mesh.update()
         for obj in results:
             obj.reflection_mesh.made_from = COARSE
+            forget_landmarks(obj)
         return replace(self, images=now.images)
 
 

@@ -198,7 +198,8 @@ def _on_the_mirror(result: bpy.types.Object) -> np.ndarray:
     """Places (n, 3) of a result's points where the camera sees them in the mirror: any on the same line of sight do."""
     if "mirror_position" in result.data.attributes:
         return vectors(result.data, "mirror_position")
-    return vectors(result.data, "position") + np.array(place_of(result).translation)
+    to_world = np.array(place_of(result))
+    return vectors(result.data, "position") @ to_world[:3, :3].T + to_world[:3, 3]
 
 
 def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing

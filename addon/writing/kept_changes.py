@@ -8,8 +8,11 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
+from .landmarks import applied_to, note_landmarks
+
 PREVIEW = "reflection_mesh_preview"  # custom property of the materials that are shown before there is light
 NEARLY = 1e-6   # of a transform's numbers, which Blender rounds
+NEARLY_APPLIED = 1e-5     # the same, told by vertices
 
 
 @dataclass(frozen=True)
@@ -43,16 +46,22 @@ def _moved(obj: bpy.types.Object) -> Matrix | None:
     record = obj.reflection_mesh
     basis = np.array(record.basis).reshape(4, 4)
     unmoved = Matrix.Translation(Vector(record.origin))
-    if not basis.any() or _same(basis, obj.matrix_basis) or _same(unmoved, obj.matrix_world):
+    if not basis.any() or _same(basis, obj.matrix_basis):
         return None
+    # a transform that was applied is in the mesh instead, and has moved nothing
+    applied = applied_to(obj)
+    stands, nearly = obj.matrix_world @ applied, NEARLY if applied == Matrix.Identity(4) else NEARLY_APPLIED
     # what a parent did since then moved it in both
     above = obj.matrix_world @ obj.matrix_basis.inverted_safe()
-    return obj.matrix_world @ (above @ Matrix(basis.tolist())).inverted_safe()
+    left = above @ Matrix(basis.tolist())
+    if _same(unmoved, stands, nearly) or _same(left, stands, nearly):
+        return None
+    return stands @ left.inverted_safe()
 
 
-def _same(one, other) -> bool:
+def _same(one, other, nearly: float = NEARLY) -> bool:
     one, other = np.array(one), np.array(other)
-    return bool((np.abs(one - other) <= NEARLY * (1.0 + np.abs(other))).all())
+    return bool((np.abs(one - other) <= nearly * (1.0 + np.abs(other))).all())
 
 
 def _replaced(obj: bpy.types.Object) -> list:
@@ -73,6 +82,7 @@ def place(obj: bpy.types.Object, origin: np.ndarray, changes: Changes) -> None:
     obj.matrix_world = matrix
     record.origin = matrix.translation
     record.basis = [value for row in obj.matrix_basis for value in row]
+    note_landmarks(obj)
     if changes.moved is not None:
         obj.matrix_world = changes.moved @ matrix
 
@@ -102,6 +112,8 @@ def put_back_materials(obj: bpy.types.Object, materials: list, changes: Changes)
 
 
 def place_of(obj: bpy.types.Object) -> Matrix:
-    """Where a result was generated, in world space, wherever it was moved since."""
+    """What takes a result's mesh to where it was generated, in world space, wherever it was moved since."""
     record = obj.reflection_mesh
-    return Matrix.Translation(Vector(record.origin)) if any(record.basis) else obj.matrix_world
+    if not any(record.basis):
+        return obj.matrix_world
+    return Matrix.Translation(Vector(record.origin)) @ applied_to(obj).inverted_safe()
