@@ -16,6 +16,7 @@ from ..reading.materials import glows
 from ..rendering import copied_scene, denoise, look_through, put_swift_world
 from ..writing import UV_MAP
 from .bake_targets import new_target
+from .linked_lamps import link_lamps
 from .stand_ins import StandIn, new_object, swap_names
 from .texels import UNTOUCHED, has_pattern, mean_of_what_is_known, moved
 
@@ -166,6 +167,7 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
             if stand.told is None and sources[stand.owner].library is None:
                 swap_names(sources[stand.owner], obj)
                 back.callback(swap_names, sources[stand.owner], obj)
+        link_lamps([(sources[owner], obj) for owner, obj in objects], back)
         # Cycles clamps a lamp's body one bounce later than what lamps light
         own, of_all = context.scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_direct
         yield BakeScene(scene, objects, targets, switches, None if opacity or own == of_all else own)

@@ -1,5 +1,6 @@
 """Blender's data as arrays: who takes part, meshes with their layers, materials, the view."""
 from .known_results import forget_known, known_results, register, unregister
+from .light_links import link_state
 from .lines import lines_drawn
 from .looked_through import looked_through
 from .materials import all_nodes, fog_of, is_clear, is_fog, is_mirror, is_opaque, materials_of, materials_shown
@@ -40,7 +41,7 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "Placed", "RESULTS", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
            "every_result_of", "fog_of", "forget_known", "has_fog", "has_linked_results", "in_background_set",
            "is_clear", "is_fog", "is_mirror", "is_opaque", "join_mirror", "join_scene", "known_results", "lines_drawn",
-           "looked_through", "materials_of", "materials_shown", "may_have_faces", "moves", "participants",
+           "link_state", "looked_through", "materials_of", "materials_shown", "may_have_faces", "moves", "participants",
            "read_meshes", "read_mirror", "read_scene", "read_view", "register", "render_size", "rendered_alone",
            "rendered_collections", "rendered_otherwise", "results_of", "says_mirror", "seen_in", "unregister",
            "vectors", "visible", "with_copies", "without_surface"]

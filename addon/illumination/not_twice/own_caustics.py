@@ -12,7 +12,7 @@ import bpy
 
 from ... import compat
 from ...faults import AllOrNothing
-from ...reading import is_mirror
+from ...reading import is_mirror, link_state
 from ...reading.materials import MIRRORS, all_nodes, is_sharp
 from .glint import forget_lost_glints, glint_of, hide_from_mirror, show_in_mirror
 
@@ -115,15 +115,12 @@ def _leaves_out_some(lamp: bpy.types.Object) -> bool:
 
 def _lit_by(collection: bpy.types.Collection, obj: bpy.types.Object) -> bool:
     """Whether a lamp that is linked to a collection lights an object: not what is excluded, and where something is
-    included nothing else. Of what tells of an object the last counts, and objects come after collections."""
-    states = [(entry.light_linking.link_state, obj.name in child.all_objects)
-              for entry, child in zip(collection.collection_children, collection.children)]
-    states += [(entry.light_linking.link_state, child == obj)
-               for entry, child in zip(collection.collection_objects, collection.objects)]
-    told = [state for state, holds in states if holds]
-    if told:
-        return told[-1] == "INCLUDE"
-    return all(state == "EXCLUDE" for state, _ in states)
+    included nothing else."""
+    told = link_state(collection, obj)
+    if told is not None:
+        return told == "INCLUDE"
+    return all(entry.light_linking.link_state == "EXCLUDE"
+               for entry in (*collection.collection_children, *collection.collection_objects))
 
 
 _MARK = "reflection_mesh_left_out"

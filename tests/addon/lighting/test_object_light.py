@@ -76,6 +76,29 @@ def test_what_catches_shadows_is_what_mirrors_show_of_it(blank, room):
     assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+@pytest.mark.parametrize(("link", "name", "state"), [
+    ("receiver_collection", "Floor", "INCLUDE"), ("receiver_collection", "Floor", "EXCLUDE"),
+    ("blocker_collection", "Box", "EXCLUDE")])
+def test_lamps_light_what_they_are_linked_to(blank, room, link, name, state):
+    """What is told of lies in a collection within the one that the lamp is linked to."""
+    scene_of(blank)
+    blank.scene.cycles.samples = 64
+    linked, inner = bpy.data.collections.new("Linked"), bpy.data.collections.new("Inner")
+    linked.children.link(inner)
+    inner.objects.link(bpy.data.objects[name])
+    linked.collection_children[0].light_linking.link_state = state
+    lamp = bpy.data.objects["Area"]
+    lamp.location, lamp.rotation_euler = (1.5, -2.0, 4.5), (0.0, 0.0, 0.0)
+    setattr(lamp.light_linking, link, linked)
+    blank.view_layer.update()
+    reference = picture(room)
+    parts.generate()
+    light(32)
+    assert psnr(picture(room), reference) > 30.0
+    assert set(bpy.data.collections) == {linked, inner} and getattr(lamp.light_linking, link) == linked
+    assert not linked.objects and list(inner.objects) == [bpy.data.objects[name]]
+
+
 def test_it_is_exposed_once(blank, room):
     scene_of(blank)
     blank.scene.cycles.film_exposure = 0.4
