@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 
 from ...core import ReflectionError
-from .materials import all_fog, is_mirror
+from .materials import all_fog, is_mirror, materials_on_faces
 from .results import RESULTS, meant, of_results
 
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
@@ -90,7 +90,8 @@ def says_mirror(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | No
 
 def _looks_it(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | None], bool]) -> bool:
     """Whether an object has the material of a mirror, or is an instance of a collection in which all surfaces do."""
-    if any(is_one(slot.material) for slot in obj.material_slots):
+    # slots first: faces are many
+    if any(is_one(slot.material) for slot in obj.material_slots) and any(map(is_one, materials_on_faces(obj))):
         return True
     if obj.instance_type != "COLLECTION" or obj.instance_collection is None:
         return False

@@ -2,8 +2,12 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
 
 from .opaque_materials import is_fog
+
+# modifiers that may give faces other slots than the mesh does
+REPAINTING = {"BEVEL", "BOOLEAN", "MESH_SEQUENCE_CACHE", "NODES", "SOLIDIFY", "WIREFRAME"}
 
 
 def materials_of(obj: bpy.types.Object) -> list:
@@ -12,6 +16,17 @@ def materials_of(obj: bpy.types.Object) -> list:
     if obj.instance_type != "COLLECTION" or obj.instance_collection is None:
         return own
     return own + [material for other in obj.instance_collection.all_objects for material in materials_of(other)]
+
+
+def materials_on_faces(obj: bpy.types.Object) -> list:
+    """Those of an object's slots, without those that no face has: lists of imported meshes are full of them."""
+    own = [slot.material for slot in obj.material_slots]
+    if len(own) < 2 or obj.type != "MESH" or any(modifier.type in REPAINTING for modifier in obj.modifiers):
+        return own
+    used = np.zeros(len(obj.data.polygons), dtype=np.int32)
+    obj.data.polygons.foreach_get("material_index", used)
+    # as Blender does, the last slot where there are too few
+    return [own[index] for index in np.unique(used.clip(0, len(own) - 1)).tolist()]
 
 
 def all_fog(obj: bpy.types.Object) -> bool:

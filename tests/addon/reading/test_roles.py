@@ -200,3 +200,22 @@ def test_what_is_not_in_the_scene_is_called_neither_hidden_nor_missing(four, roo
     bpy.context.scene.collection.objects.link(four[0])
     with pytest.raises(room("core").ReflectionError, match="^'B' is not in this scene"):
         names(room)
+
+
+def test_a_mirror_s_material_on_no_face_makes_no_mirror(four, room):
+    """As slots that imports leave; modifiers may give faces another slot."""
+    for obj in four[:2]:
+        for kind in ("EMISSION", "GLOSSY"):
+            obj.data.materials.append(parts.material(kind, kind))
+    four[1].data.polygons[2].material_index = 1
+    parts.select()
+    assert names(room) == (["B"], ["A", "C", "D"])
+    parts.select(*four[:3])
+    assert names(room) == (["B"], ["A", "C"])
+    four[1].data.polygons[2].material_index = 0
+    four[0].modifiers.new("Rim", "SOLIDIFY").material_offset = 1
+    assert names(room) == (["A"], ["B", "C"])
+    # what has fewer slots than its faces ask for shows the last
+    four[0].modifiers.clear()
+    four[0].data.polygons[0].material_index = 7
+    assert names(room) == (["A"], ["B", "C"])
