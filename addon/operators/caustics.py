@@ -40,6 +40,7 @@ from ..reading import DiffuseScene, Participants, choose, materials_shown, read_
 from ..settings import UsesSettings, option
 from . import polls
 from .asked_light import Asked, asked_again, remember
+from .shortcomings import left_out
 
 IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
 NOTHING_LIT = "Light falls on nothing but lamps: select what it is to fall on, or give it the role Reflected."
@@ -115,7 +116,7 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     for pair in pairs:
         origins[pair] = light_record(context, *pair, scene.sources)
         yield 0.0, "Reading the scene"
-    prepared, dark, refused = [], [], [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
+    prepared, dark, refused = [], [], left_out(context, chosen.hidden)
     for number, (mirror, lamp) in enumerate(pairs):
         name = name_of(mirror, lamp, lamps)
         eyes = partial(eyes_of, depsgraph, lamp, wanted.places(mirror, lamp))

@@ -26,7 +26,7 @@ from ..settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
 from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, point_arrays
 from . import polls
-from .shortcomings import scene_shortcomings, shortcomings, window_shortcomings
+from .shortcomings import left_out, scene_shortcomings, shortcomings, window_shortcomings
 from .write_results import Manners, Outcome, write_results
 
 # share of the work that reading takes, before the mirrors are reflected one by one
@@ -58,7 +58,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     own = list(map(of_each(settings), chosen.mirrors))
     started = time.perf_counter()
     yield 0.0, "Reading the scene"
-    remarks = [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden]
+    remarks = left_out(context, chosen.hidden)
     view = view or read_view(context)
     depsgraph = context.evaluated_depsgraph_get()
     kept = Kept.of(depsgraph)

@@ -27,6 +27,7 @@ from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell_done
 from ..reading import Participants, choose, read_mirror, read_scene, read_view
 from ..settings import UsesSettings, Wanted, option
 from . import polls
+from .shortcomings import left_out
 
 TARGETS = (
     ("COPY", "A Copy", "Faces are cut where the map bends, on a copy that stands in for the object, which is hidden"),
@@ -111,7 +112,7 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
         if not indices:
             raise core.ReflectionError("The camera sees none of the objects in this mirror; move the camera, the "
                                        "mirror or the objects.")
-        remarks = [f"Left out because it is hidden: '{obj.name}'." for obj in chosen.hidden if obj not in sources]
+        remarks = left_out(context, [obj for obj in chosen.hidden if obj not in sources])
         remarks += [f"Left out because the mirror does not show it: '{obj.name}'." for index, obj in enumerate(sources)
                     if index not in indices]
         yield READING + REFLECTING + PIECES, "Cutting faces"

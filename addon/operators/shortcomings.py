@@ -66,6 +66,13 @@ def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
     return [f"{name}: {sentence}" for sentence in told]
 
 
+def left_out(context: bpy.types.Context, objects: list) -> list[str]:
+    """Sentences on what would take part, were it to be seen: it is hidden, or has been deleted or taken out."""
+    there = set(context.scene.objects)
+    return [f"Left out because it is hidden: '{obj.name}'." if obj in there else
+            f"Left out because it is not in this scene: '{obj.name}'." for obj in objects]
+
+
 def scene_shortcomings(context: bpy.types.Context, chosen: Participants, settings: SettingsOfMirrors) -> list[str]:
     """Sentences on what renders of the scene show otherwise than reflections that were just generated: of what is
     chosen still, before new objects are known."""

@@ -47,6 +47,20 @@ def test_what_a_render_blurs_otherwise_is_told(blank, capfd, placement):
     assert ("Stereoscopy: a reflection is right for one eye" in told()) == (placement == "LAYERED")
 
 
+def test_what_is_gone_is_not_called_hidden(blank, capfd):
+    box, other = (parts.add("cube", name, location=(x, -1.5, 1.0)) for name, x in (("Box", 0.0), ("Old", 1.5)))
+    parts.select(box, other, parts.add_wall_mirror())
+    result = parts.generate()
+    parts.select(other)
+    bpy.ops.object.delete()
+    parts.select(result)
+    for sentences in (["Warning: Left out because it is not in this scene: 'Old'."], []):
+        capfd.readouterr()
+        parts.generate()
+        # once: it is forgotten
+        assert [line for line in capfd.readouterr().out.splitlines() if "Left out" in line] == sentences
+
+
 def test_what_is_to_be_said_against_a_result_is_told_last(blank, capfd):
     """The status bar shows the last report alone; the first sentence on a result is the most important one."""
     box, mirror = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0)), parts.add_wall_mirror()
