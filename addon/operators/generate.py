@@ -18,6 +18,7 @@ from ..reading import (
     Participants,
     choose,
     is_opaque,
+    is_part,
     lines_drawn,
     looked_through,
     read_view,
@@ -55,14 +56,13 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     """
     if context.mode != "OBJECT":
         raise core.ReflectionError(IN_OBJECT_MODE)
-    own = list(map(of_each(settings), chosen.mirrors))
     started = time.perf_counter()
     yield 0.0, "Reading the scene"
-    remarks = left_out(context, chosen.hidden)
-    view = view or read_view(context)
+    hidden, view = left_out(context, chosen.hidden), view or read_view(context)
     depsgraph = context.evaluated_depsgraph_get()
     kept = Kept.of(depsgraph)
-    meshes = kept.looked_at(depsgraph, chosen.mirrors, chosen.diffuse)
+    chosen, meshes, faceless = _with_faces(chosen, *kept.looked_at(depsgraph, chosen.mirrors, chosen.diffuse))
+    own = list(map(of_each(settings), chosen.mirrors))
     sources, lines = chosen.diffuse + chosen.waiting, lines_drawn(context.scene)
     origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources), settings_of(context.scene, mirror))
                for mirror in chosen.mirrors}
@@ -73,7 +73,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         own = [replace(one, hidden_faces=True) for one in own]
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     yield from _trees(stage, kinds)
-    prepared, refused, unseen, share = [], [], 0, (1.0 - READING) / len(surfaces)
+    prepared, refused, unseen, remarks, share = [], [], 0, hidden + faceless, (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
         steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index])
         try:
@@ -112,6 +112,16 @@ def _written(result: core.ReflectionMesh, scene: DiffuseScene, surface: MirrorSu
     if lines:
         result = core.with_borders_closed(result, view, scene.mesh, scene.source_object)
     return result, mesh_arrays(result, scene, surface, view)
+
+
+def _with_faces(chosen: Participants, of_mirrors: list, placed: list) -> tuple[Participants, tuple, list[str]]:
+    """Without the mirrors that have no faces, as curves that others follow, where some have, and sentences on these."""
+    faceless = [mirror for mirror, own in zip(chosen.mirrors, of_mirrors) if not own]
+    if not 0 < len(faceless) < len(chosen.mirrors):
+        return chosen, (of_mirrors, placed), []
+    return (replace(chosen, mirrors=[mirror for mirror in chosen.mirrors if mirror not in faceless]),
+            ([own for own in of_mirrors if own], placed),
+            [f"Left out because it has no faces: '{obj.name}'." for obj in faceless if not is_part(obj)])
 
 
 def _record(outcome: Outcome, origins: dict, seconds: float) -> None:

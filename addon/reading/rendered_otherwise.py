@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..compat import dices
+from .metaballs import is_part
 
 LEVELS = (("levels", "render_levels"), ("steps", "render_steps"))
 RESOLUTIONS = (("resolution_u", "render_resolution_u"), ("resolution_v", "render_resolution_v"))
@@ -19,7 +20,7 @@ def rendered_otherwise(scene: bpy.types.Scene, obj: bpy.types.Object) -> str:
     if dices(scene, obj):
         return obj.modifiers[-1].name
     data = obj.data
-    if obj.type == "META" and data.resolution != data.render_resolution:
+    if obj.type == "META" and not is_part(obj) and data.resolution != data.render_resolution:
         return data.name
     # none of its own: renders take the viewport's
     if obj.type in {"CURVE", "SURFACE", "FONT"} and any(

@@ -5,6 +5,8 @@ OBJECTS = {
         "'{}' hat keine Flächen zum Spiegeln: wähle Objekte mit Flächen.",
     "The mirror '{}' has no faces: choose an object with faces.":
         "Der Spiegel '{}' hat keine Flächen: wähle ein Objekt mit Flächen.",
+    "The mirror '{}' is a part of the metaball '{}': choose that instead.":
+        "Der Spiegel '{}' ist ein Teil des Metaballs '{}': wähle stattdessen den.",
     "'{}' has a transform that is not a finite number: clear its location, rotation and scale.":
         "'{}' hat eine Transformation, die keine endliche Zahl ist: setze Ort, Rotation und Skalierung zurück.",
     "'{}' reaches further than 1e17 units from the origin, where Blender's numbers end: make it smaller or move it "

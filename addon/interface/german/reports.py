@@ -62,6 +62,7 @@ KEPT = {
     "'{}' shows other faces than before, and has lost what was made for those: {}.":
         "'{}' zeigt andere Flächen als vorher, und hat verloren, was für diese gemacht war: {}.",
     "Left out because it is hidden: '{}'.": "Ausgelassen, weil ausgeblendet: '{}'.",
+    "Left out because it has no faces: '{}'.": "Ausgelassen, weil ohne Flächen: '{}'.",
     "Left out because it is not in this scene: '{}'.": "Ausgelassen, weil nicht in dieser Szene: '{}'.",
     "Left out because the mirror does not show it: '{}'.": "Ausgelassen, weil der Spiegel es nicht zeigt: '{}'.",
     "Kept although they were baked from another state of the scene ({}): {} in '{}'; overwrite them, or choose "

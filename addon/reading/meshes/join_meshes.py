@@ -8,6 +8,7 @@ import numpy as np
 
 from ....core import ReflectionError, TriangleMesh, breathe
 from ..materials import is_mirror
+from ..metaballs import basis_of, is_part
 from .join_layers import join_layers
 from .placed_values import PlacedValues, generated_places, lines_of, normals_of, own_places
 from .read_meshes import Placed, read_meshes
@@ -113,6 +114,9 @@ def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> Mirror
 def join_mirror(placed: list[Placed], obj: bpy.types.Object) -> MirrorSurface:
     """As `read_mirror`, of meshes that have been read."""
     if not placed:
+        if is_part(obj):
+            raise ReflectionError(f"The mirror '{obj.name}' is a part of the metaball '{basis_of(obj).name}': choose "
+                                  "that instead.")
         raise ReflectionError(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
     positions, triangles, _, faces, material, materials = _join(placed, 1)
     reflects = np.array([is_mirror(entry) for entry in materials])[material]
