@@ -12,10 +12,12 @@ from .light_sources import (
     eyes_of,
     has_a_size,
     is_glint,
+    is_sheared,
     light_of_nodes,
     lights_renders,
     meant_lamps,
     radiance_of,
+    rays_meet,
 )
 from .mirrors import MirrorColours, MirrorPart, Tint, parts_of, places_on_mirror, stains, textured
 from .not_twice import (
@@ -35,7 +37,7 @@ from .write_caustics import Caustic, caustics_object, places_kept, results_with,
 __all__ = ["Caustic", "Eye", "MirrorColours", "MirrorPart", "MirrorPlaces", "NoLight", "Tint", "adds_light",
            "blockers_of", "blocking", "bring_back_abandoned", "bring_back_layers", "bring_back_own_caustics",
            "caustic_arrays", "caustics_object", "chosen_lamps", "eyes_of", "follow_lamp", "follow_layers",
-           "forget_added_light", "has_a_size", "is_glint", "leave_out", "leave_out_own_caustics", "leaves_out",
-           "leaves_out_any", "let_lamps_light_mirrors", "light_alone", "light_of_nodes", "lights_renders",
+           "forget_added_light", "has_a_size", "is_glint", "is_sheared", "leave_out", "leave_out_own_caustics",
+           "leaves_out", "leaves_out_any", "let_lamps_light_mirrors", "light_alone", "light_of_nodes", "lights_renders",
            "makes_own_caustics", "meant_lamps", "parts_of", "places_kept", "places_on_mirror", "radiance_of",
-           "raises_layers", "receiving", "results_with", "stains", "textured", "write_caustics"]
+           "raises_layers", "rays_meet", "receiving", "results_with", "stains", "textured", "write_caustics"]

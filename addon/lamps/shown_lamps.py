@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError
-from ..illumination import eyes_of, has_a_size, is_glint
+from ..illumination import eyes_of, has_a_size, is_glint, rays_meet
 from ..reading import seen_in, vectors
 
 KNOWN = ("mirror_position", "reflected_position", "bounces")  # what a result must tell
@@ -47,7 +47,10 @@ class ShownLamp:
     @property
     def reach(self) -> float:
         """No part of it is farther from its middle."""
-        return 0.5 * float(np.hypot(*self.size))
+        if self.spot:
+            return 0.5 * float(np.hypot(*self.size))
+        right, up = np.linalg.inv(self.axes)[:2] * np.array(self.size)[:, None]
+        return 0.5 * float(max(np.linalg.norm(right + up), np.linalg.norm(right - up)))
 
 
 def lamps_that_show(context: bpy.types.Context) -> list[ShownLamp]:
@@ -80,6 +83,7 @@ def _shown(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> ShownLamp:
         round_, oblong = data.shape in {"DISK", "ELLIPSE"}, data.shape in {"RECTANGLE", "ELLIPSE"}
         width, height = np.linalg.norm(matrix[:3, :2], axis=0) * (data.size, data.size_y if oblong else data.size)
         shape, area = "ELLIPSE" if round_ else "RECTANGLE", width * height * (np.pi / 4.0 if round_ else 1.0)
+        area *= rays_meet(eye.axes)
     else:
         width = height = 2.0 * data.shadow_soft_size
         shape, area = "DISC" if data.use_soft_falloff else "BALL", np.pi * data.shadow_soft_size**2

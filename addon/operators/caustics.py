@@ -29,7 +29,6 @@ from ..illumination import (
     follow_lamp,
     follow_layers,
     leave_out,
-    light_of_nodes,
     parts_of,
     places_on_mirror,
     receiving,
@@ -40,6 +39,7 @@ from ..reading import DiffuseScene, Participants, choose, materials_shown, read_
 from ..settings import UsesSettings, option
 from . import polls
 from .asked_light import Asked, asked_again, remember
+from .caustic_remarks import remarks_on
 from .shortcomings import left_out
 
 IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
@@ -209,17 +209,7 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
         layers = sum(made.layers for made in prepared)
         receivers = {obj: made.arrays.materials for obj, made in zip(objects, prepared)}
         remarks += follow_layers(scene, layers, chain.from_iterable(receivers.values()), whole)
-    for material in dict.fromkeys(unknown):
-        remarks.append(f"The colour of '{material.name}' is not known all over, where it asks for what only its own "
-                       "object knows or its shaders send light back in another way than diffuse: its light may have "
-                       "another colour.")
-    for lamp in dict.fromkeys(made.lamp for made in prepared):
-        if lamp.type == "LIGHT" and not light_of_nodes(lamp.data)[1]:
-            remarks.append(f"The nodes of '{lamp.name}' tell more than one colour and one strength: its light counts "
-                           "as if the rest were plugged off.")
-    if not all(made.plain for made in prepared):
-        remarks.append("A mirror's colour that changes over it in a way that only the mirror knows, or that light "
-                       "meets after another mirror, counts as one: plug it off to choose which.")
+    remarks += remarks_on(prepared, unknown)
     return Thrown(objects, receivers, layers, remarks, dark)
 
 

@@ -2,6 +2,7 @@
 
 In come objects; out come eyes that look where light goes, with their power in Cycles' units.
 """
+from .area_lamps import is_sheared, rays_meet
 from .eye import Eye
 from .lamps import (
     GLINT,
@@ -16,5 +17,5 @@ from .lamps import (
 )
 from .mesh_lamps import EMISSION, radiance_of
 
-__all__ = ["EMISSION", "Eye", "GLINT", "NoLight", "chosen_lamps", "eyes_of", "has_a_size", "is_glint", "light_of_nodes",
-           "lights_renders", "meant_lamps", "radiance_of"]
+__all__ = ["EMISSION", "Eye", "GLINT", "NoLight", "chosen_lamps", "eyes_of", "has_a_size", "is_glint", "is_sheared",
+           "light_of_nodes", "lights_renders", "meant_lamps", "radiance_of", "rays_meet"]

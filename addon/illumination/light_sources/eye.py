@@ -22,8 +22,8 @@ class Eye:
     power : (3,) float64
         Red, green and blue: intensity along the axis in W/sr, or a sun's irradiance in W/m2.
     axes : (3, 3) float64
-        World axes x, y, z of the lamp, unit columns; it shines along -z. Of a spot lamp, whose cone is drawn out as it
-        is scaled, what turns ways @ axes into its own space.
+        World axes x, y, z of the lamp, unit columns, at right angles unless it is sheared; it shines along -z. Of a
+        spot lamp, whose cone is drawn out as it is scaled, what turns ways @ axes into its own space.
     kind : str
         As `bpy.types.Light.type`.
     cone : tuple of float
@@ -73,8 +73,9 @@ class Eye:
             return self._seen_area(places)
         if self.kind in {"POINT", "SUN"}:
             return np.ones(places.shape[:-1])
-        way = (places - self.lamp.place) @ self.axes
-        ahead = -way[..., 2] / np.maximum(np.linalg.norm(way, axis=-1), 1e-300)
+        way = places - self.lamp.place
+        own = way @ self.axes
+        ahead = -own[..., 2] / np.maximum(np.linalg.norm(own if self.kind == "SPOT" else way, axis=-1), 1e-300)
         if self.kind == "SPOT":
             # the blend is Cycles' smoothstep (`spot_light_attenuation` of its kernel)
             t = np.clip((ahead - self.cone[0]) / self.cone[1], 0.0, 1.0)

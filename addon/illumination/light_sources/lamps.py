@@ -11,11 +11,11 @@ import numpy as np
 
 from ....core import Lamp, ReflectionError
 from ... import compat
+from .area_lamps import across_area, disc, rays_meet, spread_of
 from .eye import Eye, across
 from .mesh_lamps import eyes_of_mesh, is_mesh_lamp
 
 FLAT = 1e-9  # volume that unit axes span: with less they lie in a plane
-SPREAD_LEAST = 1e-3  # radians: narrower area lamps are taken for as wide
 
 
 GLINT = "reflection_mesh_glint"
@@ -114,22 +114,19 @@ def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, 
     if not (power > 0.0).any():
         raise NoLight(f"The lamp '{lamp.name}' gives no light: raise its power.")
     if data.type == "SUN":
-        offsets = np.tan(0.5 * data.angle) * _disc(count)
+        offsets = np.tan(0.5 * data.angle) * disc(count)
         ways = -axes[:, 2] + offsets @ axes[:, :2].T
         power = power * _of_size(data, np.pi * np.sin(min(0.5 * data.angle, 0.5 * np.pi))**2, 1.0)
         return [Eye(Lamp.shining(way), power / count, axes, "SUN", (0.0, 0.0)) for way in ways]
     if data.type == "AREA":
-        size = np.array((data.size, data.size_y if data.shape in {"RECTANGLE", "ELLIPSE"} else data.size))
-        size = size * length[:2]
-        round_ = data.shape in {"DISK", "ELLIPSE"}
-        power = power / np.pi * _of_size(data, size.prod() * (np.pi / 4.0 if round_ else 1.0), 1.0)
-        spots = 0.5 * _disc(count) if round_ else _square(count)
-        offsets, cone = (spots * size) @ axes[:, :2].T, _spread(data.spread)
+        offsets, area = across_area(data, axes, length, count)
+        # of one that is sheared rays meet more than the area by which Cycles divides
+        power, cone = power / np.pi * _of_size(data, area, 1.0) * rays_meet(axes), spread_of(data.spread)
     else:
         radius = data.shadow_soft_size
         power = power / np.pi * _of_size(data, np.pi * radius**2, 0.25)
         # a ball looks like a disc, as bright everywhere
-        offsets = radius * _disc(count) @ across(towards.mean(axis=0) - place).T
+        offsets = radius * disc(count) @ across(towards.mean(axis=0) - place).T
     if data.type == "SPOT":
         half = np.cos(0.5 * data.spot_size)
         cone = half, max((1.0 - half) * data.spot_blend, 1e-6)
@@ -171,24 +168,3 @@ def light_of_nodes(data: bpy.types.Light) -> tuple[np.ndarray, bool]:
     colour, strength = (shader.inputs[name] for name in ("Color", "Strength"))
     light = np.array(colour.default_value[:3], dtype=np.float64) * strength.default_value
     return np.maximum(light, 0.0), not (colour.is_linked or strength.is_linked)
-
-
-def _disc(count: int) -> np.ndarray:
-    """Places (count, 2) spread evenly over the unit disc, by the golden angle; the middle for one."""
-    number = np.arange(count)
-    radius, angle = np.sqrt((number + 0.5) / count) * (count > 1), number * np.pi * (3.0 - np.sqrt(5.0))
-    return np.stack((radius * np.cos(angle), radius * np.sin(angle)), axis=1)
-
-
-def _square(count: int) -> np.ndarray:
-    """Places (count, 2) spread evenly over the square from -1/2 to 1/2: a lattice of rank one."""
-    number = np.arange(count)
-    return np.stack((((number + 0.5) / count) - 0.5, (number * 0.6180339887498949 + 0.5) % 1.0 - 0.5), axis=1)
-
-
-def _spread(spread: float) -> tuple[float, float]:
-    half = 0.5 * max(float(spread), SPREAD_LEAST)
-    if half >= 0.5 * np.pi - 1e-6:
-        return 0.0, 1.0
-    # so that the power stays what it is (`AreaLight` in Cycles' scene/light.cpp)
-    return 1.0 / np.tan(half), np.tan(half) / max(np.tan(half) - half, 1e-12)

@@ -145,6 +145,10 @@ LACKS = {
         "seine Shader Licht anders als diffus zurückwerfen: sein Licht kann eine andere Farbe haben.",
     "The nodes of '{}' tell more than one colour and one strength: its light counts as if the rest were plugged off.":
         "Die Nodes von '{}' sagen mehr als eine Farbe und eine Stärke: sein Licht zählt, als wäre der Rest abgezogen.",
+    "The lamp '{}' is sheared: mirrors throw what they show of it, while Cycles lights directly with more or less than "
+    "that; apply the scale of its parent.":
+        "Die Lampe '{}' ist geschert: Spiegel werfen, was sie von ihr zeigen, während Cycles direkt mit mehr oder "
+        "weniger als dem beleuchtet; wende die Skalierung ihres übergeordneten Objekts an.",
     "A mirror's colour that changes over it in a way that only the mirror knows, or that light meets after another "
     "mirror, counts as one: plug it off to choose which.":
         "Die Farbe eines Spiegels, die sich über ihn auf eine Weise ändert, die nur der Spiegel kennt, oder auf die "

@@ -7,13 +7,14 @@ import numpy as np
 import parts
 import pytest
 from lamp_scenes import picture, scene_of, shader_of
+from mathutils import Matrix
 
 LAMPS = {"Square": {"size": 0.8}, "Rectangle": {"shape": "RECTANGLE", "size": 1.0, "size_y": 0.4},
          "Disc": {"shape": "DISK", "size": 0.9}, "Ellipse": {"shape": "ELLIPSE", "size": 1.0, "size_y": 0.5},
          "Spread": {"size": 0.8, "spread": 1.2}, "Point": {"shadow_soft_size": 0.3, "use_soft_falloff": False},
          "Soft point": {"shadow_soft_size": 0.3, "use_soft_falloff": True},
          "Nodes": {"size": 0.8}, "Spot": {"shadow_soft_size": 0.3, "spot_size": 0.5, "spot_blend": 0.6},
-         "Scaled spot": {"shadow_soft_size": 0.3, "spot_size": 0.5, "spot_blend": 0.6}}
+         "Scaled spot": {"shadow_soft_size": 0.3, "spot_size": 0.5, "spot_blend": 0.6}, "Sheared": {"size": 0.7}}
 
 
 def dim_lamp(kind: str, energy: float = 3.0, location=(0.3, -6.6, 1.3), turn=(1.5, 0.1, 0.05)) -> bpy.types.Object:
@@ -24,6 +25,11 @@ def dim_lamp(kind: str, energy: float = 3.0, location=(0.3, -6.6, 1.3), turn=(1.
     made = bpy.context.object
     made.name = "Dim"
     made.scale = (0.5, 2.0, 1.0) if kind == "Scaled spot" else (1.0, 1.0, 1.0)
+    if kind == "Sheared":
+        made.parent = bpy.data.objects.new("Parent", None)
+        placed = made.matrix_basis.copy()
+        made.matrix_parent_inverse = placed @ Matrix.Shear("XY", 4, (0.3, 0.2)) @ Matrix.Shear(
+            "YZ", 4, (0.6, 0.0)) @ placed.inverted()
     for name, value in LAMPS[kind].items():
         setattr(made.data, name, value)
     made.data.energy, made.data.color = energy, (0.9, 0.6, 0.3)

@@ -1,0 +1,60 @@
+"""Area lamps as Cycles' rays meet them, also those that are sheared, and places that are spread evenly.
+
+The lamp lies across its own -z, within half its size along its x and its y (`area_light_intersect` of Cycles'
+kernel). Of one that is sheared, where these are not at right angles, that is another shape than its corners tell:
+mirrors show it so, and Cycles' own caustics are of it.
+"""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+SPREAD_LEAST = 1e-3  # radians: narrower area lamps are taken for as wide
+SHEARED = 1e-2  # cosine of two axes of a lamp: with more of it they are not at right angles
+
+
+def is_sheared(lamp: bpy.types.Object) -> bool:
+    """Whether an object is an area lamp whose axes are not at right angles: Cycles' samples of such a lamp are not
+    those of any shape, and its direct light is another than what its rays meet."""
+    if lamp.type != "LIGHT" or lamp.data.type != "AREA":
+        return False
+    axes = np.array(lamp.matrix_world, dtype=np.float64)[:3, :3]
+    axes = axes / np.maximum(np.linalg.norm(axes, axis=0), 1e-300)
+    return bool(np.abs(axes.T @ axes - np.diag((axes**2).sum(axis=0))).max() > SHEARED)
+
+
+def across_area(data: bpy.types.AreaLight, axes: np.ndarray, scale: np.ndarray,
+                count: int) -> tuple[np.ndarray, float]:
+    """Places (count, 3) on an area lamp, from its middle, and the area that Cycles takes it for, by its unit `axes`
+    (3, 3), as columns, and its `scale` (3,) along these."""
+    size = np.array((data.size, data.size_y if data.shape in {"RECTANGLE", "ELLIPSE"} else data.size)) * scale[:2]
+    is_round = data.shape in {"DISK", "ELLIPSE"}
+    spots = 0.5 * disc(count) if is_round else _square(count)
+    return (spots * size) @ np.linalg.inv(axes)[:2], size.prod() * (np.pi / 4.0 if is_round else 1.0)
+
+
+def rays_meet(axes: np.ndarray) -> float:
+    """How much larger an area lamp is that rays meet than what Cycles takes it for, by its unit axes (3, 3)."""
+    return 1.0 / abs(np.linalg.det(axes))
+
+
+def spread_of(spread: float) -> tuple[float, float]:
+    """The cotangent of half an area lamp's spread, and what makes up for what that takes."""
+    half = 0.5 * max(float(spread), SPREAD_LEAST)
+    if half >= 0.5 * np.pi - 1e-6:
+        return 0.0, 1.0
+    # so that the power stays what it is (`AreaLight` in Cycles' scene/light.cpp)
+    return 1.0 / np.tan(half), np.tan(half) / max(np.tan(half) - half, 1e-12)
+
+
+def disc(count: int) -> np.ndarray:
+    """Places (count, 2) spread evenly over the unit disc, by the golden angle; the middle for one."""
+    number = np.arange(count)
+    radius, angle = np.sqrt((number + 0.5) / count) * (count > 1), number * np.pi * (3.0 - np.sqrt(5.0))
+    return np.stack((radius * np.cos(angle), radius * np.sin(angle)), axis=1)
+
+
+def _square(count: int) -> np.ndarray:
+    """Places (count, 2) spread evenly over the square from -1/2 to 1/2: a lattice of rank one."""
+    number = np.arange(count)
+    return np.stack((((number + 0.5) / count) - 0.5, (number * 0.6180339887498949 + 0.5) % 1.0 - 0.5), axis=1)
