@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..faults import Steps, Undivided
-from ..illumination import has_a_size, leaves_out, let_lamps_light_mirrors
+from ..illumination import is_met, leaves_out, let_lamps_light_mirrors
 from ..rendering import copied_scene, rendered
 
 CHUNK = 64  # samples of one render of the reference: so often ESC is heard
@@ -62,7 +62,7 @@ def render_light(context: bpy.types.Context, results: list, counts: tuple, conve
     chunks = _chunks(max(converged, 2 * counts[-1]))
     with copied_scene(context, NAME) as (scene, back):
         _prepare(scene)
-        own_too = all(leaves_out(lamp, mirror) or not has_a_size(lamp) for lamp, mirror in map(_pair, results))
+        own_too = all(leaves_out(lamp, mirror) or not is_met(lamp) for lamp, mirror in map(_pair, results))
         seed, with_own = scene.cycles.seed, context.scene.cycles.caustics_reflective
         shots = _Shots(scene, seed, len(chunks) + 3 * len(counts))
         with ExitStack() as without:

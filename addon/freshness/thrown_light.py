@@ -51,16 +51,18 @@ def why_light_is_stale(context: bpy.types.Context, light: bpy.types.Object) -> s
 
 
 def lamp_numbers(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> tuple:
-    """Where a lamp stands and all that its data tells in numbers; of a mesh its shape and what it emits."""
+    """Where a lamp stands, whether mirrors see it, and all that its data tells in numbers; of a mesh its shape and what
+    it emits."""
     if lamp.type != "LIGHT":
-        return digests.digest_of(depsgraph, [lamp]), *(radiance_of(slot.material).tobytes()
+        return digests.digest_of(depsgraph, [lamp]), lamp.visible_glossy, *(radiance_of(slot.material).tobytes()
                                                        for slot in lamp.material_slots)
     evaluated = lamp.evaluated_get(depsgraph)
     data = evaluated.data
     # all data has numbers of its own, which say nothing of light, and are others in another session
     values = (getattr(data, prop.identifier) for prop in data.bl_rna.properties if prop.type in NUMBERS
               and prop.identifier != "use_nodes" and prop.identifier not in bpy.types.ID.bl_rna.properties)
-    return (np.array(evaluated.matrix_world, dtype=np.float32).tobytes(), light_of_nodes(data)[0].tobytes(),
+    return (np.array(evaluated.matrix_world, dtype=np.float32).tobytes(), lamp.visible_glossy,
+            light_of_nodes(data)[0].tobytes(),
             *(tuple(value) if hasattr(value, "__len__") and not isinstance(value, str | set) else str(value)
               for value in values))
 

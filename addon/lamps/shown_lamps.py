@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError
-from ..illumination import eyes_of, has_a_size, is_glint, rays_meet
+from ..illumination import eyes_of, is_glint, is_met, rays_meet
 from ..reading import seen_in, vectors
 
 KNOWN = ("mirror_position", "reflected_position", "bounces")  # what a result must tell
@@ -56,7 +56,7 @@ class ShownLamp:
 def lamps_that_show(context: bpy.types.Context) -> list[ShownLamp]:
     """The scene's lamps that mirrors show before what they reflect: suns lie behind all of it."""
     lamps = [obj for obj in context.view_layer.objects if obj.type == "LIGHT" and obj.data.type != "SUN"
-             and obj.visible_glossy and has_a_size(obj) and not is_glint(obj) and _is_met(obj.data)]
+             and is_met(obj) and not is_glint(obj)]
     if not lamps:
         return []
     depsgraph, shown = context.evaluated_depsgraph_get(), []
@@ -67,12 +67,6 @@ def lamps_that_show(context: bpy.types.Context) -> list[ShownLamp]:
             # it gives no light
             continue
     return shown
-
-
-def _is_met(data: bpy.types.Light) -> bool:
-    """Whether Cycles lets rays that mirrors send meet a lamp; other engines have no such switch."""
-    own = getattr(data, "cycles", None)
-    return own is None or (own.use_multiple_importance_sampling and not own.is_portal)
 
 
 def _shown(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> ShownLamp:

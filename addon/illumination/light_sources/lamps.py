@@ -78,11 +78,16 @@ def _is_portal(lamp: bpy.types.Object) -> bool:
     return own is not None and own.is_portal
 
 
-def has_a_size(lamp: bpy.types.Object) -> bool:
-    """Whether Cycles' rays can meet the lamp, so that it makes caustics of its own."""
-    data = lamp.data
+def is_met(lamp: bpy.types.Object) -> bool:
+    """Whether rays that mirrors send can meet the lamp, so that Cycles shows it in them and makes caustics of its own:
+    one that has a size, and that Cycles samples by such rays too; other engines have no such switch."""
+    data, own = lamp.data, getattr(lamp.data, "cycles", None)
+    if not lamp.visible_glossy:
+        return False
     if lamp.type != "LIGHT":
         return True
+    if own is not None and (not own.use_multiple_importance_sampling or own.is_portal):
+        return False
     return {"POINT": lambda: data.shadow_soft_size > 0.0, "SPOT": lambda: data.shadow_soft_size > 0.0,
             "SUN": lambda: data.angle > 0.0, "AREA": lambda: True}[data.type]()
 
@@ -104,6 +109,9 @@ def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, 
             length > 0.0, length, 1.0))):
         raise ReflectionError(f"The lamp '{lamp.name}' has a scale of zero or a position that is no number: clear its "
                               "transform.")
+    if not lamp.visible_glossy:
+        raise NoLight(f"The lamp '{lamp.name}' is hidden from glossy rays, and so from mirrors: switch its Ray "
+                      "Visibility > Glossy on.")
     if lamp.type != "LIGHT":
         eyes = eyes_of_mesh(depsgraph, lamp, count, towards)
         if not eyes:

@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ...faults import AllOrNothing
-from ..light_sources import has_a_size
+from ..light_sources import is_met
 from .own_caustics import leave_out_own_caustics, makes_own_caustics
 
 
@@ -13,7 +13,7 @@ def leave_out(scene: bpy.types.Scene, mirror: bpy.types.Object, lamp: bpy.types.
     """Leave out Cycles' own caustics of a lamp and a mirror, which shows `materials`, if it makes any; a sentence where
     that cannot be."""
     own, alone = makes_own_caustics(materials)
-    if scene.render.engine != "CYCLES" or not scene.cycles.caustics_reflective or not (own and has_a_size(lamp)):
+    if scene.render.engine != "CYCLES" or not scene.cycles.caustics_reflective or not (own and is_met(lamp)):
         return []
     if not alone:
         return [f"Cycles adds its own caustics of '{lamp.name}' in '{mirror.name}', which is lit as well as it "

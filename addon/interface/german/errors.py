@@ -119,6 +119,9 @@ LIGHT = {
     "The lamp '{}' has a scale of zero or a position that is no number: clear its transform.":
         "Die Lampe '{}' hat eine Skalierung von null oder einen Ort, der keine Zahl ist: setze ihre Transformation "
         "zurück.",
+    "The lamp '{}' is hidden from glossy rays, and so from mirrors: switch its Ray Visibility > Glossy on.":
+        "Die Lampe '{}' ist für glänzende Strahlen ausgeblendet, und so für Spiegel: schalte ihre Strahlensichtbarkeit "
+        "> Glänzend ein.",
     "The lamp '{}' gives no light: raise its power.": "Die Lampe '{}' gibt kein Licht: erhöhe ihre Leistung.",
     "The lamp '{}' gives no light to the mirror: raise the strength of its emission.":
         "Die Lampe '{}' gibt dem Spiegel kein Licht: erhöhe die Stärke ihrer Emission.",

@@ -108,7 +108,8 @@ def test_a_lamp_is_light_that_is_still_to_come(blank, room):
 
 def test_a_blender_without_cycles_has_lamps_too(room):
     """The switches that it adds to lamps are not there then."""
-    assert room("addon.lamps.shown_lamps")._is_met(SimpleNamespace())
+    plain = SimpleNamespace(type="LIGHT", visible_glossy=True, data=SimpleNamespace(type="AREA"))
+    assert room("addon.illumination").is_met(plain)
 
 
 @pytest.mark.parametrize("name", ["visible_glossy", "multiple importance", "far"])
