@@ -4,6 +4,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 
 import bpy
 import numpy as np
@@ -95,11 +96,11 @@ class Surroundings:
         return cls([surface.mesh for surface in surfaces], MirrorColours.of(surfaces), read_scene(depsgraph, sources),
                    blockers)
 
-    def rays(self, tracer: Callable = by_boxes, body: TriangleMesh | None = None) -> LightRays:
-        """The rays of one of the lamp's places; a lamp that is a mesh may hide with its `body`."""
+    def rays(self, ends: TriangleMesh, tracer: Callable = by_boxes, body: TriangleMesh | None = None) -> LightRays:
+        """The rays of one of the lamp's places, which end on a mesh; a lamp that is one may hide with its `body`."""
         others, blockers = (TriangleMesh.joined([mesh for mesh in meshes if mesh is not None])
                             for meshes in (self.surfaces[1:], (self.blockers, body)))
-        return LightRays(self.surfaces[0], receiving(self.scene)[0], others if len(others.triangles) else None,
+        return LightRays(self.surfaces[0], ends, others if len(others.triangles) else None,
                          blockers if len(blockers.triangles) else None, tracer)
 
     def watts(self, eye: Eye, landed: Landed) -> np.ndarray:
@@ -134,19 +135,23 @@ def against_rays(depsgraph: bpy.types.Depsgraph, result: bpy.types.Object, lit: 
     eyes = eyes_of(depsgraph, result.reflection_mesh.lamp, places_of(result),
                    surface.positions[surface.triangles].reshape(-1, 3))
     bodies = [eye.body for eye in eyes] if any(eye.body for eye in eyes) else [None]
-    rays = yield from part(in_steps(lambda: [around.rays(tracer, body) for body in bodies]), 0.0, 0.0)
-    normals, throws = receiving(around.scene)[0].face_normals(), max(THROWS, -(-count // RAYS_AT_ONCE))
+    receivers = receiving(around.scene, surface)
+    rays = yield from part(in_steps(lambda: [[around.rays(ends.mesh, tracer, body) for ends in receivers]
+                                             for body in bodies]), 0.0, 0.0)
+    normals, throws = around.scene.mesh.face_normals(), max(THROWS, -(-count // RAYS_AT_ONCE))
+    each = max(count // (throws * len(eyes) * len(receivers)), 1)
 
     def throw(number: int) -> tuple[np.ndarray, np.ndarray]:
         names, flux = [], []
-        for index, eye in enumerate(eyes):
+        for index, (eye, place) in enumerate(product(eyes, range(len(receivers)))):
             breathe()
-            landed = rays[index % len(rays)].thrown(eye.lamp, max(count // (throws * len(eyes)), 1),
-                                                    number * len(eyes) + index, lit.bounces)
+            seed = number * len(eyes) * len(receivers) + index
+            landed = rays[index // len(receivers) % len(rays)][place].thrown(eye.lamp, each, seed, lit.bounces)
             breathe()
-            names.append(squares.names(landed.points, normals[landed.source_face]))
+            ends = receivers[place]
+            names.append(squares.names(landed.points, normals[ends.kept[landed.source_face]]))
             breathe()
-            flux.append(around.watts(eye, landed))
+            flux.append(around.watts(eye, landed) * ends.share[landed.source_face])
         return added(np.concatenate(names), np.concatenate(flux))
     thrown = []
     for number in range(throws):

@@ -1,13 +1,11 @@
-"""What stands in the light's way: opaque objects beside the mirrors and what they light, and what of that is opaque."""
+"""What stands in the light's way: opaque objects beside the mirrors and what they light."""
 from __future__ import annotations
 
 import bpy
 import numpy as np
 
 from ... import core
-from ..reading import DiffuseScene, Participants, is_clear, is_opaque, materials_of, may_have_faces, read_scene
-
-ALL_CLEAR = "Light goes through all that is to be lit: select what it is to fall on, or give it the role Reflected."
+from ..reading import Participants, is_opaque, materials_of, may_have_faces, read_scene
 
 
 def blocking(context: bpy.types.Context, chosen: Participants) -> list:
@@ -32,21 +30,3 @@ def blockers_of(depsgraph: bpy.types.Depsgraph, objects: list) -> core.TriangleM
     if opaque.all():
         return scene.mesh
     return core.TriangleMesh(scene.mesh.positions, scene.mesh.triangles[opaque]) if opaque.any() else None
-
-
-def receiving(scene: DiffuseScene) -> tuple[core.TriangleMesh, np.ndarray]:
-    """What of a scene light ends on, and which of its triangles (k,) that is: clear glass is not lit, and what lies
-    behind it is.
-
-    Raises
-    ------
-    core.ReflectionError
-        Where there is no such thing.
-    """
-    clear = np.array([is_clear(material) for material in scene.materials])[scene.material]
-    if clear.all():
-        raise core.ReflectionError(ALL_CLEAR)
-    kept = np.flatnonzero(~clear)
-    if not clear.any():
-        return scene.mesh, kept
-    return core.TriangleMesh(scene.mesh.positions, scene.mesh.triangles[kept]), kept

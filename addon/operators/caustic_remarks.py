@@ -1,7 +1,8 @@
 """What light that mirrors throw lacks, in sentences for the user."""
 from __future__ import annotations
 
-from ..illumination import Caustic, is_sheared, light_of_nodes
+from ..illumination import Caustic, is_sheared, let_through, light_of_nodes
+from ..reading import DiffuseScene
 
 
 def remarks_on(prepared: list[Caustic], unknown: list) -> list[str]:
@@ -20,3 +21,9 @@ def remarks_on(prepared: list[Caustic], unknown: list) -> list[str]:
         remarks.append("A mirror's colour that changes over it in a way that only the mirror knows, or that light "
                        "meets after another mirror, counts as one: plug it off to choose which.")
     return remarks
+
+
+def remarks_on_lit(scene: DiffuseScene) -> list[str]:
+    """Where light ends in the scene that would go on."""
+    return [f"Light ends at '{material.name}', though some of it would go through: it does so where one number tells "
+            "how much, and for two such sheets." for material in let_through(scene)]

@@ -20,6 +20,7 @@ from ..illumination import (
     MirrorPart,
     MirrorPlaces,
     NoLight,
+    Receiving,
     Tint,
     blockers_of,
     blocking,
@@ -39,7 +40,7 @@ from ..reading import DiffuseScene, Participants, choose, materials_shown, read_
 from ..settings import UsesSettings, option
 from . import polls
 from .asked_light import Asked, asked_again, remember
-from .caustic_remarks import remarks_on
+from .caustic_remarks import remarks_on, remarks_on_lit
 from .shortcomings import left_out
 
 IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
@@ -109,19 +110,19 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     surfaces = {mirror: read_mirror(depsgraph, mirror) for mirror in chosen.mirrors}
     places = {mirror: MirrorPlaces(textured(mirror), places_on_mirror(depsgraph, mirror)) for mirror in surfaces}
     scene = read_scene(depsgraph, chosen.diffuse)
-    receivers = receiving(scene)
+    receivers = {mirror: receiving(scene, surface.mesh) for mirror, surface in surfaces.items()}
     standing = blocking(context, chosen)
     blockers = {lamp: blockers_of(depsgraph, [obj for obj in standing if obj != lamp]) for lamp in lamps}
     origins = {}
     for pair in pairs:
         origins[pair] = light_record(context, *pair, scene.sources)
         yield 0.0, "Reading the scene"
-    prepared, dark, refused = [], [], left_out(context, chosen.hidden)
+    prepared, dark, refused = [], [], left_out(context, chosen.hidden) + remarks_on_lit(scene)
     for number, (mirror, lamp) in enumerate(pairs):
         name = name_of(mirror, lamp, lamps)
         eyes = partial(eyes_of, depsgraph, lamp, wanted.places(mirror, lamp))
         parts = parts_of(surfaces[mirror], [surfaces[other] for other in chosen.mirrors if other != mirror])
-        steps = _lit(eyes, parts, receivers, blockers[lamp], wanted.settings(mirror))
+        steps = _lit(eyes, parts, receivers[mirror], blockers[lamp], wanted.settings(mirror))
         try:
             lit = yield from part(steps, READING + (1.0 - READING) * number / len(pairs), (1.0 - READING) / len(pairs),
                                   name)
@@ -132,8 +133,9 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
             continue
         done = READING + (1.0 - READING) * (number + 1) / len(pairs)
         steps = _made(context, name, (mirror, lamp), lit, scene, places[mirror])
-        made = yield from part(steps, done, 0.0, name)
-        prepared.append(replace(made, eyes=wanted.places(mirror, lamp)))
+        made = replace((yield from part(steps, done, 0.0, name)), eyes=wanted.places(mirror, lamp))
+        # what is seen through sheets passes the layers on each of them
+        prepared.append(replace(made, layers=made.layers * len(receivers[mirror]).bit_length()))
     if not prepared:
         raise (NothingThrown if len(dark) == len(pairs) else core.ReflectionError)(refused[-1])
     yield 1.0, "Writing"
@@ -149,19 +151,19 @@ def name_of(mirror: bpy.types.Object, lamp: bpy.types.Object, lamps: list) -> st
     return f"{mirror.name} Caustics{f' {lamp.name}' if len(lamps) > 1 else ''}"
 
 
-def _lit(eyes_of_lamp: Callable, parts: list[MirrorPart], receivers: tuple,
+def _lit(eyes_of_lamp: Callable, parts: list[MirrorPart], receivers: list[Receiving],
          blockers: core.TriangleMesh | None, settings: core.Settings) -> Steps[list]:
-    """The light (eye, part, mesh) of each of a lamp's places that each part of a mirror throws on `receivers`, a mesh
-    and which triangles of the scene it has; where none throws any, the error of the last."""
-    (lit, told), (receiving_mesh, kept) = ([], None), receivers
+    """The light (eye, part, mesh) of each of a lamp's places that each part of a mirror throws on all `receivers`, on
+    the triangles of the scene; where none throws any, the error of the last."""
+    lit, told = [], None
     eyes = eyes_of_lamp(np.concatenate([own.mesh.positions[own.mesh.triangles.ravel()] for own in parts]))
-    for number, (eye, own) in enumerate(product(eyes, parts)):
-        steps = core.caustic_steps(eye.shining, own.mesh, receiving_mesh, settings, own.others,
-                                   _joined([blockers, eye.body]))
-        share = 1.0 / (len(eyes) * len(parts))
+    share = 1.0 / (len(eyes) * len(parts) * len(receivers))
+    for number, (eye, own, ends) in enumerate(product(eyes, parts, receivers)):
+        standing = _joined([blockers, eye.body])
+        steps = core.caustic_steps(eye.shining, own.mesh, ends.mesh, settings, own.others, standing)
         try:
             mesh = yield from part(steps, number * share, share)
-            lit.append((eye, own, replace(mesh, source_face=kept[mesh.source_face])))
+            lit.append((eye, own, replace(mesh, **ends.counted(mesh))))
         except core.ReflectionError as error:
             told = error
     if not lit:

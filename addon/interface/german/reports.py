@@ -145,6 +145,10 @@ LACKS = {
         "seine Shader Licht anders als diffus zurückwerfen: sein Licht kann eine andere Farbe haben.",
     "The nodes of '{}' tell more than one colour and one strength: its light counts as if the rest were plugged off.":
         "Die Nodes von '{}' sagen mehr als eine Farbe und eine Stärke: sein Licht zählt, als wäre der Rest abgezogen.",
+    "Light ends at '{}', though some of it would go through: it does so where one number tells how much, and for two "
+    "such sheets.":
+        "Licht endet bei '{}', obwohl ein Teil hindurchginge: das tut es, wo eine Zahl sagt, wie viel, und bei zwei "
+        "solchen Schichten.",
     "The lamp '{}' is sheared: mirrors throw what they show of it, while Cycles lights directly with more or less than "
     "that; apply the scale of its parent.":
         "Die Lampe '{}' ist geschert: Spiegel werfen, was sie von ihr zeigen, während Cycles direkt mit mehr oder "

@@ -130,7 +130,7 @@ def test_clear_panes_are_not_lit_and_shade_nothing(blank, room, capfd, kind, gro
     assert flux() == pytest.approx(free, rel=1e-6) and _on("Window") == 0.0
     floor.data.materials[0] = material
     parts.select(lamp, mirror)
-    assert parts.refusal(bpy.ops.reflection_mesh.caustics) == room("addon.illumination.in_the_way").ALL_CLEAR
+    assert parts.refusal(bpy.ops.reflection_mesh.caustics) == room("addon.illumination.sheets").ALL_CLEAR
 
 
 def _on(name: str) -> float:
