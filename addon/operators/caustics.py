@@ -40,7 +40,7 @@ from ..reading import DiffuseScene, Participants, choose, materials_shown, read_
 from ..settings import UsesSettings, option
 from . import polls
 from .asked_light import Asked, asked_again, remember
-from .caustic_remarks import remarks_on, remarks_on_lit
+from .caustic_remarks import remarks_on, remarks_on_taking
 from .shortcomings import left_out
 
 IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
@@ -117,7 +117,8 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     for pair in pairs:
         origins[pair] = light_record(context, *pair, scene.sources)
         yield 0.0, "Reading the scene"
-    prepared, dark, refused = [], [], left_out(context, chosen.hidden) + remarks_on_lit(scene)
+    prepared, dark = [], []
+    refused = left_out(context, chosen.hidden) + remarks_on_taking(scene, surfaces)
     for number, (mirror, lamp) in enumerate(pairs):
         name = name_of(mirror, lamp, lamps)
         eyes = partial(eyes_of, depsgraph, lamp, wanted.places(mirror, lamp))

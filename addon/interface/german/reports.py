@@ -149,6 +149,10 @@ LACKS = {
     "such sheets.":
         "Licht endet bei '{}', obwohl ein Teil hindurchginge: das tut es, wo eine Zahl sagt, wie viel, und bei zwei "
         "solchen Schichten.",
+    "The mirror '{}' is coarse and shaded smooth: Cycles bends its normals, and throws more light than is here; give "
+    "it more faces, or shade it flat.":
+        "Der Spiegel '{}' ist grob und weich schattiert: Cycles biegt seine Normalen, und wirft mehr Licht als hier; "
+        "gib ihm mehr Flächen, oder schattiere ihn flach.",
     "The lamp '{}' is sheared: mirrors throw what they show of it, while Cycles lights directly with more or less than "
     "that; apply the scale of its parent.":
         "Die Lampe '{}' ist geschert: Spiegel werfen, was sie von ihr zeigen, während Cycles direkt mit mehr oder "
