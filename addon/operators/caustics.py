@@ -117,8 +117,7 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     for pair in pairs:
         origins[pair] = light_record(context, *pair, scene.sources)
         yield 0.0, "Reading the scene"
-    prepared, dark = [], []
-    refused = left_out(context, chosen.hidden) + remarks_on_taking(scene, surfaces)
+    prepared, dark, refused = [], [], left_out(context, chosen.hidden) + remarks_on_taking(scene, surfaces)
     for number, (mirror, lamp) in enumerate(pairs):
         name = name_of(mirror, lamp, lamps)
         eyes = partial(eyes_of, depsgraph, lamp, wanted.places(mirror, lamp))

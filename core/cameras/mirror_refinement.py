@@ -24,7 +24,7 @@ from .camera_splitting import edge_middles, in_picture, shares_in_picture, split
 from .shading_horizon import beyond_horizon
 from .three_ray_cameras import Cameras
 
-LEVELS = 48
+LEVELS, DEEPER, FEW = 12, 48, 1024  # how often cameras are split; how often where only few are left to be
 BESIDE = 8.0  # times the tolerance: what rays may stray by beside an edge
 INDEPENDENT = 1e-6  # sine between the motions along two edges: below, as on a fold, nothing can be solved in them
 ROUNDING = 1e-14  # radians: what unit vectors are rounded by must not split a flat mirror
@@ -53,22 +53,16 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
     cameras = cameras.select(in_picture(cameras))
     finished: list[Cameras] = []
     limited = True
-    for _ in range(LEVELS):
+    for level in range(DEEPER):
         breathe()
-        if sum(map(len, finished)) + len(cameras) > maximum:
+        # an eye close above a large triangle asks for many levels of few cameras; more of many end nowhere
+        if sum(map(len, finished)) + len(cameras) > maximum or (level >= LEVELS and len(cameras) > FEW):
             break
         ends, first, edge = shared_edges(cameras.corners)
         share = shares_in_picture(cameras, ends)
         middles, origins, rays = edge_middles(cameras, ends, first, share)
         edges = _Edges.of(cameras, ends, share, rays)
-        marked = _straying(cameras, edges, reach) > tolerance
-        marked |= _straying_beside(cameras, edges, edge, reach) > BESIDE * tolerance
-        marked |= _parted(cameras, edges)
-        # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
-        asked = np.flatnonzero(marked[edge].any(axis=1))
-        worth = np.zeros(len(ends), dtype=bool)
-        worth[edge[asked[~beyond_horizon(cameras.select(asked))]]] = True
-        marked &= worth
+        marked = _marked(cameras, edges, edge, reach, tolerance)
         if not marked.any():
             limited = False
             break
@@ -116,6 +110,18 @@ class _Edges:
         # what strays grows from either end
         turns = (unit(middle_rays) - given) / (4.0 * share * (1.0 - share))
         return cls(ends, pixels, lengths, given, np.where(norm(turns) > ROUNDING, turns, 0.0))
+
+
+def _marked(cameras: Cameras, edges: _Edges, edge: np.ndarray, reach: float, tolerance: float) -> np.ndarray:
+    """Which edges (e,), `edge` (n, 3) of the cameras, are to be split."""
+    marked = _straying(cameras, edges, reach) > tolerance
+    marked |= _straying_beside(cameras, edges, edge, reach) > BESIDE * tolerance
+    marked |= _parted(cameras, edges)
+    # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
+    asked = np.flatnonzero(marked[edge].any(axis=1))
+    worth = np.zeros(len(marked), dtype=bool)
+    worth[edge[asked[~beyond_horizon(cameras.select(asked))]]] = True
+    return marked & worth
 
 
 def _straying(cameras: Cameras, edges: _Edges, reach: float) -> np.ndarray:
