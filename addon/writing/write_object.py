@@ -125,12 +125,13 @@ def _fill(obj: bpy.types.Object, made: Reflection, whole: AllOrNothing, changes:
 
 
 def new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
-    """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet; its name tells
-    its camera where the mirror has results for others."""
+    """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet, and a hole where
+    the mirror is one; its name tells its camera where the mirror has results for others."""
     camera = context.scene.camera.name if every_result_of(context, mirror) else ""
     obj = new_beside(context, result_name(mirror, camera), mirror, whole)
     for rays in RAYS:
         setattr(obj, rays, False)
+    obj.is_holdout = mirror.is_holdout
     # Line Art takes creases from the sharp edges alone, and no lines where layers that touch sink into each other
     obj.lineart.use_crease_override, obj.lineart.crease_threshold = True, 0.0
     obj.lineart.usage = "NO_INTERSECTION"

@@ -26,7 +26,7 @@ def materials_on_faces(obj: bpy.types.Object) -> list:
     used = np.zeros(len(obj.data.polygons), dtype=np.int32)
     obj.data.polygons.foreach_get("material_index", used)
     # as Blender does, the last slot where there are too few
-    return [own[index] for index in np.unique(used.clip(0, len(own) - 1)).tolist()]
+    return [own[index] for index in np.flatnonzero(np.bincount(used.clip(0, len(own) - 1))).tolist()]
 
 
 def all_fog(obj: bpy.types.Object) -> bool:

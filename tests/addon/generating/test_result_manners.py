@@ -110,6 +110,14 @@ def test_no_collection_is_made_for_nothing(scene):
     assert pressed().users_collection[0] == held and list(bpy.data.collections) == [held]
 
 
+@pytest.mark.parametrize("held_out", [False, True])
+def test_the_result_of_a_mirror_that_is_a_hole_is_one(scene, held_out):
+    """By its own switch, not its collection's: the result would lie over the hole."""
+    mirror, _ = scene
+    mirror.is_holdout = held_out
+    assert parts.generate().is_holdout == held_out
+
+
 def test_what_fails_leaves_no_collection(scene, room, monkeypatch):
     def failing(*_):
         raise OSError("no room")
