@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, ReflectionMap
-from ..geometry import SceneFrames, columns, dot, doubled_areas, edge_lengths, largest, norm, shared_edges, smallest
+from ..geometry import SceneFrames, columns, dot, largest, norm, shared_edges, smallest
 from ..support import breathe
 from ..views import View
 from .polygon_corners import Nodes
@@ -21,7 +21,6 @@ from .triangulation import Faces
 
 LEVELS = 20
 SHORTEST_EDGE = 0.25  # pixels
-THIN = 0.01  # pixels: what a face shows that is no wider
 MARGIN = 2.0  # pixels round the picture: nobody sees a face beyond
 FORESHORTENED = 4.0  # times as far from the eye's plane as its other end: an edge that is halved in the picture
 NEAR_MIDDLE = 0.45  # of an edge: how far from its middle it may be split
@@ -135,15 +134,14 @@ class FaceRefinement:
         return marked, np.stack((left, length)), chosen, (ends, edge, marked, (place, point, distance))
 
     def _in_picture(self, pixels: np.ndarray, corners: np.ndarray) -> np.ndarray:
-        """Which faces with nodes `corners` (m, 3), at `pixels` (n, 2), are not all beside the picture, nor too thin to
-        be seen. What a face shows in the picture is decided by its edges beside it too."""
+        """Which faces with nodes `corners` (m, 3), at `pixels` (n, 2), are not all beside the picture: what a face
+        shows in it is decided by its edges beside it too."""
         inside = np.ones(len(corners), dtype=bool)
         for place, size in zip(pixels.T, self._view.resolution):
             spots = np.take(place, corners.T)
             inside &= ~((largest(spots) < -MARGIN) | (smallest(spots) > size + MARGIN))
         breathe()
-        spots = pixels[corners]
-        return inside & ~(np.abs(doubled_areas(spots)) < THIN * edge_lengths(spots).max(axis=1))
+        return inside
 
     def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """How far along drawn edges from nodes `a` to `b` (e,) each is best split, and where on the mirror that is.
