@@ -50,11 +50,13 @@ def replaceable(path: str) -> bool:
 
 
 def _make(folder: str, made: AllOrNothing) -> None:
-    """Make a folder and those above it that are missing."""
+    """Make a folder and those above it that are missing; another process may do so at the same time."""
     for path in _missing(folder):
         try:
             os.mkdir(path)
         except OSError as error:
+            if os.path.isdir(path):
+                continue
             raise ReflectionError(f"The folder '{folder}' cannot be made ({error.strerror}): choose another one."
                                   ) from error
         made.undo(_forget, os.rmdir, path)
@@ -100,7 +102,12 @@ def _make_folder(target: str, spare: str, whole: AllOrNothing) -> None:
         whole.undo(os.replace, spare, target)
     elif os.path.isdir(target):
         return
-    os.mkdir(target)
+    try:
+        os.mkdir(target)
+    except FileExistsError:
+        if os.path.isdir(target):  # another process has just made it
+            return
+        raise
     whole.undo(_forget, os.rmdir, target)
 
 

@@ -145,6 +145,26 @@ def test_results_take_their_places_all_or_none(room, tmp_path, monkeypatch):
     assert faults.contents(folder) == dict.fromkeys(names, b"new")
 
 
+def test_a_folder_that_another_process_makes_at_the_same_time_will_do(room, tmp_path, monkeypatch):
+    folder, made = tmp_path / "out" / "inner", os.mkdir
+
+    def late(path, *arguments):
+        if "reflection_mesh" not in str(path):
+            made(path, *arguments)
+        made(path, *arguments)
+    monkeypatch.setattr(os, "mkdir", late)
+    staged = room("addon.files").staged
+    with pytest.raises(ZeroDivisionError), staged(str(folder)) as scratch:
+        (Path(scratch) / "a.txt").write_text("new")
+        raise ZeroDivisionError
+    assert folder.is_dir() and not list(folder.iterdir())  # it is theirs
+    with staged(str(folder)) as scratch:
+        (Path(scratch) / "a.txt").write_text("new")
+        made(Path(scratch) / "plots")
+        (Path(scratch) / "plots" / "b.txt").write_text("new")
+    assert faults.contents(folder) == {"a.txt": b"new", "plots/b.txt": b"new"}
+
+
 def test_a_benchmark_takes_its_place_at_the_end(saved_scene, room, tmp_path, monkeypatch):
     folder, line = tmp_path / "out", ["benchmark", "--no-work", "--samples", "1", "--methods", "ENVIRONMENT",
                                       "--resolution", "32", "--output"]
