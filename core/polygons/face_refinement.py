@@ -24,6 +24,7 @@ SHORTEST_EDGE = 0.25  # pixels
 MARGIN = 2.0  # pixels round the picture: nobody sees a face beyond
 FORESHORTENED = 4.0  # times as far from the eye's plane as its other end: an edge that is halved in the picture
 NEAR_MIDDLE = 0.45  # of an edge: how far from its middle it may be split
+QUARTER = 0.25  # of an edge: no farther than that from its middle no better place is looked for
 
 
 @dataclass(frozen=True)
@@ -115,20 +116,23 @@ class FaceRefinement:
         along = np.flatnonzero(chosen & outline)
         # an end many times as near as the other: the edge's middle is seen far from the middle of its image, and what
         # is seen there is nearest to another point of it
-        for target in (shown, None):
-            target = _nearest(nodes.point, a[along], b[along], point[:, along]) if target is None else target[:, along]
-            on_face = mirror_face[along]
-            found, s = self._map.locate(on_face, uv[:, along], distance[along], target)
-            spot = self._map.places(on_face, found)
-            away = np.linalg.norm(self._view.pixels(spot.T) - self._view.pixels(place[:, along].T), axis=1)
-            good = (away <= NEAR_MIDDLE * length[along]) & self._map.meets(on_face, found, s, target)
-            # a point of the edge: the triangle on its other side shares the node
-            settled, along = along[good], along[~good]
-            point[:, settled], place[:, settled], distance[settled] = target[:, good], spot[:, good], s[good]
-            if not len(along):
+        middle, seen, guess = place[:, along], point[:, along], distance[along]
+        best = np.full(len(along), np.inf)
+        for target in (shown[:, along], _nearest(nodes.point, a[along], b[along], seen)):
+            asked = np.flatnonzero(best > QUARTER * length[along])
+            if not len(asked):
                 break
+            own, target = along[asked], target[:, asked]
+            found, s = self._map.locate(mirror_face[own], uv[:, own], guess[asked], target)
+            spot = self._map.places(mirror_face[own], found)
+            away = np.linalg.norm(self._view.pixels(spot.T) - self._view.pixels(middle[:, asked].T), axis=1)
+            nearer = (away < best[asked]) & self._map.meets(mirror_face[own], found, s, target)
+            # a point of the edge: the triangle on its other side shares the node
+            settled = own[nearer]
+            best[asked[nearer]] = away[nearer]
+            point[:, settled], place[:, settled], distance[settled] = target[:, nearer], spot[:, nearer], s[nearer]
         # an image at the edge's end, or none, straightens nothing however often the edge is split
-        chosen[along] = False
+        chosen[along[best > NEAR_MIDDLE * length[along]]] = False
         marked[open_] = chosen
         place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]
         return marked, np.stack((left, length)), chosen, (ends, edge, marked, (place, point, distance))

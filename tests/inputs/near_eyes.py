@@ -14,6 +14,21 @@ def bent_triangle():
     return TriangleMesh(corners, np.array([(0, 1, 2)]), normals)
 
 
+def tilted_triangle():
+    """A flat triangle that stands steeply."""
+    return TriangleMesh(np.array([(-0.429, -1.0, 0.707), (-0.143, -1.0, 0.609), (-0.429, -0.875, 0.567)]),
+                        np.array([(0, 1, 2)]))
+
+
+def above_tilted(height):
+    """An eye so high before the middle of that triangle, which looks along it with a wide lens."""
+    a, b, c = tilted_triangle().positions
+    normal = np.cross(c - a, b - a) / np.linalg.norm(np.cross(c - a, b - a))
+    eye = np.array((-0.34, -1.0, 0.675))
+    eye += (height - (eye - a) @ normal) * normal
+    return View.looking_at(eye, eye - (0.12, -0.71, 0.69), (160, 120), up=(-0.99, -0.16, 0.0), field_of_view=2.4)
+
+
 def drawn(seed):
     """A mirror, an eye from a ten-thousandth to a tenth above a place on it, looking along it, and a scene."""
     rng = np.random.default_rng(seed)

@@ -30,3 +30,15 @@ def test_eyes_close_above_mirrors_keep_the_tolerance(seed):
     assert numbers["compared"] > 500
     assert numbers["p99"] < 0.5
     assert numbers["uncovered"] < 0.3
+
+
+@pytest.mark.parametrize("height", [0.0003, 0.001, 0.003])
+def test_an_outline_is_split_in_its_picture_and_not_at_its_end(height):
+    """The edge between a sheet's triangles ends forty times nearer to the eye than it begins: of what is linear along
+    it the picture's middle is a twentieth from an end, and a twentieth of the rest after the next split."""
+    mirror, scene = near_eyes.tilted_triangle(), shapes.combine(shapes.quad((0, 0, -1.6), (60, 0, 0), (0, 60, 0)))
+    view = near_eyes.above_tilted(height)
+    numbers = judge(view, mirror, scene, reflect(view, mirror, scene))
+    assert numbers["compared"] > 9000
+    assert numbers["maximum"] < 1.0
+    assert numbers["uncovered"] < 0.1
