@@ -10,7 +10,8 @@ from core import TriangleMesh
 EMBREE = importlib.util.find_spec("embreex") is not None
 # A hit nearer than this part of the mesh's size is the surface that the ray starts on.
 TOUCHING = 1e-7
-# At most so many surfaces that do not count lie between the start of a ray and its first hit.
+# Surfaces that do not count and lie between the start of a ray and its first hit: of more, as where a ray leaves along
+# its own triangle and Embree meets that over and over, all is asked.
 PASSES = 8
 RAYS_TIMES_TRIANGLES = 1_000_000
 
@@ -99,6 +100,8 @@ def _embree(mesh, origins, directions, own, touching, strict):
         triangle[left[good]], distance[left[good]] = candidate[good], along[good]
         skip[left] += np.asarray(found["tfar"], dtype=np.float64)[hit] + touching
         left = left[~good]
+    if len(left):
+        triangle[left], distance[left] = _brute_force(mesh, origins[left], directions[left], own[left], touching)
     return triangle, distance
 
 

@@ -51,6 +51,23 @@ def test_a_ray_that_leaves_a_convex_surface_never_meets_it(embree):
 
 
 @pytest.mark.parametrize("embree", ENGINES)
+def test_a_ray_that_leaves_along_its_triangle_meets_what_is_there(embree):
+    """In single precision it begins on the triangle, a step further too."""
+    half, rng = (0.622, 0.572, 0.824), np.random.default_rng(6)
+    sides = [np.roll(((part, 0, 0), (0, half[(k + 1) % 3], 0), (0, 0, half[(k + 2) % 3])), k, axis=1)
+             for k in range(3) for part in (-half[k], half[k])]
+    box = shapes.combine(*(shapes.quad(*side) for side in sides))
+    q = np.column_stack((rng.uniform(-0.5, 0.0, 2000), np.full(2000, -half[1]), rng.uniform(-0.5, 0.5, 2000)))
+    directions = np.column_stack((np.full(2000, -1.0), rng.uniform(0.001, 0.1, 2000), rng.uniform(-0.4, 0.4, 2000)))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    own, _ = first_hits(box, q + (0, 0.1, 0), np.tile((0.0, -1.0, 0.0), (2000, 1)), embree=False)
+    hit, distance = first_hits(box, q, directions, leaving=own, embree=embree)
+    assert (hit >= 0).all() and not (hit == own).any()
+    met = np.abs((q + distance[:, None] * directions) / half).max(axis=1)
+    np.testing.assert_allclose(met, 1.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("embree", ENGINES)
 @pytest.mark.parametrize("orthographic", [False, True])
 def test_flat_mirror_sees_what_an_eye_behind_it_sees(embree, orthographic):
     case = flat((48, 40), orthographic=orthographic)
