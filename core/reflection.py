@@ -14,7 +14,6 @@ from .cameras import (
     MirrorMap,
     cut_at_horizon,
     in_picture,
-    picture_areas,
     three_ray_cameras,
     visible_triangles,
 )
@@ -256,14 +255,8 @@ def _bounces(cameras: Cameras, task: Task, showing: MirrorsShown) -> list[Bounce
         bounces.append(bounced(cameras, replace(task, limits=limits, last=last), showing))
         if last:
             break
-        cameras = bounced_cameras(bounces[-1], met)
-        # of mirrors that scatter what they show only the largest parts are followed
-        limits, found = limits.of_next_bounce(), len(cameras)
-        if found > limits.bounced:
-            largest = np.argsort(-picture_areas(cameras), kind="stable")[:limits.bounced]
-            cameras = cameras.select(np.sort(largest))
-        cameras = cut_at_horizon(cameras)
-        progress.done("cameras", bounced_cameras=len(cameras), unfollowed=max(found - limits.bounced, 0))
+        limits, cameras = limits.of_next_bounce(), cut_at_horizon(bounced_cameras(bounces[-1], met))
+        progress.done("cameras", bounced_cameras=len(cameras))
         if not len(cameras):
             break
         showing = showing_mirrors(cameras, met, limits)

@@ -43,9 +43,6 @@ SENTENCES = {
     "many_outlines":
         "In {count} parts of the mirror more outlines of mirrors cross than can be cut along, and their edges"
         " are rough: simplify the mirrors.",
-    "unfollowed":
-        "{count} small parts of mirrors in mirrors are not followed further, since the picture is too small "
-        "for them: lower the depth or enlarge the picture.",
     "bounded":
         "Refinement stopped at the largest number of faces, so that the error may exceed the tolerance: raise"
         " the tolerance or the memory.",

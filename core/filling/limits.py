@@ -45,7 +45,7 @@ class Limits:
         Work in such a square, from which on a ray through it shows all that is to be seen there; infinite where all of
         the geometry is asked for.
     bounced : int
-        Cameras that a bounce hands on to the next.
+        Cameras of a later bounce.
     pieces : int
         Of the scene's triangles, whole faces among them.
     memory : int
@@ -86,5 +86,6 @@ class Limits:
                        candidates=int(min(self.candidates, room / CANDIDATE_BYTES)))
 
     def of_next_bounce(self) -> Limits:
-        """Light that has met one mirror more shows less, each part of it smaller."""
-        return replace(self, **{name: int(LATER * most) for name, most in vars(self).items() if isinstance(most, int)})
+        """Light that has met one mirror more shows less, each part of it smaller: rays show all but the largest."""
+        later = {name: int(LATER * most) for name, most in vars(self).items() if isinstance(most, int)}
+        return replace(self, **{**later, "cameras": later["bounced"]})

@@ -41,9 +41,8 @@ class ReflectionMesh:
         that hold their whole triangle and `cut` ones, edges that a bound on depth or count left too long (`limited`),
         whether it was the bound on count (`bounded`), cameras that are too small to be cut (`open`), those in which so
         much lies over one another that rays show it as finely (`dense`) or more coarsely than was asked for
-        (`crowded`), all of which are `filled` by cells that `rays` tell what to show,
-        cameras of later bounces that were not followed (`unfollowed`), `probes` that see a diffuse object and those of
-        them that no face shows (`missed`).
+        (`crowded`), all of which are `filled` by cells that `rays` tell what to show, `probes` that see a diffuse
+        object and those of them that no face shows (`missed`).
     seconds : dict
         Time by stage.
     estimated_error : float

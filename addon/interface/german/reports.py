@@ -196,10 +196,6 @@ LACKS = {
     "simplify the mirrors.":
         "In {count} Teilen des Spiegels kreuzen sich mehr Umrisse von Spiegeln, als sich schneiden lassen, und ihre "
         "Ränder sind rau: vereinfache die Spiegel.",
-    "{count} small parts of mirrors in mirrors are not followed further, since the picture is too small for them: "
-    "lower the depth or enlarge the picture.":
-        "{count} kleine Teile von Spiegeln in Spiegeln werden nicht weiter verfolgt, weil das Bild für sie zu klein "
-        "ist: verringere die Tiefe, oder vergrößere das Bild.",
     "Refinement stopped at the largest number of faces, so that the error may exceed the tolerance: raise the "
     "tolerance or the memory.":
         "Die Verfeinerung endete bei der größten Zahl von Flächen, so dass der Fehler größer als die Toleranz sein "

@@ -6,7 +6,7 @@ import bpy
 import parts
 import pytest
 
-COUNTS = ("crowded", "overlaid", "pierced", "many_outlines", "unfollowed", "bounded", "coarse")
+COUNTS = ("crowded", "overlaid", "pierced", "many_outlines", "bounded", "coarse")
 
 
 @pytest.fixture(scope="module")
