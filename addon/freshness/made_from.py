@@ -10,7 +10,7 @@ import numpy as np
 from ...core import ReflectionError, View
 from ..frames import plays
 from ..lighting import shows_preview
-from ..reading import lines_drawn, looked_through, read_view
+from ..reading import is_gone, lines_drawn, looked_through, read_view
 from ..settings import SETTINGS, Wanted
 from . import digests
 from .materials import colours_of, materials_of
@@ -71,7 +71,11 @@ def why_stale(context: bpy.types.Context, result: bpy.types.Object) -> str:
     As cheap as a look: what it finds is kept until something changes again.
     """
     record = result.reflection_mesh
-    if not record.made_from or plays(result):
+    if plays(result):
+        return ""
+    if is_gone(record.mirror):
+        return "its mirror is gone, deleted or joined to another object: clear it"
+    if not record.made_from:
         return ""
     # settings are no change that Blender tells of
     key = digests.tick(), record.made_from, *settings_of(context.scene, record.mirror).values()
@@ -89,7 +93,7 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
     if made is None:
         return ""
     sources = [source.object for source in record.sources]
-    if record.mirror is None or None in sources:
+    if any(map(is_gone, sources)):
         return "an object was removed"
     try:
         now = origin_of(context.evaluated_depsgraph_get(), read_view(context), record.mirror, sources)

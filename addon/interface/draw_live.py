@@ -6,7 +6,7 @@ from bpy.app.translations import pgettext_iface
 
 from ..faults import translated
 from ..freshness import why_light_is_stale, why_stale
-from ..live import kept_light, kept_results, present
+from ..live import abandoned_results, kept_light, kept_results, present
 from .draw_lines import draw_sentence
 
 
@@ -22,12 +22,13 @@ def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     if updater is not None:
         draw_sentence(layout, context, state_of(updater), icon="TIME")
         return
-    stale = [(obj, why) for obj in kept_results(context) if (why := why_stale(context, obj))]
+    gone = abandoned_results(context)
+    stale = [(obj, why) for obj in kept_results(context) + gone if (why := why_stale(context, obj))]
     stale += [(obj, why) for obj in kept_light(context) if (why := why_light_is_stale(context, obj))]
     for obj, why in stale:
         layout.label(text=pgettext_iface("'{name}' is stale:").format(name=obj.name), icon="ERROR", translate=False)
         draw_sentence(layout, context, f"{pgettext_iface(why)}.")
-    if stale:
+    if any(obj not in gone for obj, _ in stale):
         layout.operator("reflection_mesh.update", icon="FILE_REFRESH")
 
 

@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_iface
 from ...core.result.reflection_mesh import filled_share
 from ..frames import plays
 from ..lighting import light_lines
-from ..reading import render_size
+from ..reading import is_gone, render_size
 from ..writing import mesh_bytes, records, size_text
 
 NAMED = 2   # so many sources are all named; of more the first
@@ -42,7 +42,7 @@ def draw_figures(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
 def _draw_light(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     record = obj.reflection_mesh
     layout.label(text=obj.name, icon="LIGHT_POINT", translate=False)
-    names = [pgettext_iface("gone") if part is None else f"'{part.name}'" for part in (record.lamp, record.mirror)]
+    names = [pgettext_iface("gone") if is_gone(part) else f"'{part.name}'" for part in (record.lamp, record.mirror)]
     layout.label(text=pgettext_iface("Light of {lamp}, thrown by {mirror}").format(lamp=names[0], mirror=names[1]),
                  translate=False)
     layout.label(text=_size(obj), translate=False)
@@ -51,7 +51,7 @@ def _draw_light(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
 def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
     record = obj.reflection_mesh
     layout.label(text=obj.name, icon="MOD_MIRROR", translate=False)
-    mirror = pgettext_iface("a mirror that is gone") if record.mirror is None else f"'{record.mirror.name}'"
+    mirror = pgettext_iface("a mirror that is gone") if is_gone(record.mirror) else f"'{record.mirror.name}'"
     layout.label(text=pgettext_iface("Reflection in {mirror}").format(mirror=mirror), translate=False)
     layout.label(text=pgettext_iface("Shows {names}").format(names=_names(record.sources)), translate=False)
     if plays(obj):
@@ -61,6 +61,8 @@ def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bp
     if obj.library is not None:
         layout.label(text="It is linked from another file:", icon="LINKED")
         layout.label(text="there it is updated and lit.", icon="BLANK1")
+        return
+    if is_gone(record.mirror):
         return
     if tuple(record.resolution) != render_size(context.scene):
         layout.label(text="The render has another size now:", icon="ERROR")

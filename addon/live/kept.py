@@ -5,15 +5,24 @@ import bpy
 
 from ...core import ReflectionError
 from ..frames import plays
-from ..reading import Participants, known_results, results_of, visible
+from ..reading import Participants, is_gone, known_results, results_of, visible
 
 
 def kept_results(context: bpy.types.Context) -> list:
     """The results of the scene that are made anew when something moves."""
     known = known_results(context.scene, context.view_layer)
-    return [obj for obj in known if obj.reflection_mesh.role == "REFLECTION" and obj.type == "MESH"
-            and obj.reflection_mesh.mirror is not None and not plays(obj)
+    return [obj for obj in _made_here(known) if not is_gone(obj.reflection_mesh.mirror)
             and obj in results_of(context, obj.reflection_mesh.mirror, known)]
+
+
+def abandoned_results(context: bpy.types.Context) -> list:
+    """The results of the scene that nothing makes anew, since their mirror is gone."""
+    known = known_results(context.scene, context.view_layer)
+    return [obj for obj in _made_here(known) if obj.library is None and is_gone(obj.reflection_mesh.mirror)]
+
+
+def _made_here(known: list) -> list:
+    return [obj for obj in known if obj.reflection_mesh.role == "REFLECTION" and obj.type == "MESH" and not plays(obj)]
 
 
 def kept_light(context: bpy.types.Context) -> list:
@@ -26,8 +35,7 @@ def groups(context: bpy.types.Context) -> list[Participants]:
     """The mirrors and objects of these results; what is hidden takes no part."""
     found: dict = {}
     for obj in kept_results(context):
-        record = obj.reflection_mesh
-        sources = tuple(source.object for source in record.sources if source.object is not None)
+        record, sources = obj.reflection_mesh, _sources(obj)
         if sources and record.mirror not in sources:
             found.setdefault(sources, {})[record.mirror] = None
     chosen = []
@@ -37,3 +45,16 @@ def groups(context: bpy.types.Context) -> list[Participants]:
         except ReflectionError:
             continue
     return chosen
+
+
+def why_not_kept(context: bpy.types.Context, result: bpy.types.Object) -> str:
+    """The sentence that says why one of the kept results cannot be made anew now; empty where it can be."""
+    try:
+        visible(context, [result.reflection_mesh.mirror], list(_sources(result)))
+    except ReflectionError as error:
+        return str(error)
+    return ""
+
+
+def _sources(result: bpy.types.Object) -> tuple:
+    return tuple(source.object for source in result.reflection_mesh.sources if source.object is not None)

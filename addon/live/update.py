@@ -8,8 +8,9 @@ from ..freshness import why_light_is_stale, why_stale
 from ..operators import polls
 from ..operators.generate import IN_OBJECT_MODE, generation
 from ..operators.write_results import Manners
+from ..reading import is_gone
 from ..settings import Wanted
-from .kept import groups, kept_light, kept_results
+from .kept import abandoned_results, groups, kept_light, kept_results, why_not_kept
 from .thrown import light_groups, made_anew
 
 NOTHING_STALE = "No reflection is stale."
@@ -35,13 +36,16 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        stale = {obj.reflection_mesh.mirror for obj in kept_results(context) if why_stale(context, obj)}
-        chosen = [group for group in groups(context) if stale.intersection(group.mirrors)]
-        lit = [obj for obj in kept_light(context) if why_light_is_stale(context, obj)]
-        if not chosen and not lit:
+        stale = [obj for obj in kept_results(context) if why_stale(context, obj)]
+        chosen = [group for group in groups(context)
+                  if any(obj.reflection_mesh.mirror in group.mirrors for obj in stale)]
+        lost = _lost(context)
+        lit = [obj for obj in kept_light(context) if obj not in lost and why_light_is_stale(context, obj)]
+        if not stale and not lit and not lost:
             tell(self, {"INFO"}, NOTHING_STALE)
         told: list = []
-        remarks: list = []
+        remarks = [f"'{obj.name}' cannot be made anew: {why}." for obj, why in lost.items()]
+        remarks += [f"{obj.name}: {why}" for obj in stale if (why := why_not_kept(context, obj))]
         for number, group in enumerate(chosen):
             steps = generation(context, group, Wanted(context.scene), manners=Manners(preview_unlit=self._pressed))
             outcome = yield from part(steps, number / len(chosen), 1.0 / len(chosen))
@@ -59,6 +63,13 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
 
     def _summary(self, light: bpy.types.Object) -> str:
         return f"'{light.name}': {len(light.data.polygons)} faces of light, {light.reflection_mesh.seconds:.2f} s"
+
+
+def _lost(context: bpy.types.Context) -> dict:
+    """What nothing makes anew, since its mirror or its lamp is gone, and what is to be said of that."""
+    found = {obj: why_stale(context, obj) for obj in abandoned_results(context)}
+    return found | {obj: why_light_is_stale(context, obj) for obj in kept_light(context)
+                    if is_gone(obj.reflection_mesh.mirror) or is_gone(obj.reflection_mesh.lamp)}
 
 
 def register() -> None:

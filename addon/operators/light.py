@@ -34,6 +34,7 @@ from ..reading import (
     camera_of,
     has_fog,
     has_linked_results,
+    is_gone,
     is_mirror,
     is_opaque,
     materials_of,
@@ -101,7 +102,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
         raise ReflectionError(LINKED_TO_LIGHT if has_linked_results() else NOTHING_TO_LIGHT)
     yield 0.0, "Reading the scene"
     view = read_view(context)
-    groups = _for_the_camera(context.scene.camera, groups)
+    groups = _for_the_camera(context.scene.camera, _with_mirrors(groups))
     everything, shows, lamps = [], [], lamps_that_show(context)
     with AllOrNothing() as whole:
         for number, (results, samples, kind) in enumerate(groups):
@@ -146,6 +147,16 @@ def _stay_linked(linked: list, whole: AllOrNothing) -> None:
         whole.undo(setattr, result, "data", result.data)
         whole.after(forget_mesh, result.data)
         result.data = linked[0].data
+
+
+def _with_mirrors(groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
+    """The groups without the results whose mirror is gone, which the panel tells of."""
+    there = [([result for result in results if not is_gone(result.reflection_mesh.mirror)], samples, kind)
+             for results, samples, kind in groups]
+    if not any(results for results, _, _ in there):
+        lost = next(result for results, _, _ in groups for result in results)
+        raise ReflectionError(f"The mirror of '{lost.name}' is gone: clear it, or select another mirror.")
+    return there
 
 
 def _for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:

@@ -47,8 +47,13 @@ def with_copies(context: bpy.types.Context, results: list) -> list:
 def camera_of(result: bpy.types.Object) -> bpy.types.Object | None:
     """The camera that a result is right for; None where that is whichever looks, or has been deleted."""
     camera = result.reflection_mesh.camera
+    return None if is_gone(camera) else camera
+
+
+def is_gone(obj: bpy.types.Object | None) -> bool:
+    """Whether what a result names is there no more: deleted, or joined to another object."""
     # what is deleted may live on where something still points to it, but in no scene
-    return camera if camera is not None and camera.users_scene else None
+    return obj is None or not obj.users_scene
 
 
 def meant(context: bpy.types.Context, active: bpy.types.Object | None) -> list:

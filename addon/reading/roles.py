@@ -8,7 +8,7 @@ import bpy
 
 from ...core import ReflectionError
 from .materials import all_fog, is_mirror, materials_on_faces
-from .results import RESULTS, meant, of_results
+from .results import RESULTS, is_gone, meant, of_results
 
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
              "Reflection tab.")
@@ -51,7 +51,12 @@ def choose(context: bpy.types.Context, all_seen: bool = True) -> Participants:
     are. Mirrors that are selected alone or found so, where no object is said to be reflected, show `all_seen`: whatever
     is there, as mirrors do; without that, nothing.
     """
-    return visible(context, *candidates(context, all_seen))
+    mirrors, diffuse = candidates(context, all_seen)
+    active = context.view_layer.objects.active
+    if not mirrors and active is not None and active.reflection_mesh.role in RESULTS and is_gone(
+            active.reflection_mesh.mirror):
+        raise ReflectionError(f"The mirror of '{active.name}' is gone: clear it, or select another mirror.")
+    return visible(context, mirrors, diffuse)
 
 
 def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list, list]:
@@ -159,7 +164,12 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
 
 def _why_unseen(obj: bpy.types.Object, there: set, hidden: str) -> str:
     """The sentence `hidden`, but of what is not `there` in the scene, as where a result was appended alone."""
-    return hidden if obj in there else f"'{obj.name}' is not in this scene: add it to one of the scene's collections."
+    if obj in there:
+        return hidden
+    if is_gone(obj):
+        return (f"'{obj.name}' is not in this scene, as after it was deleted or joined to another object: clear the "
+                "reflection, or add it to one of the scene's collections.")
+    return f"'{obj.name}' is not in this scene: add it to one of the scene's collections."
 
 
 def seen_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:

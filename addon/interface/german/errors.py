@@ -81,6 +81,12 @@ CHOICE = {
         "Der Spiegel '{}' ist ausgeblendet: zeige ihn in der Ansicht und im Render.",
     "'{}' is not in this scene: add it to one of the scene's collections.":
         "'{}' ist nicht in dieser Szene: nimm es in eine ihrer Sammlungen auf.",
+    "'{}' is not in this scene, as after it was deleted or joined to another object: clear the reflection, or add it "
+    "to one of the scene's collections.":
+        "'{}' ist nicht in dieser Szene, wie nach dem Löschen oder Verbinden mit einem anderen Objekt: entferne die "
+        "Spiegelung, oder nimm es in eine der Sammlungen der Szene auf.",
+    "The mirror of '{}' is gone: clear it, or select another mirror.":
+        "Der Spiegel von '{}' ist nicht mehr da: entferne es, oder wähle einen anderen Spiegel aus.",
     "The reflected object '{}' is hidden: show it in the viewport, in renders and to glossy rays.":
         "Das Objekt '{}' ist ausgeblendet: zeige es in der Ansicht, im Render und für Glanzstrahlen.",
     "Nothing to reflect in '{}': select the objects to reflect together with it, or set their role to Reflected in "

@@ -35,6 +35,7 @@ DONE = {
     "{} reflections": "{} Spiegelungen",
     "the light of {} caustics": "das Licht von {} Kaustiken",
     "{} and the light of {} caustics": "{} und das Licht von {} Kaustiken",
+    "'{}' cannot be made anew: {}.": "'{}' lässt sich nicht erneuern: {}.",
     "No reflection is stale.": "Keine Spiegelung ist veraltet.",
     "The camera sees no mirror whose reflection could be judged; pictures in {}":
         "Die Kamera sieht keinen Spiegel, dessen Spiegelung sich beurteilen ließe; Bilder in {}",
@@ -73,6 +74,9 @@ KEPT = {
     "frames {}": "Einzelbilder {}",
     "frames {} and {} more": "Einzelbilder {} und {} weitere",
     "an object was removed": "ein Objekt wurde entfernt",
+    "its mirror is gone, deleted or joined to another object: clear it":
+        "sein Spiegel ist nicht mehr da, gelöscht oder mit einem anderen Objekt verbunden: entferne es",
+    "its mirror or its lamp was removed: clear it": "sein Spiegel oder seine Lampe wurde entfernt: entferne es",
     "the camera has changed": "die Kamera hat sich geändert",
     "the picture's size has changed": "die Bildgröße hat sich geändert",
     "the mirror has changed": "der Spiegel hat sich geändert",

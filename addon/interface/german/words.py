@@ -301,6 +301,8 @@ LIVE = {
     "the lamp has changed": "die Lampe hat sich geändert",
     "what is lit has changed": "was beleuchtet ist, hat sich geändert",
     "what stands in the light's way has changed": "was dem Licht im Weg steht, hat sich geändert",
+    "its mirror is gone, deleted or joined to another object: clear it":
+        "sein Spiegel ist nicht mehr da, gelöscht oder mit einem anderen Objekt verbunden: entferne es",
     "its mirror or its lamp was removed: clear it": "sein Spiegel oder seine Lampe wurde entfernt: entferne es",
     "the settings have changed": "die Einstellungen haben sich geändert",
     "materials have been exchanged": "Materialien wurden ausgetauscht",

@@ -48,7 +48,8 @@ def test_live_and_what_is_stale_are_drawn_so(room, monkeypatch):
                               window_manager=SimpleNamespace(reflection_mesh_live=live))
     result = SimpleNamespace(name="Ball Reflection")
     monkeypatch.setattr(place, "kept_results", lambda context: [result])
-    monkeypatch.setattr(place, "kept_light", lambda context: [])
+    for nothing in ("kept_light", "abandoned_results"):
+        monkeypatch.setattr(place, nothing, lambda context: [])
     monkeypatch.setattr(place, "why_stale", lambda context, obj: "die Einstellungen haben sich geändert")
     place.draw_live(layout, context)
     assert labels[0] == "'Ball Reflection' is stale:"

@@ -48,7 +48,7 @@ def test_lamps_materials_and_settings_count(scene, told):  # noqa: F811
     assert told(scene.light) == ""
 
 
-def test_a_file_that_is_opened_again_is_not_stale(blank, told, tmp_path):
+def test_a_file_that_is_opened_again_is_not_stale(blank, told, tmp_path, capfd):
     parts.select(*scene_of("SPOT")[:2], bpy.data.objects["Lamp"])
     bpy.context.view_layer.objects.active = bpy.data.objects["Mirror"]
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
@@ -58,5 +58,10 @@ def test_a_file_that_is_opened_again_is_not_stale(blank, told, tmp_path):
     assert light.reflection_mesh.made_from and told(light) == ""
     bpy.data.objects.remove(bpy.data.objects["Lamp"])
     assert "clear it" in told(light)
+    # it told how many faces it had made
+    capfd.readouterr()
+    assert bpy.ops.reflection_mesh.update("EXEC_DEFAULT") == {"FINISHED"}
+    said = "".join(capfd.readouterr())
+    assert "'Mirror Caustics' cannot be made anew" in said and "faces of light" not in said
     # what cannot be mended is left
     assert bpy.ops.reflection_mesh.update("EXEC_DEFAULT") == {"FINISHED"} and len(light.data.polygons)
