@@ -4,9 +4,9 @@ from .interrupts import STATUS
 from .stepped_operator import BrowsingOperator, SteppedOperator
 from .steps import Steps, Undivided, finished, part
 from .take_back import keep_data, keep_mirror, keep_object, remove_new, still_there
-from .told import know_sentences, know_stages, tell, tell_done, translated, translated_stage
+from .told import know_sentences, know_stages, one_or_more, tell, tell_done, translated, translated_stage
 from .unforeseen import in_one_sentence, sentence
 
 __all__ = ["AllOrNothing", "BrowsingOperator", "STATUS", "SteppedOperator", "Steps", "Undivided", "finished",
-           "in_one_sentence", "keep_data", "keep_mirror", "keep_object", "know_sentences", "know_stages", "part",
-           "remove_new", "sentence", "still_there", "tell", "tell_done", "translated", "translated_stage"]
+           "in_one_sentence", "keep_data", "keep_mirror", "keep_object", "know_sentences", "know_stages", "one_or_more",
+           "part", "remove_new", "sentence", "still_there", "tell", "tell_done", "translated", "translated_stage"]

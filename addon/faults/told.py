@@ -34,6 +34,11 @@ def know_sentences(sentences: Iterable[str]) -> None:
         _known.append((pattern, sentence, FIELD.findall(sentence)))
 
 
+def one_or_more(count: int, one: str, many: str, **more) -> str:
+    """What is said of one thing, or else of `many`, in which `{count}` and the names of `more` are put in."""
+    return (one if count == 1 else many).format(count=count, **more)
+
+
 def tell(operator: bpy.types.Operator, kinds: set[str], sentence: str) -> None:
     """Report a sentence in the user's language."""
     operator.report(kinds, translated(sentence))

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 import bpy
 
-from ..faults import AllOrNothing
+from ..faults import AllOrNothing, one_or_more
 from ..reading.materials import shines
 
 MOST = 1024  # that Blender takes
@@ -33,7 +33,8 @@ def follow_layers(scene: bpy.types.Scene, layers: int, lit: Iterable[bpy.types.M
     if layers > MOST:
         return [f"Cycles follows {MOST} transparent layers, and {layers} or more of light have to be passed, so that "
                 "it is dark behind them: lower Lamp Places or the depth."]
-    return [f"Cycles followed {bounces} transparent layers, and {layers} or more of light have to be passed: Light "
+    followed = one_or_more(bounces, "1 transparent layer", "{count} transparent layers")
+    return [f"Cycles followed {followed}, and {layers} or more of light have to be passed: Light "
             f"Paths > Max Bounces > Transparent is {raised} until the light is cleared."]
 
 

@@ -76,12 +76,14 @@ def _names(sources) -> str:
     names = [f"'{source.object.name}'" for source in named if source.object is not None]
     more = len(sources) - len(names)
     if not names:
-        return pgettext_iface("{count} objects").format(count=more)
+        return pgettext_iface("1 object" if more == 1 else "{count} objects").format(count=more)
     listed = ", ".join(names)
     return pgettext_iface("{names} and {count} more").format(names=listed, count=more) if more else listed
 
 
 def _size(obj: bpy.types.Object) -> str:
     record = obj.reflection_mesh
-    text = pgettext_iface("{count:,} points, {size}" if record.points else "{count:,} faces, {size}")
-    return text.format(count=record.points or record.faces, size=size_text(mesh_bytes(obj.data)))
+    count = record.points or record.faces
+    points = pgettext_iface("1 point, {size}" if count == 1 else "{count:,} points, {size}")
+    faces = pgettext_iface("1 face, {size}" if count == 1 else "{count:,} faces, {size}")
+    return (points if record.points else faces).format(count=count, size=size_text(mesh_bytes(obj.data)))

@@ -3,7 +3,7 @@ import time
 
 import bpy
 
-from ..faults import SteppedOperator, Steps, part, tell, tell_done
+from ..faults import SteppedOperator, Steps, one_or_more, part, tell, tell_done
 from ..freshness import why_light_is_stale, why_stale
 from ..operators import polls
 from ..operators.generate import IN_OBJECT_MODE, generation
@@ -62,7 +62,8 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
                 yield from made_anew(context, group, {mirror: wanted(mirror) for mirror, _ in group.pairs})
 
     def _summary(self, light: bpy.types.Object) -> str:
-        return f"'{light.name}': {len(light.data.polygons)} faces of light, {light.reflection_mesh.seconds:.2f} s"
+        faces = one_or_more(len(light.data.polygons), "1 face", "{count} faces")
+        return f"'{light.name}': {faces} of light, {light.reflection_mesh.seconds:.2f} s"
 
 
 def _lost(context: bpy.types.Context) -> dict:

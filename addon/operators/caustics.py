@@ -12,7 +12,7 @@ import numpy as np
 
 from ... import core
 from ...core.caustics import most_layers
-from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell_done
+from ..faults import AllOrNothing, SteppedOperator, Steps, one_or_more, part, tell_done
 from ..frames import stop_playing
 from ..freshness import light_record
 from ..illumination import (
@@ -78,7 +78,8 @@ class Thrown:
 
     def summary(self, seconds: float) -> str:
         names = ", ".join(f"'{obj.name}'" for obj in self.objects)
-        return f"{names}: {sum(obj.reflection_mesh.faces for obj in self.objects)} faces of light, {seconds:.2f} s"
+        faces = one_or_more(sum(obj.reflection_mesh.faces for obj in self.objects), "1 face", "{count} faces")
+        return f"{names}: {faces} of light, {seconds:.2f} s"
 
 
 def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, wanted: Asked,

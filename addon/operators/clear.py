@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..faults import in_one_sentence, tell
+from ..faults import in_one_sentence, one_or_more, tell
 from ..frames import stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_previews
@@ -115,10 +115,11 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
             return {"CANCELLED"}
         clear(context, results)
         clear_caustics(caustics)
-        told = "1 reflection" if len(results) == 1 else f"{len(results)} reflections"
+        told = one_or_more(len(results), "1 reflection", "{count} reflections")
         if caustics:
-            told = f"{told} and the light of {len(caustics)} caustics" if results else (
-                f"the light of {len(caustics)} caustics")
+            words = ("{told} and 1 mesh of thrown light", "{told} and {count} meshes of thrown light") if results else (
+                "1 mesh of thrown light", "{count} meshes of thrown light")
+            told = one_or_more(len(caustics), *words, told=told)
         tell(self, {"INFO"}, f"{told} cleared.")
         return {"FINISHED"}
 

@@ -12,7 +12,7 @@ from ...core import ReflectionError, TriangleMesh, View, breathe, draw, in_steps
 from ..comparison.light_of_results import Lit, Surroundings, against_rays
 from ..comparison.light_page import MESH, OWN, runs_of, write_light_report
 from ..comparison.light_pictures import LightPictures, Shot, render_light
-from ..faults import Steps, part
+from ..faults import Steps, one_or_more, part
 from ..files import staged
 from ..illumination import blockers_of, blocking
 from ..judge import copied_scene
@@ -121,12 +121,14 @@ def light_summary(report: dict, folder: str) -> str:
     last = {run["method"]: run for run in report["runs"]}
     mesh, own = (last[method]["picture"]["receivers"]["psnr"] for method in (MESH, OWN))
     flux = [one["flux_percent"] for one in report["light"].values() if one["flux_percent"] is not None]
+    taken = last[OWN]["samples"]
+    samples = one_or_more(taken, "1 sample", "{count} samples")
     if mesh is None or own is None:
         return f"The camera sees nothing on which light falls; pictures in {folder}"
     if not flux:
-        return (f"{mesh:.1f} dB from Cycles' own converged caustics, where its own at {last[OWN]['samples']} samples "
+        return (f"{mesh:.1f} dB from Cycles' own converged caustics, where its own at {samples} "
                 f"are {own:.1f} dB; pictures in {folder}")
-    return (f"{mesh:.1f} dB from Cycles' own converged caustics, where its own at {last[OWN]['samples']} samples are "
+    return (f"{mesh:.1f} dB from Cycles' own converged caustics, where its own at {samples} are "
             f"{own:.1f} dB; flux {max(flux, key=abs):+.3f} % from rays; pictures in {folder}")
 
 

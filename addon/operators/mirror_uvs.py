@@ -23,7 +23,7 @@ from ..anamorphosis import (
     write_copy,
     write_own_map,
 )
-from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell_done
+from ..faults import AllOrNothing, SteppedOperator, Steps, one_or_more, part, tell_done
 from ..reading import Participants, choose, read_mirror, read_scene, read_view
 from ..settings import UsesSettings, Wanted, option
 from . import polls
@@ -65,8 +65,8 @@ class Outcome:
     def summary(self, seconds: float) -> str:
         """One line on what was written."""
         names = ", ".join(f"'{obj.name}'" for obj in self.objects)
-        faces = sum(len(obj.data.polygons) for obj in self.objects)
-        return f"{names}: UV map '{UV_MAP}', {faces} faces, those that are seen marked '{SEEN}', {seconds:.2f} s"
+        faces = one_or_more(sum(len(obj.data.polygons) for obj in self.objects), "1 face", "{count} faces")
+        return f"{names}: UV map '{UV_MAP}', {faces}, those that are seen marked '{SEEN}', {seconds:.2f} s"
 
 
 def map_settings(wanted: Wanted, chosen: Participants) -> core.Settings:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ...core import ReflectionError, ReflectionMesh
+from ..faults import one_or_more
 from ..reading import (
     Participants,
     camera_of,
@@ -29,26 +30,36 @@ STEREO = ("Stereoscopy: a reflection is right for one eye, and both show the sam
           "for flat mirrors, or render each eye by a camera that has its own.")
 CUTS = ("Markers change the camera: choose Render > Lock Interface, so that a render of the animation in this window "
         "shows each camera its own reflection.")
-# what is said where the result counts it
+# what is said where the result counts one of it, or more
 SENTENCES = {
-    "crowded":
-        "In {count} parts of the mirror more lies over one another than the picture or the memory allows to "
-        "be cut exactly, and rays show it to a pixel: simplify the meshes or raise the memory.",
-    "overlaid":
-        "In {count} parts of the mirror too much of it lies over itself to be cut exactly, and something "
-        "hidden may show: simplify the mirror.",
-    "pierced":
-        "Through {count} parts of the mirror pass more faces than can be followed, and something behind them "
-        "may show: simplify the objects that pass through the mirror.",
-    "many_outlines":
-        "In {count} parts of the mirror more outlines of mirrors cross than can be cut along, and their edges"
-        " are rough: simplify the mirrors.",
-    "bounded":
-        "Refinement stopped at the largest number of faces, so that the error may exceed the tolerance: raise"
-        " the tolerance or the memory.",
-    "coarse":
-        "{count} of {points} points are too far from their neighbours to be discs without gaps: subdivide the"
-        " reflected objects, or let the reflection be made of faces.",
+    "crowded": (
+        "In one part of the mirror more lies over one another than the picture or the memory allows to be cut exactly, "
+        "and rays show it to a pixel: simplify the meshes or raise the memory.",
+        "In {count} parts of the mirror more lies over one another than the picture or the memory allows to be cut "
+        "exactly, and rays show it to a pixel: simplify the meshes or raise the memory."),
+    "overlaid": (
+        "In one part of the mirror too much of it lies over itself to be cut exactly, and something hidden may show: "
+        "simplify the mirror.",
+        "In {count} parts of the mirror too much of it lies over itself to be cut exactly, and something hidden may "
+        "show: simplify the mirror."),
+    "pierced": (
+        "Through one part of the mirror pass more faces than can be followed, and something behind them may show: "
+        "simplify the objects that pass through the mirror.",
+        "Through {count} parts of the mirror pass more faces than can be followed, and something behind them may show: "
+        "simplify the objects that pass through the mirror."),
+    "many_outlines": (
+        "In one part of the mirror more outlines of mirrors cross than can be cut along, and their edges are rough: "
+        "simplify the mirrors.",
+        "In {count} parts of the mirror more outlines of mirrors cross than can be cut along, and their edges are "
+        "rough: simplify the mirrors."),
+    "bounded": 2 * (
+        "Refinement stopped at the largest number of faces, so that the error may exceed the tolerance: raise the "
+        "tolerance or the memory.",),
+    "coarse": (
+        "One of {points} points is too far from its neighbours to be a disc without gaps: subdivide the reflected "
+        "objects, or let the reflection be made of faces.",
+        "{count} of {points} points are too far from their neighbours to be discs without gaps: subdivide the "
+        "reflected objects, or let the reflection be made of faces."),
 }
 
 
@@ -58,7 +69,7 @@ def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
     if counts.get("missed", 0) >= MISSED and result.missing_share > MISSING:
         told.append(f"About {result.missing_share:.0f} % of what the mirror shows is missing: give it a clean mesh, or "
                     "move the camera.")
-    told += [sentence.format(count=counts[what], points=len(result.positions)) for what, sentence in SENTENCES.items()
+    told += [one_or_more(counts[what], *said, points=len(result.positions)) for what, said in SENTENCES.items()
              if counts.get(what)]
     return [f"{name}: {sentence}" for sentence in told]
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 
 from ...core import View
-from ..faults import AllOrNothing
+from ..faults import AllOrNothing, one_or_more
 from ..frames import stop_playing
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
@@ -66,7 +66,8 @@ class Outcome:
         """One line on what was generated."""
         points = sum(obj.reflection_mesh.points for obj, _ in self.results)
         faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
-        size = f"{points} points" if points else f"{faces} faces"
+        size = (one_or_more(points, "1 point", "{count} points") if points
+                else one_or_more(faces, "1 face", "{count} faces"))
         error = max(result.estimated_error for _, result in self.results)
         share = max(result.filled_share for _, result in self.results)
         filled = f", {share:.1f} % filled by rays" if share >= WORTH_TELLING else ""

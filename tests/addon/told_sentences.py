@@ -12,6 +12,7 @@ ELSEWHERE = ("addon/command_line", "addon/benchmark", "addon/report", "addon/com
              "addon/comparison/compare_page", "addon/comparison/light_page", "addon/interface",
              "addon/run_with_bpy", "core/rivals", "core/solver")
 WHOLE = {"summary", "light_summary", "listed"}   # functions that put a sentence together: each of their parts counts
+COUNTED = "one_or_more"     # a call of which each text counts: what is said of one thing, and of more
 SHORTEST = 12
 UNSHOWN = ("addon/command_line", "addon/benchmark", "core/rivals", "core/solver")   # work that no status bar tells of
 
@@ -22,7 +23,8 @@ def told() -> set[str]:
             # arguments that are none
             and not (room.startswith("core") and " must " in text)
             and ((text.endswith(".") and " " in text and len(text) >= SHORTEST)
-                 or (function in WHOLE and "{}" in text and any(map(str.isalpha, text))))}
+                 or (function in WHOLE and "{}" in text and any(map(str.isalpha, text)))
+                 or (function == COUNTED and any(map(str.isalpha, text))))}
 
 
 def written() -> set[str]:
@@ -98,5 +100,7 @@ def _of(node: ast.AST, function: str) -> Iterator[tuple[str, str]]:
         return
     if isinstance(node, ast.FunctionDef):
         function = node.name
+    if isinstance(node, ast.Call) and getattr(node.func, "id", "") == COUNTED:
+        function = COUNTED
     for child in ast.iter_child_nodes(node):
         yield from _of(child, function)

@@ -7,8 +7,10 @@ DONE = {
     "the frames that are done are kept, the file has not changed":
         "fertige Einzelbilder bleiben, die Datei ist unverändert",
     "{}: {}, {}, error about {} px{}, {} s{}": "{}: {}, {}, Fehler etwa {} px{}, {} s{}",
-    "{} points": "{} Punkte",
-    "{} faces": "{} Flächen",
+    "1 point": "1 Punkt",
+    "{count} points": "{count} Punkte",
+    "1 face": "1 Fläche",
+    "{count} faces": "{count} Flächen",
     ", {} % filled by rays": ", {} % mit Strahlen gefüllt",
     "; the light is still to come, by Light Reflection": "; ihr Licht fehlt noch: Spiegelung beleuchten",
     "{}: lit in {} s": "{}: beleuchtet in {} s",
@@ -25,16 +27,21 @@ DONE = {
         "Nebel vor dem, was Spiegel zeigen, ist nicht im Licht auf den Objekten: wähle Licht: Bild für ein Standbild.",
     "What is random by island on {} is so in other colours: choose Light: Picture for its own.":
         "Was auf {} nach Inseln zufällig ist, hat andere Farben: wähle Licht: Bild für die eigenen.",
-    "{}: {} faces of light, {} s": "{}: {} Flächen aus Licht, {} s",
-    "{} of {} frame{} baked into '{}', {} s": "{0} von {1} Einzelbildern gebacken, in '{3}', {4} s",
-    "{}: UV map '{}', {} faces, those that are seen marked '{}', {} s":
-        "{}: UV-Karte '{}', {} Flächen, die zu sehenden markiert mit '{}', {} s",
+    "{}: {} of light, {} s": "{}: {} aus Licht, {} s",
+    "{made} of 1 frame baked into '{folder}', {seconds} s":
+        "{made} von 1 Einzelbild gebacken, in '{folder}', {seconds} s",
+    "{made} of {count} frames baked into '{folder}', {seconds} s":
+        "{made} von {count} Einzelbildern gebacken, in '{folder}', {seconds} s",
+    "{}: UV map '{}', {}, those that are seen marked '{}', {} s":
+        "{}: UV-Karte '{}', {}, die zu sehenden markiert mit '{}', {} s",
     "{}: {} cm, {} x {} pixels; print it at 100 %": "{}: {} cm, {} x {} Pixel; drucke es mit 100 %",
     "{} cleared.": "{} entfernt.",
     "1 reflection": "1 Spiegelung",
-    "{} reflections": "{} Spiegelungen",
-    "the light of {} caustics": "das Licht von {} Kaustiken",
-    "{} and the light of {} caustics": "{} und das Licht von {} Kaustiken",
+    "{count} reflections": "{count} Spiegelungen",
+    "1 mesh of thrown light": "1 Netz aus geworfenem Licht",
+    "{count} meshes of thrown light": "{count} Netze aus geworfenem Licht",
+    "{told} and 1 mesh of thrown light": "{told} und 1 Netz aus geworfenem Licht",
+    "{told} and {count} meshes of thrown light": "{told} und {count} Netze aus geworfenem Licht",
     "'{}' cannot be made anew: {}.": "'{}' lässt sich nicht erneuern: {}.",
     "No reflection is stale.": "Keine Spiegelung ist veraltet.",
     "The camera sees no mirror whose reflection could be judged; pictures in {}":
@@ -44,13 +51,17 @@ DONE = {
     "Displacement {} px (median), {} px (99 %); holes, spill and wrong layer {} % of the mirror; pictures in {}":
         "Verschoben um {} px (Median), {} px (99 %); Löcher, Überstand und falsche Schicht {} % des Spiegels; "
         "Bilder in {}",
+    "1 sample": "1 Abtastung",
+    "{count} samples": "{count} Abtastungen",
+    "1 transparent layer": "1 durchsichtige Schicht",
+    "{count} transparent layers": "{count} durchsichtige Schichten",
     "The camera sees nothing on which light falls; pictures in {}":
         "Die Kamera sieht nichts, auf das Licht fällt; Bilder in {}",
-    "{} dB from Cycles' own converged caustics, where its own at {} samples are {} dB; pictures in {}":
-        "{} dB von Cycles' eigener Kaustik entfernt, wo diese selbst mit {} Abtastungen {} dB hat; Bilder in {}",
-    "{} dB from Cycles' own converged caustics, where its own at {} samples are {} dB; flux {} % from rays; pictures "
+    "{} dB from Cycles' own converged caustics, where its own at {} are {} dB; pictures in {}":
+        "{} dB von Cycles' eigener Kaustik entfernt, wo diese selbst mit {} {} dB hat; Bilder in {}",
+    "{} dB from Cycles' own converged caustics, where its own at {} are {} dB; flux {} % from rays; pictures "
     "in {}":
-        "{} dB von Cycles' eigener Kaustik entfernt, wo diese selbst mit {} Abtastungen {} dB hat; Lichtstrom {} % "
+        "{} dB von Cycles' eigener Kaustik entfernt, wo diese selbst mit {} {} dB hat; Lichtstrom {} % "
         "neben dem von Strahlen; Bilder in {}",
 }
 KEPT = {
@@ -165,9 +176,9 @@ LACKS = {
     "mirror, counts as one: plug it off to choose which.":
         "Die Farbe eines Spiegels, die sich über ihn auf eine Weise ändert, die nur der Spiegel kennt, oder auf die "
         "Licht nach einem anderen Spiegel trifft, zählt als eine: ziehe sie ab, um zu wählen, welche.",
-    "Cycles followed {} transparent layers, and {} or more of light have to be passed: Light Paths > Max Bounces > "
+    "Cycles followed {}, and {} or more of light have to be passed: Light Paths > Max Bounces > "
     "Transparent is {} until the light is cleared.":
-        "Cycles folgte durch {} durchsichtige Schichten, und {} oder mehr vom Licht sind zu durchqueren: Lichtpfade > "
+        "Cycles folgte durch {}, und {} oder mehr vom Licht sind zu durchqueren: Lichtpfade > "
         "Max. Reflexionen > Transparent ist {}, bis das Licht entfernt wird.",
     "Cycles follows {} transparent layers, and {} or more of light have to be passed, so that it is dark behind them: "
     "lower Lamp Places or the depth.":
@@ -184,18 +195,34 @@ LACKS = {
     "{}: '{}' hides a part of the virtual image behind this mirror; the placement Layered shows all of it.":
         "{}: '{}' verdeckt einen Teil des virtuellen Bildes hinter diesem Spiegel; die Lage Geschichtet zeigt es "
         "ganz.",
+    "In one part of the mirror more lies over one another than the picture or the memory allows to be cut exactly, and "
+    "rays show it to a pixel: simplify the meshes or raise the memory.":
+        "In einem Teil des Spiegels liegt mehr übereinander, als Bild oder Speicher genau zu schneiden erlauben, und "
+        "Strahlen zeigen es auf ein Pixel: vereinfache die Netze, oder erhöhe den Speicher.",
     "In {count} parts of the mirror more lies over one another than the picture or the memory allows to be cut "
     "exactly, and rays show it to a pixel: simplify the meshes or raise the memory.":
         "In {count} Teilen des Spiegels liegt mehr übereinander, als Bild oder Speicher genau zu schneiden "
         "erlauben, und Strahlen zeigen es auf ein Pixel: vereinfache die Netze, oder erhöhe den Speicher.",
+    "In one part of the mirror too much of it lies over itself to be cut exactly, and something hidden may show: "
+    "simplify the mirror.":
+        "In einem Teil des Spiegels liegt zu viel von ihm über sich selbst, um genau geschnitten zu werden, und "
+        "Verdecktes kann zu sehen sein: vereinfache den Spiegel.",
     "In {count} parts of the mirror too much of it lies over itself to be cut exactly, and something hidden may show: "
     "simplify the mirror.":
         "In {count} Teilen des Spiegels liegt zu viel von ihm über sich selbst, um genau geschnitten zu werden, und "
         "Verdecktes kann zu sehen sein: vereinfache den Spiegel.",
+    "Through one part of the mirror pass more faces than can be followed, and something behind them may show: simplify "
+    "the objects that pass through the mirror.":
+        "Durch einen Teil des Spiegels gehen mehr Flächen, als sich verfolgen lassen, und etwas dahinter kann zu sehen "
+        "sein: vereinfache die Objekte, die durch ihn gehen.",
     "Through {count} parts of the mirror pass more faces than can be followed, and something behind them may show: "
     "simplify the objects that pass through the mirror.":
         "Durch {count} Teile des Spiegels gehen mehr Flächen, als sich verfolgen lassen, und etwas dahinter kann zu "
         "sehen sein: vereinfache die Objekte, die durch ihn gehen.",
+    "In one part of the mirror more outlines of mirrors cross than can be cut along, and their edges are rough: "
+    "simplify the mirrors.":
+        "In einem Teil des Spiegels kreuzen sich mehr Umrisse von Spiegeln, als sich schneiden lassen, und ihre Ränder "
+        "sind rau: vereinfache die Spiegel.",
     "In {count} parts of the mirror more outlines of mirrors cross than can be cut along, and their edges are rough: "
     "simplify the mirrors.":
         "In {count} Teilen des Spiegels kreuzen sich mehr Umrisse von Spiegeln, als sich schneiden lassen, und ihre "
@@ -204,6 +231,10 @@ LACKS = {
     "tolerance or the memory.":
         "Die Verfeinerung endete bei der größten Zahl von Flächen, so dass der Fehler größer als die Toleranz sein "
         "kann: erhöhe die Toleranz oder den Speicher.",
+    "One of {points} points is too far from its neighbours to be a disc without gaps: subdivide the reflected objects, "
+    "or let the reflection be made of faces.":
+        "Einer von {points} Punkten ist zu weit von seinen Nachbarn für eine Scheibe ohne Lücken: unterteile die "
+        "Objekte, oder lasse die Spiegelung aus Flächen bestehen.",
     "{count} of {points} points are too far from their neighbours to be discs without gaps: subdivide the reflected "
     "objects, or let the reflection be made of faces.":
         "{count} von {points} Punkten sind zu weit von ihren Nachbarn für Scheiben ohne Lücken: unterteile die "

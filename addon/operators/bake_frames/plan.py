@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 import bpy
 
 from .... import core
-from ...faults import Steps
+from ...faults import Steps, one_or_more
 from ...frames import frame_numbers, frame_text, is_done, read_record, record_path, told_apart
 from ...freshness import frame_difference, frame_origin
 from ...reading import NothingSeen, Participants, candidates, render_size, visible
@@ -172,5 +172,7 @@ def layer_remarks(scene: bpy.types.Scene, layers: list) -> list[str]:
 
 def summary(plans: list[Plan], made: int, seconds: float) -> str:
     """One line on what was baked."""
-    frames = sum(len(plan.frames) * len(plan.takes) for plan in plans)
-    return f"{made} of {frames} frame{'' if frames == 1 else 's'} baked into '{plans[0].folder}', {seconds:.2f} s"
+    return one_or_more(sum(len(plan.frames) * len(plan.takes) for plan in plans),
+                       "{made} of 1 frame baked into '{folder}', {seconds} s",
+                       "{made} of {count} frames baked into '{folder}', {seconds} s",
+                       made=made, folder=plans[0].folder, seconds=f"{seconds:.2f}")

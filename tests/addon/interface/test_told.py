@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import re
 import string
+from types import SimpleNamespace
 
 import bpy
 import parts
@@ -59,6 +60,33 @@ def test_every_sentence_is_recognized_whatever_is_in_it(room, german):
     for name in ("Frame 3", "Two faces", "My reflections", "frames of mine"):
         assert translated(f"The mirror '{name}' is hidden: show it in the viewport and in renders.") == (
             f"Der Spiegel '{name}' ist ausgeblendet: zeige ihn in der Ansicht und im Render.")
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_one_of_something_is_no_plural(room, german, count):
+    """"In 1 parts of the mirror": in either language."""
+    translated, place = room("addon.faults").translated, room("addon.operators.shortcomings")
+    result = SimpleNamespace(counts=dict.fromkeys(place.SENTENCES, count), missing_share=0.0, positions=range(9))
+    told = place.shortcomings("Mirror", result)
+    assert len(told) == len(place.SENTENCES) > 5
+    for sentence in told:
+        for text in (sentence, translated(sentence)):
+            assert "{" not in text and (("2 " in text) == (count == 2) or "largest" in text or "größten" in text), text
+            assert not re.search(r"\b1 (parts|small parts|of|Teile|Teilen|kleine|von)\b", text), text
+        assert translated(sentence) != sentence
+    light = SimpleNamespace(name="Light", data=SimpleNamespace(polygons=range(count)),
+                            reflection_mesh=SimpleNamespace(faces=count, points=0, seconds=1.0))
+    thrown = room("addon.operators.caustics").Thrown([light], {}, 0, [], [])
+    plan = SimpleNamespace(frames=range(count), takes=[None], folder="there")
+    told = [thrown.summary(1.0), room("addon.live.update").REFLECTION_MESH_OT_update._summary(None, light),
+            room("addon.operators.bake_frames.plan").summary([plan], count, 1.0),
+            room("addon.operators.mirror_uvs").Outcome([light], []).summary(1.0)]
+    english, other = ("1 face", "1 frame"), ("Fläche", "Einzelbild")
+    if count == 2:
+        english, other = ("2 faces", "2 frames"), ("Flächen", "Einzelbildern")
+    for sentence in told:
+        assert re.search(rf"({'|'.join(english)})\b", sentence), sentence
+        assert re.search(rf"\b{count} ({'|'.join(other)})\b", translated(sentence)), translated(sentence)
 
 
 def test_nothing_is_reported_past_the_languages():
