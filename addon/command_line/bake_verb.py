@@ -27,7 +27,7 @@ from ..operators.shortcomings import render_shortcomings
 from ..reading import candidates
 from ..settings import Wanted
 from ..writing import show_in_layer
-from .options import add_own, given, whole_number
+from .options import add_own, given, text, whole_number
 from .place import camera_of, forget_chance, layer_of
 from .progress import announced
 
@@ -36,16 +36,16 @@ INTERRUPTED = "Interrupted: the frames that are done stay, and the same command 
 
 def add_bake(parser: argparse.ArgumentParser) -> None:
     """The options of the verb, but for settings and place."""
-    parser.add_argument("--frames", "--frame", default="", metavar="LIST",
+    parser.add_argument("--frames", "--frame", type=text, metavar="LIST",
                         help="as 1-24, or 1-100:2 with a step, or 3,5-10 (else the scene's range)")
-    parser.add_argument("--camera", nargs="+", default=[], metavar="NAME",
+    parser.add_argument("--camera", type=text, nargs="+", default=[], metavar="NAME",
                         help="the cameras, each with a sequence of its own (else the scene's, by its markers)")
     parser.add_argument("--what", choices=[item[0] for item in WHAT], default="REFLECTIONS",
                         help="reflections, or the light of lamps that mirrors throw")
     parser.add_argument("--eyes", type=whole_number, metavar="N",
                         help="places on each lamp that its caustics come from (else as they were generated)")
     add_own(parser)
-    parser.add_argument("--view-layer", nargs="+", default=[], metavar="NAME",
+    parser.add_argument("--view-layer", type=text, nargs="+", default=[], metavar="NAME",
                         help="the view layers, each with a sequence of its own, that the others do not show (else the "
                         "file's own)")
     parser.add_argument("--light", type=whole_number, metavar="N",
@@ -56,7 +56,7 @@ def add_bake(parser: argparse.ArgumentParser) -> None:
                         help="so many processes side by side, each with the memory of one (1)")
     parser.add_argument("--progress", choices=("WORDS", "OPENJD"), default="WORDS",
                         help="how progress is told: OPENJD as workers of Open Job Description read it")
-    parser.add_argument("--output", metavar="FOLDER", help="where the frames go (else beside the file)")
+    parser.add_argument("--output", type=text, metavar="FOLDER", help="where the frames go (else beside the file)")
     parser.set_defaults(work=bake, interrupted=INTERRUPTED)
 
 
@@ -84,7 +84,7 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
     for layer in layers:
         with context.temp_override(scene=scene, view_layer=layer):
             forget_chance(context)
-            plan = plan_of(context, folder, options.frames, wanted, cameras=cameras, overwrite=overwrite,
+            plan = plan_of(context, folder, options.frames or "", wanted, cameras=cameras, overwrite=overwrite,
                            layer=layer.name if len(layers) > 1 else "", eyes=options.eyes or 0,
                            lamps=tuple(meant_lamps(context)) if thrown else (), leave_out=options.leave_out)
             sequences.append(announced(baking(context, plan, tell, remarks.append), options.progress))
@@ -119,6 +119,6 @@ def _check(options: argparse.Namespace) -> None:
 
 def _made_side_by_side(scene: bpy.types.Scene, folder: str, options: argparse.Namespace) -> int:
     """Let processes make what is missing; returns how many frames that was."""
-    steps = side_by_side([*options.words, "--output", folder], chosen_frames(scene, options.frames), options.jobs,
+    steps = side_by_side([*options.words, "--output", folder], chosen_frames(scene, options.frames or ""), options.jobs,
                          lambda line: print(line, flush=True))
     return announced(steps, options.progress)

@@ -12,11 +12,12 @@ from ... import core
 from .. import benchmark
 from ..files import staged
 from .opening import open_file
+from .options import text
 from .place import add_place, placed
 
 
 def add_benchmark(verb: argparse.ArgumentParser) -> None:
-    verb.add_argument("--output", metavar="FOLDER", help="where the report goes (else beside the file)")
+    verb.add_argument("--output", type=text, metavar="FOLDER", help="where the report goes (else beside the file)")
     verb.add_argument("--methods", nargs="+", default=[], metavar="METHOD", help="all where none is named")
     verb.add_argument("--budget", type=float, default=10.0, metavar="SECONDS",
                       help="for each value of a method's knob: what is expected to take longer is left out (10)")
@@ -25,7 +26,7 @@ def add_benchmark(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--growth", type=float, default=0.0, metavar="SECONDS",
                       help="measure growth too: each method as long as a point takes no more than this")
     verb.add_argument("--no-work", action="store_true", help="leave out the counts on the talk's setting")
-    verb.add_argument("--scenes", nargs="+", default=[], metavar="FILE",
+    verb.add_argument("--scenes", type=text, nargs="+", default=[], metavar="FILE",
                       help="one report of these files, opened one after another, instead of the open one")
     add_place(verb)
     verb.set_defaults(work=_benchmark)

@@ -10,7 +10,7 @@ from ...core import ReflectionError
 from ..operators.compare import RAYS, REFERENCE, WHAT, comparison, means_caustics, summary
 from ..operators.compare_light import Effort, light_comparison, light_summary
 from ..settings import Wanted
-from .options import add_settings, given
+from .options import add_settings, given, text
 from .progress import announced
 
 
@@ -26,7 +26,8 @@ def add_compare(parser: argparse.ArgumentParser) -> None:
                         help=f"of caustics: samples of Cycles' own that all is compared with ({REFERENCE})")
     parser.add_argument("--rays", type=int, default=RAYS, metavar="N",
                         help=f"of caustics: rays traced one by one for each ({RAYS})")
-    parser.add_argument("--output", metavar="FOLDER", help="where pictures and numbers go (else beside the file)")
+    parser.add_argument("--output", type=text, metavar="FOLDER",
+                        help="where pictures and numbers go (else beside the file)")
     parser.set_defaults(work=compare)
 
 

@@ -16,13 +16,22 @@ def whole_number(text: str) -> int | None:
     return int(text) if text else None
 
 
-def add_settings(parser: argparse.ArgumentParser) -> None:
-    """The options for what a reflection is made by."""
-    parser.add_argument("--tolerance", type=number, metavar="PIXELS", help="how far off a point may be")
+def text(given: str) -> str:
+    """What was given, which is more than nothing: a script whose variable is empty means none of what is meant where
+    an option is left out."""
+    if not given.strip():
+        raise argparse.ArgumentTypeError("it is given without a value: write one, or leave the option out")
+    return given
+
+
+def add_settings(parser: argparse.ArgumentParser, of_farms: bool = False) -> None:
+    """The options for what a reflection is made by; `of_farms`: numbers may be empty."""
+    real, whole = (number, whole_number) if of_farms else (float, int)
+    parser.add_argument("--tolerance", type=real, metavar="PIXELS", help="how far off a point may be")
     parser.add_argument("--placement", choices=[item[0] for item in PLACEMENTS], help="where the reflection lies")
     parser.add_argument("--method", choices=[item[0] for item in METHODS], help="what the reflection is made of")
-    parser.add_argument("--depth", type=whole_number, metavar="BOUNCES", help="followed from mirror to mirror")
-    parser.add_argument("--memory", type=number, metavar="GB",
+    parser.add_argument("--depth", type=whole, metavar="BOUNCES", help="followed from mirror to mirror")
+    parser.add_argument("--memory", type=real, metavar="GB",
                         help="what would need more is worked out more coarsely, or refused")
     parser.add_argument("--hidden-faces", action=argparse.BooleanOptionalAction,
                         help="also the faces that nearer ones hide whole")

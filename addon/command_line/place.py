@@ -9,6 +9,7 @@ import bpy
 
 from ...core import ReflectionError
 from ..reading import candidates
+from .options import text
 
 
 def add_place(parser: argparse.ArgumentParser, frame: bool = True) -> None:
@@ -19,10 +20,12 @@ def add_place(parser: argparse.ArgumentParser, frame: bool = True) -> None:
     frame : bool
         Whether the verb works on one frame, and so by one camera.
     """
-    parser.add_argument("--scene", metavar="NAME", help="the scene (else the file's own)")
+    # templates of farms name the scene even where none is given
+    parser.add_argument("--scene", type=text if frame else str, metavar="NAME", help="the scene (else the file's own)")
     if frame:
-        parser.add_argument("--view-layer", metavar="NAME", help="whose objects are seen (else the file's own)")
-        parser.add_argument("--camera", metavar="NAME", help="the camera (else the scene's, by its markers)")
+        parser.add_argument("--view-layer", type=text, metavar="NAME",
+                            help="whose objects are seen (else the file's own)")
+        parser.add_argument("--camera", type=text, metavar="NAME", help="the camera (else the scene's, by its markers)")
         parser.add_argument("--frame", type=int, metavar="N", help="the frame (else the file's own)")
 
 

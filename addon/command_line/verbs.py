@@ -28,7 +28,7 @@ from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
 from .compare_verb import add_compare
 from .opening import open_file
-from .options import add_light, add_own, add_settings, given
+from .options import add_light, add_own, add_settings, given, text
 from .place import add_place, placed
 from .progress import announced
 
@@ -81,7 +81,7 @@ def _parser() -> argparse.ArgumentParser:
     compare = verbs.add_parser("compare", help="compare with a Cycles render of the same view")
     add_compare(compare)
     baked = verbs.add_parser("bake", help="write a range of frames to files, and a file that plays them")
-    add_settings(baked)
+    add_settings(baked, of_farms=True)
     add_bake(baked)
     maps = verbs.add_parser(
         "mirror-uvs", help="write UV maps by which a picture looks right in the mirror alone, and save the file")
@@ -110,8 +110,9 @@ def _add_anamorphosis(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--target", choices=[item[0] for item in TARGETS], default="COPY",
                       help="on copies that are cut, or on the objects themselves")
     verb.add_argument("--fills", choices=[item[0] for item in FRAMES], default="CAMERA", help="what the picture fills")
-    verb.add_argument("--picture", default="", metavar="FILE", help="image file, or image of the file, for the copies")
-    verb.add_argument("--print", dest="sheet", metavar="FILE", help="save the sheet, if it is one, as .png or .svg")
+    verb.add_argument("--picture", type=text, metavar="FILE", help="image file, or image of the file, for the copies")
+    verb.add_argument("--print", dest="sheet", type=text, metavar="FILE",
+                      help="save the sheet, if it is one, as .png or .svg")
     verb.add_argument("--dpi", type=float, default=DPI, help=f"dots per inch of the print ({DPI:g})")
     verb.add_argument("--tolerance", type=float, metavar="PIXELS", help="how far off a point may be")
     verb.add_argument("--memory", type=float, metavar="GB", help="what the work may take")
@@ -120,13 +121,13 @@ def _add_anamorphosis(verb: argparse.ArgumentParser) -> None:
 
 
 def _add_participants(verb: argparse.ArgumentParser) -> None:
-    verb.add_argument("--mirror", nargs="+", default=[], metavar="NAME",
+    verb.add_argument("--mirror", type=text, nargs="+", default=[], metavar="NAME",
                       help="mirror objects (else by selection and role, as in the window)")
-    verb.add_argument("--diffuse", nargs="+", default=[], metavar="NAME", help="reflected objects")
+    verb.add_argument("--diffuse", type=text, nargs="+", default=[], metavar="NAME", help="reflected objects")
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--output", metavar="FILE", help="save here, and leave the opened file as it is")
+    parser.add_argument("--output", type=text, metavar="FILE", help="save here, and leave the opened file as it is")
 
 
 def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
@@ -176,7 +177,8 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     started = time.perf_counter()
     chosen = _chosen(context, options)
     settings = map_settings(Wanted(context.scene, given(options)), chosen)
-    outcome = announced(mapping(context, chosen, settings, Choices(options.target, options.fills, options.picture)))
+    choices = Choices(options.target, options.fills, options.picture or "")
+    outcome = announced(mapping(context, chosen, settings, choices))
     told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
     if sheet is not None:
         if len(outcome.objects) > 1:

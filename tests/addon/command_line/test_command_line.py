@@ -159,3 +159,29 @@ def test_pypis_bpy_takes_several_files_for_a_benchmark_alone(tmp_path):
     assert done.returncode == 2 and done.stderr.startswith("Usage:")
     done = with_bpy(tmp_path / "one.blend", tmp_path / "two.blend", "benchmark", "--output", tmp_path)
     assert done.returncode == 1 and "one.blend" in done.stderr and "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("words", [
+    ["bake", "--frames"], ["bake", "--output"], ["bake", "--camera"], ["bake", "--view-layer"],
+    *(["generate", option] for option in ("--output", "--camera", "--scene", "--view-layer", "--mirror", "--diffuse",
+                                          "--tolerance", "--depth", "--memory")),
+    ["light", "--output"], ["light", "--scene"], ["caustics", "--output"], ["compare", "--output"],
+    ["compare", "--tolerance"], ["mirror-uvs", "--print"], ["mirror-uvs", "--picture"], ["benchmark", "--output"],
+], ids=" ".join)
+def test_an_option_without_a_value_is_refused(saved, room, capsys, words):
+    """As of a script whose variable is empty: the whole range would be baked, the opened file overwritten."""
+    before, there = saved.read_bytes(), sorted(saved.parent.iterdir())
+    for empty in ("", " "):
+        assert room("addon.command_line").run([*words, empty]) == 2
+        told = capsys.readouterr().err.splitlines()[-1]
+        assert words[-1] in told and ("without a value" in told or "invalid" in told) and "Traceback" not in told
+    assert saved.read_bytes() == before and sorted(saved.parent.iterdir()) == there
+
+
+def test_farms_may_name_options_and_give_nothing(saved, room, tmp_path):
+    """Their templates cannot leave an option out: these take what the file holds."""
+    folder = tmp_path / "frames"
+    assert room("addon.command_line").run([
+        "bake", "--scene", "", "--eyes", "", "--light", "", "--tolerance", "", "--frames", "1", "--frames-only",
+        "--output", str(folder)]) == 0
+    assert [path.name for path in folder.glob("*.usdc")] == ["Mirror_Reflection.0001.usdc"]
