@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 
 from ...core import ReflectionError
-from .materials import all_fog, is_mirror, materials_on_faces
+from .materials import all_fog, is_mirror, materials_on_faces, own_materials
 from .results import RESULTS, is_gone, meant, of_results
 
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
@@ -61,6 +61,8 @@ def choose(context: bpy.types.Context, all_seen: bool = True) -> Participants:
 
 def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list, list]:
     """The mirrors and the diffuse objects that `choose` chooses from, hidden ones among them."""
+    # materials that Geometry Nodes give are known of what is evaluated
+    context.evaluated_depsgraph_get()
     active = context.view_layer.objects.active
     objects = [obj for obj in context.view_layer.objects if can_take_part(obj)]
     chosen = [obj for obj in objects if obj.select_get()]
@@ -96,7 +98,7 @@ def says_mirror(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | No
 def _looks_it(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | None], bool]) -> bool:
     """Whether an object has the material of a mirror, or is an instance of a collection in which all surfaces do."""
     # slots first: faces are many
-    if any(is_one(slot.material) for slot in obj.material_slots) and any(map(is_one, materials_on_faces(obj))):
+    if any(map(is_one, own_materials(obj))) and any(map(is_one, materials_on_faces(obj))):
         return True
     if obj.instance_type != "COLLECTION" or obj.instance_collection is None:
         return False

@@ -11,22 +11,50 @@ REPAINTING = {"BEVEL", "BOOLEAN", "MESH_SEQUENCE_CACHE", "NODES", "SOLIDIFY", "W
 
 
 def materials_of(obj: bpy.types.Object) -> list:
-    """One for each slot, None where that is empty."""
-    own = [slot.material for slot in obj.material_slots]
+    """One for each slot, None where that is empty; where Geometry Nodes give it others, those."""
+    own = own_materials(obj)
     if obj.instance_type != "COLLECTION" or obj.instance_collection is None:
         return own
     return own + [material for other in obj.instance_collection.all_objects for material in materials_of(other)]
 
 
+def own_materials(obj: bpy.types.Object) -> list:
+    """As `materials_of`, without those of a collection that it is an instance of."""
+    return _in_slots(_shown(obj))
+
+
 def materials_on_faces(obj: bpy.types.Object) -> list:
     """Those of an object's slots, without those that no face has: lists of imported meshes are full of them."""
-    own = [slot.material for slot in obj.material_slots]
-    if len(own) < 2 or obj.type != "MESH" or any(modifier.type in REPAINTING for modifier in obj.modifiers):
+    shown = _shown(obj)
+    own = _in_slots(shown)
+    repainted = shown == obj and any(modifier.type in REPAINTING for modifier in obj.modifiers)
+    if len(own) < 2 or shown.type != "MESH" or repainted:
         return own
-    used = np.zeros(len(obj.data.polygons), dtype=np.int32)
-    obj.data.polygons.foreach_get("material_index", used)
+    used = np.zeros(len(shown.data.polygons), dtype=np.int32)
+    shown.data.polygons.foreach_get("material_index", used)
     # as Blender does, the last slot where there are too few
     return [own[index] for index in np.flatnonzero(np.bincount(used.clip(0, len(own) - 1))).tolist()]
+
+
+def _shown(obj: bpy.types.Object) -> bpy.types.Object:
+    """An object as it was evaluated last, where Geometry Nodes may give it materials; nothing is evaluated for that,
+    since every redraw may ask."""
+    if not any(modifier.type == "NODES" and modifier.show_viewport for modifier in obj.modifiers):
+        return obj
+    layer = getattr(bpy.context, "view_layer", None)
+    depsgraph = None if layer is None else layer.depsgraph
+    return obj if depsgraph is None else obj.evaluated_get(depsgraph)
+
+
+def _in_slots(obj: bpy.types.Object) -> list:
+    materials = [slot.material for slot in obj.material_slots]
+    # by their names: what the copies were made of may have been removed since
+    return [bpy.data.materials.get(_key(material)) if material is not None and material.is_evaluated else material
+            for material in materials]
+
+
+def _key(material: bpy.types.Material) -> str | tuple[str, str]:
+    return material.name if material.library is None else (material.name, material.library.filepath)
 
 
 def all_fog(obj: bpy.types.Object) -> bool:
