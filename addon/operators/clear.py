@@ -3,12 +3,12 @@ from __future__ import annotations
 
 import bpy
 
-from ..faults import in_one_sentence, one_or_more, tell
-from ..frames import stop_playing
+from ..faults import AllOrNothing, in_one_sentence, one_or_more, tell
+from ..frames import plays, stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_previews
 from ..reading import has_linked_results
-from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes
+from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes, set_free
 from . import polls
 
 IN_OBJECT_MODE = "Reflections are cleared in Object Mode: leave the present mode first."
@@ -34,6 +34,10 @@ def clear(context: bpy.types.Context, results: list) -> None:
     nodes = {disc_nodes(obj) for obj in results}
     lights = {obj.reflection_mesh.light_material for obj in results} - {None}
     maps = {obj.reflection_mesh.light_map for obj in results} - {None}
+    with AllOrNothing() as whole:
+        # of those that have one mesh, one
+        for obj in {obj.data: obj for obj in results if not plays(obj)}.values():
+            set_free(context, obj, whole)
     # from here on nothing can fail, so that results go all or none
     if mirror is not None and mirror.name in layer.objects:
         layer.objects.active = mirror

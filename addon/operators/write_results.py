@@ -107,7 +107,9 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
 def _told(written: list) -> list[str]:
     """Sentences on results that the user had moved, and on the copies that were made of them."""
     moved = [entry.obj.name for entry in written if entry.changes.moved is not None and not entry.copy]
-    news = [f"'{name}' stays moved, as you left it: clear it and generate again to have it on its mirror."
+    news = [f"What was joined to '{entry.obj.name}' is an object of its own again: '{entry.freed.name}'."
+            for entry in written if entry.freed is not None]
+    news += [f"'{name}' stays moved, as you left it: clear it and generate again to have it on its mirror."
             for name in moved]
     copies = [entry.obj.name for entry in written if entry.copy]
     if copies:

@@ -10,7 +10,9 @@ from ...core import ReflectionMesh
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object, still_there
 from ..reading.results import every_result_of, results_of
 from .arrays import MeshArrays
+from .beside import link_beside
 from .cameras import bring_back
+from .joined_parts import set_free
 from .kept_changes import Changes, changes_of, place
 from .nodes import hide_discs, show_discs
 from .windows import set_window
@@ -53,11 +55,13 @@ class Reflection:
 
 @dataclass(frozen=True)
 class Written:
-    """A result that was written: `obj`, what the user had changed on it, and whether it is a copy of another one."""
+    """A result that was written: `obj`, what the user had changed on it, whether it is a copy of another one, and what
+    was joined to it, as an object again."""
 
     obj: bpy.types.Object
     changes: Changes
     copy: bool
+    freed: bpy.types.Object | None = None
 
 
 def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothing) -> list[Written]:
@@ -82,7 +86,9 @@ def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothi
     # the active one first
     earlier.sort(key=lambda obj: obj != active)
     shared = earlier[0].data
-    written = [Written(obj, changes_of(obj), obj != earlier[0]) for obj in earlier]
+    written = [Written(obj, changes_of(obj), obj != earlier[0],
+                       set_free(context, obj, whole) if obj == earlier[0] or obj.data != shared else None)
+               for obj in earlier]
     for entry in written:
         obj = entry.obj
         keep_object(obj, whole)
@@ -156,16 +162,6 @@ def new_beside(context: bpy.types.Context, name: str, other: bpy.types.Object,
     whole.undo(bpy.data.objects.remove, obj)
     link_beside(context.scene, obj, other)
     return obj
-
-
-def link_beside(scene: bpy.types.Scene, obj: bpy.types.Object, other: bpy.types.Object) -> None:
-    """Put an object into the collections of another, those of this scene that can be changed, which those of a library
-    and their overrides cannot, else into the scene's own."""
-    of_scene = {scene.collection, *scene.collection.children_recursive}
-    beside = [collection for collection in other.users_collection
-              if collection in of_scene and collection.library is None and collection.override_library is None]
-    for collection in beside or [scene.collection]:
-        collection.objects.link(obj)
 
 
 def _remember(obj: bpy.types.Object, made: Reflection) -> None:

@@ -68,6 +68,8 @@ KEPT = {
     "'{}' stays moved, as you left it: clear it and generate again to have it on its mirror.":
         "'{}' bleibt verschoben, wie du es gelassen hast: entferne und erzeuge es neu, um es auf dem Spiegel zu "
         "haben.",
+    "What was joined to '{}' is an object of its own again: '{}'.":
+        "Was mit '{}' verbunden wurde, ist wieder ein eigenes Objekt: '{}'.",
     "Hidden, since what plays is right for every camera: {}.":
         "Ausgeblendet, da für jede Kamera stimmt, was abgespielt wird: {}.",
     "Updated too, as a copy: {}.": "Auch erneuert, als Kopie: {}.",

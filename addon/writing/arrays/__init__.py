@@ -13,6 +13,7 @@ from .mesh_arrays import (
 from .mesh_edges import Edges
 from .point_arrays import point_arrays
 from .result_size import mesh_bytes, size_text
+from .shown_attributes import OF_METHOD
 
-__all__ = ["Attribute", "Edges", "Lines", "MOST_UV_MAPS", "MeshArrays", "UV_MAP", "in_order", "light_layer",
-           "mesh_arrays", "mesh_bytes", "point_arrays", "shown_layers", "size_text", "vertices_written"]
+__all__ = ["Attribute", "Edges", "Lines", "MOST_UV_MAPS", "MeshArrays", "OF_METHOD", "UV_MAP", "in_order",
+           "light_layer", "mesh_arrays", "mesh_bytes", "point_arrays", "shown_layers", "size_text", "vertices_written"]

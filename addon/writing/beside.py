@@ -1,0 +1,14 @@
+"""Where new objects go: beside those that they belong to."""
+from __future__ import annotations
+
+import bpy
+
+
+def link_beside(scene: bpy.types.Scene, obj: bpy.types.Object, other: bpy.types.Object) -> None:
+    """Put an object into the collections of another, those of this scene that can be changed, which those of a library
+    and their overrides cannot, else into the scene's own."""
+    of_scene = {scene.collection, *scene.collection.children_recursive}
+    beside = [collection for collection in other.users_collection
+              if collection in of_scene and collection.library is None and collection.override_library is None]
+    for collection in beside or [scene.collection]:
+        collection.objects.link(obj)

@@ -1,0 +1,72 @@
+"""What was joined to a result (Object > Join): no faces of it are written over, they become an object again."""
+from __future__ import annotations
+
+import bpy
+import bmesh
+import numpy as np
+
+from ..faults import AllOrNothing, remove_new
+from .arrays import OF_METHOD
+from .beside import link_beside
+
+
+def set_free(context: bpy.types.Context, result: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object | None:
+    """Make what was joined to a result an object beside it, where it is; None where there is nothing.
+
+    What Blender joins stands behind the result's own faces, and shares no vertex with them; what the user has made of
+    these in Edit Mode goes with them. The result itself is left as it is.
+    """
+    own = _own_vertices(result)
+    if not own:
+        return None
+    mesh = result.data.copy()
+    whole.undo(remove_new, mesh)
+    mesh.name = name = f"{result.name} Joined"
+    _without(mesh, own)
+    _keep_used_materials(mesh, [slot.material for slot in result.material_slots])
+    # by their names, one after another: each that goes moves the others
+    for attribute in OF_METHOD.intersection(mesh.attributes.keys()):
+        mesh.attributes.remove(mesh.attributes[attribute])
+    obj = bpy.data.objects.new(name, mesh)
+    whole.undo(remove_new, obj)
+    link_beside(context.scene, obj, result)
+    obj.matrix_world = result.matrix_world
+    return obj
+
+
+def _own_vertices(result: bpy.types.Object) -> int:
+    """How many vertices, the first ones, are the result's own; 0 where that are all, or where other faces than its own
+    have some of these."""
+    record, mesh = result.reflection_mesh, result.data
+    if record.points:
+        return record.points if len(mesh.vertices) > record.points else 0
+    if not 0 < record.faces < len(mesh.polygons):
+        return 0
+    corners = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    first = mesh.polygons[record.faces].loop_start
+    own = int(corners[:first].max()) + 1
+    return own if corners[first:].min() >= own else 0
+
+
+def _keep_used_materials(mesh: bpy.types.Mesh, shown: list) -> None:
+    """Let a mesh have those of the `shown` materials that its faces have."""
+    used = np.zeros(len(mesh.polygons), dtype=np.int32)
+    mesh.polygons.foreach_get("material_index", used)
+    numbers, places = np.unique(used.clip(0, max(len(shown) - 1, 0)), return_inverse=True)
+    mesh.materials.clear()
+    for number in numbers if shown else ():
+        mesh.materials.append(shown[number])
+    mesh.polygons.foreach_set("material_index", places.reshape(-1).astype(np.int32))
+
+
+def _without(mesh: bpy.types.Mesh, vertices: int) -> None:
+    """Take the first vertices out of a mesh, with all that they are a part of."""
+    edited = bmesh.new()
+    try:
+        edited.from_mesh(mesh)
+        edited.verts.ensure_lookup_table()
+        bmesh.ops.delete(edited, geom=edited.verts[:vertices], context="VERTS")
+        edited.to_mesh(mesh)
+    finally:
+        edited.free()

@@ -1,0 +1,89 @@
+"""What the user has joined to a result outlasts it."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+
+
+def places(obj: bpy.types.Object) -> np.ndarray:
+    """Of an object's vertices, in the world, in one order for all."""
+    found = np.array([obj.matrix_world @ vertex.co for vertex in obj.data.vertices])
+    return found[np.lexsort(found.round(4).T)]
+
+
+def join_a_cube(result: bpy.types.Object) -> np.ndarray:
+    """A red cube, joined to a result; where its vertices are."""
+    cube = parts.add("cube", "Precious", location=(3.0, 3.0, 3.0), rotation=(0.3, 0.0, 0.2))
+    cube.data.materials.append(parts.material("Red", "DIFFUSE"))
+    bpy.context.view_layer.update()
+    where = places(cube)
+    parts.select(cube, result)
+    bpy.ops.object.join()
+    bpy.context.view_layer.update()
+    assert len(result.data.vertices) > 8 and "Precious" not in bpy.data.objects
+    return where
+
+
+def is_the_cube(obj: bpy.types.Object, where: np.ndarray) -> None:
+    bpy.context.view_layer.update()
+    assert np.allclose(places(obj), where, atol=1e-5)
+    assert len(obj.data.polygons) == 6 and len(obj.data.edges) == 12
+    assert [material.name for material in obj.data.materials] == ["Red"]
+    assert obj.reflection_mesh.role == "AUTO" and obj.visible_get() and obj.visible_glossy
+    assert "reflected_position" not in obj.data.attributes and not obj.data.validate()
+
+
+@pytest.mark.parametrize("how", ["again", "lit before", "of points", "cleared"])
+def test_it_is_an_object_again(scene, capfd, how):
+    result, options = scene.result, {}
+    if how == "of points":
+        options["method"] = "POINTS"
+        parts.select(result)
+        assert parts.generate(**options) == result and result.reflection_mesh.points
+    if how == "lit before":
+        scene.leaf.data.materials.append(parts.material("Green", "DIFFUSE"))
+        parts.select(result)
+        parts.generate()
+        assert bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE") == {"FINISHED"}
+    faces = result.reflection_mesh.faces
+    where = join_a_cube(result)
+    capfd.readouterr()
+    parts.select(result)
+    if how == "cleared":
+        bpy.ops.reflection_mesh.clear()
+        assert "Ball Reflection" not in bpy.data.objects
+    else:
+        assert parts.generate(**options) == result and result.reflection_mesh.faces == faces
+        assert ("What was joined to 'Ball Reflection' is an object of its own again: 'Ball Reflection Joined'."
+                in capfd.readouterr().out)
+    is_the_cube(bpy.data.objects["Ball Reflection Joined"], where)
+    if how != "cleared":
+        parts.select(result)
+        parts.generate()
+        assert [obj.name for obj in bpy.data.objects if "Joined" in obj.name] == ["Ball Reflection Joined"]
+
+
+def test_a_generation_that_fails_leaves_the_join_as_it_was(scene, room, monkeypatch):
+    join_a_cube(scene.result)
+
+    def fails(*_):
+        raise MemoryError
+    monkeypatch.setattr(room("addon.operators.write_results"), "show_previews", fails)
+    count = len(scene.result.data.polygons)
+    parts.select(scene.result)
+    parts.refusal()
+    assert len(scene.result.data.polygons) == count
+
+
+def test_faces_that_were_divided_are_no_object(scene):
+    """They go with the faces that they were made of, as the docs say."""
+    parts.select(scene.result)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(scene.result.data.polygons) > scene.result.reflection_mesh.faces
+    parts.generate()
+    assert not [obj.name for obj in bpy.data.objects if "Joined" in obj.name]
