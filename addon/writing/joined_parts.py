@@ -8,6 +8,7 @@ import numpy as np
 from ..faults import AllOrNothing, remove_new
 from .arrays import OF_METHOD
 from .beside import link_beside
+from .nodes import disc_nodes
 
 
 def set_free(context: bpy.types.Context, result: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object | None:
@@ -16,7 +17,7 @@ def set_free(context: bpy.types.Context, result: bpy.types.Object, whole: AllOrN
     What Blender joins stands behind the result's own faces, and shares no vertex with them; what the user has made of
     these in Edit Mode goes with them. The result itself is left as it is.
     """
-    own = _own_vertices(result)
+    own = _own_vertices(result) if result.type == "MESH" else 0
     if not own:
         return None
     mesh = result.data.copy()
@@ -39,7 +40,9 @@ def _own_vertices(result: bpy.types.Object) -> int:
     have some of these."""
     record, mesh = result.reflection_mesh, result.data
     if record.points:
-        return record.points if len(mesh.vertices) > record.points else 0
+        # without the nodes that draw its points it was made another mesh (Object > Convert)
+        joined = len(mesh.vertices) > record.points and disc_nodes(result) is not None
+        return record.points if joined else 0
     if not 0 < record.faces < len(mesh.polygons):
         return 0
     corners = np.empty(len(mesh.loops), dtype=np.int32)

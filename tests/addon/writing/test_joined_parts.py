@@ -87,3 +87,12 @@ def test_faces_that_were_divided_are_no_object(scene):
     assert len(scene.result.data.polygons) > scene.result.reflection_mesh.faces
     parts.generate()
     assert not [obj.name for obj in bpy.data.objects if "Joined" in obj.name]
+
+
+def test_points_that_were_made_a_mesh_are_no_join(scene):
+    parts.select(scene.result)
+    parts.generate(method="POINTS")
+    bpy.ops.object.convert(target="MESH")
+    assert len(scene.result.data.vertices) > scene.result.reflection_mesh.points
+    parts.generate(method="POINTS")
+    assert not [obj.name for obj in bpy.data.objects if "Joined" in obj.name]
