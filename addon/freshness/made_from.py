@@ -98,7 +98,8 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
     try:
         now = origin_of(context.evaluated_depsgraph_get(), read_view(context), record.mirror, sources)
     except ReflectionError:
-        return ""
+        # nothing can be made for it either, which whoever tries is told
+        return "the camera has changed"
     origin, settings = made
     why = difference(origin, now)
     if not why and settings not in ({}, settings_of(context.scene, record.mirror)):

@@ -91,6 +91,17 @@ def test_update_says_why_what_is_stale_stays_so(scene, capfd, change, word):
     assert word in told and "No reflection is stale" not in told
 
 
+def test_a_camera_that_cannot_be_read_is_no_reason_to_be_right(scene, room, blank):
+    """Nothing was stale, since nothing could be told."""
+    scene.camera.data.type = "PANO"
+    blank.view_layer.update()
+    assert room("addon.freshness").why_stale(blank, scene.result) == "the camera has changed"
+    assert "panoramic" in parts.refusal(bpy.ops.reflection_mesh.update)
+    scene.camera.data.type = "PERSP"
+    blank.view_layer.update()
+    assert room("addon.freshness").why_stale(blank, scene.result) == ""
+
+
 def test_undo_brings_the_mirror_back(scene, room, blank):
     bpy.ops.ed.undo_push(message="before")
     joined(scene.ball)
