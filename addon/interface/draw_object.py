@@ -45,7 +45,8 @@ def _draw_light(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     names = [pgettext_iface("gone") if is_gone(part) else f"'{part.name}'" for part in (record.lamp, record.mirror)]
     layout.label(text=pgettext_iface("Light of {lamp}, thrown by {mirror}").format(lamp=names[0], mirror=names[1]),
                  translate=False)
-    layout.label(text=_size(obj), translate=False)
+    if obj.type == "MESH":
+        layout.label(text=_size(obj), translate=False)
 
 
 def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
@@ -56,6 +57,11 @@ def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bp
     layout.label(text=pgettext_iface("Shows {names}").format(names=_names(record.sources)), translate=False)
     if plays(obj):
         layout.label(text="Plays baked frames")
+        return
+    if obj.type != "MESH":
+        # Object > Convert
+        layout.label(text="It is no mesh any more: Generate", icon="ERROR")
+        layout.label(text="makes a new one.", icon="BLANK1")
         return
     layout.label(text=_size(obj), translate=False)
     if obj.library is not None:

@@ -34,6 +34,7 @@ from ..reading import (
     camera_of,
     has_fog,
     has_linked_results,
+    in_viewports,
     is_gone,
     is_mirror,
     is_opaque,
@@ -102,7 +103,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
         raise ReflectionError(LINKED_TO_LIGHT if has_linked_results() else NOTHING_TO_LIGHT)
     yield 0.0, "Reading the scene"
     view = read_view(context)
-    groups = _for_the_camera(context.scene.camera, _with_mirrors(groups))
+    groups = _for_the_camera(context.scene.camera, _with_mirrors(context, groups))
     everything, shows, lamps = [], [], lamps_that_show(context)
     with AllOrNothing() as whole:
         for number, (results, samples, kind) in enumerate(groups):
@@ -149,14 +150,23 @@ def _stay_linked(linked: list, whole: AllOrNothing) -> None:
         result.data = linked[0].data
 
 
-def _with_mirrors(groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
-    """The groups without the results whose mirror is gone, which the panel tells of."""
-    there = [([result for result in results if not is_gone(result.reflection_mesh.mirror)], samples, kind)
-             for results, samples, kind in groups]
-    if not any(results for results, _, _ in there):
+def _with_mirrors(context: bpy.types.Context, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
+    """The groups without the results whose mirror is gone or hidden, and what is no mesh any more, which the panel
+    tells of."""
+    # those that are hidden in renders alone are lit as ever
+    there = in_viewports(context)
+    own = [([result for result in results if result.type == "MESH" and result.reflection_mesh.mirror in there],
+            samples, kind)
+           for results, samples, kind in groups]
+    if not any(results for results, _, _ in own):
         lost = next(result for results, _, _ in groups for result in results)
-        raise ReflectionError(f"The mirror of '{lost.name}' is gone: clear it, or select another mirror.")
-    return there
+        mirror = lost.reflection_mesh.mirror
+        if is_gone(mirror):
+            raise ReflectionError(f"The mirror of '{lost.name}' is gone: clear it, or select another mirror.")
+        if lost.type != "MESH":
+            raise ReflectionError(f"'{lost.name}' is no mesh any more: generate the reflection again.")
+        raise ReflectionError(f"The mirror '{mirror.name}' is hidden: show it in the viewport and in renders.")
+    return own
 
 
 def _for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:

@@ -30,6 +30,7 @@ from .roles import (
     can_take_part,
     candidates,
     choose,
+    in_viewports,
     may_have_faces,
     participants,
     rendered_collections,
@@ -41,8 +42,8 @@ from .roles import (
 __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
            "Placed", "RESULTS", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
            "every_result_of", "fog_of", "forget_known", "has_fog", "has_linked_results", "in_background_set",
-           "is_clear", "is_fog", "is_gone", "is_mirror", "is_opaque", "is_part", "join_mirror", "join_scene",
-           "known_results", "lines_drawn", "link_state", "looked_through", "materials_of", "materials_shown",
-           "may_have_faces", "moves", "participants", "read_meshes", "read_mirror", "read_scene", "read_view",
-           "register", "render_size", "rendered_alone", "rendered_collections", "rendered_otherwise", "results_of",
-           "says_mirror", "seen_in", "unregister", "vectors", "visible", "with_copies", "without_surface"]
+           "in_viewports", "is_clear", "is_fog", "is_gone", "is_mirror", "is_opaque", "is_part", "join_mirror",
+           "join_scene", "known_results", "lines_drawn", "link_state", "looked_through", "materials_of",
+           "materials_shown", "may_have_faces", "moves", "participants", "read_meshes", "read_mirror", "read_scene",
+           "read_view", "register", "render_size", "rendered_alone", "rendered_collections", "rendered_otherwise",
+           "results_of", "says_mirror", "seen_in", "unregister", "vectors", "visible", "with_copies", "without_surface"]

@@ -188,12 +188,20 @@ def rendered_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool
     return lambda obj: not obj.hide_render and obj in rendered
 
 
-def rendered_collections(layer_collection: bpy.types.LayerCollection) -> set:
-    """The view layer's collections that are in renders: neither excluded nor hidden, themselves or through a parent."""
+def in_viewports(context: bpy.types.Context) -> set:
+    """The objects of the view layer that are in viewports, were it not for the eyes of collections in the outliner."""
+    shown = rendered_collections(context.view_layer.layer_collection, "hide_viewport")
+    return {obj for collection in shown for obj in collection.objects
+            if not (obj.hide_viewport or obj.hide_get(view_layer=context.view_layer))}
+
+
+def rendered_collections(layer_collection: bpy.types.LayerCollection, hidden_by: str = "hide_render") -> set:
+    """The view layer's collections that are in renders, or in what else `hidden_by` says: neither excluded nor hidden,
+    themselves or through a parent."""
     found, waiting = set(), [layer_collection]
     while waiting:
         branch = waiting.pop()
-        if not branch.collection.hide_render:
+        if not getattr(branch.collection, hidden_by):
             waiting.extend(branch.children)
             if not branch.exclude:
                 found.add(branch.collection)

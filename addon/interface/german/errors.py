@@ -85,6 +85,8 @@ CHOICE = {
     "to one of the scene's collections.":
         "'{}' ist nicht in dieser Szene, wie nach dem Löschen oder Verbinden mit einem anderen Objekt: entferne die "
         "Spiegelung, oder nimm es in eine der Sammlungen der Szene auf.",
+    "'{}' is no mesh any more: generate the reflection again.":
+        "'{}' ist kein Netz mehr: erzeuge die Spiegelung neu.",
     "The mirror of '{}' is gone: clear it, or select another mirror.":
         "Der Spiegel von '{}' ist nicht mehr da: entferne es, oder wähle einen anderen Spiegel aus.",
     "The reflected object '{}' is hidden: show it in the viewport, in renders and to glossy rays.":

@@ -209,6 +209,8 @@ PANELS = {
     "a mirror that is gone": "einem Spiegel, der fehlt",
     "Shows {names}": "Zeigt {names}",
     "{names} and {count} more": "{names} und {count} weitere",
+    "It is no mesh any more: Generate": "Sie ist kein Netz mehr: Spiegelung erzeugen",
+    "makes a new one.": "macht eine neue.",
     "1 object": "1 Objekt",
     "{count} objects": "{count} Objekte",
     "Light of {lamp}, thrown by {mirror}": "Licht von {lamp}, geworfen von {mirror}",
