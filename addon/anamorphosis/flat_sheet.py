@@ -39,7 +39,7 @@ def flat_sheet(obj: bpy.types.Object, metres: float) -> FlatSheet:
     Raises
     ------
     ReflectionError
-        Where it carries none, or is not flat.
+        Where it carries none, is not flat, or has no area.
     """
     mesh = obj.data if obj.type == "MESH" else None
     if mesh is None or UV_MAP not in mesh.uv_layers or SEEN not in mesh.attributes:
@@ -58,6 +58,9 @@ def flat_sheet(obj: bpy.types.Object, metres: float) -> FlatSheet:
     mesh.attributes["position"].data.foreach_get("vector", places.reshape(-1))
     matrix = np.array(obj.matrix_world, dtype=np.float64)
     world = places[vertex].astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    if not np.isfinite(world).all():
+        raise ReflectionError(f"'{obj.name}' has a transform that is not a finite number: clear its location, rotation "
+                              "and scale.")
     flat = (world - world.mean(axis=0)) @ _axes(obj, world, matrix).T
     low = flat.min(axis=0)
     return FlatSheet((flat - low)[loops] * metres, uv[loops].astype(np.float64), seen[polygon],
@@ -68,6 +71,8 @@ def _axes(obj: bpy.types.Object, world: np.ndarray, matrix: np.ndarray) -> np.nd
     """(2, 3): the unit directions right and up of a flat sheet, as who stands where its mirror is sees it."""
     middle = world.mean(axis=0)
     _, extent, axes = np.linalg.svd(world - middle, full_matrices=False)
+    if extent[1] <= FLAT * extent[0]:
+        raise ReflectionError(f"'{obj.name}' has no area to print: clear its scale, or choose another object.")
     if extent[2] > FLAT * extent[1]:
         raise ReflectionError(f"'{obj.name}' is not flat, and cannot be printed on a sheet: choose a flat object.")
     normal, mirror = axes[2], obj.reflection_mesh.mirror

@@ -170,7 +170,7 @@ def _why_unseen(obj: bpy.types.Object, there: set, hidden: str) -> str:
         return hidden
     if is_gone(obj):
         return (f"'{obj.name}' is not in this scene, as after it was deleted or joined to another object: clear the "
-                "reflection, or add it to one of the scene's collections.")
+                "result, or add it to one of the scene's collections.")
     return f"'{obj.name}' is not in this scene: add it to one of the scene's collections."
 
 

@@ -81,10 +81,10 @@ CHOICE = {
         "Der Spiegel '{}' ist ausgeblendet: zeige ihn in der Ansicht und im Render.",
     "'{}' is not in this scene: add it to one of the scene's collections.":
         "'{}' ist nicht in dieser Szene: nimm es in eine ihrer Sammlungen auf.",
-    "'{}' is not in this scene, as after it was deleted or joined to another object: clear the reflection, or add it "
-    "to one of the scene's collections.":
-        "'{}' ist nicht in dieser Szene, wie nach dem Löschen oder Verbinden mit einem anderen Objekt: entferne die "
-        "Spiegelung, oder nimm es in eine der Sammlungen der Szene auf.",
+    "'{}' is not in this scene, as after it was deleted or joined to another object: clear the result, or add it to "
+    "one of the scene's collections.":
+        "'{}' ist nicht in dieser Szene, wie nach dem Löschen oder Verbinden mit einem anderen Objekt: entferne das "
+        "Ergebnis, oder nimm es in eine der Sammlungen der Szene auf.",
     "'{}' is no mesh any more: generate the reflection again.":
         "'{}' ist kein Netz mehr: erzeuge die Spiegelung neu.",
     "The mirror of '{}' is gone: clear it, or select another mirror.":
@@ -222,6 +222,8 @@ PRINTS = {
         "Ein Bild kommt nur auf Kopien: wähle Eine Kopie, oder gib dem Objekt ein Material, das das Bild nach der "
         "UV-Karte '{}' zeigt.",
     "'{}' shows no picture: choose one to print.": "'{}' zeigt kein Bild: wähle eines zum Drucken.",
+    "'{}' has no area to print: clear its scale, or choose another object.":
+        "'{}' hat keinen Flächeninhalt zum Drucken: setze die Skalierung zurück, oder wähle ein anderes Objekt.",
     "'{}' is neither a .png nor a .svg file: name one of them.": "'{}' ist weder .png noch .svg: nenne eines davon.",
     "A print has {} to {} dots per inch: choose 150 or 300.":
         "Ein Druck hat {} bis {} Punkte pro Zoll: wähle 150 oder 300.",

@@ -312,3 +312,14 @@ def test_the_verb_writes_maps_and_prints(wall, room, tmp_path, capsys):
     capsys.readouterr()
     assert room("addon.command_line").run(["mirror-uvs", "--tolerance", "-1", "--output", str(output)]) == 1
     assert "not foreseen" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("scale", "told"), [(float("nan"), "not a finite number"), (0.0, "no area to print")])
+def test_a_sheet_that_has_no_size_is_not_printed(wall, tmp_path, scale, told):
+    """The first failed for a reason that was not foreseen."""
+    copy = write()
+    copy.scale.x = scale
+    bpy.context.view_layer.update()
+    parts.select(copy)
+    assert told in parts.refusal(bpy.ops.reflection_mesh.print_sheet, filepath=str(tmp_path / "sheet.png"))
+    assert not list(tmp_path.iterdir())
