@@ -6,7 +6,7 @@ from bpy.app.translations import pgettext_iface
 
 from ..faults import translated
 from ..freshness import why_light_is_stale, why_stale
-from ..live import abandoned_results, kept_light, kept_results, present
+from ..live import abandoned_light, abandoned_results, kept_light, kept_results, present
 from .draw_lines import draw_sentence
 
 
@@ -28,6 +28,7 @@ def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     for obj, why in stale:
         layout.label(text=pgettext_iface("'{name}' is stale:").format(name=obj.name), icon="ERROR", translate=False)
         draw_sentence(layout, context, f"{pgettext_iface(why)}.")
+    gone += abandoned_light(context)
     if any(obj not in gone for obj, _ in stale):
         layout.operator("reflection_mesh.update", icon="FILE_REFRESH")
 

@@ -42,8 +42,9 @@ def draw_figures(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
 def _draw_light(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     record = obj.reflection_mesh
     layout.label(text=obj.name, icon="LIGHT_POINT", translate=False)
-    names = [pgettext_iface("gone") if is_gone(part) else f"'{part.name}'" for part in (record.lamp, record.mirror)]
-    layout.label(text=pgettext_iface("Light of {lamp}, thrown by {mirror}").format(lamp=names[0], mirror=names[1]),
+    lamp = pgettext_iface("a lamp that is gone") if is_gone(record.lamp) else f"'{record.lamp.name}'"
+    mirror = pgettext_iface("a mirror that is gone") if is_gone(record.mirror) else f"'{record.mirror.name}'"
+    layout.label(text=pgettext_iface("Light of {lamp}, thrown by {mirror}").format(lamp=lamp, mirror=mirror),
                  translate=False)
     if obj.type == "MESH":
         layout.label(text=_size(obj), translate=False)

@@ -5,11 +5,12 @@ written by `generation`; between two of its results their vertices follow what m
 """
 from ..registration import together
 from . import switch, update
-from .kept import abandoned_results, kept_light, kept_results
+from .kept import abandoned_light, abandoned_results, kept_light, kept_results
 from .switch import present
 from .updater import LiveUpdater
 
-__all__ = ["LiveUpdater", "abandoned_results", "kept_light", "kept_results", "present", "register", "unregister"]
+__all__ = ["LiveUpdater", "abandoned_light", "abandoned_results", "kept_light", "kept_results", "present",
+           "register", "unregister"]
 
 
 register, unregister = together(switch, update)

@@ -21,6 +21,12 @@ def abandoned_results(context: bpy.types.Context) -> list:
     return [obj for obj in _made_here(known) if obj.library is None and is_gone(obj.reflection_mesh.mirror)]
 
 
+def abandoned_light(context: bpy.types.Context) -> list:
+    """As `abandoned_results`, of the light whose mirror or lamp is gone."""
+    return [obj for obj in kept_light(context)
+            if is_gone(obj.reflection_mesh.mirror) or is_gone(obj.reflection_mesh.lamp)]
+
+
 def _made_here(known: list) -> list:
     return [obj for obj in known if obj.reflection_mesh.role == "REFLECTION" and obj.type == "MESH" and not plays(obj)]
 

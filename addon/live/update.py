@@ -8,9 +8,8 @@ from ..freshness import why_light_is_stale, why_stale
 from ..operators import polls
 from ..operators.generate import IN_OBJECT_MODE, generation
 from ..operators.write_results import Manners
-from ..reading import is_gone
 from ..settings import Wanted
-from .kept import abandoned_results, groups, kept_light, kept_results, why_not_kept
+from .kept import abandoned_light, abandoned_results, groups, kept_light, kept_results, why_not_kept
 from .thrown import light_groups, made_anew
 
 NOTHING_STALE = "No reflection is stale."
@@ -69,8 +68,7 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
 def _lost(context: bpy.types.Context) -> dict:
     """What nothing makes anew, since its mirror or its lamp is gone, and what is to be said of that."""
     found = {obj: why_stale(context, obj) for obj in abandoned_results(context)}
-    return found | {obj: why_light_is_stale(context, obj) for obj in kept_light(context)
-                    if is_gone(obj.reflection_mesh.mirror) or is_gone(obj.reflection_mesh.lamp)}
+    return found | {obj: why_light_is_stale(context, obj) for obj in abandoned_light(context)}
 
 
 def register() -> None:

@@ -33,11 +33,13 @@ from ..illumination import (
     parts_of,
     places_on_mirror,
     receiving,
+    results_with,
     textured,
     write_caustics,
 )
 from ..reading import DiffuseScene, Participants, choose, materials_shown, read_mirror, read_scene
 from ..settings import UsesSettings, option
+from ..writing import set_free, told_of
 from . import polls
 from .asked_light import Asked, asked_again, remember
 from .caustic_remarks import remarks_on, remarks_on_taking
@@ -201,6 +203,8 @@ def _written(context: bpy.types.Context, prepared: list, wanted: Asked, left: tu
     shown = materials_shown(context.evaluated_depsgraph_get(), [made.mirror for made in prepared])
     with AllOrNothing() as whole:
         for made in prepared:
+            for earlier in results_with(context, made.mirror, made.lamp)[:1]:
+                remarks += told_of(earlier, set_free(context, earlier, whole))
             obj, strange = write_caustics(context, made, whole, wanted.keep_materials)
             whole.after(stop_playing, obj)
             objects.append(obj)

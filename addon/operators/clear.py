@@ -34,10 +34,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
     nodes = {disc_nodes(obj) for obj in results}
     lights = {obj.reflection_mesh.light_material for obj in results} - {None}
     maps = {obj.reflection_mesh.light_map for obj in results} - {None}
-    with AllOrNothing() as whole:
-        # of those that have one mesh, one
-        for obj in {obj.data: obj for obj in results if not plays(obj)}.values():
-            set_free(context, obj, whole)
+    _set_free(context, results)
     # from here on nothing can fail, so that results go all or none
     if mirror is not None and mirror.name in layer.objects:
         layer.objects.active = mirror
@@ -92,6 +89,13 @@ def _remove(objects: list) -> None:
             bpy.data.meshes.remove(mesh)
 
 
+def _set_free(context: bpy.types.Context, results: list) -> None:
+    """Let what the user has joined to results outlast them; of those that have one mesh, to one."""
+    with AllOrNothing() as whole:
+        for obj in {obj.data: obj for obj in results if not plays(obj)}.values():
+            set_free(context, obj, whole)
+
+
 class REFLECTION_MESH_OT_clear(bpy.types.Operator):
     """Remove the selected reflections, or all of the scene, and restore what they changed"""
 
@@ -118,6 +122,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
             tell(self, {"WARNING"}, LINKED_TO_CLEAR if has_linked_results() else NOTHING_TO_CLEAR)
             return {"CANCELLED"}
         clear(context, results)
+        _set_free(context, caustics)
         clear_caustics(caustics)
         told = one_or_more(len(results), "1 reflection", "{count} reflections")
         if caustics:

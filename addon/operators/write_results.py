@@ -11,7 +11,16 @@ from ..frames import stop_playing
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
 from ..reading import DiffuseScene, results_of
-from ..writing import Reflection, gather, mesh_bytes, put_back_materials, show_for_camera, size_text, write_object
+from ..writing import (
+    Reflection,
+    gather,
+    mesh_bytes,
+    put_back_materials,
+    show_for_camera,
+    size_text,
+    told_of,
+    write_object,
+)
 
 WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
 
@@ -107,8 +116,7 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
 def _told(written: list) -> list[str]:
     """Sentences on results that the user had moved, and on the copies that were made of them."""
     moved = [entry.obj.name for entry in written if entry.changes.moved is not None and not entry.copy]
-    news = [f"What was joined to '{entry.obj.name}' is an object of its own again: '{entry.freed.name}'."
-            for entry in written if entry.freed is not None]
+    news = [sentence for entry in written for sentence in told_of(entry.obj, entry.freed)]
     news += [f"'{name}' stays moved, as you left it: clear it and generate again to have it on its mirror."
             for name in moved]
     copies = [entry.obj.name for entry in written if entry.copy]

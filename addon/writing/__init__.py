@@ -15,7 +15,7 @@ from .arrays import (
 )
 from .beside import link_beside
 from .cameras import as_shown, show_for_camera
-from .joined_parts import set_free
+from .joined_parts import set_free, told_of
 from .kept_changes import place_of, put_back_materials
 from .landmarks import applied_to, forget_landmarks
 from .nodes import Builder, disc_nodes, forget_nodes, forget_unblurred, hide_discs, show_unblurred, unblurred_in
@@ -41,4 +41,4 @@ __all__ = ["Attribute", "Builder", "Edges", "FIELDS", "LONGEST_RECORD", "MOST_UV
            "hide_discs", "light_layer", "link_beside", "mesh_arrays", "mesh_bytes", "new_beside", "new_object",
            "place_of", "point_arrays", "put_back_materials", "result_name", "set_free", "set_window", "show_for_camera",
            "show_in_layer", "show_own_materials", "show_unblurred", "shown_layers", "size_text", "unblurred_in",
-           "vertices_written", "what_is_in_the_way", "write_mesh", "write_object"]
+           "told_of", "vertices_written", "what_is_in_the_way", "write_mesh", "write_object"]

@@ -35,6 +35,12 @@ def set_free(context: bpy.types.Context, result: bpy.types.Object, whole: AllOrN
     return obj
 
 
+def told_of(result: bpy.types.Object, freed: bpy.types.Object | None) -> list[str]:
+    """A sentence on what `set_free` has made, where it has."""
+    return [] if freed is None else [
+        f"What was joined to '{result.name}' is an object of its own again: '{freed.name}'."]
+
+
 def _own_vertices(result: bpy.types.Object) -> int:
     """How many vertices, the first ones, are the result's own; 0 where that are all, or where other faces than its own
     have some of these."""

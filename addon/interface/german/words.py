@@ -214,7 +214,7 @@ PANELS = {
     "1 object": "1 Objekt",
     "{count} objects": "{count} Objekte",
     "Light of {lamp}, thrown by {mirror}": "Licht von {lamp}, geworfen von {mirror}",
-    "gone": "etwas, das fehlt",
+    "a lamp that is gone": "einer Lampe, die fehlt",
     "Plays baked frames": "Spielt gebackene Einzelbilder",
     "1 face, {size}": "1 Fläche, {size}",
     "1 point, {size}": "1 Punkt, {size}",

@@ -48,7 +48,7 @@ def test_live_and_what_is_stale_are_drawn_so(room, monkeypatch):
                               window_manager=SimpleNamespace(reflection_mesh_live=live))
     result = SimpleNamespace(name="Ball Reflection")
     monkeypatch.setattr(place, "kept_results", lambda context: [result])
-    for nothing in ("kept_light", "abandoned_results"):
+    for nothing in ("kept_light", "abandoned_results", "abandoned_light"):
         monkeypatch.setattr(place, nothing, lambda context: [])
     monkeypatch.setattr(place, "why_stale", lambda context, obj: "die Einstellungen haben sich geändert")
     place.draw_live(layout, context)

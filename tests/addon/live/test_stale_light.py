@@ -1,6 +1,8 @@
 """Light that a mirror threw before something moved says so where Live is off, and one click makes it anew."""
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import bpy
 import parts
 import pytest
@@ -48,7 +50,7 @@ def test_lamps_materials_and_settings_count(scene, told):  # noqa: F811
     assert told(scene.light) == ""
 
 
-def test_a_file_that_is_opened_again_is_not_stale(blank, told, tmp_path, capfd):
+def test_a_file_that_is_opened_again_is_not_stale(blank, told, tmp_path, capfd, room):
     parts.select(*scene_of("SPOT")[:2], bpy.data.objects["Lamp"])
     bpy.context.view_layer.objects.active = bpy.data.objects["Mirror"]
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
@@ -63,5 +65,13 @@ def test_a_file_that_is_opened_again_is_not_stale(blank, told, tmp_path, capfd):
     assert bpy.ops.reflection_mesh.update("EXEC_DEFAULT") == {"FINISHED"}
     said = "".join(capfd.readouterr())
     assert "'Mirror Caustics' cannot be made anew" in said and "faces of light" not in said
+    labels: list = []
+    buttons: list = []
+    layout = SimpleNamespace(label=lambda text, **_: labels.append(text), prop=lambda *_, **__: None,
+                             operator=lambda name, **_: buttons.append(name))
+    layout.box, layout.column = lambda: layout, lambda **_: layout
+    room("addon.interface.draw_object").draw_object(layout, bpy.context, light)
+    room("addon.interface.draw_live").draw_live(layout, bpy.context)
+    assert "Light of a lamp that is gone, thrown by 'Mirror'" in labels and buttons == ["reflection_mesh.live"]
     # what cannot be mended is left
     assert bpy.ops.reflection_mesh.update("EXEC_DEFAULT") == {"FINISHED"} and len(light.data.polygons)

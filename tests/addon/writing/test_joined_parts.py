@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
+from caustic_scene import scene_of
 
 
 def places(obj: bpy.types.Object) -> np.ndarray:
@@ -96,3 +97,24 @@ def test_points_that_were_made_a_mesh_are_no_join(scene):
     assert len(scene.result.data.vertices) > scene.result.reflection_mesh.points
     parts.generate(method="POINTS")
     assert not [obj.name for obj in bpy.data.objects if "Joined" in obj.name]
+
+
+@pytest.mark.parametrize("cleared", [False, True])
+def test_what_was_joined_to_light_is_an_object_again(blank, capfd, cleared):
+    floor, mirror, lamp = scene_of()
+    parts.select(floor, lamp, mirror)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    light = bpy.data.objects["Mirror Caustics"]
+    faces, where = len(light.data.polygons), join_a_cube(light)
+    parts.select(light)
+    capfd.readouterr()
+    if cleared:
+        assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+        assert "Mirror Caustics" not in bpy.data.objects
+    else:
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+        assert "'Mirror Caustics Joined'" in capfd.readouterr().out and len(light.data.polygons) == faces
+    bpy.context.view_layer.update()
+    freed = bpy.data.objects["Mirror Caustics Joined"]
+    assert np.allclose(places(freed), where, atol=1e-5) and len(freed.data.polygons) == 6
+    assert [material.name for material in freed.data.materials] == ["Red"]
