@@ -17,12 +17,12 @@ from .frame_records import (
     told_apart,
     write_record,
 )
-from .play import light_of, play, player_of, plays, stop_playing
+from .play import light_of, play, player_of, plays, results_to_play, stop_playing
 from .play_caustics import play_caustics
 from .sequence import Sequence
 from .write_frame import write_image, write_result, writes_usd
 
 __all__ = ["FrameRecord", "ResultRecord", "Sequence", "file_name", "frame_numbers", "frame_text", "is_done",
-           "light_of", "play", "play_caustics", "player_of", "plays", "read_record", "record_path", "set_aside",
-           "show_always", "show_by_camera", "stop_playing", "told_apart", "write_image", "write_record", "write_result",
-           "writes_usd"]
+           "light_of", "play", "play_caustics", "player_of", "plays", "read_record", "record_path", "results_to_play",
+           "set_aside", "show_always", "show_by_camera", "stop_playing", "told_apart", "write_image", "write_record",
+           "write_result", "writes_usd"]

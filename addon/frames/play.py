@@ -150,7 +150,7 @@ def _object(context: bpy.types.Context, player: Player, whole: AllOrNothing) -> 
     one."""
     mirror, sequence = player.mirror, player.sequence
     called = result_name(mirror, sequence.name)
-    earlier = _earlier(context, player, called)
+    earlier = results_to_play(context, player)
     if not earlier:
         obj = new_object(context, mirror, whole)
         if sequence.name:
@@ -166,10 +166,12 @@ def _object(context: bpy.types.Context, player: Player, whole: AllOrNothing) -> 
     return obj
 
 
-def _earlier(context: bpy.types.Context, player: Player, called: str) -> list:
-    """The results of a mirror that may play a sequence: the one that plays those files, else the mirror's own; of
-    several sequences the one that is called so, or a still that its camera sees, and would see besides."""
+def results_to_play(context: bpy.types.Context, player: Player) -> list:
+    """The results of a mirror that may play a sequence, of which the first one will: the one that plays those files,
+    else the mirror's own; of several sequences the one that is called so, or a still that its camera sees, and would
+    see besides."""
     sequence, every = player.sequence, every_result_of(context, player.mirror)
+    called = result_name(player.mirror, sequence.name)
     files = _numberless(player.cache)
     same = [obj for obj in every if plays(obj) and _numberless(obj.modifiers[NAME].cache_file) == files]
     if same or not (sequence.name or sequence.camera):

@@ -4,8 +4,9 @@ from __future__ import annotations
 import bpy
 
 from ...faults import AllOrNothing
-from ...frames import Sequence, light_of, play, player_of, show_always, show_by_camera
+from ...frames import Sequence, light_of, play, player_of, results_to_play, show_always, show_by_camera
 from ...reading import candidates
+from ...writing import set_free, told_of
 from .plan import Plan
 from .thrown_light import playing_light
 
@@ -16,12 +17,14 @@ def playing(context: bpy.types.Context, sequences: list[Sequence]) -> tuple[list
     with AllOrNothing() as whole:
         players = [player_of(sequence, mirror, light, whole)
                    for sequence in sequences for light in [light_of(sequence, whole)] for mirror in mirrors]
+        freed = [sentence for player in players for result in results_to_play(context, player)[:1]
+                 for sentence in told_of(result, set_free(context, result, whole))]
         shown = [(play(context, player, diffuse, whole), player.sequence.camera) for player in players]
         if sequences[0].camera:
             show_by_camera(context.scene, shown)
         hidden = [other for obj, camera in shown if not camera for other in show_always(context, obj, whole)]
     told = [f"Hidden, since what plays is right for every camera: {', '.join(repr(obj.name) for obj in hidden)}."]
-    return [obj for obj, _ in shown], told * bool(hidden)
+    return [obj for obj, _ in shown], freed + told * bool(hidden)
 
 
 def showing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -> tuple[list, list]:

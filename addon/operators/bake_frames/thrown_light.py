@@ -8,9 +8,10 @@ import bpy
 from .... import core
 from ...faults import AllOrNothing, Steps, still_there
 from ...frames import Sequence, play_caustics, player_of, told_apart
-from ...illumination import follow_layers, leave_out, lights_renders, places_kept
+from ...illumination import follow_layers, leave_out, lights_renders, places_kept, results_with
 from ...reading import NothingSeen, candidates, materials_shown, visible
 from ...settings import of_each
+from ...writing import set_free, told_of
 from ..asked_light import Asked, keep_own, left_out_before
 from ..caustics import NothingThrown, name_of, throwing
 from ..clear import remove_caustics
@@ -126,6 +127,8 @@ def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) ->
     with AllOrNothing() as whole:
         players = {key: player_of(sequence, mirror, None, whole, key) for key, (mirror, _) in pairs.items()}
         for key, player in players.items():
+            for earlier in results_with(context, *pairs[key])[:1]:
+                told += told_of(earlier, set_free(context, earlier, whole))
             obj = play_caustics(context, player, key, pairs[key], lit, whole)
             obj.reflection_mesh.eyes = sequence.records[-1].made_with["places"][key]
             whole.after(keep_own, obj, not left_out[pairs[key]])

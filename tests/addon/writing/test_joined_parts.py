@@ -66,6 +66,15 @@ def test_it_is_an_object_again(scene, capfd, how):
         assert [obj.name for obj in bpy.data.objects if "Joined" in obj.name] == ["Ball Reflection Joined"]
 
 
+def test_it_is_an_object_again_where_frames_are_baked(scene, capfd, tmp_path):
+    where = join_a_cube(scene.result)
+    parts.select(scene.result)
+    capfd.readouterr()
+    assert bpy.ops.reflection_mesh.bake(filepath=str(tmp_path), frames="1-2", samples=0) == {"FINISHED"}
+    assert "'Ball Reflection Joined'" in capfd.readouterr().out
+    is_the_cube(bpy.data.objects["Ball Reflection Joined"], where)
+
+
 def test_a_generation_that_fails_leaves_the_join_as_it_was(scene, room, monkeypatch):
     join_a_cube(scene.result)
 
