@@ -15,7 +15,7 @@ from .culling import SceneAndMirrors
 from .geometry import SceneFrames, area_normals, columns, distinct, dot, doubled_areas, groups, in_order, norm, rows
 from .polygons import Faces
 from .result import ReflectionMesh, halfway, place
-from .support import breathe
+from .support import breathe, portions
 from .views import LampView
 from .whole_faces import Seamed
 
@@ -228,10 +228,8 @@ def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, 
     """
     corner = triangles.ravel()
     own = np.empty((3, len(corner)))
-    for start in range(0, len(corner), CORNERS_AT_ONCE):
-        some = slice(start, start + CORNERS_AT_ONCE)
+    for some in portions(len(corner), CORNERS_AT_ONCE):
         own[:, some] = (rows(met.positions[frames.vertices[:, column[some]]]) * weights[:, some]).sum(axis=1)
-        breathe()
     size = np.ptp(met.positions[frames.vertices.ravel()], axis=0).max() if len(corner) else 0.0
     beside = np.flatnonzero(norm(own - point[:, corner]) > BESIDE * size)
     breathe()

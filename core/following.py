@@ -12,7 +12,7 @@ import numpy as np
 from .cameras import INSIDE, MirrorMap, drawn_in, settle
 from .geometry import TriangleMesh, norm, rows, unit
 from .result import ReflectionMesh, place
-from .support import breathe
+from .support import breathe, portions
 from .trees import SceneTree, first_crossed
 from .views import View
 
@@ -104,14 +104,12 @@ class FollowedImages:
         face, uv, s, points, seen = (np.empty_like(self.face), np.empty_like(self.uv), np.empty_like(self.distance),
                                      np.empty_like(self.weights), np.empty_like(self.weights))
         lost, path = np.empty_like(self.lost), np.empty_like(self.distance)
-        for first in range(0, len(face), AT_ONCE):
-            some = slice(first, first + AT_ONCE)
+        for some in portions(len(face), AT_ONCE):
             points[:, some] = self._points(scene, some)
             face[some], uv[:, some], s[some], lost[some] = self._found(mirror_map, points[:, some], some)
             seen[:, some] = mirror_map.places(face[some], uv[:, some])
             path[some] = norm(points[:, some] - seen[:, some])
             s[some] = np.where(lost[some], path[some] / norm(mirror_map.arriving(seen[:, some])), s[some])
-            breathe()
         positions = place(view, seen, path, placement)
         breathe()
         if placement == "LAYERED" and len(path):

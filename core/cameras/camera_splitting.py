@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry import columns, cross, dot, groups, shared_edges, split, unit
-from ..support import breathe
+from ..support import portions
 from .reflection_map import ReflectionMap
 from .three_ray_cameras import Cameras
 
@@ -86,9 +86,7 @@ def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
 def true_rays(mirror_map: ReflectionMap, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Origins and directions (3, n) of the rays that leave the mirror where places (3, n) on its faces are seen."""
     origins, rays = np.empty_like(places), np.empty_like(places)
-    for start in range(0, len(face), CORNERS_AT_ONCE):
-        breathe()
-        part = slice(start, start + CORNERS_AT_ONCE)
+    for part in portions(len(face), CORNERS_AT_ONCE):
         origins[:, part], rays[:, part] = mirror_map.leave(face[part],
                                                            mirror_map.coordinates(face[part], places[:, part]))
     return origins, rays

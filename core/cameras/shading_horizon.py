@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry import dot, edge_lengths, following, split
-from ..support import breathe
+from ..support import breathe, portions
 from .camera_splitting import split_cameras
 from .three_ray_cameras import Cameras
 
@@ -31,9 +31,8 @@ def _lifted_probes(cameras: Cameras, slack: float) -> np.ndarray:
     mirror_map = cameras.mirror_map
     found = np.zeros((_PROBES.shape[1] + 1, len(cameras)), dtype=bool)
     grazing = np.flatnonzero(mirror_map.grazing[cameras.face])
-    for start in range(0, len(grazing), CAMERAS_AT_ONCE):
-        breathe()
-        near = grazing[start:start + CAMERAS_AT_ONCE]
+    for part in portions(len(grazing), CAMERAS_AT_ONCE):
+        near = grazing[part]
         corners = cameras.places[:, cameras.corners[near]]
         below = _nearest(corners, cameras.view.eye)[:, None]
         places = np.concatenate((np.einsum("xnk,kp->xpn", corners, _PROBES), below), axis=1).reshape(3, -1)

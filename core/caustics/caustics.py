@@ -11,7 +11,7 @@ from ..geometry import TriangleMesh
 from ..recentring import far_corner, moved_surface
 from ..reflection import reflect
 from ..result import ReflectionMesh
-from ..support import NothingInView, ReflectionError, Settings, breathe, in_steps, tell
+from ..support import NothingInView, ReflectionError, Settings, breathe, in_steps, portions, tell
 from .caustic_mesh import CausticMesh
 from .corners import Corners, light_at, mean_weight
 from .energy import flux_of
@@ -142,9 +142,7 @@ def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, rec
     triangles, face = seen.triangles[chosen], seen.map_face[chosen]
     source, points = seen.source_face[chosen], seen.reflected_position.T
     normal, parts = receivers.face_normals()[source].T, []
-    for start in range(0, len(chosen), AT_ONCE):
-        breathe()
-        own = slice(start, start + AT_ONCE)
+    for own in portions(len(chosen), AT_ONCE):
         corner, owner = triangles[own].T.ravel(), np.tile(face[own], 3)
         uv = ray_map.coordinates(owner, seen.mirror_position[corner].T)
         parts.append(light_at(ray_map, owner, uv, points[:, corner], np.tile(normal[:, own], 3), lamp))

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..cameras import BouncedMap, ReflectionMap
 from ..geometry import dot, following, norm, unit
-from ..support import breathe
+from ..support import portions
 from .lamps import Lamp, mean_of_seven
 
 AT_ONCE = 1 << 13
@@ -126,9 +126,7 @@ def mean_weight(ray_map: ReflectionMap, face: np.ndarray, light: Corners, lamp: 
     """
     uv = light.uv.reshape(2, 3, -1)
     counted = np.empty(len(face))
-    for start in range(0, len(face), AT_ONCE):
-        breathe()
-        own = slice(start, start + AT_ONCE)
+    for own in portions(len(face), AT_ONCE):
         corners = uv[:, :, own]
         places = np.concatenate((corners, 0.5 * (corners + following(corners)), corners.mean(axis=1, keepdims=True)), 1)
         sent, came = (values.reshape(7, -1) for values in _passed(

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..support import breathe
+from ..support import portions
 
 SAMPLES = 256  # faces in whose middles it is counted
 AT_ONCE = 1 << 20
@@ -22,9 +22,7 @@ def most_layers(positions: np.ndarray, triangles: np.ndarray, source_face: np.nd
     sides = [(towards, np.einsum("ij,ij->i", towards, first)) for first, towards in (
         (first, np.cross(normal, second - first)) for first, second in ((a, b), (b, c), (c, a)))]
     step = max(AT_ONCE // max(len(triangles), 1), 1)
-    for start in range(0, len(asked), step):
-        breathe()
-        own = slice(start, start + step)
+    for own in portions(len(asked), step):
         inside = (source_face[asked[own], None] == source_face[None]) & covers
         for towards, least in sides:
             inside &= middle[own] @ towards.T >= least

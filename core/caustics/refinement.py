@@ -13,7 +13,7 @@ import numpy as np
 
 from ..cameras import ReflectionMap
 from ..geometry import TriangleMesh, columns, cross, dot, following, norm, parent_side, rows, shared_edges, split, unit
-from ..support import breathe
+from ..support import breathe, portions
 from ..views import in_cone
 from .corners import Corners, light_at
 from .lamps import Lamp
@@ -158,9 +158,8 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within:
     """The light in the middles of the sides 01, 12, 20 of the faces `asked` (k,), where these are, (3, 3, k) as
     [component, side, face], and whether (k, 3) they were found."""
     parts, points, found = [], [], []
-    for begin in range(0, max(len(asked), 1), AT_ONCE):
-        breathe()
-        part = asked[begin:begin + AT_ONCE]
+    for portion in portions(max(len(asked), 1), AT_ONCE):
+        part = asked[portion]
         own, face = np.tile(part, 3), np.tile(faces.face[part], 3)
         uv = faces.light.uv.reshape(2, 3, -1)[:, :, part]
         start = 0.5 * (uv + following(uv)).reshape(2, -1)

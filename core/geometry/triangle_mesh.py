@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..support import LARGEST, numbers, whole_numbers
+from ..support import LARGEST, numbers, portions, whole_numbers
 from .adjacency import corners_beyond
 from .vectors import cross, largest, norm, rows
 
@@ -116,8 +116,7 @@ class TriangleMesh:
     def areal(self) -> np.ndarray:
         """Which triangles (m,) have an area that is more than rounding."""
         found = np.empty(len(self.triangles), dtype=bool)
-        for start in range(0, len(found), _CHUNK):
-            part = slice(start, start + _CHUNK)
+        for part in portions(len(found), _CHUNK):
             found[part] = areal(rows(self.positions.take(self.triangles[part].T, axis=0, mode="clip")))
         return found
 
@@ -185,8 +184,7 @@ def has_area(area: np.ndarray, size: np.ndarray) -> np.ndarray:
 
 def _flat_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     normals = np.empty((len(triangles), 3))
-    for start in range(0, len(triangles), _CHUNK):
-        part = slice(start, start + _CHUNK)
+    for part in portions(len(triangles), _CHUNK):
         # indices known to be good are gathered faster where NumPy need not say which one is wrong
         normal = area_normals(rows(positions.take(triangles[part].T, axis=0, mode="clip")))
         length = norm(normal)

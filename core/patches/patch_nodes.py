@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import columns, dot, norm, unit
-from ..support import breathe
+from ..support import breathe, portions
 from ..trees import Cones, StandIns, VertexTree, median_leaves
 from .patch import Patch
 from .walk import changes, find, find_near
@@ -41,8 +41,7 @@ class Walk:
 
     def afresh(self, points: np.ndarray) -> tuple:
         """The same from where rays pass near."""
-        parts = [self._near(points[:, start:start + FAR_AT_ONCE])
-                 for start in range(0, max(points.shape[1], 1), FAR_AT_ONCE)]
+        parts = [self._near(points[:, part]) for part in portions(max(points.shape[1], 1), FAR_AT_ONCE)]
         member, uv, s = (np.concatenate(part, axis=-1) for part in zip(*parts))
         return find(self.patch, member, uv, s, points)
 
@@ -151,8 +150,7 @@ class Descent:
             level, inner, parent = tree.below(level, node[open_])
             parent = open_[parent]
             if level < tree.depth:
-                for start in range(0, len(inner), NODES_AT_ONCE):
-                    part = slice(start, start + NODES_AT_ONCE)
+                for part in portions(len(inner), NODES_AT_ONCE):
                     waiting.append((level, inner[part], images, parent[part]))
                 continue
             open_, some = self._opened(level, inner, images, parent)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..cameras import least_weight
 from ..geometry import columns, cross, dot, norm
-from ..support import breathe
+from ..support import portions
 from .patch import Patch
 
 SIDE = 48  # cells along a side of the cube map
@@ -124,9 +124,8 @@ class _Walk:
     def walked(self, active: np.ndarray, looks: int) -> np.ndarray:
         """Those of the points `active` that are still on their way after so many looks."""
         left = [active[:0]]
-        for start in range(0, len(active), AT_ONCE):
-            breathe()
-            left.append(active[start:start + AT_ONCE])
+        for part in portions(len(active), AT_ONCE):
+            left.append(active[part])
             for _ in range(looks):
                 if not len(left[-1]):
                     break

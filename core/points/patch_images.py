@@ -8,7 +8,7 @@ import numpy as np
 from ..cameras import INSIDE, drawn_in, least_weight, settle
 from ..geometry import rows
 from ..patches import Descent, Patch, Walk
-from ..support import breathe
+from ..support import portions
 from ..trees import SMALL, PointTree
 from .point_images import PointImages
 
@@ -35,9 +35,7 @@ def images_on_patch(patch: Patch, tree: PointTree,
     found, left = [PointImages.none()], [PointImages.none()]
     for some in descent.vertices():
         wanted += len(some.vertex)
-        for start in range(0, len(some.vertex), AT_ONCE):
-            breathe()
-            part = slice(start, start + AT_ONCE)
+        for part in portions(len(some.vertex), AT_ONCE):
             vertex = some.vertex[part]
             looked = walk.images(rows(tree.mesh.positions[vertex]) - patch.eye, some.nodes, some.node[part])
             sure, lost = _split(patch, vertex, some.stood[part], looked)

@@ -4,8 +4,6 @@ Nothing is clipped and nothing joined: where triangles are smaller than a pixel,
 """
 from __future__ import annotations
 
-from collections.abc import Generator
-
 import numpy as np
 
 from ..cameras import ALONG_UV, Cameras, MirrorMap, drawn_in, grown, settle
@@ -15,7 +13,7 @@ from ..patches import Patch
 from ..polygons import VertexImages, images_of_pairs
 from ..result import Discs, ReflectionMesh
 from ..result import place as placed
-from ..support import Progress, breathe
+from ..support import Progress, portions
 from ..trees import Cones, Magnification, PointTree
 from .beams import Beams
 from .disc_shapes import LARGEST, flat_discs, picture_ellipses
@@ -54,7 +52,7 @@ def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, placemen
     point, spot, flat = np.empty((3, count)), np.empty((3, count)), np.empty((count, 2, 3))
     axes, wanted, radius = np.empty((2, 2, count)), np.empty(count), np.empty(count)
     parity = np.empty(count, dtype=np.int8)
-    for part in _parts(count):
+    for part in portions(count, AT_ONCE):
         some = images.select(part)
         seen = mirror_map.linearise(some.face, some.uv, *ALONG_UV)
         turned = grown(seen, some.distance)
@@ -67,7 +65,7 @@ def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, placemen
         point[:, part], spot[:, part] = tree.mesh.positions[some.vertex].T, seen[0]
     path = norm(point - spot)
     drawn = placed(view, spot, path, placement)
-    for part in _parts(count):
+    for part in portions(count, AT_ONCE):
         slope = None if placement == "VIRTUAL" else columns(surface.face_normal, images.face[part])
         flat[part], radius[part] = flat_discs(view, spot[:, part], axes[:, :, part], slope, drawn[:, part])
     counts["coarse"] = int((wanted > LARGEST).sum())
@@ -81,13 +79,6 @@ def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, placemen
         discs=Discs(images.vertex, images.face, weights, radius, flat))
 
 
-def _parts(count: int) -> Generator[slice, None, None]:
-    """Parts of so many images that fit the cache."""
-    for start in range(0, count, AT_ONCE):
-        breathe()
-        yield slice(start, start + AT_ONCE)
-
-
 def _images(cameras: Cameras, tree: PointTree, met: SceneAndMirrors,
             progress: Progress) -> tuple[PointImages, np.ndarray, dict[str, int]]:
     """Images as each camera finds them, which vertices (v,) others stand for, and counts."""
@@ -97,9 +88,8 @@ def _images(cameras: Cameras, tree: PointTree, met: SceneAndMirrors,
     counts = {"nodes_visited": pairs.visited, "pairs": len(pairs.camera), "projections": 0, "roots": 0}
     pairs.covered[pairs.vertex] = False
     found, stood, beams = [], [], Beams.of(cameras, cones)
-    for start in range(0, max(len(pairs.camera), 1), PAIRS_AT_ONCE):
-        progress.next(0.3 + 0.3 * start / max(len(pairs.camera), 1), "projection")
-        part = slice(start, start + PAIRS_AT_ONCE)
+    for part in portions(max(len(pairs.camera), 1), PAIRS_AT_ONCE):
+        progress.next(0.3 + 0.3 * part.start / max(len(pairs.camera), 1), "projection")
         camera, vertex, radius = pairs.camera[part], pairs.vertex[part], pairs.stood[part]
         held = beams.hold(camera, rows(positions[vertex]))
         seen, solved, pair = images_of_pairs(cameras, positions, camera[held], vertex[held])

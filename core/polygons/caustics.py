@@ -9,7 +9,7 @@ import numpy as np
 
 from ..cameras import Cameras, may_fold
 from ..geometry import SceneFrames, following, shared_edges
-from ..support import breathe
+from ..support import portions
 from .polygon_corners import Nodes
 from .triangulation import Faces
 
@@ -53,9 +53,7 @@ def split_at_caustics(cameras: Cameras, frames: SceneFrames, nodes: Nodes,
 
 def _magnification(mirror_map, frames, face, column, place) -> np.ndarray:
     turned = np.empty(len(face))
-    for start in range(0, len(face), PLACES_AT_ONCE):
-        breathe()
-        part = slice(start, start + PLACES_AT_ONCE)
+    for part in portions(len(face), PLACES_AT_ONCE):
         uv = mirror_map.coordinates(face[part], place[:, part])
         s = frames.distance(column[part], *mirror_map.leave(face[part], uv))
         turned[part] = mirror_map.turned(face[part], uv, s)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..culling import Candidates
-from ..support import breathe
+from ..support import portions
 from .convex_polygons import ConvexPolygons, Line, cut, scene_edges
 
 PAIRS_AT_ONCE = 32768
@@ -61,10 +61,9 @@ class Polygons(ConvexPolygons):
 def clip(candidates: Candidates) -> Polygons:
     """Polygons of the candidates that really overlap."""
     parts = []
-    for start in range(0, max(len(candidates), 1), PAIRS_AT_ONCE):
-        breathe()
-        part = _clip(candidates.select(slice(start, start + PAIRS_AT_ONCE)))
-        parts.append(replace(part, candidates=candidates, owner=part.owner + start))
+    for portion in portions(max(len(candidates), 1), PAIRS_AT_ONCE):
+        part = _clip(candidates.select(portion))
+        parts.append(replace(part, candidates=candidates, owner=part.owner + portion.start))
     return Polygons.joined(parts)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from ..cameras import Cameras
 from ..culling import Candidates, SceneAndMirrors, overlapping
 from ..geometry import SceneFrames, dot, largest, smallest
-from ..support import breathe
+from ..support import breathe, portions
 from .clipping import clip
 from .convex_polygons import Line, scene_edges
 
@@ -47,9 +47,7 @@ class Overlaps:
            met: SceneAndMirrors) -> Overlaps:
         """The overlaps among pairs of a camera and a column of the frames."""
         (camera, column), parts = pairs, []
-        for start in range(0, max(len(camera), 1), PAIRS_AT_ONCE):
-            breathe()
-            part = slice(start, start + PAIRS_AT_ONCE)
+        for part in portions(max(len(camera), 1), PAIRS_AT_ONCE):
             parts.append(_overlaps(overlapping(cameras, frames, camera[part], column[part]), met))
         return cls.joined(parts)
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..cameras import ALONG_UV, Cameras
 from ..geometry import SceneFrames, columns, dot, falling, norm
-from ..support import breathe
+from ..support import portions
 
 EDGES_AT_ONCE = 32768
 STRETCH = 4.0
@@ -38,9 +38,7 @@ def straying(cameras: Cameras, frames: SceneFrames, face: np.ndarray, uv: np.nda
         How far along its ray.
     """
     parts = []
-    for start in range(0, max(len(column), 1), EDGES_AT_ONCE):
-        breathe()
-        part = slice(start, start + EDGES_AT_ONCE)
+    for part in portions(max(len(column), 1), EDGES_AT_ONCE):
         parts.append(_straying(cameras, frames, face[part], uv[:, part], column[part], shown[:, part]))
     drift, error, point, s = (np.concatenate(side, axis=-1) for side in zip(*parts))
     return drift, error, point, s

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import cross, rows
-from ..support import breathe
+from ..support import breathe, portions
 from ..views import View, draw
 from .placement import place
 from .reflection_mesh import ReflectionMesh
@@ -79,9 +79,8 @@ class FrontImages:
         """
         hidden = np.zeros((len(face), 4), dtype=bool)
         asked = np.flatnonzero(self.several[face])
-        for start in range(0, len(asked), AT_ONCE):
-            breathe()
-            part = asked[start:start + AT_ONCE]
+        for portion in portions(len(asked), AT_ONCE):
+            part = asked[portion]
             hidden[part] = self._hidden(face[part], pixels[part])
         return hidden
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import connected, distinct, doubled_areas, following, split
-from ..support import breathe
+from ..support import breathe, portions
 from ..views import View
 from .hidden_images import FrontImages
 from .piece_location import holders
@@ -135,9 +135,7 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
         breathe()
         partly = hidden.any(axis=1) & ~hidden.all(axis=1)
         marked = np.zeros((len(clip), 3), dtype=bool)
-        for start in range(0, len(clip), AT_ONCE):
-            breathe()
-            own = slice(start, start + AT_ONCE)
+        for own in portions(len(clip), AT_ONCE):
             marked[own] = _straying(clip[own], view) > straying
             marked[own] |= partly[own, None] & (_lengths(clip[own], view) > FINEST)
         if not marked.any():
@@ -180,9 +178,7 @@ def _in_picture(pixels: np.ndarray, view: View) -> np.ndarray:
 def _pixels(clip: np.ndarray, view: View) -> np.ndarray:
     """Places (..., 2) in the picture of homogeneous ones (..., 4), none of what is not before the eye."""
     found = np.empty((*clip.shape[:-1], 2))
-    for start in range(0, len(clip), AT_ONCE):
-        breathe()
-        part = slice(start, start + AT_ONCE)
+    for part in portions(len(clip), AT_ONCE):
         depth = np.where(clip[part, ..., 3:] > 0.0, clip[part, ..., 3:], np.nan)
         found[part] = (clip[part, ..., :2] / depth * 0.5 + 0.5) * view.resolution
     return found
@@ -204,9 +200,7 @@ def _lengths(clip: np.ndarray, view: View) -> np.ndarray:
 def _children(corners: np.ndarray, parent: np.ndarray, local: np.ndarray) -> np.ndarray:
     """What the corners of the parts of triangles have, from what (k, 3, c) those of the triangles have."""
     found = np.empty((*local.shape, corners.shape[2]))
-    for start in range(0, len(parent), AT_ONCE):
-        breathe()
-        part = slice(start, start + AT_ONCE)
+    for part in portions(len(parent), AT_ONCE):
         own = corners[parent[part]]
         six = np.concatenate((own, 0.5 * (own + following(own))), axis=1)
         found[part] = np.take_along_axis(six, local[part, :, None], axis=1)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..support import breathe, numbers
+from ..support import numbers, portions
 from .certain_pairs import certain_images, common_lengths, own_lengths
 from .doubtful_pairs import doubtful_images
 from .scaling import of_ordinary_size, strange_sizes
@@ -104,12 +104,10 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     # The C library maps large arrays anew each time, and clears their pages, until it has freed a larger one once.
     np.empty(64 * CHUNK)
     found, doubts = [], []
-    for start in range(0, max(count, 1), CHUNK):
-        breathe()
-        part = slice(start, start + CHUNK)
+    for part in portions(max(count, 1), CHUNK):
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], common_lengths)
-        found.append(_turned(facing, pair + start, *images))
-        doubts.append(np.flatnonzero(doubtful) + start)
+        found.append(_turned(facing, pair + part.start, *images))
+        doubts.append(np.flatnonzero(doubtful) + part.start)
     left, doubtful_left = np.concatenate(doubts), []
     # a number that is not finite leaves every doubt
     if not all(np.isfinite(given[left]).all() for given in (vertices, rays, points)):
@@ -160,7 +158,7 @@ def _of_strange_size(vertices, rays, points, facing):
 
 def _chunks(pairs: np.ndarray):
     """At least one part, which may be empty."""
-    return (pairs[start:start + CHUNK] for start in range(0, max(len(pairs), 1), CHUNK))
+    return (pairs[part] for part in portions(max(len(pairs), 1), CHUNK))
 
 
 def _turned(facing, pair, distance, weights, sign, side):

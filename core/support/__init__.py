@@ -6,8 +6,8 @@ from .errors import NothingInView, ReflectionError
 from .heap import keep_freed_memory
 from .progress import Progress
 from .settings import METHODS, PLACEMENTS, Settings
-from .stepping import breathe, in_steps, tell
+from .stepping import breathe, in_steps, portions, tell
 
 __all__ = ["FACE_SHARE", "LARGEST", "METHODS", "MIRROR_SHARE", "NothingInView", "OUTLINE_SHARE", "PLACEMENTS",
            "Progress", "ReflectionError", "Settings", "breathe", "crowded", "in_steps", "keep_freed_memory", "number",
-           "numbers", "tell", "whole_number", "whole_numbers"]
+           "numbers", "portions", "tell", "whole_number", "whole_numbers"]

@@ -38,6 +38,13 @@ def breathe() -> None:
         work.hand_over()
 
 
+def portions(count: int, size: int) -> Generator[slice, None, None]:
+    """Slices of up to `size` of so many things, one behind another, with a breath before each."""
+    for start in range(0, count, size):
+        breathe()
+        yield slice(start, min(start + size, count))
+
+
 def tell(share: float, stage: str) -> None:
     """Let the caller of the work know how much of it is done, 0 to 1, and what comes next."""
     work = getattr(_here, "work", None)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import TriangleMesh, columns, cross, dot, ranges, rows
-from ..support import breathe
+from ..support import breathe, portions
 
 BINS = 12
 LEAF = 8  # triangles that a leaf holds at most
@@ -180,13 +180,11 @@ def _area(low: np.ndarray, high: np.ndarray) -> np.ndarray:
 def _frames(corners: np.ndarray, order: np.ndarray) -> np.ndarray:
     """(12, t): of the triangles `order` (t,) with corners (3, m, 3)."""
     frames = np.empty((12, len(order)))
-    for start in range(0, len(order), FRAMES_AT_ONCE):
-        breathe()
-        own = corners[:, order[start:start + FRAMES_AT_ONCE]]
+    for part in portions(len(order), FRAMES_AT_ONCE):
+        own = corners[:, order[part]]
         corner, u, v = own[:, :, 0], own[:, :, 1] - own[:, :, 0], own[:, :, 2] - own[:, :, 0]
         normal = cross(u, v)
         area = dot(normal, normal)
         ways = cross(v, normal) / area, cross(normal, u) / area, normal / np.sqrt(area)
-        frames[:, start:start + FRAMES_AT_ONCE] = np.concatenate([row for way in ways
-                                                                  for row in (way, -dot(way, corner)[None])])
+        frames[:, part] = np.concatenate([row for way in ways for row in (way, -dot(way, corner)[None])])
     return frames

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import TriangleMesh, columns, connected, cross, dot, others, rows, solid_angles
-from ..support import breathe
+from ..support import breathe, portions
 from ..views import Covered, View
 from .cones import Cones
 
@@ -138,9 +138,8 @@ def _ends(mesh: TriangleMesh) -> np.ndarray:
     number = (np.arange(len(mesh.positions)) * SCATTERED) & 0x7fffffff
     # round an inner vertex each neighbour comes once after it and once before it
     total = np.zeros(len(number))
-    for start in range(0, len(mesh.triangles), AT_ONCE):
-        breathe()
-        corner = columns(mesh.places, mesh.triangles[start:start + AT_ONCE].T)
+    for part in portions(len(mesh.triangles), AT_ONCE):
+        corner = columns(mesh.places, mesh.triangles[part].T)
         named = columns(number, corner)
         for k in range(3):
             after, before = others(k)
@@ -153,9 +152,7 @@ def _up_and_volume(spots: np.ndarray, corner: np.ndarray, middle: np.ndarray,
     """Of triangles with `corner` (3, n) among spots (3, v): 1 where they face up, -1 down; and six times their cones'
     volumes from the middles (3, k) of their bodies (n,)."""
     facing, volume = np.empty(len(body)), np.empty(len(body))
-    for start in range(0, len(body), AT_ONCE):
-        breathe()
-        part = slice(start, start + AT_ONCE)
+    for part in portions(len(body), AT_ONCE):
         a, b, c = (columns(spots, of_all) for of_all in corner[:, part])
         normal = cross(b - a, c - a)
         facing[part] = np.sign(normal[2])
@@ -174,8 +171,7 @@ def _overlapping(spots: np.ndarray, corner: np.ndarray, body: np.ndarray, facing
     size = np.where(high[:2] > low[:2], high[:2] - low[:2], 1.0)
     tile = np.stack((np.arange(count) % across, np.arange(count) // across))
     own, pixel, depth, sign = [], [], [], []
-    for start in range(0, len(body), AT_ONCE):
-        part = slice(start, start + AT_ONCE)
+    for part in portions(len(body), AT_ONCE):
         of_body = body[part]
         ends = columns(spots, corner[:, part])
         seen = ((ends[:2] - columns(low[:2], of_body)[:, None]) / columns(size, of_body)[:, None]

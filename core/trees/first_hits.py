@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from ..geometry import ranges
-from ..support import breathe
+from ..support import breathe, portions
 from .box_tree import BoxTree
 
 RAYS_AT_ONCE = 65536
@@ -59,10 +59,10 @@ def first_hits(tree: BoxTree, origins: np.ndarray, directions: np.ndarray, *, le
     count = origins.shape[1]
     triangle, distance = np.full(count, -1), np.full(count, np.inf)
     intersections = nodes = 0
-    for start in range(0, count if len(tree) else 0, RAYS_AT_ONCE):
-        part = slice(start, start + RAYS_AT_ONCE)
+    for part in portions(count if len(tree) else 0, RAYS_AT_ONCE):
         trace = _Trace(tree, origins[:, part], directions[:, part], least,
-                       None if limit is None else limit[part], None if asked is None else partial(_later, asked, start))
+                       None if limit is None else limit[part],
+                       None if asked is None else partial(_later, asked, part.start))
         trace.run()
         triangle[part], distance[part] = trace.triangle, np.where(trace.triangle >= 0, trace.nearest, np.inf)
         intersections += trace.intersections

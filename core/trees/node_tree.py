@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import Order, TriangleMesh, columns
-from ..support import breathe
+from ..support import breathe, portions
 from .cones import Balls, Cones
 
 FIRST_LEVEL = 4
@@ -57,9 +57,8 @@ class NodeTree:
         that is no longer `wanted` (n,) when its turn comes goes no further; nor do cones at nodes where `resting`,
         asked with (level, cone, node), says so."""
         level, first = self.top()
-        for start in range(0, len(cones.radius), CONES_AT_ONCE):
-            breathe()
-            cone = np.arange(start, min(start + CONES_AT_ONCE, len(cones.radius)))
+        for part in portions(len(cones.radius), CONES_AT_ONCE):
+            cone = np.arange(part.start, part.stop)
             waiting = [(level, np.repeat(cone, len(first)), np.tile(first, len(cone)))]
             while waiting:
                 yield self._step(cones, wanted, resting, waiting)

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from ..geometry import Order, TriangleMesh, columns, dot, in_order, largest, ordered, ranges, rows, shares
-from ..support import breathe
+from ..support import breathe, portions
 from .box_tree import BoxTree
 from .closed_bodies import ClosedBodies
 from .cones import Balls, Cones
@@ -157,9 +157,7 @@ def _boxes_and_spheres(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.n
     """Low and high corner (3, m) of the box round each triangle, and centre and radius (4, m) of the sphere."""
     positions, count = rows(mesh.positions), len(mesh.triangles)
     low, high, spheres = np.empty((3, count)), np.empty((3, count)), np.empty((4, count))
-    for start in range(0, count, AT_ONCE):
-        breathe()
-        part = slice(start, start + AT_ONCE)
+    for part in portions(count, AT_ONCE):
         corners = [columns(positions, corner) for corner in mesh.triangles[part].T]
         a, b, c = corners
         # as three arrays: minima along an axis of three are several times slower

@@ -6,7 +6,7 @@ import numpy as np
 from ..culling import ABOVE, Candidates, SceneAndMirrors
 from ..geometry import norm
 from ..polygons import clip
-from ..support import breathe
+from ..support import portions
 
 BEHIND = 0.02  # of a triangle's size
 PROBED_AT_ONCE = 16384  # pairs of a camera and a triangle of a mirror
@@ -19,10 +19,8 @@ def plainly_seen(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
     side; those neighbours count, as across a groove, that one of the camera's `_PROBES` sees, or the ray in the middle
     of what the neighbour covers."""
     kept = np.ones(len(candidates), dtype=bool)
-    for start in range(0, len(candidates), PROBED_AT_ONCE):
-        breathe()
-        part = np.arange(start, min(start + PROBED_AT_ONCE, len(candidates)))
-        part = part[_touching(met, candidates.select(part))]
+    for portion in portions(len(candidates), PROBED_AT_ONCE):
+        part = portion.start + _touching(met, candidates.select(portion))
         asked = candidates.select(part)
         kept[part] = _probed(met, asked, np.repeat(_PROBES[:, :, None], len(part), axis=2))
         doubtful = np.flatnonzero(~kept[part])

@@ -5,7 +5,7 @@ import numpy as np
 
 from ..geometry import columns
 from ..patches import Patch
-from ..support import breathe
+from ..support import breathe, portions
 from ..views import box
 from .images import Images
 from .layers import Layers
@@ -79,9 +79,7 @@ def _behind_some(patch: Patch, images: Images, nodes: np.ndarray, behind: np.nda
     several = nodes[:, images.several(nodes)]
     cells = patch.border.unmarked().with_boxes(*box(images.pixel[:, several]))
     kept = np.empty(behind.shape[1], dtype=bool)
-    for start in range(0, len(kept), AT_ONCE):
-        breathe()
-        part = slice(start, start + AT_ONCE)
+    for part in portions(len(kept), AT_ONCE):
         kept[part] = cells.touched(*box(columns(images.pixel, behind[:, part])))
     return behind[:, kept]
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..geometry import ColumnArrays
 from ..patches import Patch, Starts, find, jacobians
-from ..support import breathe
+from ..support import portions
 
 AT_ONCE = 16384  # points: what their arrays take fits the cache
 
@@ -53,9 +53,7 @@ class Images(ColumnArrays):
         """Images of points (3, n) from the eye, which are known but for where they lie in the picture."""
         count = len(s)
         place, pixel = np.empty((3, count)), np.empty((2, count))
-        for start in range(0, count, AT_ONCE):
-            breathe()
-            part = slice(start, start + AT_ONCE)
+        for part in portions(count, AT_ONCE):
             place[:, part] = patch.places(member[part], uv[:, part])
             pixel[:, part] = patch.pixels(place[:, part])
         found = found & np.isfinite(pixel).all(axis=0)

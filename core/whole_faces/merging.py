@@ -15,7 +15,7 @@ import numpy as np
 
 from ..geometry import TriangleMesh, areal, columns, cross, dot, doubled_areas, groups, norm, rows
 from ..patches import Descent, Patch, Walk
-from ..support import breathe
+from ..support import breathe, portions
 from ..trees import SceneTree
 from .images import Images
 
@@ -102,9 +102,8 @@ def _on_outline(tree: SceneTree, images: Images, standing: np.ndarray) -> np.nda
     front and some from behind."""
     mesh = tree.mesh
     found, back = np.zeros((2, len(standing)), dtype=bool)
-    for start in range(0, len(mesh.triangles), AT_ONCE):
-        breathe()
-        corner = mesh.triangles[start:start + AT_ONCE].T
+    for part in portions(len(mesh.triangles), AT_ONCE):
+        corner = mesh.triangles[part].T
         node = columns(standing, corner)
         some = np.flatnonzero((node != corner).any(axis=0))
         corner, node = corner[:, some], node[:, some]
@@ -123,9 +122,8 @@ def _on_outline(tree: SceneTree, images: Images, standing: np.ndarray) -> np.nda
 def _lost(mesh: TriangleMesh, standing: np.ndarray) -> np.ndarray:
     """Which vertices (v,) stand for so much that too little of the surface is left."""
     before, after = np.zeros((2, len(standing)))
-    for start in range(0, len(mesh.triangles), AT_ONCE):
-        breathe()
-        corner = mesh.triangles[start:start + AT_ONCE].T
+    for part in portions(len(mesh.triangles), AT_ONCE):
+        corner = mesh.triangles[part].T
         node = columns(standing, corner)
         some = np.flatnonzero((node != corner).any(axis=0))
         node = node[:, some]

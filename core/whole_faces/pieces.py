@@ -10,7 +10,7 @@ import numpy as np
 
 from ..geometry import ColumnArrays, columns, cross, dot, doubled_areas, largest, norm, parent_side, rows, split
 from ..patches import Patch
-from ..support import breathe
+from ..support import portions
 from ..views import box
 from .images import Images
 
@@ -56,9 +56,8 @@ def turned_away(images: Images, pieces: Pieces, outward: np.ndarray) -> np.ndarr
     that show the side of their normals alone, 0 for others."""
     found = np.zeros(len(pieces), dtype=bool)
     asked = np.flatnonzero(outward != 0.0)
-    for start in range(0, len(asked), AT_ONCE):
-        breathe()
-        some = asked[start:start + AT_ONCE]
+    for part in portions(len(asked), AT_ONCE):
+        some = asked[part]
         nodes = columns(pieces.nodes, some)
         a, b, c = (columns(images.point, node) for node in nodes)
         places = [columns(images.place, node) for node in nodes]
@@ -75,13 +74,11 @@ def turned_away(images: Images, pieces: Pieces, outward: np.ndarray) -> np.ndarr
 def whole(patch: Patch, images: Images, pieces: Pieces) -> np.ndarray:
     """Which pieces (f,) are seen whole on the patch."""
     every = np.empty(len(pieces), dtype=bool)
-    for start in range(0, len(every), AT_ONCE):
-        breathe()
-        part = slice(start, start + AT_ONCE)
+    for part in portions(len(every), AT_ONCE):
         found, lost = columns(images.found, pieces.nodes[:, part]), pieces.lost[:, part]
         all_found = found[0] & found[1] & found[2] & ~(lost[0] | lost[1] | lost[2])
         chosen = np.flatnonzero(all_found)
-        spots = columns(images.pixel, pieces.nodes[:, start + chosen])
+        spots = columns(images.pixel, pieces.nodes[:, part.start + chosen])
         low, high = box(spots)
         # with a corner on the patch, what touches no border lies on it whole
         all_found[chosen] = (patch.border.holds(low - NEAR, high + NEAR) & (doubled_areas(spots.T) != 0.0)
