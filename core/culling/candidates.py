@@ -7,21 +7,17 @@ halfway along the camera's edges bounds the error of that.
 """
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import SceneFrames, columns, largest
-from ..support import breathe
-
-PER_PAIR = ("camera", "column", "sides", "ahead", "bend", "outlines")
+from ..geometry import ColumnArrays, SceneFrames, columns, largest
 
 
 @dataclass(frozen=True)
-class Candidates:
+class Candidates(ColumnArrays):
     """Pairs (p) that survive: at some corner of the camera each edge of the triangle is on the right side.
 
     Attributes
@@ -47,31 +43,6 @@ class Candidates:
     ahead: np.ndarray
     bend: np.ndarray
     outlines: np.ndarray
-
-    def __len__(self) -> int:
-        return len(self.camera)
-
-    def select(self, chosen: np.ndarray | slice) -> Candidates:
-        """The pairs `chosen`, as indices, as a mask or as a slice."""
-        if isinstance(chosen, slice):
-            return self._with(lambda values: values[..., chosen])
-        index = np.flatnonzero(chosen) if chosen.dtype == bool else chosen
-        return self._with(lambda values: columns(values, index))
-
-    def _with(self, changed: Callable[[np.ndarray], np.ndarray]) -> Candidates:
-        values = []
-        for name in PER_PAIR:
-            breathe()
-            values.append(changed(getattr(self, name)))
-        return Candidates(self.cameras, self.frames, *values)
-
-    @staticmethod
-    def joined(parts: Sequence[Candidates]) -> Candidates:
-        """All pairs of the parts, which have the same cameras and frames."""
-        def together(name: str) -> np.ndarray:
-            breathe()
-            return np.concatenate([getattr(part, name) for part in parts], axis=-1)
-        return Candidates(parts[0].cameras, parts[0].frames, *map(together, PER_PAIR))
 
     @staticmethod
     def unknown(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray) -> Candidates:

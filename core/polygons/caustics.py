@@ -48,7 +48,7 @@ def split_at_caustics(cameras: Cameras, frames: SceneFrames, nodes: Nodes,
     children, _ = chosen.split(new[edge])
     resting = np.ones(len(faces), dtype=bool)
     resting[folding] = False
-    return nodes.joined(*at), Faces.joined([faces.select(resting), children]), int(cut.sum())
+    return nodes.joined((nodes, Nodes(*at))), Faces.joined([faces.select(resting), children]), int(cut.sum())
 
 
 def _magnification(mirror_map, frames, face, column, place) -> np.ndarray:

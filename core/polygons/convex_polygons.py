@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..geometry import columns, cross, dot, ranges
+from ..geometry import ColumnArrays, columns, cross, dot, ranges
 
 Kind = TypeVar("Kind", bound="ConvexPolygons")
 SMALLEST = 1e-9  # of a camera: smaller parts are nothing
@@ -32,7 +32,7 @@ def scene_edges(lines: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True)
-class ConvexPolygons:
+class ConvexPolygons(ColumnArrays):
     """Convex polygons (q), corner after corner; some may have lost all their corners.
 
     Attributes
@@ -101,8 +101,8 @@ class ConvexPolygons:
         return replace(self, owner=self.owner[chosen], start=np.append(0, np.cumsum(size)),
                        weights=columns(self.weights, corner), after=columns(self.after, corner))
 
-    @staticmethod
-    def joined(parts: Sequence[Kind]) -> Kind:
+    @classmethod
+    def joined(cls: type[Kind], parts: Sequence[Kind]) -> Kind:
         """All polygons of the parts, at least one, one part behind another."""
         size = np.concatenate([part.size for part in parts])
         return replace(parts[0], owner=np.concatenate([part.owner for part in parts]),

@@ -7,14 +7,13 @@ triangle of a mirror that fills the camera.
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..cameras import Cameras
 from ..culling import Candidates, SceneAndMirrors, overlapping
-from ..geometry import SceneFrames, dot, largest, smallest
+from ..geometry import ColumnArrays, SceneFrames, dot, largest, smallest
 from ..support import breathe, portions
 from .clipping import clip
 from .convex_polygons import Line, scene_edges
@@ -25,7 +24,7 @@ FARTHER = 1e-9  # of the distance: what is farther by less is not hidden
 
 
 @dataclass(frozen=True)
-class Overlaps:
+class Overlaps(ColumnArrays):
     """Candidates (p) that overlap when each side moves out by all that its quadratic part may add.
 
     Attributes
@@ -50,15 +49,6 @@ class Overlaps:
         for part in portions(max(len(camera), 1), PAIRS_AT_ONCE):
             parts.append(_overlaps(overlapping(cameras, frames, camera[part], column[part]), met))
         return cls.joined(parts)
-
-    @classmethod
-    def joined(cls, parts: Sequence[Overlaps]) -> Overlaps:
-        """All overlaps of the parts, which have the same cameras and frames."""
-        return cls(Candidates.joined([part.candidates for part in parts]),
-                   *(np.concatenate([getattr(part, name) for part in parts]) for name in ("mirror", "ends")))
-
-    def select(self, chosen: np.ndarray) -> Overlaps:
-        return Overlaps(self.candidates.select(chosen), self.mirror[chosen], self.ends[chosen])
 
     def in_sight(self, last: bool) -> Candidates:
         """Those that mirrors do not surely hide from the whole of their camera, and of the mirrors, at the `last`

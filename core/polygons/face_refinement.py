@@ -74,7 +74,7 @@ class FaceRefinement:
             left.append(strayed[:, ~chosen])
             new = np.full(len(ends), -1)
             new[choice] = np.arange(marked.sum()) + len(nodes.distance)
-            nodes = nodes.joined(*middle_nodes)
+            nodes = nodes.joined((nodes, Nodes(*middle_nodes)))
             pixels = np.concatenate((pixels, self._view.pixels(middle_nodes[0].T)))
             faces, done = faces.split(new[edge])
             resting = np.all(done, axis=1)

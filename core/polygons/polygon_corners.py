@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras, ReflectionMap
-from ..geometry import SceneFrames, columns, dot, groups, largest, others, smallest
+from ..geometry import ColumnArrays, SceneFrames, columns, dot, groups, largest, others, smallest
 from ..support import breathe
 from .clipping import Polygons
 from .convex_polygons import Line
@@ -23,7 +23,7 @@ WELD = 1e-9  # of the size of what is seen: nodes closer than this are one
 
 
 @dataclass(frozen=True)
-class Nodes:
+class Nodes(ColumnArrays):
     """Nodes (n).
 
     Attributes
@@ -36,10 +36,6 @@ class Nodes:
     place: np.ndarray
     point: np.ndarray
     distance: np.ndarray
-
-    def joined(self, place: np.ndarray, point: np.ndarray, distance: np.ndarray) -> Nodes:
-        return Nodes(np.concatenate((self.place, place), axis=1), np.concatenate((self.point, point), axis=1),
-                     np.concatenate((self.distance, distance)))
 
 
 @dataclass(frozen=True)
@@ -182,7 +178,7 @@ def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     side = 3 - (corners.low[chosen] - Line.SCENE_EDGE) - (corners.high[chosen] - Line.SCENE_EDGE)
     vertex = corners.frames.vertices[side, column]
     guess = corners.guess(chosen)
-    image = images.nearest(vertex, camera, corners.cameras.view.pixels(guess.T))
+    image = images.nearest(vertex, camera, corners.cameras.view.pixels(guess.T).T)
     breathe()
     named = np.flatnonzero(image >= 0)
     image[named[~corners.near(chosen[named], images.place[:, image[named]], guess[:, named])]] = -1

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import following, parent_side, split
+from ..geometry import ColumnArrays, following, parent_side, split
 from ..support import breathe
 from .clipping import Polygons
 from .convex_polygons import scene_edges
 
 
 @dataclass(frozen=True)
-class Faces:
+class Faces(ColumnArrays):
     """Triangles between nodes.
 
     Attributes
@@ -23,18 +23,11 @@ class Faces:
     on_scene_edge : (f, 3) bool, whether the edges 01, 12, 20 are images of the diffuse triangle's own edges
     """
 
+    counting_axis = 0
     nodes: np.ndarray
     camera: np.ndarray
     column: np.ndarray
     on_scene_edge: np.ndarray
-
-    def __len__(self) -> int:
-        return len(self.camera)
-
-    def select(self, chosen: np.ndarray) -> Faces:
-        nodes, camera = self.nodes[chosen], self.camera[chosen]
-        breathe()
-        return Faces(nodes, camera, self.column[chosen], self.on_scene_edge[chosen])
 
     def split(self, middle: np.ndarray) -> tuple[Faces, np.ndarray]:
         """Faces split at the nodes `middle` (f, 3) of their edges, -1 for none.
@@ -53,11 +46,6 @@ class Faces:
         whole = (local < 3) & (following(local) < 3) & (side < 3)
         nodes = np.take_along_axis(six, local, axis=1)
         return Faces(nodes, self.camera[parent], self.column[parent], on_edge), whole
-
-    @staticmethod
-    def joined(parts: list[Faces]) -> Faces:
-        return Faces(*(np.concatenate([getattr(part, name) for part in parts])
-                       for name in ("nodes", "camera", "column", "on_scene_edge")))
 
 
 def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Faces:

@@ -1,14 +1,13 @@
 """Images of the diffuse vertices in the cameras: the cubic's roots, brought onto the true reflection map."""
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..cameras import Cameras
 from ..culling import Candidates
-from ..geometry import ranges
+from ..geometry import ColumnArrays, ranges
 from ..solver import project
 from ..support import breathe
 from ..trees import Cones
@@ -19,7 +18,7 @@ NEAR_IMAGE = 3.0  # pixels: how far the straight outlines of the clip may put a 
 
 
 @dataclass(frozen=True)
-class VertexImages:
+class VertexImages(ColumnArrays):
     """Images, sorted by vertex.
 
     Attributes
@@ -27,7 +26,7 @@ class VertexImages:
     vertex, camera : (n,) int64
     distance : (n,) float64, s
     place : (3, n) float64, Q
-    pixel : (n, 2) float64
+    pixel : (2, n) float64
     """
 
     vertex: np.ndarray
@@ -36,20 +35,11 @@ class VertexImages:
     place: np.ndarray
     pixel: np.ndarray
 
-    def select(self, chosen: np.ndarray) -> VertexImages:
-        return VertexImages(self.vertex[chosen], self.camera[chosen], self.distance[chosen], self.place[:, chosen],
-                            self.pixel[chosen])
-
-    @staticmethod
-    def joined(parts: Sequence[VertexImages]) -> VertexImages:
-        return VertexImages(*(np.concatenate([getattr(part, field.name) for part in parts],
-                                             axis=1 if field.name == "place" else 0) for field in fields(VertexImages)))
-
     def nearest(self, vertex: np.ndarray, camera: np.ndarray, pixel: np.ndarray) -> np.ndarray:
         """Index of the image within `NEAR_IMAGE` pixels that a guess (vertex, camera, pixel), n of each, means: one in
         the same camera before one in a neighbouring camera, else -1."""
         # a crumpled mirror shows a vertex thousands of times: only rows of the picture that come near are looked at
-        rows_of, asked = (np.floor(np.clip(spots[:, 1] / NEAR_IMAGE, -ROWS, ROWS)) for spots in (self.pixel, pixel))
+        rows_of, asked = (np.floor(np.clip(spots[1] / NEAR_IMAGE, -ROWS, ROWS)) for spots in (self.pixel, pixel))
         key, wanted = (of * 4.0 * ROWS + row for of, row in ((self.vertex, rows_of), (vertex, asked)))
         breathe()
         order = np.argsort(key, kind="stable")
@@ -59,7 +49,7 @@ class VertexImages:
         breathe()
         image, guess = ranges(start, stop - start)
         image = order[image]
-        away = np.linalg.norm(self.pixel[image] - pixel[guess], axis=1)
+        away = np.linalg.norm(self.pixel[:, image] - pixel[:, guess], axis=0)
         breathe()
         own = self.camera[image] == camera[guess]
         meant = away < NEAR_IMAGE
@@ -91,7 +81,7 @@ def vertex_images(candidates: Candidates) -> tuple[VertexImages, dict]:
     touching = Cones.around(cameras).touch(camera, points, np.zeros(len(camera)))
     images, counts, _ = images_of_pairs(cameras, positions, camera[touching], vertex[touching])
     images = images.select(np.lexsort((images.camera, images.vertex)))
-    images = images.select(~repeated(images.vertex, images.pixel))
+    images = images.select(~repeated(images.vertex, images.pixel.T))
     counts["images"] = len(images.vertex)
     return images, counts
 
@@ -122,8 +112,7 @@ def images_of_pairs(cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
     near = np.linalg.norm(pixel - view.pixels(guess.T), axis=1) < 8.0 + 0.1 * max(view.resolution)
     near &= mirror_map.meets(face, uv, distance, positions[vertex].T)
     kept = np.flatnonzero(np.isfinite(pixel).all(axis=1) & near)
-    images = VertexImages(vertex[kept], camera[kept], distance[kept], place[:, kept], pixel[kept])
-    return images, counts, found.pair[kept]
+    return VertexImages(vertex, camera, distance, place, pixel.T).select(kept), counts, found.pair[kept]
 
 
 def repeated(vertex: np.ndarray, pixel: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import connected, distinct, doubled_areas, following, split
+from ..geometry import ColumnArrays, connected, distinct, doubled_areas, following, split
 from ..support import breathe, portions
 from ..views import View
 from .hidden_images import FrontImages
@@ -28,7 +28,7 @@ AT_ONCE = 1 << 15  # pieces
 
 
 @dataclass(frozen=True)
-class PicturePieces:
+class PicturePieces(ColumnArrays):
     """Pieces of the triangles of a diffuse scene, and where the eye sees them in the mirror.
 
     Attributes
@@ -56,14 +56,11 @@ class PicturePieces:
     1.0
     """
 
+    counting_axis = 0
     face: np.ndarray
     weights: np.ndarray
     pixels: np.ndarray
     image: np.ndarray
-
-    def select(self, chosen: np.ndarray) -> PicturePieces:
-        """Some of the pieces, by index or mask."""
-        return PicturePieces(self.face[chosen], self.weights[chosen], self.pixels[chosen], self.image[chosen])
 
     def holding(self, face: np.ndarray, weights: np.ndarray) -> np.ndarray:
         """Piece (n,) of the largest image that holds points of the scene; -1 where none does.

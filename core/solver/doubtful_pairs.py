@@ -6,7 +6,6 @@ import numpy as np
 from ..geometry import cross, dot
 from . import cubic
 from .monotone_roots import monotone_roots
-from .roots import joined
 from .rounding import UNIT
 
 _HIDDEN = 2.0 ** 20
@@ -56,8 +55,8 @@ def doubtful_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
         pairs = np.unique(roots.cubic[rough])
         sharpen(pairs)
         again, degenerate[pairs] = monotone_roots(cubics[:, pairs], bounds[:, pairs], reach[0][pairs], reach[1][pairs])
-        roots = joined(roots.select(np.flatnonzero(~np.isin(roots.cubic, pairs))), again.of(pairs))
-    roots = roots.select(np.flatnonzero(~_may_have_met(roots, cubics, bounds)))
+        roots = roots.joined((roots.select(~np.isin(roots.cubic, pairs)), again.of(pairs)))
+    roots = roots.select(~_may_have_met(roots, cubics, bounds))
     with np.errstate(divide="ignore"):
         distance = np.where(roots.reversed, 1.0 / roots.value, roots.value) * (speed / length)[roots.cubic]
     return _images(still, moving, lengths, roots, distance), degenerate

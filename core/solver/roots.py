@@ -1,13 +1,15 @@
 """What solving a cubic gives: its positive roots, each with bounds on its error."""
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..geometry import ColumnArrays
+
 
 @dataclass(frozen=True)
-class Roots:
+class Roots(ColumnArrays):
     """Roots s > 0 of many cubics, in rising order for each, but in no order of the cubics.
 
     A large one may be told as 1 / `value`, found as a root of the reversed cubic, so that neither infinitely large
@@ -36,15 +38,6 @@ class Roots:
     error: np.ndarray
     spread: np.ndarray
 
-    def select(self, chosen: np.ndarray) -> Roots:
-        """Those of the indices `chosen`."""
-        return Roots(*(getattr(self, field.name).take(chosen) for field in fields(self)))
-
     def of(self, cubics: np.ndarray) -> Roots:
         """The same with each cubic k called `cubics[k]`."""
         return replace(self, cubic=cubics[self.cubic])
-
-
-def joined(one: Roots, other: Roots) -> Roots:
-    """The roots of different cubics in one."""
-    return Roots(*(np.concatenate((getattr(one, field.name), getattr(other, field.name))) for field in fields(one)))

@@ -8,13 +8,26 @@ those are kept whose middle the eye sees.
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..cameras import Cameras, with_pieces
-from ..geometry import SceneFrames, columns, cross, distinct, dot, groups, in_order, norm, others, ranges, rows, shares
+from ..geometry import (
+    ColumnArrays,
+    SceneFrames,
+    columns,
+    cross,
+    distinct,
+    dot,
+    groups,
+    in_order,
+    norm,
+    others,
+    ranges,
+    rows,
+    shares,
+)
 from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
 from ..support import breathe
 
@@ -23,7 +36,7 @@ DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden 
 
 
 @dataclass(frozen=True)
-class HiddenParts:
+class HiddenParts(ColumnArrays):
     """Parts (q) of cameras that triangles hide.
 
     Attributes
@@ -56,22 +69,7 @@ class HiddenParts:
         sides, parts = sides[:, :, chosen], ConvexPolygons.whole(len(chosen))
         for label, values in zip(range(Line.SCENE_EDGE, Line.HIDDEN + 1), sides):
             parts = parts.cut(values, label)
-        return cls(parts, sides, eye[chosen], camera[chosen], column[chosen])._select(parts.areas > SMALLEST)
-
-    def _select(self, chosen: np.ndarray) -> HiddenParts:
-        return HiddenParts(self.parts.select(chosen), self.sides[:, :, chosen], self.eye[chosen], self.camera[chosen],
-                           self.column[chosen])
-
-    def select(self, chosen: np.ndarray) -> HiddenParts:
-        """The parts `chosen` (q,), as a mask."""
-        return self if chosen.all() else self._select(chosen)
-
-    @staticmethod
-    def joined(several: Sequence[HiddenParts]) -> HiddenParts:
-        """All of them, one behind another."""
-        arrays = (np.concatenate([getattr(one, name) for one in several], axis=-1)
-                  for name in ("sides", "eye", "camera", "column"))
-        return HiddenParts(ConvexPolygons.joined([one.parts for one in several]), *arrays)
+        return cls(parts, sides, eye[chosen], camera[chosen], column[chosen]).select(parts.areas > SMALLEST)
 
     @property
     def entire(self) -> np.ndarray:
