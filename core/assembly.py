@@ -115,7 +115,6 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     # doubled triangles of the scene, and polygons that fold flat, give the same face twice
     once, _ = groups(*np.sort(faces.nodes, axis=1).T)
     faces = faces.select(np.sort(once))
-    breathe()
     used, corner = distinct(faces.nodes.ravel())
     triangles = corner.reshape(-1, 3)
     seen, point = nodes.place[:, used], nodes.point[:, used]
@@ -132,7 +131,6 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     owner[triangles.ravel()] = corner_face.ravel()
     breathe()
     seen = _on_mirror(first_map, mirror_map.first(corner_face.ravel()), triangles, seen)
-    breathe()
     uv = mirror_map.coordinates(owner, seen)
     breathe()
     turned = mirror_map.turned(owner, uv, nodes.distance[used])
@@ -239,7 +237,6 @@ def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, 
     point = np.concatenate((point, own[:, beside[first]]), axis=1)
     corner[beside] = count + group
     # a vertex that no face is left of goes; new ones stand where they come from
-    breathe()
     kept, _ = distinct(corner)
     kept = kept[in_order(vertex[kept])]
     number = np.empty(len(vertex), dtype=np.int64)

@@ -12,7 +12,7 @@ import numpy as np
 from .cameras import INSIDE, MirrorMap, drawn_in, settle
 from .geometry import TriangleMesh, norm, rows, unit
 from .result import ReflectionMesh, place
-from .support import breathe, portions
+from .support import portions
 from .trees import SceneTree, first_crossed
 from .views import View
 
@@ -76,7 +76,6 @@ class FollowedImages:
         source[corner], weights[corner] = np.repeat(mesh.source_face, 3), mesh.source_weights.reshape(-1, 3)
         face[corner] = np.repeat(mesh.mirror_face, 3)
         places = rows(mesh.mirror_position)
-        breathe()
         unknown = np.flatnonzero(face < 0)
         if len(unknown):
             # of faces that span several triangles of the mirror
@@ -89,18 +88,14 @@ class FollowedImages:
             near = np.zeros(count, dtype=np.int64)
             np.maximum.at(near, corner, np.repeat(face[mesh.triangles].max(axis=1), 3))
             face = np.where(face >= 0, face, near)
-        breathe()
         mirror_map = MirrorMap(view, mirror)
-        breathe()
         uv = drawn_in(mirror_map.coordinates(face, places))
-        breathe()
         distance = norm(rows(mesh.reflected_position) - places) / norm(mirror_map.arriving(places))
         return cls(source, rows(weights), face, uv, distance, np.zeros(count, dtype=bool))
 
     def seen(self, view: View, mirror: TriangleMesh, scene: TriangleMesh, placement: str) -> Followed:
         """Where the view sees the images now, in a mirror and a scene of as many triangles as before."""
         mirror_map = MirrorMap(view, mirror)
-        breathe()
         face, uv, s, points, seen = (np.empty_like(self.face), np.empty_like(self.uv), np.empty_like(self.distance),
                                      np.empty_like(self.weights), np.empty_like(self.weights))
         lost, path = np.empty_like(self.lost), np.empty_like(self.distance)
@@ -111,7 +106,6 @@ class FollowedImages:
             path[some] = norm(points[:, some] - seen[:, some])
             s[some] = np.where(lost[some], path[some] / norm(mirror_map.arriving(seen[:, some])), s[some])
         positions = place(view, seen, path, placement)
-        breathe()
         if placement == "LAYERED" and len(path):
             # towards the eye, who sees no difference
             ahead = view.directions(positions.T).T

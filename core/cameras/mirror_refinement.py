@@ -18,7 +18,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import columns, dot, norm, shared_edges, unit
-from ..support import breathe
 from ..views import LampView
 from .camera_splitting import edge_middles, in_picture, shares_in_picture, split_at
 from .shading_horizon import beyond_horizon
@@ -54,7 +53,6 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
     finished: list[Cameras] = []
     limited = True
     for level in range(DEEPER):
-        breathe()
         # an eye close above a large triangle asks for many levels of few cameras; more of many end nowhere
         if sum(map(len, finished)) + len(cameras) > maximum or (level >= LEVELS and len(cameras) > FEW):
             break

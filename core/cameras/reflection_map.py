@@ -11,7 +11,6 @@ from abc import ABC, abstractmethod
 import numpy as np
 
 from ..geometry import cross, dot, norm, solve
-from ..support import breathe
 from ..views import View
 from .mirror_surface import ALONG_UV, MirrorSurface, Way
 
@@ -140,7 +139,6 @@ class ReflectionMap(ABC):
         way = end - start
         found, going = np.stack((t, s, np.zeros_like(t))), np.arange(len(t))
         for _ in range(steps):
-            breathe()
             t, s, r = found[:, going]
             origin, ray, ((move, change),) = self.linearise(face, start + t * way, way)
             moved = solve(move + s * change, ray, -edge, point - origin - s * ray)

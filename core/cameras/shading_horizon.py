@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry import dot, edge_lengths, following, split
-from ..support import breathe, portions
+from ..support import portions
 from .camera_splitting import split_cameras
 from .three_ray_cameras import Cameras
 
@@ -62,7 +62,6 @@ def cut_at_horizon(cameras: Cameras) -> Cameras:
     """The cameras, those across the horizon cut along it; large ones over whose side it bulges are split first."""
     view = cameras.view
     for _ in range(LEVELS):
-        breathe()
         probes = _lifted_probes(cameras, 0.0)
         pixels = view.pixels(cameras.places.T)[cameras.corners]
         long = edge_lengths(pixels) > LONG_EDGE
@@ -89,7 +88,6 @@ def _cut(cameras: Cameras) -> Cameras:
     start, end = cameras.places[:, corners[row, side]], cameras.places[:, corners[row, (side + 1) % 3]]
     low, high = np.where(beyond[row, side], end, start), np.where(beyond[row, side], start, end)
     for _ in range(STEPS):
-        breathe()
         middle = 0.5 * (low + high)
         lifted = mirror_map.lifted(face, mirror_map.coordinates(face, middle))
         low, high = np.where(lifted, low, middle), np.where(lifted, middle, high)

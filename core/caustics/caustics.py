@@ -128,7 +128,6 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
             continue
         breathe()
         faces = _faces(ray_map, seen, chosen, receivers, lamp)
-        breathe()
         faces = refined(ray_map, faces, receivers, lamp, (LEAST * whole, FINEST * reach), settings.maximum_faces)
         places = np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2)
         flux = flux_of(view, places) * mean_weight(ray_map, faces.face, faces.light, lamp)

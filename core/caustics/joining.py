@@ -56,7 +56,6 @@ def _reach(parts: list[LitFaces]) -> float:
 
 def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh], reach: float) -> dict:
     """What `CausticMesh` holds of one view's light of one bounce, as `_light` tells it."""
-    breathe()
     faces, flux, seen, number, receivers = lit
     light, corners = faces.light, faces.corners()
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -66,7 +65,6 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     corners = corners.transpose(2, 1, 0)[kept]
     irradiance, side = (value.reshape(3, -1).T[kept] for value in (light.irradiance, light.side))
     cosine = light.cosine.reshape(number, 3, -1).T[kept]
-    breathe()
     irradiance = balanced(irradiance, on_faces(flux[kept], faces.beside[kept], faces.triangles[kept]),
                           faces.triangles[kept], shown_area(corners, area[kept], reach))
     breathe()
@@ -79,7 +77,6 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
         corners, _directions(seen.maps[number - 1], faces, kept), cosine))
     met = _met(seen, faces.origin[kept])
     source = faces.source[kept]
-    breathe()
     weights = _weights(receivers, source, corners)
     breathe()
     used, first = np.unique(faces.triangles[kept], return_index=True)

@@ -14,7 +14,6 @@ import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
 from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, in_order, others, rows, unit
-from ..support import breathe
 from ..trees import (
     Bound,
     Cones,
@@ -279,7 +278,6 @@ class SceneAndMirrors:
         origins = [columns(cameras.origins, corner) for corner in cameras.corners[candidates.camera[pair]].T]
         own = [columns(corners, triangle) for corners in self._corners]
         for side in range(3):
-            breathe()
             beyond = columns(self._beyond[:, :, side], triangle)
             start, end = (own[corner] for corner in others(side))
             # a corner's place beside the plane through the side and a ray's origin is linear in the origin: three

@@ -75,23 +75,19 @@ def in_squares(cameras: Cameras, size: float,
             parts = parts.select(parts.size >= 3)
     across -= first_side(size) * depth
     for _ in range(CUTS):
-        breathe()
         low, high = _reaches(parts, across, depth)
         if done is not None:
             left = ~done(low + first_side(size), high + first_side(size))
             parts, low, high = parts.select(left), low[:, left], high[:, left]
         first, last = np.floor(low / size + TOUCHING) + 1.0, np.ceil(high / size - TOUCHING) - 1.0
         sides = last - first + 1.0
-        breathe()
         axis = np.argmax(sides, axis=0)
         chosen = np.flatnonzero(sides.max(axis=0, initial=0.0) > 0.0)
         if not len(chosen):
             break
         axis, of = axis[chosen], parts.owner[chosen]
         side = size * np.floor(0.5 * (first + last))[axis, chosen]
-        breathe()
         parts = parts.halved(chosen, across[axis, :, of].T - side * depth[:, of])
-        breathe()
         parts = parts.select(parts.size >= 3)
     return parts
 

@@ -75,10 +75,8 @@ def _covered(corners: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarr
     last = _numbers(np.floor(largest(places.swapaxes(0, 1)) + MARGIN / step))
     breathe()
     first, count = np.maximum(first, 0), np.minimum(last, ACROSS - 1) + 1 - np.maximum(first, 0)
-    breathe()
     face, covered = np.flatnonzero((count > 0).all(axis=1)), np.zeros(ACROSS * ACROSS, dtype=bool)
     for part in shares(count[face].prod(axis=1), PAIRS_AT_ONCE):
-        breathe()
         some = face[part]
         y, row = ranges(first[some, 1], count[some, 1])
         x, run = ranges(first[some[row], 0], count[some[row], 0])

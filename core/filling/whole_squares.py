@@ -157,7 +157,6 @@ class Holders:
         slope, base = planes(2.0 * self._spots, -depth if view.orthographic else 1.0 / depth)  # linear in the picture
 
         def near(camera: np.ndarray, spot: np.ndarray) -> np.ndarray:
-            breathe()
             return ((columns(slope, camera.ravel()) * spot.reshape(2, -1)).sum(axis=0)
                     + columns(base, camera.ravel())).reshape(camera.shape)
         own = near(holder, spots)
@@ -216,7 +215,6 @@ def _points(met: SceneAndMirrors, frames: SceneFrames, column: np.ndarray, place
             rays: np.ndarray) -> np.ndarray:
     """The points (3, n, k) at which rays (3, n, k) meet triangles; what lies beside one is drawn onto it, as corners of
     faces are."""
-    breathe()
     origins, ways = places.reshape(3, -1), rays.reshape(3, -1)
     met_at = origins + np.maximum(frames.distance(column, origins, ways), 0.0) * ways
     weights = np.maximum(np.nan_to_num(frames.weights(column, met_at)), 0.0)

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import Field, fields, replace
+from dataclasses import Field, replace
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -19,19 +19,19 @@ class ColumnArrays:
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
     counting_axis: ClassVar[int] = -1
 
-    def _columns(self) -> dict[str, Any]:
-        held = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {name: value for name, value in held.items() if isinstance(value, (np.ndarray, ColumnArrays))}
+    def _columns(self) -> list[tuple[str, Any]]:
+        held = [(name, getattr(self, name)) for name in self.__dataclass_fields__]
+        return [(name, value) for name, value in held if isinstance(value, (np.ndarray, ColumnArrays))]
 
     def __len__(self) -> int:
-        first = next(iter(self._columns().values()))
+        _, first = self._columns()[0]
         return first.shape[self.counting_axis] if isinstance(first, np.ndarray) else len(first)
 
     def select(self: Kind, chosen: np.ndarray | slice) -> Kind:
         """Those `chosen`, as indices, as a mask or as a slice."""
         if isinstance(chosen, np.ndarray) and chosen.dtype == bool:
             chosen = np.flatnonzero(chosen)
-        return replace(self, **{name: self._chosen(value, chosen) for name, value in self._columns().items()})
+        return replace(self, **{name: self._chosen(value, chosen) for name, value in self._columns()})
 
     def _chosen(self, value: Any, chosen: np.ndarray | slice) -> Any:
         breathe()
@@ -45,7 +45,7 @@ class ColumnArrays:
     def joined(cls: type[Kind], parts: Sequence[Kind]) -> Kind:
         """All of the parts, at least one, one part behind another."""
         return replace(parts[0], **{name: cls._together(value, [getattr(part, name) for part in parts])
-                                    for name, value in parts[0]._columns().items()})
+                                    for name, value in parts[0]._columns()})
 
     @classmethod
     def _together(cls, first: Any, values: list[Any]) -> Any:

@@ -1,9 +1,12 @@
 """Dot and cross products on component-first arrays: three rows x, y, z of any length.
 
 Rows that lie contiguous in memory make these several times faster than `np.cross` and `np.einsum` on (n, 3) arrays,
-and the many small three-dimensional products of the method are where its time goes.
+and the many small three-dimensional products of the method are where its time goes. What gathers takes breath: nearly
+all of the work does it again and again, and so hands over wherever it is.
 """
 from __future__ import annotations
+
+from collections.abc import Generator
 
 import numpy as np
 
@@ -13,6 +16,7 @@ from .distinct import distinct, first_of
 
 def rows(points: np.ndarray) -> np.ndarray:
     """Component-first copy (3, ...) of points (..., 3)."""
+    breathe()
     return np.ascontiguousarray(np.moveaxis(points, -1, 0))
 
 
@@ -34,6 +38,7 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 def columns(a: np.ndarray, index: np.ndarray) -> np.ndarray:
     """a[..., index] for valid indices: NumPy gathers twice as fast where it need not say which one is wrong."""
+    breathe()
     return a.take(index, axis=-1, mode="wrap")
 
 
@@ -73,11 +78,14 @@ def ranges(starts: np.ndarray, lengths: np.ndarray) -> tuple[np.ndarray, np.ndar
     return np.arange(len(run)) - np.repeat(before - starts, lengths), run
 
 
-def shares(lengths: np.ndarray, most: int) -> list[slice]:
-    """Parts of runs of `lengths` (n,) that have about `most` entries each, and no run in two of them."""
+def shares(lengths: np.ndarray, most: int) -> Generator[slice, None, None]:
+    """Parts of runs of `lengths` (n,) that have about `most` entries each, and no run in two of them, with a breath
+    before each."""
     before = np.append(0, np.cumsum(lengths))
     cuts = np.unique(np.concatenate(([0], np.searchsorted(before, np.arange(0, before[-1], most)), [len(lengths)])))
-    return [slice(start, stop) for start, stop in zip(cuts[:-1], cuts[1:])]
+    for start, stop in zip(cuts[:-1], cuts[1:]):
+        breathe()
+        yield slice(start, stop)
 
 
 def groups(*keys: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import columns, dot, norm, unit
-from ..support import breathe, portions
+from ..support import portions
 from ..trees import Cones, StandIns, VertexTree, median_leaves
 from .patch import Patch
 from .walk import changes, find, find_near
@@ -138,7 +138,6 @@ class Descent:
         level, node = tree.top()
         waiting: list[tuple[int, np.ndarray, NodeImages | None, np.ndarray]] = [(level, node, None, node)]
         while waiting:
-            breathe()
             level, node, above, parent = waiting.pop()
             sphere = columns(tree.spheres[level], node)
             images = NodeImages.of(self.walk, sphere[:3] - self.walk.patch.eye, above, parent)
@@ -179,7 +178,6 @@ class Descent:
         than `least` pixels."""
         tree = self.tree
         for level, node, scale in self._small:
-            breathe()
             held, run = tree.held(level, node)
             some = np.zeros(len(node), dtype=bool)
             some[run[asked[self.standing[held]]]] = True

@@ -6,7 +6,6 @@ import numpy as np
 from ..cameras import Cameras
 from ..culling import ABOVE, SceneAndMirrors
 from ..geometry import cross, dot, norm, ranges, shares, unit
-from ..support import breathe
 from ..trees import Bound, Cones
 
 IMAGES_AT_ONCE = 500_000  # pairs of an image and a triangle of a mirror that may hide it
@@ -24,7 +23,6 @@ def hidden_by_mirrors(met: SceneAndMirrors, cameras: Cameras, camera: np.ndarray
     hidden = np.zeros(len(camera), dtype=bool)
     # many images in cameras that may see much of a mirror are more pairs than memory holds
     for part in shares(offered, IMAGES_AT_ONCE):
-        breathe()
         entry, image = ranges(start[part], offered[part])
         image += part.start
         behind = _passes(met, triangle[entry], places[:, image], points[:, image])

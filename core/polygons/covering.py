@@ -14,7 +14,7 @@ import numpy as np
 from ..cameras import Cameras
 from ..culling import Candidates, SceneAndMirrors, overlapping
 from ..geometry import ColumnArrays, SceneFrames, dot, largest, smallest
-from ..support import breathe, portions
+from ..support import portions
 from .clipping import clip
 from .convex_polygons import Line, scene_edges
 
@@ -59,9 +59,7 @@ class Overlaps(ColumnArrays):
         asked = np.flatnonzero(beside[self.candidates.camera])
         if not len(asked):
             return self.candidates
-        breathe()
         seen = self.select(asked)
-        breathe()
         camera, mirror, (near, far) = seen.candidates.camera, seen.mirror, _depths(seen.candidates)
         kept = near <= seen._covered(far)[camera] * (1.0 + FARTHER)
         if last:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import ColumnArrays, columns, dot, first_of, in_order, ranges, shares
-from ..support import breathe
 from .convex_polygons import ConvexPolygons, Kind
 
 CORNERS_AT_ONCE = 1 << 15  # fit the cache
@@ -36,7 +35,6 @@ def divide(pieces: Kind, lines: Lines, line: np.ndarray, piece: np.ndarray, most
     `line` (k,); and the owners of those that are not cut along all of their lines."""
     whole: list[Kind] = []
     for number in range(PASSES + 1):
-        breathe()
         crossing = _crosses(pieces, lines, line, piece)
         line, piece = line[crossing], piece[crossing]
         if not len(line) or len(pieces) + sum(map(len, whole)) > most or number == PASSES:
@@ -55,7 +53,6 @@ def _crosses(pieces: ConvexPolygons, lines: Lines, line: np.ndarray, piece: np.n
     size, after = pieces.size, pieces.following
     found = [np.zeros(0, dtype=bool)]
     for part in shares(size[piece], CORNERS_AT_ONCE):
-        breathe()
         corner, asked = ranges(pieces.start[piece[part]], size[piece[part]])
         found.append(_cross(pieces.weights, (corner, after[corner]), lines, line[part], asked))
     return np.concatenate(found)

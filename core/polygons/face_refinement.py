@@ -103,7 +103,6 @@ class FaceRefinement:
         breathe()
         worth = np.zeros(len(ends), dtype=bool)
         worth[edge[~self.beyond[faces.camera] & self._in_picture(pixels, faces.nodes)]] = True
-        breathe()
         drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
         length = np.sqrt(((columns(pixels.T, a) - columns(pixels.T, b))**2).sum(axis=0))
         # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight

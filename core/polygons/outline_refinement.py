@@ -13,7 +13,6 @@ import numpy as np
 from ..cameras import Cameras, beyond_horizon, split_cameras
 from ..culling import Candidates, SceneAndMirrors
 from ..geometry import columns, distinct, doubled_areas, edge_lengths, in_order, ranges
-from ..support import breathe
 from .covering import Overlaps
 
 LEVELS = 10
@@ -40,7 +39,6 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
     parts, open_ = [], np.zeros(len(cameras), dtype=bool)
     camera, column = np.zeros((2, 0), dtype=np.int64)
     for level in range(LEVELS + 1):
-        breathe()
         parts.append(candidates)
         # of each pair so far, the camera's number now, -1 where it has been split
         camera, column = np.append(camera, candidates.camera), np.append(column, candidates.column)
@@ -58,7 +56,6 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
         pairs = _children(camera, column, parent, new, before)
         candidates = Overlaps.of(cameras, frames, pairs, met).in_sight(last)
         camera = np.where(camera >= 0, now[camera], -1)
-    breathe()
     settled = replace(Candidates.joined(parts), cameras=cameras, camera=camera).select(np.flatnonzero(camera >= 0))
     return settled, open_ | (bent.any(axis=1) & ~long.any(axis=1)), int((bent & long).sum())
 

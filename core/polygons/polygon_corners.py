@@ -140,11 +140,9 @@ def _mirror_corners(corners: _Corners, chosen: np.ndarray, images: VertexImages)
 
 def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     mirror_edge = corners.mirror_edge(chosen, corners.low[chosen])
-    breathe()
     scene_edge = corners.scene_edge(chosen, corners.high[chosen])
     first, group = groups(*mirror_edge.T, *scene_edge.T)
     mirror_edge, scene_edge, chosen = mirror_edge[first], scene_edge[first], chosen[first]
-    breathe()
     places, mirror_map = corners.cameras.places, corners.mirror_map
     face = corners.cameras.face[corners.camera[chosen]]
     start, end = places[:, mirror_edge[:, 0]], places[:, mirror_edge[:, 1]]
@@ -152,16 +150,12 @@ def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     way = end - start
     t = _share(place - start, way)
     uv_start, uv_end = mirror_map.coordinates(face, start), mirror_map.coordinates(face, end)
-    breathe()
     seen, seen_s = corners.seen(chosen, place)
-    breathe()
     point = corners.frames.positions[scene_edge[:, 0]].T
     edge = corners.frames.positions[scene_edge[:, 1]].T - point
     t, along, s = mirror_map.meet(face, (uv_start, uv_end), (point, edge), (t, seen_s))
-    breathe()
     met = start + np.clip(t, 0.0, 1.0) * way
     near = corners.near(chosen, met, place) & (s >= 0.0)
-    breathe()
     # just beyond an end of the edge, by no more than straight outlines miss, the end stands in
     along = np.clip(np.where(near, along, _share(seen - point, edge)), 0.0, 1.0)
     return (np.where(near, met, place), point + along * edge, np.where(near, s, seen_s)), group
@@ -194,7 +188,6 @@ def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     start = guess[:, own]
     _, seen_s = corners.seen(chosen[own], start)
     moved, found = mirror_map.locate(face, mirror_map.coordinates(face, start), seen_s, point[:, lone])
-    breathe()
     moved_place = mirror_map.places(face, moved)
     near = corners.near(chosen[own], moved_place, start) & mirror_map.meets(face, moved, found, point[:, lone])
     place[:, lone] = np.where(near, moved_place, start)

@@ -82,10 +82,7 @@ def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Face
     scene = scene_edges(polygons.after)
     first, last = step == 1, step + 2 == size[fan]
     edges = np.stack((scene[corner[0]] & first, scene[corner[1]], scene[corner[2]] & last), axis=1)
-    breathe()
     nodes = node_of[corner].T
-    breathe()
     faces = Faces(nodes, polygons.camera[fan], polygons.column[fan], edges)
     a, b, c = faces.nodes.T
-    breathe()
     return faces.select((a != b) & (b != c) & (c != a))

@@ -63,7 +63,6 @@ class FrontImages:
             plane /= (a * cross(b, c)).sum(axis=0)
         breathe()
         front = draw(view, images, mesh.triangles).triangle
-        breathe()
         return cls(*view.resolution, front, plane.T, nearness, _several(mesh.source_face, image))
 
     def hidden(self, face: np.ndarray, pixels: np.ndarray) -> np.ndarray:

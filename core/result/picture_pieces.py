@@ -125,11 +125,8 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
     breathe()
     front = FrontImages.of(view, mesh, image)
     for _ in range(ROUNDS):
-        breathe()
         pixels = _pixels(clip, view)
-        breathe()
         hidden = front.hidden(kept, pixels)
-        breathe()
         partly = hidden.any(axis=1) & ~hidden.all(axis=1)
         marked = np.zeros((len(clip), 3), dtype=bool)
         for own in portions(len(clip), AT_ONCE):
@@ -137,15 +134,11 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
             marked[own] |= partly[own, None] & (_lengths(clip[own], view) > FINEST)
         if not marked.any():
             break
-        breathe()
         parent, local = split(marked)
-        breathe()
         clip, kept = _children(clip, parent, local), kept[parent]
         weights = _children(weights, parent, local)
     pixels = _pixels(clip, view)
-    breathe()
     behind = front.hidden(kept, pixels)[:, 0]
-    breathe()
     rank = image[kept] + behind * (int(image.max(initial=0)) + 1)
     return PicturePieces(mesh.source_face[kept], weights, pixels, rank)
 
@@ -154,7 +147,6 @@ def _images(view: View, mesh: ReflectionMesh) -> np.ndarray:
     """The image (m,) that each face belongs to, the largest first."""
     parity = np.sign(mesh.image_parity[mesh.triangles].sum(axis=1, dtype=np.int64))
     # images that are turned over against each other meet in vertices on their caustic
-    breathe()
     _, vertex = distinct((mesh.triangles * 3 + (parity[:, None] + 1)).ravel())
     part = connected(vertex.reshape(-1, 3))
     breathe()

@@ -115,7 +115,6 @@ def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
             entry, node = ranges(start[many], count[many])
             order[entry] = order[entry[turn]]
             turn = turn[left[many][node] > 0]
-            breathe()
             low, high = columns(low, turn), columns(high, turn)
         inner = left > 0
         child = np.full(len(start), -1)
@@ -143,7 +142,6 @@ def _cut(boxes: tuple[np.ndarray, np.ndarray], count: np.ndarray,
     begin, width = least[axis, nodes], (most - least)[axis, nodes]
     along = centre[axis[node], np.arange(len(node))]
     del centre
-    breathe()
     bin_ = np.floor(BINS * (along - begin[node]) / np.where(width > 0.0, width, 1.0)[node]).astype(np.int64)
     key = node * BINS + np.minimum(bin_, BINS - 1)
     del along, bin_, node

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import TriangleMesh, columns, connected, cross, dot, others, rows, solid_angles
-from ..support import breathe, portions
+from ..support import portions
 from ..views import Covered, View
 from .cones import Cones
 
@@ -66,7 +66,6 @@ class ClosedBodies:
         body = number[part] if len(part) else part
         part_of = np.zeros(len(mesh.positions), dtype=np.int64)
         part_of[triangles.ravel()] = np.repeat(part, 3)
-        breathe()
         some = np.flatnonzero(body >= 0)
         low, high = (np.full((3, int(closed.sum())), end) for end in (np.inf, -np.inf))
         outward = np.zeros(len(triangles))
@@ -79,7 +78,6 @@ class ClosedBodies:
         for axis in range(3):
             np.minimum.at(low[axis], owner[used], spots[axis, used])
             np.maximum.at(high[axis], owner[used], spots[axis, used])
-            breathe()
         own, corner = body[some], triangles[some].T
         facing, volume = _up_and_volume(spots, corner, 0.5 * (low + high), own)
         # a room has its front within: who looks into it from outside does so through what is culled there
@@ -182,7 +180,6 @@ def _overlapping(spots: np.ndarray, corner: np.ndarray, body: np.ndarray, facing
         pixel.append(covered.pixel)
         depth.append(covered.order)
     owner, entering, line, height = (np.concatenate(parts) for parts in (own, sign, pixel, depth))
-    breathe()
     order = np.lexsort((-height - entering * TOGETHER * (high[2] - low[2])[owner], line))
     entering, line = entering[order], line[order]
     inside = np.cumsum(entering)

@@ -6,7 +6,6 @@ from collections.abc import Callable
 import numpy as np
 
 from ..geometry import cross, dot, rows
-from ..support import breathe
 from .cones import Cones
 from .first_hits import first_hits
 from .point_tree import PointTree
@@ -38,7 +37,6 @@ def _by_cones(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: floa
     count = ray.shape[1]
     zero, first, best = np.zeros(count), np.full(count, -1), np.full(count, np.inf)
     for own, triangle, _ in tree.traced(Cones(origin, zero, ray, zero, zero + 1.0), np.ones(count, dtype=bool)):
-        breathe()
         if asked is not None and len(own):
             kept = asked(own, triangle)
             own, triangle = own[kept], triangle[kept]

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import TriangleMesh, columns, cross, ordered, rows, unit
-from ..support import breathe
 from .cones import Cones
 from .magnification import Magnification
 from .node_tree import depth_for, median_leaves, node_spheres
@@ -100,7 +99,6 @@ class PointTree(VertexTree):
             return small
 
         for cone, leaf, tested in self.descended(cones, np.ones(len(cones.radius), dtype=bool), stood_for):
-            breathe()
             visited += tested
             vertex, pair = self.held(self.depth, leaf)
             cone = cone[pair]

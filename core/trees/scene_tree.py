@@ -125,7 +125,7 @@ class SceneTree(NodeTree):
             if enough is not None:
                 left = _not_too_many(cone, end - begin, wanted, enough)
                 cone, begin, end = cone[left], begin[left], end[left]
-            for part in shares(end - begin, 4 * NODES_AT_ONCE) or [slice(0, 0)]:
+            for part in list(shares(end - begin, 4 * NODES_AT_ONCE)) or [slice(0, 0)]:
                 entry, pair = ranges(begin[part], (end - begin)[part])
                 own, triangle = cone[part][pair], self.order[entry]
                 sphere = columns(self.triangle_spheres, triangle)
@@ -140,7 +140,7 @@ class SceneTree(NodeTree):
         some = np.ones(len(start), dtype=bool)
         most = None if enough is None else np.maximum.reduceat(enough, start)
         for family, triangle, visited in self.traced(cones.together(start), some, enough=most):
-            for part in shares(size[family], 4 * NODES_AT_ONCE) or [slice(0, 0)]:
+            for part in list(shares(size[family], 4 * NODES_AT_ONCE)) or [slice(0, 0)]:
                 own, pair = ranges(start[family[part]], size[family[part]])
                 chosen = triangle[part][pair]
                 if enough is not None:

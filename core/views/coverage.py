@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import columns, largest, ranges, shares
-from ..support import breathe
 
 ROWS_AT_ONCE = 1 << 14
 LEVEL = 1e-30  # pixels: a side that rises less is level
@@ -43,7 +42,6 @@ class Covered:
         start, stop = (np.clip(bound, 0, size[1]).astype(np.int64) for bound in (start, stop))
         rows_of = np.maximum(stop - start, 0)
         for part in shares(rows_of, ROWS_AT_ONCE):
-            breathe()
             own, order_there = corners[:, :, part], order[:, part]
             slope, base = planes(own, order_there)
             steep = 0.5 * np.abs(slope).sum(axis=0)

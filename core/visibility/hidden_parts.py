@@ -29,7 +29,6 @@ from ..geometry import (
     shares,
 )
 from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
-from ..support import breathe
 
 PAIRS_AT_ONCE = 1 << 17
 DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden places lie; doubled faces hide nothing
@@ -129,7 +128,6 @@ class HiddenParts(ColumnArrays):
         start, stop = (np.searchsorted(self.camera[order], cut[pieces.owner], side=side) for side in ("left", "right"))
         seen = np.ones(len(pieces), dtype=bool)
         for part in shares(stop - start, PAIRS_AT_ONCE):
-            breathe()
             entry, piece = ranges(start[part], (stop - start)[part])
             piece += part.start
             hiding = columns(order, entry)

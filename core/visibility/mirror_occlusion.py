@@ -11,7 +11,6 @@ import numpy as np
 from ..culling import Candidates, SceneAndMirrors
 from ..geometry import columns, dot, groups, in_order, largest, others, ranges, shares, smallest
 from ..polygons import Line, Lines, Polygons, clip, divide, scene_edges
-from ..support import breathe
 
 MOST_PIECES = 1 << 20  # what is not cut along all outlines is hidden or not by its middle
 NEARER = 1e-9  # of the distance: what is nearer by less is the same surface
@@ -61,10 +60,8 @@ def _outlines(met: SceneAndMirrors, seen: Candidates) -> Lines:
     side = polygons.after[corner].astype(np.int64) - Line.SCENE_EDGE
     polygon = polygons.polygon[corner]
     pair = polygons.pair[polygon]
-    breathe()
     outer = ~met.inner_sides(seen)[side, pair]
     corner, side, pair = corner[outer], side[outer], pair[outer]
-    breathe()
     vertices, row = seen.frames.vertices[:, seen.column[pair]], np.arange(len(pair))
     ends = np.sort(np.stack([vertices[corner, row] for corner in others(side)]), axis=0)
     once, _ = groups(seen.camera[pair], *ends)
@@ -97,7 +94,6 @@ def _hidden(mirror: np.ndarray, polygons: Polygons) -> tuple[np.ndarray, np.ndar
     start, stop = (np.searchsorted(camera, polygons.camera, side=side) for side in ("left", "right"))
     answers = []
     for part in shares(stop - start, PAIRS_AT_ONCE):
-        breathe()
         entry, polygon = ranges(start[part], (stop - start)[part])
         passing, through, behind = _behind(mirror[entry], polygon, polygons.select(part))
         answers.append((part.start + passing, through, behind))

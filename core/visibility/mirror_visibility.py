@@ -56,7 +56,7 @@ class DepthGrid:
         room = SURFACE * max(float(np.ptp(depth)), 1e-300) if view.orthographic else SURFACE
         grid = cls(view, np.full((height, width), -np.inf), np.zeros((height, width), dtype=np.int64), scale, room)
         pixels = pixels * scale
-        parts = shares(runs[2], SAMPLES_AT_ONCE)
+        parts = list(shares(runs[2], SAMPLES_AT_ONCE))
         shows, hides = np.zeros(len(cameras), dtype=bool), np.zeros(len(cameras), dtype=bool)
         kept = None
         for marking in (True, False):

@@ -50,7 +50,6 @@ def _meeting(cameras: Cameras, owner: np.ndarray, boxes: tuple, cells: list,
     """Pairs whose boxes, of cameras and of triangles, overlap, found by the cells that they share."""
     (cell, camera), (other_cell, column) = cells
     boxes, others = boxes
-    breathe()
     order = in_order(camera)  # all that is said of one camera comes together
     cell, camera = cell[order], camera[order]
     order = in_order(other_cell)

@@ -13,7 +13,7 @@ from ..cameras import Cameras, picture_areas
 from ..culling import Candidates
 from ..geometry import TriangleMesh, distinct, in_order, largest, meeting, norm, ranges, rows, shares, smallest
 from ..result import DEPTH, GAP
-from ..support import breathe, crowded
+from ..support import crowded
 from .hidden_parts import DEEPER, PAIRS_AT_ONCE, HiddenParts
 from .picture_pairs import pairs_in_picture
 
@@ -87,7 +87,6 @@ def _hidden_closely(candidates: Candidates) -> tuple[HiddenParts, np.ndarray] | 
         return None
     shown, found = np.ones(len(cameras), dtype=bool), []
     for camera, row in _lying_over(near, column, row_of):
-        breathe()
         hidden = HiddenParts.of(cameras, frames, camera, column[row], DEEPER * size)
         hidden = hidden.select(hidden.nearest(view.orthographic) < slid * (size if view.orthographic else 1.0))
         shown[hidden.camera[hidden.entire]] = False
@@ -122,7 +121,6 @@ def _near(candidates: Candidates, room: np.ndarray) -> Candidates:
     near = np.flatnonzero((smallest(candidates.ahead) < some) & (largest(candidates.ahead) > -some))
     found = [near[:0]]
     for part in shares(np.ones(len(near), dtype=np.int64), PAIRS_AT_ONCE):
-        breathe()
         camera, column = candidates.camera[near[part]], candidates.column[near[part]]
         corners = np.take(cameras.places, cameras.corners[camera].T, axis=1)
         found.append(near[part][meeting(corners, rows(frames.positions[frames.vertices[:, column]]), room[camera])])

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..cameras import Cameras, picture_areas
 from ..geometry import SceneFrames, TriangleMesh, cross, norm
-from ..support import breathe, crowded
+from ..support import crowded
 from ..views import LampView
 from .eye_plane import triangles_before_eye
 from .hidden_parts import DEEPER, PAIRS_AT_ONCE, HiddenParts
@@ -35,7 +35,6 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
     if pairs is None:
         return cameras, 0, len(cameras)
     for camera, column in pairs:
-        breathe()
         hidden = HiddenParts.of(cameras, frames, camera, column, deeper * _rounding(cameras, frames, camera, column))
         shown[hidden.camera[hidden.entire]] = False
         parts.append(hidden.select(shown[hidden.camera]))

@@ -10,7 +10,6 @@ import numpy as np
 from ..geometry import meeting, norm
 from ..patches import Patch
 from ..result import DEPTH, GAP
-from ..support import breathe
 from ..trees import Balls, SceneTree
 
 LARGE = 256.0  # pixels: larger triangles of the mirror are cut too often to be cut along pieces of the scene
@@ -25,7 +24,6 @@ def contacts(patch: Patch, tree: SceneTree) -> tuple[np.ndarray, np.ndarray]:
     radius = norm(corners - middle[:, None]).max(axis=0) + slid
     near, met = [np.zeros(0, dtype=np.int64)], np.zeros(len(patch), dtype=bool)
     for member, triangle, _ in tree.traced(Balls(middle, radius), np.ones(len(patch), dtype=bool)):
-        breathe()
         scene = np.moveaxis(tree.mesh.positions[tree.mesh.triangles[triangle]], 2, 0).swapaxes(1, 2)
         close = meeting(corners[:, :, member], scene, slid[member])
         near.append(np.unique(triangle[close]))

@@ -73,7 +73,6 @@ class Division:
             one, other = pieces.nodes[side, face], pieces.nodes[(side + 1) % 3, face]
             count = len(images)
             keys, edge = distinct(edge_numbers(one, other, count))
-            breathe()
             over = np.zeros(len(keys), dtype=bool)
             over[edge[~whole(self.patch, images, pieces)[face]]] = True
             breathe()
@@ -157,7 +156,6 @@ class Division:
         sunk = both & (length > DEEP) & self.sinking.too_deep(self.patch, images, a, b)
         asked = np.flatnonzero(diced | sunk | (both & (length > SHORTEST) & (straying > DOUBT * tolerance)))
         middles = images.between(self.patch, a[asked], b[asked])
-        breathe()
         halfway = images.pixel[:, a[asked]] + share[asked] * chord[:, asked]
         found = middles.found & both[asked]
         straying[asked] = np.where(found, np.hypot(*(middles.pixel - halfway)), np.inf)

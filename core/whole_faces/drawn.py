@@ -62,7 +62,6 @@ def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: np.
     solid = np.zeros(nodes.shape[1], dtype=bool)
     solid[:len(found)] = drawn[found]
     hidden, close = (told[:len(found)] for told in layers.hidden_and_close(nodes, solid, near))
-    breathe()
     drawn[found] &= ~hidden & ~close
     left[found] |= close
     over = np.flatnonzero(drawn)

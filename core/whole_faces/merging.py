@@ -54,7 +54,6 @@ class Merged:
         own = np.arange(len(standing))
         if (standing == own).all():
             return cls(images, mesh.triangles, np.flatnonzero(mesh.areal))
-        breathe()
         descent.fall_apart(_on_outline(tree, images, standing), OUTLINE * least)
         descent.fall_apart(_lost(mesh, _in_one_place(mesh, descent.standing)), 0.0)
         alone = _in_one_place(mesh, descent.standing)
@@ -63,7 +62,6 @@ class Merged:
         images.put(new, Images.near(patch, columns(points, new), images.member[near], columns(images.uv, near),
                                     images.distance[near]))
         standing = alone
-        breathe()
         triangles, moved = columns(standing, mesh.triangles), np.zeros(len(own), dtype=bool)
         moved[standing[standing != own]] = True
         corner = columns(moved, triangles.T)
@@ -140,7 +138,6 @@ def _distinct(mesh: TriangleMesh, images: Images, triangles: np.ndarray) -> np.n
     a, b, c = triangles.T
     kept = np.flatnonzero((a != b) & (b != c) & (c != a))
     kept = kept[areal(rows(mesh.positions.take(triangles[kept].T, axis=0)))]
-    breathe()
     # a mirror turns what it shows over
     front = doubled_areas(images.pixel[:, triangles[kept]].transpose(1, 2, 0)) < 0.0
     kept = np.concatenate((kept[front], kept[~front]))

@@ -158,9 +158,7 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, re
     pieces, behind = shown_or_behind(images, Pieces.of(merged.triangles[merged.left], merged.left), met.outward)
     breathe()
     pieces = without_hidden(patch, images, pieces, sinking)
-    breathe()
     images, pieces, straying, limited = division.divided(images, pieces)
-    breathe()
     shown = np.flatnonzero(whole(patch, images, pieces))
     breathe()
     if sinking.layered:
