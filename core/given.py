@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from .geometry import TriangleMesh, area_normals, cross, dot, norm, rows
-from .support import LARGEST, ReflectionError, Settings
+from .support import LARGEST, ReflectionError, Settings, must_be
 from .trees import PointTree, SceneTree
 from .views import View
 
@@ -12,16 +12,12 @@ from .views import View
 def check_given(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
                 mirrors: TriangleMesh | None) -> None:
     """Raises `ReflectionError` where nothing can be made of what `reflect` is given."""
-    for given, kinds, wrong in (
-            (view, View, "The view must be a View; make one of a camera's matrices or with looking_at."),
-            (mirror, TriangleMesh, "The mirror must be a TriangleMesh; make one of its positions and triangles."),
-            (scene, (TriangleMesh, SceneTree, PointTree), "The scene must be a TriangleMesh, a SceneTree or a "
-             "PointTree; make one of its positions and triangles."),
-            (settings, Settings, "The settings must be Settings; leave them out for the defaults."),
-            (mirrors, (TriangleMesh, type(None)), "The mirrors must be one TriangleMesh; join them or leave "
-             "them out.")):
-        if not isinstance(given, kinds):
-            raise ReflectionError(wrong)
+    must_be(view, View, "The view must be a View; make one of a camera's matrices or with looking_at.")
+    must_be(mirror, TriangleMesh, "The mirror must be a TriangleMesh; make one of its positions and triangles.")
+    must_be(scene, (TriangleMesh, SceneTree, PointTree), "The scene must be a TriangleMesh, a SceneTree or a "
+            "PointTree; make one of its positions and triangles.")
+    must_be(settings, Settings, "The settings must be Settings; leave them out for the defaults.")
+    must_be(mirrors, (TriangleMesh, type(None)), "The mirrors must be one TriangleMesh; join them or leave them out.")
     if not len(mirror.triangles):
         raise ReflectionError("The mirror has no faces; give it faces or choose another mirror.")
     if mirrors is not None and not len(mirrors.triangles):

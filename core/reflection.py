@@ -74,7 +74,17 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
     >>> np.unique(mesh.source_face).tolist(), mesh.estimated_error < 0.5
     ([0], True)
     """
-    return _reflected(view, mirror, scene, settings, mirrors)
+    keep_freed_memory()
+    progress = Progress()
+    tree = scene.tree if isinstance(scene, Standing) else scene
+    mirrors = scene.mirrors if isinstance(scene, Standing) and mirrors is None else mirrors
+    check_given(view, mirror, tree, settings, mirrors)
+    corner = far_corner(mirror)
+    if corner is None:
+        return _near_origin(view, mirror, scene, settings, mirrors, progress)
+    mesh = _near_origin(moved_view(view, -corner), moved_surface(mirror, -corner), moved_surface(tree, -corner),
+                        settings, None if mirrors is None else moved_surface(mirrors, -corner), progress)
+    return moved_mesh(mesh, corner)
 
 
 def reflection_steps(
@@ -95,22 +105,7 @@ def reflection_steps(
     >>> next(reflection_steps(view, mirror, scene))  # in a generator: mesh = yield from reflection_steps(...)
     (0.0, 'k-d tree')
     """
-    return (yield from in_steps(lambda: _reflected(view, mirror, scene, settings, mirrors)))
-
-
-def _reflected(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
-               settings: Settings, mirrors: TriangleMesh | None) -> ReflectionMesh:
-    keep_freed_memory()
-    progress = Progress()
-    tree = scene.tree if isinstance(scene, Standing) else scene
-    mirrors = scene.mirrors if isinstance(scene, Standing) and mirrors is None else mirrors
-    check_given(view, mirror, tree, settings, mirrors)
-    corner = far_corner(mirror)
-    if corner is None:
-        return _near_origin(view, mirror, scene, settings, mirrors, progress)
-    mesh = _near_origin(moved_view(view, -corner), moved_surface(mirror, -corner), moved_surface(tree, -corner),
-                        settings, None if mirrors is None else moved_surface(mirrors, -corner), progress)
-    return moved_mesh(mesh, corner)
+    return (yield from in_steps(lambda: reflect(view, mirror, scene, settings, mirrors)))
 
 
 def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,

@@ -59,10 +59,6 @@ class MirrorMap(ReflectionMap):
             least, most = np.minimum(least, rise), np.maximum(most, rise)
         return least, most
 
-    @property
-    def across(self) -> np.ndarray:
-        return self.surface.across
-
     def arriving(self, places: np.ndarray) -> np.ndarray:
         """View directions (3, n), as long as the way from the eye (1 in orthographic views)."""
         if self.orthographic:

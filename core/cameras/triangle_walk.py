@@ -19,7 +19,7 @@ BETWEEN = 1e-3  # of a triangle: what two triangles may each leave to the other 
 def settle(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarray,
            points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Faces, places (u, v) and s of the images of `points` (3, n), and which of them are images at all."""
-    face, uv, s, across = face.copy(), uv.copy(), s.copy(), mirror_map.across
+    face, uv, s, across = face.copy(), uv.copy(), s.copy(), mirror_map.surface.across
     found = np.zeros(len(face), dtype=bool)
     least, corner = _least(uv)
     found[least >= -INSIDE] = True
@@ -57,7 +57,7 @@ def brought_back(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) ->
     """The nearest to each of the places (3, n) on its triangle (n,) or on the one beyond the edge that it left by, and
     how far away that is."""
     _, corner = _least(mirror_map.coordinates(face, places))
-    beyond = mirror_map.across[face, corner]
+    beyond = mirror_map.surface.across[face, corner]
     near, gap = _nearest(mirror_map, face, places)
     other, other_gap = _nearest(mirror_map, np.where(beyond >= 0, beyond, face), places)
     return np.where(other_gap < gap, other, near), np.minimum(gap, other_gap)

@@ -11,7 +11,7 @@ from ..geometry import TriangleMesh
 from ..recentring import far_corner, moved_surface
 from ..reflection import reflect
 from ..result import ReflectionMesh
-from ..support import NothingInView, ReflectionError, Settings, breathe, in_steps, portions, tell
+from ..support import NothingInView, Settings, breathe, in_steps, must_be, portions, tell
 from .caustic_mesh import CausticMesh
 from .corners import Corners, light_at, mean_weight
 from .energy import flux_of
@@ -68,7 +68,9 @@ def caustics(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings
     >>> np.allclose(mesh.irradiance.mean(axis=1), 3 / length**3, rtol=0.05)
     True
     """
-    _check(lamp, receivers, blockers)
+    must_be(lamp, Lamp, "The lamp must be a Lamp; make one of its position, or of a sun's direction with shining.")
+    must_be(receivers, TriangleMesh, "The receivers must be a TriangleMesh; make one of their positions and triangles.")
+    must_be(blockers, (TriangleMesh, type(None)), "The blockers must be one TriangleMesh; join them or leave them out.")
     corner = far_corner(mirror) if isinstance(mirror, TriangleMesh) and len(mirror.triangles) else None
     if corner is None:
         return _near_origin(lamp, mirror, receivers, settings, mirrors, blockers)
@@ -147,14 +149,3 @@ def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, rec
         parts.append(light_at(ray_map, owner, uv, points[:, corner], np.tile(normal[:, own], 3), lamp))
     return LitFaces(triangles, points, face, normal, source, chosen, seen.source_sides[chosen] >= 0,
                     np.full((len(chosen), 3), np.nan), Corners.joined(parts, 3))
-
-
-def _check(lamp: Lamp, receivers: TriangleMesh, blockers: TriangleMesh | None) -> None:
-    for given, kinds, wrong in (
-            (lamp, Lamp, "The lamp must be a Lamp; make one of its position, or of a sun's direction with shining."),
-            (receivers, TriangleMesh, "The receivers must be a TriangleMesh; make one of their positions and "
-             "triangles."),
-            (blockers, (TriangleMesh, type(None)), "The blockers must be one TriangleMesh; join them or leave them "
-             "out.")):
-        if not isinstance(given, kinds):
-            raise ReflectionError(wrong)

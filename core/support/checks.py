@@ -12,9 +12,17 @@ from operator import index
 
 import numpy as np
 
+from .errors import ReflectionError
+
 _TRUTH = (bool, np.bool_)
 LARGEST = 1e40
 """Coordinates may be as large: more than Blender can hold, and their products of seven still are numbers."""
+
+
+def must_be(given, kinds: type | tuple[type, ...], wrong: str) -> None:
+    """Raises `ReflectionError`, which says what is `wrong`, where something is of none of the kinds."""
+    if not isinstance(given, kinds):
+        raise ReflectionError(wrong)
 
 
 def numbers(given, shape: tuple, wrong: str) -> np.ndarray:

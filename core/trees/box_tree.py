@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, columns, cross, dot, ranges, rows
+from ..geometry import TriangleMesh, areal, columns, cross, dot, ranges, rows
 from ..support import breathe, portions
 
 BINS = 12
@@ -59,20 +59,20 @@ class BoxTree:
 
     @classmethod
     def build(cls, mesh: TriangleMesh) -> BoxTree:
-        middle, size, corners, areal = _about_middle(mesh)
-        corners = corners[:, areal]
+        middle, size, corners, kept = _about_middle(mesh)
+        corners = corners[:, kept]
         levels, order = _levels(corners.min(axis=2), corners.max(axis=2))
         room = ROUNDING * size
         low, high, child, start, count = (np.concatenate(part, axis=-1) for part in zip(*levels))
-        return cls(middle, size, low - room, high + room, child, start, count, areal[order], _frames(corners, order))
+        return cls(middle, size, low - room, high + room, child, start, count, kept[order], _frames(corners, order))
 
     @classmethod
     def of_one_leaf(cls, mesh: TriangleMesh) -> BoxTree:
         """All triangles in their own order, not numbers where one has no area, in a leaf without a box: for those who
         know without boxes which triangles to test."""
-        middle, size, corners, areal = _about_middle(mesh)
+        middle, size, corners, kept = _about_middle(mesh)
         frames = np.full((12, len(mesh.triangles)), np.nan)
-        frames[:, areal] = _frames(corners, areal)
+        frames[:, kept] = _frames(corners, kept)
         infinite, zero, count = np.full((3, 1), np.inf), np.zeros(1, dtype=np.int64), len(mesh.triangles)
         return cls(middle, size, -infinite, infinite, zero - 1, zero, zero + count, np.arange(count), frames)
 
@@ -84,11 +84,7 @@ def _about_middle(mesh: TriangleMesh) -> tuple[np.ndarray, float, np.ndarray, np
     low, high = used.min(axis=1), used.max(axis=1)
     middle = 0.5 * (low + high)
     corners = corners - middle[:, None, None]
-    u, v = corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]
-    normal = cross(u, v)
-    reach = np.maximum(np.abs(u).max(axis=0), np.abs(v).max(axis=0))
-    areal = np.flatnonzero(np.sqrt(dot(normal, normal)) > 1e-14 * reach**2)
-    return middle, 0.5 * float(np.linalg.norm(high - low)), corners, areal
+    return middle, 0.5 * float(np.linalg.norm(high - low)), corners, np.flatnonzero(areal(corners.swapaxes(1, 2)))
 
 
 def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:

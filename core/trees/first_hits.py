@@ -94,7 +94,7 @@ class _Trace:
     def run(self) -> None:
         ray = np.arange(len(self.nearest))
         node = np.zeros(len(ray), dtype=np.int64)
-        stack = [self._entered(ray, node)]
+        stack = [_entering(ray, node, self._enter(ray, node))]
         while stack:
             breathe()
             ray, node, entry = stack.pop()
@@ -111,16 +111,10 @@ class _Trace:
             nearer = first <= second
             near = np.where(nearer, first, second), np.where(nearer, child, child + 1)
             far = np.where(nearer, second, first), np.where(nearer, child + 1, child)
-            batches = [(ray[hit], node[hit], entry[hit]) for entry, node in (far, near)
-                       for hit in (np.flatnonzero(entry < np.inf),)]
+            batches = [_entering(ray, node, entry) for entry, node in (far, near)]
             if len(ray) < WORTH_DIVIDING:
                 batches = [tuple(np.concatenate(parts) for parts in zip(*batches))]
             stack.extend(batch for batch in batches if len(batch[0]))
-
-    def _entered(self, ray, node):
-        entry = self._enter(ray, node)
-        hit = np.flatnonzero(entry < np.inf)
-        return ray[hit], node[hit], entry[hit]
 
     def _enter(self, ray: np.ndarray, node: np.ndarray) -> np.ndarray:
         """Where the rays enter the boxes of the nodes, infinite where they do not before the nearest hit so far."""
@@ -146,6 +140,11 @@ class _Trace:
         good = good[np.argsort(-distance[good], kind="stable")]
         self.nearest[ray[good]] = distance[good]
         self.triangle[ray[good]] = self.tree.order[entry[good]]
+
+
+def _entering(ray: np.ndarray, node: np.ndarray, entry: np.ndarray) -> tuple[np.ndarray, ...]:
+    hit = np.flatnonzero(entry < np.inf)
+    return ray[hit], node[hit], entry[hit]
 
 
 def meet(tree: BoxTree, entry: np.ndarray, origins: np.ndarray, directions: np.ndarray,
