@@ -3,9 +3,9 @@
 In come cameras and meshes; out come candidates, pairs of a camera and a triangle with the linear functions that bound
 what the one sees of the other.
 """
-from .candidates import Candidates, overlapping
+from .candidates import Candidates, inherited, overlapping
 from .mirrors_shown import MirrorsShown
 from .scene_and_mirrors import ABOVE, SceneAndMirrors
 from .scene_pieces import ScenePieces
 
-__all__ = ["ABOVE", "Candidates", "MirrorsShown", "SceneAndMirrors", "ScenePieces", "overlapping"]
+__all__ = ["ABOVE", "Candidates", "MirrorsShown", "SceneAndMirrors", "ScenePieces", "inherited", "overlapping"]

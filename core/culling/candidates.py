@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import ColumnArrays, SceneFrames, columns, largest
+from ..geometry import ColumnArrays, SceneFrames, columns, in_order, largest, ranges
 
 
 @dataclass(frozen=True)
@@ -94,6 +94,18 @@ def overlapping(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, colum
         kept.append((camera[chosen], column[chosen], sign * columns(sides, chosen), -sign * columns(z, chosen),
                      sign * columns(bend, chosen), np.ones((3, len(chosen)), dtype=bool)))
     return Candidates(cameras, frames, *(np.concatenate(side, axis=-1) for side in zip(*kept)))
+
+
+def inherited(camera: np.ndarray, column: np.ndarray, parent: np.ndarray,
+              child: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of the cameras `child` (k,) with what their parents (k,) are paired with, `camera` and `column` (p,), each
+    once: a camera across a triangle's plane stands twice among the pairs."""
+    order = in_order(camera)
+    start, stop = (np.searchsorted(camera[order], parent, side=side) for side in ("left", "right"))
+    entry, run = ranges(start, stop - start)
+    count = max(int(column.max(initial=0)) + 1, 1)
+    pairs = np.unique(child[run] * count + column[order[entry]])
+    return pairs // count, pairs % count
 
 
 def _room(bend: np.ndarray) -> np.ndarray:

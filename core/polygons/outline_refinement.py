@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..cameras import Cameras, beyond_horizon, split_cameras
-from ..culling import Candidates, SceneAndMirrors
-from ..geometry import columns, distinct, doubled_areas, edge_lengths, in_order, ranges
+from ..culling import Candidates, SceneAndMirrors, inherited
+from ..geometry import columns, distinct, doubled_areas, edge_lengths
 from .covering import Overlaps
 
 LEVELS = 10
@@ -53,27 +53,14 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
         now = np.full(before, -1)
         now[parent[~new]] = np.flatnonzero(~new)
         open_ = open_[parent] & ~new
-        pairs = _children(camera, column, parent, new, before)
+        child, splitting = np.flatnonzero(new), np.zeros(before, dtype=bool)
+        splitting[parent[child]] = True
+        own = np.flatnonzero((camera >= 0) & splitting[camera])
+        pairs = inherited(camera[own], column[own], parent[child], child)
         candidates = Overlaps.of(cameras, frames, pairs, met).in_sight(last)
         camera = np.where(camera >= 0, now[camera], -1)
     settled = replace(Candidates.joined(parts), cameras=cameras, camera=camera).select(np.flatnonzero(camera >= 0))
     return settled, open_ | (bent.any(axis=1) & ~long.any(axis=1)), int((bent & long).sum())
-
-
-def _children(camera: np.ndarray, column: np.ndarray, parent: np.ndarray, new: np.ndarray,
-              before: int) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of the new cameras with the columns of their parents, each once: a camera across a triangle's plane stands
-    twice among the pairs."""
-    splitting = np.zeros(before, dtype=bool)
-    splitting[parent[new]] = True
-    own = np.flatnonzero((camera >= 0) & splitting[camera])
-    own = own[in_order(camera[own])]
-    start = np.searchsorted(camera[own], np.arange(before + 1))
-    child = np.flatnonzero(new)
-    entry, run = ranges(start[parent[child]], start[parent[child] + 1] - start[parent[child]])
-    count = int(column.max(initial=-1)) + 1
-    pairs = np.unique(child[run] * count + column[own[entry]])
-    return pairs // max(count, 1), pairs % max(count, 1)
 
 
 def _crowded(candidates: Candidates, mirror: np.ndarray) -> np.ndarray:

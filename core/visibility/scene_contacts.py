@@ -10,8 +10,8 @@ from collections.abc import Callable, Generator
 import numpy as np
 
 from ..cameras import Cameras, picture_areas
-from ..culling import Candidates
-from ..geometry import TriangleMesh, distinct, in_order, largest, meeting, norm, ranges, rows, shares, smallest
+from ..culling import Candidates, inherited
+from ..geometry import TriangleMesh, distinct, largest, meeting, norm, rows, shares, smallest
 from ..result import DEPTH, GAP
 from ..support import crowded
 from .hidden_parts import DEEPER, PAIRS_AT_ONCE, HiddenParts
@@ -62,13 +62,12 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
     is_cut[cut] = True
     # what else may be seen in a camera is asked of its pieces
     asked = np.flatnonzero(is_cut[candidates.camera])
-    asked = asked[in_order(candidates.camera[asked])]
-    start, stop = (np.searchsorted(candidates.camera[asked], parent, side=side) for side in ("left", "right"))
+    camera, column = candidates.camera[asked], candidates.column[asked]
     crowd, piece = np.zeros(len(cameras), dtype=bool), before + np.arange(len(parent))
-    crowd[piece] = crowded(stop - start, picture_areas(cameras.select(piece)), AGAIN * maximum)
-    entry, run = ranges(start, np.where(crowd[piece], 0, stop - start))
-    pairs = np.unique(piece[run] * len(frames.triangle) + candidates.column[asked[entry]])
-    of_pieces = again(cameras, (pairs // len(frames.triangle), pairs % len(frames.triangle)))
+    crowd[piece] = crowded(np.bincount(camera, minlength=given)[parent], picture_areas(cameras.select(piece)),
+                           AGAIN * maximum)
+    sparse = ~crowd[piece]
+    of_pieces = again(cameras, inherited(camera, column, parent[sparse], piece[sparse]))
     return (Candidates.joined((candidates.on(cameras, now), of_pieces)), crowd,
             len(cut) + int((~shown).sum()), left)
 

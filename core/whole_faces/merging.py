@@ -9,6 +9,7 @@ with, as cloth with skin.
 """
 from __future__ import annotations
 
+from collections.abc import Generator
 from dataclasses import dataclass
 
 import numpy as np
@@ -100,11 +101,7 @@ def _on_outline(tree: SceneTree, images: Images, standing: np.ndarray) -> np.nda
     front and some from behind."""
     mesh = tree.mesh
     found, back = np.zeros((2, len(standing)), dtype=bool)
-    for part in portions(len(mesh.triangles), AT_ONCE):
-        corner = mesh.triangles[part].T
-        node = columns(standing, corner)
-        some = np.flatnonzero((node != corner).any(axis=0))
-        corner, node = corner[:, some], node[:, some]
+    for corner, node in _moved(mesh, standing):
         a, b, c = (mesh.positions.take(of_all, axis=0).T for of_all in corner)
         normal = cross(b - a, c - a)
         for stands in node:
@@ -120,17 +117,22 @@ def _on_outline(tree: SceneTree, images: Images, standing: np.ndarray) -> np.nda
 def _lost(mesh: TriangleMesh, standing: np.ndarray) -> np.ndarray:
     """Which vertices (v,) stand for so much that too little of the surface is left."""
     before, after = np.zeros((2, len(standing)))
-    for part in portions(len(mesh.triangles), AT_ONCE):
-        corner = mesh.triangles[part].T
-        node = columns(standing, corner)
-        some = np.flatnonzero((node != corner).any(axis=0))
-        node = node[:, some]
-        for total, ends in ((before, corner[:, some]), (after, node)):
+    for corner, node in _moved(mesh, standing):
+        for total, ends in ((before, corner), (after, node)):
             a, b, c = (mesh.positions.take(of_all, axis=0).T for of_all in ends)
             area = norm(cross(b - a, c - a))
             for stands in node:
                 np.add.at(total, stands, area)
     return after < LEFT * before
+
+
+def _moved(mesh: TriangleMesh, standing: np.ndarray) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
+    """The corners (3, n) of triangles of which a corner is drawn together with another, and what stands for each."""
+    for part in portions(len(mesh.triangles), AT_ONCE):
+        corner = mesh.triangles[part].T
+        node = columns(standing, corner)
+        some = np.flatnonzero((node != corner).any(axis=0))
+        yield corner[:, some], node[:, some]
 
 
 def _distinct(mesh: TriangleMesh, images: Images, triangles: np.ndarray) -> np.ndarray:
