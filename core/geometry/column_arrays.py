@@ -1,8 +1,8 @@
 """Arrays that hold the same things column by column: chosen, and put one behind another, all alike."""
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import Field, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import Field
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -19,24 +19,23 @@ class ColumnArrays:
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
     counting_axis: ClassVar[int] = -1
 
-    def _columns(self) -> list[tuple[str, Any]]:
-        held = [(name, getattr(self, name)) for name in self.__dataclass_fields__]
-        return [(name, value) for name, value in held if isinstance(value, (np.ndarray, ColumnArrays))]
+    def _values(self) -> Iterator[Any]:
+        return (getattr(self, name) for name in self.__dataclass_fields__)
 
     def __len__(self) -> int:
-        _, first = self._columns()[0]
+        first = next(value for value in self._values() if isinstance(value, (np.ndarray, ColumnArrays)))
         return first.shape[self.counting_axis] if isinstance(first, np.ndarray) else len(first)
 
     def select(self: Kind, chosen: np.ndarray | slice) -> Kind:
         """Those `chosen`, as indices, as a mask or as a slice."""
         if isinstance(chosen, np.ndarray) and chosen.dtype == bool:
             chosen = np.flatnonzero(chosen)
-        return replace(self, **{name: self._chosen(value, chosen) for name, value in self._columns()})
+        return type(self)(*(self._chosen(value, chosen) for value in self._values()))
 
     def _chosen(self, value: Any, chosen: np.ndarray | slice) -> Any:
+        if not isinstance(value, np.ndarray):
+            return value.select(chosen) if isinstance(value, ColumnArrays) else value
         breathe()
-        if isinstance(value, ColumnArrays):
-            return value.select(chosen)
         if isinstance(chosen, slice):
             return value[chosen if self.counting_axis == 0 else (..., chosen)]
         return value.take(chosen, axis=self.counting_axis, mode="wrap")  # as `columns` does
@@ -44,11 +43,11 @@ class ColumnArrays:
     @classmethod
     def joined(cls: type[Kind], parts: Sequence[Kind]) -> Kind:
         """All of the parts, at least one, one part behind another."""
-        return replace(parts[0], **{name: cls._together(value, [getattr(part, name) for part in parts])
-                                    for name, value in parts[0]._columns()})
+        return cls(*map(cls._together, zip(*(part._values() for part in parts))))
 
     @classmethod
-    def _together(cls, first: Any, values: list[Any]) -> Any:
+    def _together(cls, values: tuple[Any, ...]) -> Any:
+        if not isinstance(values[0], np.ndarray):
+            return values[0].joined(values) if isinstance(values[0], ColumnArrays) else values[0]
         breathe()
-        return first.joined(values) if isinstance(first, ColumnArrays) else \
-            np.concatenate(values, axis=cls.counting_axis)
+        return np.concatenate(values, axis=cls.counting_axis)
