@@ -77,7 +77,7 @@ def test_result_without_its_mirror(scene):
     result = parts.generate()
     bpy.data.objects.remove(scene[0])
     parts.select(result)
-    assert "No mirror" in parts.refusal()
+    assert "is gone: clear it" in parts.refusal()
 
 
 def test_result_without_its_sources(scene):
