@@ -9,12 +9,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, shares
+from ..geometry import TriangleMesh, ranges, shares, spread_directions
+from ..trees import along_curve
 from .lamps import Lamp
 
 ABOVE = 1e-7  # of the scene's size: what lies less far behind a triangle lies in its plane
 PLANES = 1e-6  # of a unit normal, and of the scene's size: planes that differ by less are one
-AT_ONCE = 1 << 22
+AT_ONCE, FEW_AT_ONCE = 1 << 22, 1 << 18
+WAYS = 200  # in which a mesh's outermost corners are looked for
+TOGETHER = 64  # corners side by side, in one box
 
 
 @dataclass(frozen=True)
@@ -26,7 +29,7 @@ class Sides:
     of : callable
         Whether any of them lies above planes n . x = h of normals (n, 3) and heights (n,), and whether any lies below.
     count : int
-        How many they are.
+        How many of them are asked of each plane.
     """
 
     of: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
@@ -58,12 +61,29 @@ def _room(*meshes: TriangleMesh) -> float:
 def _sides_of(mesh: TriangleMesh, room: float) -> Sides:
     """Where the corners of a mesh lie."""
     points = mesh.positions[np.unique(mesh.triangles)]
+    points = points[along_curve(points)]
+    # the outermost in some directions tell of most planes, boxes round what lies together of nearly all others
+    outermost = points[np.unique([np.argmax(points @ way) for way in spread_directions(WAYS)])]
+    begin = np.arange(0, len(points), TOGETHER)
+    count = np.diff(begin, append=len(points))
+    low, high = np.minimum.reduceat(points, begin), np.maximum.reduceat(points, begin)
 
-    def found(normal: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        above = points @ normal.T
-        return above.max(axis=0) - height > room, above.min(axis=0) - height < -room
+    def over(normal: np.ndarray, height: np.ndarray) -> np.ndarray:
+        """Whether any lies above planes."""
+        height = height + room
+        found = (outermost @ normal.T).max(axis=0) > height
+        doubtful = np.flatnonzero(~found)
+        for part in shares(np.full(len(doubtful), len(begin)), AT_ONCE):
+            plane = doubtful[part]
+            reach = np.maximum(normal[plane], 0.0) @ high.T + np.minimum(normal[plane], 0.0) @ low.T
+            which, box = np.nonzero(reach > height[plane, None])
+            for share in shares(count[box], FEW_AT_ONCE):
+                point, pair = ranges(begin[box[share]], count[box[share]])
+                own = plane[which[share]][pair]
+                found[own[(normal[own] * points[point]).sum(axis=1) > height[own]]] = True
+        return found
 
-    return Sides(found, len(points))
+    return Sides(lambda normal, height: (over(normal, height), over(-normal, -height)), len(outermost))
 
 
 def _between(scene: TriangleMesh, start: Sides, end: Sides, room: float) -> TriangleMesh | None:

@@ -13,7 +13,18 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
-from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, in_order, others, rows, unit
+from ..geometry import (
+    SceneFrames,
+    TriangleMesh,
+    columns,
+    cross,
+    dot,
+    in_order,
+    others,
+    rows,
+    spread_directions,
+    unit,
+)
 from ..trees import (
     Bound,
     Cones,
@@ -178,10 +189,7 @@ class SceneAndMirrors:
             return 0.0
         # a surface that winds about itself is convex everywhere but as a whole
         corners = rows(self.mirrors.positions[np.unique(self.mirrors.triangles)])
-        turn = np.arange(DIRECTIONS) + 0.5
-        height, angle = 1.0 - 2.0 * turn / DIRECTIONS, np.pi * (1.0 + np.sqrt(5.0)) * turn
-        ring = np.sqrt(1.0 - height * height)
-        for direction in np.stack((ring * np.cos(angle), ring * np.sin(angle), height), axis=1):
+        for direction in spread_directions(DIRECTIONS):
             farthest = corners[:, np.argmax(dot(direction, corners))]
             if (side * dot(farthest[:, None] - self.surface.a, self.surface.face_normal) > room).any():
                 return 0.0

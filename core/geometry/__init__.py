@@ -22,10 +22,25 @@ from .subdivision import (
     split,
 )
 from .triangle_mesh import TriangleMesh, area_normals, areal, has_area
-from .vectors import columns, cross, dot, groups, largest, norm, ranges, rows, shares, smallest, solve, unit
+from .vectors import (
+    columns,
+    cross,
+    dot,
+    groups,
+    largest,
+    norm,
+    ranges,
+    rows,
+    shares,
+    smallest,
+    solve,
+    spread_directions,
+    unit,
+)
 
 __all__ = ["ColumnArrays", "Order", "SceneFrames", "TURNS", "TriangleMesh",
            "area_normals", "areal", "areas", "columns", "connected", "corners_beyond", "cross", "distinct", "dot",
            "doubled_areas", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups",
            "has_area", "in_order", "largest", "meeting", "norm", "ordered", "others", "parent_side",
-           "ranges", "rows", "shared_edges", "shares", "smallest", "solid_angles", "solve", "split", "unit"]
+           "ranges", "rows", "shared_edges", "shares", "smallest", "solid_angles", "solve", "split",
+           "spread_directions", "unit"]

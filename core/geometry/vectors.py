@@ -71,6 +71,15 @@ def solve(c0: np.ndarray, c1: np.ndarray, c2: np.ndarray, right: np.ndarray) -> 
     return np.stack((dot(right, normal), -dot(turned, c2), dot(turned, c1))) * inverse
 
 
+def spread_directions(count: int) -> np.ndarray:
+    """Unit vectors (count, 3) all round, about evenly: points on a spiral over the sphere, each turned on by the golden
+    angle (R. Swinbank, R. J. Purser, "Fibonacci grids", 2006)."""
+    turn = np.arange(count) + 0.5
+    height, angle = 1.0 - 2.0 * turn / count, np.pi * (1.0 + np.sqrt(5.0)) * turn
+    ring = np.sqrt(1.0 - height * height)
+    return np.stack((ring * np.cos(angle), ring * np.sin(angle), height), axis=1)
+
+
 def ranges(starts: np.ndarray, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Every index of the runs [start, start + length), one after another, and the run each belongs to."""
     run = np.repeat(np.arange(len(lengths)), lengths)
