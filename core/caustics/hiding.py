@@ -17,7 +17,7 @@ ABOVE = 1e-7  # of the scene's size: what lies less far behind a triangle lies i
 PLANES = 1e-6  # of a unit normal, and of the scene's size: planes that differ by less are one
 AT_ONCE, FEW_AT_ONCE = 1 << 22, 1 << 18
 WAYS = 200  # in which a mesh's outermost corners are looked for
-TOGETHER = 64  # corners side by side, in one box
+TOGETHER = 32  # corners side by side, in one box
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def _sides_of(mesh: TriangleMesh, room: float) -> Sides:
             for share in shares(count[box], FEW_AT_ONCE):
                 point, pair = ranges(begin[box[share]], count[box[share]])
                 own = plane[which[share]][pair]
-                found[own[(normal[own] * points[point]).sum(axis=1) > height[own]]] = True
+                found[own[np.einsum("ij,ij->i", normal[own], points[point]) > height[own]]] = True
         return found
 
     return Sides(lambda normal, height: (over(normal, height), over(-normal, -height)), len(outermost))
