@@ -2,9 +2,10 @@
 
     python -m tools.timing.sizes [1000 10000 100000 1000000] [--runs 3] [--mirror 32] [--everything]
 
-A ball of 2 x MIRROR^2 triangles mirrors bumpy knots on a ground, at 1024 x 1024. Cycles renders the file as it is, one
-sample, without its data from the last time. Embree traces the eye's rays and the mirrored ones, its trees built;
-mathutils' BVHTree, in a loop of Python, the mirrored ones alone.
+A ball of 2 x MIRROR^2 triangles mirrors bumpy knots on a ground, at 1024 x 1024. The operator reads everything anew,
+and what of its seconds goes to asking Blender and to writing is told. Cycles renders the file as it is, one sample,
+without its data from the last time. Embree traces the eye's rays and the mirrored ones, its trees built; mathutils'
+BVHTree, in a loop of Python, the mirrored ones alone.
 With --everything the operator is timed without whole faces too: all of the geometry, by cameras alone.
 """
 from __future__ import annotations
@@ -39,8 +40,9 @@ def main(arguments: list[str]) -> int:
     import bpy
     print(f"Blender {bpy.app.version_string}, {os.cpu_count()} threads, medians of {options.runs} runs; ratios of the "
           "medians, and the smallest and largest of single runs\n")
-    print_table([("vertices", "faces", "generate s", "Cycles s", "Embree s", "Cycles / generate", "from", "to",
-                  "Embree / generate", "BVHTree s", "BVHTree / generate", "from", "to", "all geometry s"), *rows])
+    print_table([("vertices", "faces", "generate s", "reading %", "writing %", "Cycles s", "Embree s",
+                  "Cycles / generate", "from", "to", "Embree / generate", "BVHTree s", "BVHTree / generate", "from",
+                  "to", "all geometry s"), *rows])
     return 0
 
 
@@ -49,9 +51,11 @@ def _measured(count: int, options: argparse.Namespace) -> list:
     import bpy
     ball, scene = _scene(count, options.mirror)
     bvhtree = _bvhtree(ball, scene)
-    generate, cycles, embree, looped, everything = [], [], [], [], []
+    generate, shares, cycles, embree, looped, everything = [], [], [], [], [], []
     for _ in range(options.runs):
-        generate.append(_generate())
+        seconds, blender = _generate_anew()
+        generate.append(seconds)
+        shares.append([100.0 * part / seconds for part in blender])
         faces = sum(len(obj.data.polygons) for obj in bpy.context.scene.objects
                     if obj.reflection_mesh.role == "REFLECTION")
         bpy.ops.reflection_mesh.clear()
@@ -59,11 +63,12 @@ def _measured(count: int, options: argparse.Namespace) -> list:
         embree.append(_embree(ball, scene))
         looped.append(bvhtree())
     if options.everything:
-        everything.append(_generate(hidden_faces=True))
+        everything.append(_generate_anew(hidden_faces=True)[0])
         bpy.ops.reflection_mesh.clear()
     mine, theirs, traced, loop = (statistics.median(seconds) for seconds in (generate, cycles, embree, looped))
-    return [count, faces, mine, theirs, traced, theirs / mine, *_spread(cycles, generate), traced / mine, loop,
-            loop / mine, *_spread(looped, generate), everything[0] if everything else None]
+    return [count, faces, mine, *map(statistics.median, zip(*shares)), theirs, traced, theirs / mine,
+            *_spread(cycles, generate), traced / mine, loop, loop / mine, *_spread(looped, generate),
+            everything[0] if everything else None]
 
 
 def _spread(seconds: list[float], others: list[float]) -> tuple[float, float]:
@@ -78,6 +83,32 @@ def _generate(**settings) -> float:
     started = time.perf_counter()
     bpy.ops.reflection_mesh.generate(**settings)
     return time.perf_counter() - started
+
+
+def _generate_anew(**settings) -> tuple[float, list[float]]:
+    """Seconds of a first generation, and those of it that read from Blender and write to it."""
+    importlib.import_module(extension_zip.PACKAGE + ".addon.standing.told")._tell(None)
+    kept = importlib.import_module(extension_zip.PACKAGE + ".addon.standing").Kept
+    operator = importlib.import_module(extension_zip.PACKAGE + ".addon.operators.generate")
+    spent, parts = [0.0, 0.0], ((kept, "looked_at", 0), (kept, "joined", 0), (operator, "_written", 1),
+                                (operator, "write_results", 1))
+
+    def timed(work: Callable, kind: int) -> Callable:
+        def run(*arguments, **options):
+            started = time.perf_counter()
+            try:
+                return work(*arguments, **options)
+            finally:
+                spent[kind] += time.perf_counter() - started
+        return run
+    real = [getattr(place, name) for place, name, _ in parts]
+    for (place, name, kind), work in zip(parts, real):
+        setattr(place, name, timed(work, kind))
+    try:
+        return _generate(**settings), spent
+    finally:
+        for (place, name, _), work in zip(parts, real):
+            setattr(place, name, work)
 
 
 def _cycles() -> float:
