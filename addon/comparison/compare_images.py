@@ -14,7 +14,7 @@ from ..faults import Steps, part
 from ..files import is_whole
 from ..metrics import Measurement
 from ..report import Picture, heat_map, png_bytes
-from .compare_pictures import Pictures
+from .pictures import Pictures
 
 # what a pixel of holes.png is, and its colour: of M. Okabe and K. Ito's set, safe for all kinds of colour vision
 KINDS = {"no mirror": (20, 20, 20), "left out": (62, 62, 68), "right": (130, 130, 130), "hole": (213, 94, 0),

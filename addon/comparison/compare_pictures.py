@@ -2,9 +2,7 @@
 from __future__ import annotations
 
 import itertools
-import time
 from collections.abc import Generator
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import bpy
@@ -27,30 +25,10 @@ from ..judge import (
 )
 from ..metrics import CodedPicture
 from ..writing import records
+from .pictures import Pictures, render_lit, render_pictures
 
 DEEPEST = 1000  # bounces that are followed; Cycles knows 1024, four of them for other rays
 RENDERS = 7  # of a comparison; where Cycles rounds normals it takes two more
-
-
-@dataclass(frozen=True)
-class Pictures:
-    """What Cycles shows of a scene.
-
-    Attributes
-    ----------
-    reference, result : (height, width, 3) float32
-        With the mirror, and with the mesh before a mirror that reflects the world alone; in linear light, from the
-        lowest row up.
-    seconds : dict
-        Time that Cycles took for the two, by their names.
-    again : (height, width, 3) float32 or None
-        Where the mesh shows light: `reference` with other noise, which is as near as a picture can come.
-    """
-
-    reference: np.ndarray
-    result: np.ndarray
-    seconds: dict
-    again: np.ndarray | None = None
 
 
 class Renders(NamedTuple):
@@ -98,15 +76,16 @@ def _renders(context: bpy.types.Context, copied: CopiedScene, diffuse: list, res
     own = [(slot, slot.material) for copy in copied.everything for slot in copy.material_slots]
     codes = CodedMaterials(copied, lowest_corner(copied))
     coded = yield from _coded_pictures(copied, codes, depth)
+    if lit(results):
+        return Renders(*coded, (yield from render_lit(context, results, samples)))
     for slot, material in own:
         slot.material = material
-    if not lit(results):
-        dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)], codes.plain_mirror())
-    return Renders(*coded, (yield from render_pictures(copied, context.scene, samples, lit(results))))
+    dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)], codes.plain_mirror())
+    return Renders(*coded, (yield from render_pictures(copied, context.scene, samples)))
 
 
 def lit(results: list) -> bool:
-    """Whether some of the results show light, so that a mirror must look as it is."""
+    """Whether some of the results show light, so that it can be compared with the mirror's own."""
     return any(result.reflection_mesh.light_material is not None for result in results)
 
 
@@ -158,36 +137,3 @@ def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> G
     shown = decode(identity, cycles_render.render_codes(copied.scene), codes.origin, True, face_start=1)
     return seen, bent, reflected, shown, exact
 
-
-def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int,
-                    light: bool = False) -> Generator[str, None, Pictures]:
-    """Render both pictures, where there is `light` the first one twice; yields the name of each before it."""
-    scene = copied.scene
-    copied.light_up(user.world)
-    visible = [(copy, copy.visible_camera, copy.visible_glossy) for copy in copied.everything]
-    for copy, _ in copied.mirrors:
-        copy.visible_camera = True
-    show(copied.results, False)
-    yield "the picture with the mirror"
-    if light:
-        cycles_render.take_settings(scene, user)
-    reference, first = _timed(scene, samples, user)
-    again = None
-    if light:
-        yield "the picture with the mirror once more"
-        again = cycles_render.render_picture(scene, samples, user, other_noise=True)
-    for copy, camera, glossy in visible:
-        copy.visible_camera, copy.visible_glossy = camera, glossy
-    for copy, _ in copied.diffuse:
-        copy.visible_glossy = False
-    show(copied.results, True)
-    yield "the picture with the mesh"
-    result, second = _timed(scene, samples, user)
-    return Pictures(reference, result, {"reference": first, "result": second}, again)
-
-
-def _timed(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> tuple[np.ndarray, float]:
-    """A picture, and the seconds that it took."""
-    started = time.perf_counter()
-    picture = cycles_render.render_picture(scene, samples, user)
-    return picture, time.perf_counter() - started

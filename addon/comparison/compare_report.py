@@ -11,7 +11,7 @@ from ..metrics import Measurement
 from ..report import Report, csv_text, flat, page
 from .compare_images import comparison_pictures
 from .compare_page import NOTES, environment, scene_of
-from .compare_pictures import Pictures
+from .pictures import Pictures
 
 
 def write_report(folder: str, scene: bpy.types.Scene, pictures: Pictures, measurement: Measurement,

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..faults import Steps, Undivided
 from ..illumination import is_met, leaves_out, let_lamps_light_mirrors
-from ..rendering import copied_scene, rendered
+from ..rendering import copied_scene, only_the_picture, rendered
 
 CHUNK = 64  # samples of one render of the reference: so often ESC is heard
 NAME = "Reflection Comparison"
@@ -120,8 +120,8 @@ def _chunks(samples: int) -> list[int]:
 def _prepare(scene: bpy.types.Scene) -> None:
     """Path tracing alone, in the whole picture."""
     render, cycles = scene.render, scene.cycles
-    render.use_compositing = render.use_sequencer = render.use_border = False
-    render.film_transparent = render.use_persistent_data = render.use_motion_blur = False
+    only_the_picture(render)
+    render.use_border = render.use_persistent_data = False
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0.0
     cycles.time_limit = 0.0

@@ -13,7 +13,16 @@ from .. import compat
 from ..faults import still_there
 from ..reading import is_opaque, materials_of
 from ..reading.materials import is_exact
-from ..rendering import copied_scene, crop_to, denoise, look_through, put_swift_world, rendered
+from ..rendering import (
+    copied_scene,
+    crop_to,
+    denoise,
+    look_through,
+    only_the_picture,
+    put_swift_world,
+    rendered,
+    sharp_camera,
+)
 from .clear_air import clear_air, is_of_fog
 from .cutting import cut_through
 from .picture_layout import shining_slots
@@ -97,7 +106,7 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
     with copied_scene(context, "Reflection Light") as (scene, back):
         _prepare(scene, window)
         put_swift_world(scene, back)
-        look_through(scene, _sharp_camera(context.scene.camera), back)
+        look_through(scene, sharp_camera(context.scene.camera), back)
         for result in results:
             back.callback(setattr, result, "hide_render", result.hide_render)
             result.hide_render = True
@@ -166,19 +175,10 @@ def paper_white_of(scene: bpy.types.Scene) -> float:
 def _prepare(scene: bpy.types.Scene, window: Window) -> None:
     """One window of the picture, nothing after the render."""
     render, cycles = scene.render, scene.cycles
-    for name in ("use_compositing", "use_sequencer", "use_motion_blur", "use_freestyle", "use_multiview", "use_stamp",
-                 "film_transparent"):
-        setattr(render, name, False)
+    only_the_picture(render)
     low = window.column, window.row
     crop_to(render, low, (low[0] + window.width, low[1] + window.height), window.size)
     cycles.film_exposure, cycles.film_transparent_glass = 1.0, False
-
-
-def _sharp_camera(camera: bpy.types.Object) -> bpy.types.Object:
-    """A copy of a camera with all in focus."""
-    copy, copy.data = camera.copy(), camera.data.copy()
-    copy.data.dof.use_dof = False
-    return copy
 
 
 def _glow(colour: tuple[float, float, float]) -> bpy.types.Material:

@@ -47,3 +47,17 @@ def look_through(scene: bpy.types.Scene, camera: bpy.types.Object, back: ExitSta
     back.callback(bpy.data.cameras.remove, camera.data)
     scene.collection.objects.link(camera)
     scene.camera = camera
+
+
+def sharp_camera(camera: bpy.types.Object) -> bpy.types.Object:
+    """A copy of a camera with all in focus."""
+    copy, copy.data = camera.copy(), camera.data.copy()
+    copy.data.dof.use_dof = False
+    return copy
+
+
+def only_the_picture(render: bpy.types.RenderSettings) -> None:
+    """Let a temporary scene render at one moment, from one eye, over its world, and do nothing after that."""
+    for name in ("use_compositing", "use_sequencer", "use_motion_blur", "use_freestyle", "use_multiview", "use_stamp",
+                 "film_transparent"):
+        setattr(render, name, False)

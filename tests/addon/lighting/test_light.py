@@ -1,8 +1,6 @@
 """Light: a render of the file with its lit reflection equals one without, whatever the scene has."""
 from __future__ import annotations
 
-import json
-
 import bpy
 import numpy as np
 import parts
@@ -121,18 +119,6 @@ def test_light_lies_behind_what_stands_before_the_mirror_too(blank, room, kind):
     bpy.data.objects["Mirror Reflection"].hide_render = True
     reference, other = picture(room), picture(room, seed=7)
     assert psnr(lit, reference) > min(38.0, psnr(other, reference) - 1.5)
-
-
-def test_compare_tells_how_lit_pictures_differ(blank, tmp_path):
-    """Against the mirror as it is, tint and all, beside what Cycles differs from itself by."""
-    scene_of(blank, "UV", "Fresnel")
-    parts.generate()
-    bpy.ops.reflection_mesh.light()
-    assert bpy.ops.reflection_mesh.compare(filepath=str(tmp_path), samples=32) == {"FINISHED"}
-    report = json.loads((tmp_path / "report.json").read_text())
-    lit, noise = report["picture"]["mirror"], report["picture"]["noise"]["mirror"]
-    assert lit["psnr_displayed"] > min(38.0, noise["psnr_displayed"] - 1.5)
-    assert "where Cycles equals itself to" in (tmp_path / "report.html").read_text()
 
 
 def test_points_are_lit_too(blank, room):

@@ -1,0 +1,102 @@
+"""The picture with the mirror, and the picture with the mesh in its place."""
+from __future__ import annotations
+
+import time
+from collections.abc import Generator
+from contextlib import ExitStack
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..judge import CopiedScene, render_picture, show, take_settings
+from ..rendering import copied_scene, look_through, only_the_picture, sharp_camera
+
+NAME = "Reflection Comparison"
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """What Cycles shows of a scene.
+
+    Attributes
+    ----------
+    reference, result : (height, width, 3) float32
+        With the mirror, and with the mesh before it; in linear light, from the lowest row up.
+    seconds : dict
+        Time that Cycles took for the two, by their names.
+    again : (height, width, 3) float32 or None
+        Where the mesh shows light: `reference` with other noise, which is as near as a picture can come.
+    """
+
+    reference: np.ndarray
+    result: np.ndarray
+    seconds: dict
+    again: np.ndarray | None = None
+
+
+def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) -> Generator[str, None, Pictures]:
+    """Render both pictures of a copied scene, in which a mirror with a mesh before it reflects the world alone; yields
+    the name of each before it."""
+    scene = copied.scene
+    copied.light_up(user.world)
+    visible = [(copy, copy.visible_camera, copy.visible_glossy) for copy in copied.everything]
+    for copy, _ in copied.mirrors:
+        copy.visible_camera = True
+    show(copied.results, False)
+    yield "the picture with the mirror"
+    reference, first = _timed(scene, samples, user)
+    for copy, camera, glossy in visible:
+        copy.visible_camera, copy.visible_glossy = camera, glossy
+    for copy, _ in copied.diffuse:
+        copy.visible_glossy = False
+    show(copied.results, True)
+    yield "the picture with the mesh"
+    result, second = _timed(scene, samples, user)
+    return Pictures(reference, result, {"reference": first, "result": second})
+
+
+def render_lit(context: bpy.types.Context, results: list, samples: int) -> Generator[str, None, Pictures]:
+    """Render the file with its mirrors, once more with other noise, and as it is, with the meshes `results` that show
+    light; yields the name of each before it, and leaves the file as it was wherever it is closed.
+
+    No copy of an object is lit as that object is: *Object Info > Random* goes by its name, Generated coordinates by its
+    shape before modifiers, and what links it with lamps, its hair and its fog are its own.
+    """
+    user = context.scene
+    with copied_scene(context, NAME) as (scene, back):
+        only_the_picture(scene.render)
+        scene.render.use_border = scene.render.use_persistent_data = False
+        scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
+        scene.cycles.time_limit = 0.0
+        take_settings(scene, user)
+        look_through(scene, sharp_camera(user.camera), back)
+        _show_mirrors([obj for obj in user.objects if obj.reflection_mesh.role == "REFLECTION" and obj not in results],
+                      back)
+        with ExitStack() as without:
+            _show_mirrors(results, without)
+            yield "the picture with the mirror"
+            reference, first = _timed(scene, samples, user)
+            yield "the picture with the mirror once more"
+            again = render_picture(scene, samples, user, other_noise=True)
+        yield "the picture with the mesh"
+        result, second = _timed(scene, samples, user)
+    return Pictures(reference, result, {"reference": first, "result": second}, again)
+
+
+def _show_mirrors(results: list, back: ExitStack) -> None:
+    """Let mirrors be seen in the place of results, until the stack takes that back."""
+    for result in results:
+        back.callback(setattr, result, "hide_render", result.hide_render)
+        result.hide_render = True
+        mirror = result.reflection_mesh.mirror
+        if mirror is not None and mirror.reflection_mesh.camera_hidden:
+            back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
+            mirror.visible_camera = True
+
+
+def _timed(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> tuple[np.ndarray, float]:
+    """A picture, and the seconds that it took."""
+    started = time.perf_counter()
+    picture = render_picture(scene, samples, user)
+    return picture, time.perf_counter() - started
