@@ -41,7 +41,8 @@ def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
 
     What stands in the file is judged; a mirror that has no reflection yet gets one first, by `settings`. Everything is
     rendered in a temporary scene of copies: once in materials that emit positions and identities, which gives the truth
-    and what is shown at each pixel's centre, and once in the scene's own materials and lights.
+    and what is shown at each pixel's centre, and once in the scene's own materials and lights; results that show light
+    are, with their mirrors, in the file's own pictures.
 
     Yields (fraction, stage), before each render an `Undivided` one; closed at any step it leaves no trace.
 
