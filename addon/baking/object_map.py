@@ -11,6 +11,7 @@ from ..faults import Steps
 from ..mirror_part import NORMAL
 from ..reading import DiffuseScene, vectors
 from ..writing import light_layer
+from .mirror_layers import write_mirror_layers
 from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, weights_of
 
 WRITING = "Writing"
@@ -43,11 +44,13 @@ def kept_map(name: str, uv: np.ndarray) -> bpy.types.Mesh:
     return mesh
 
 
-def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: KeptMap) -> Steps[None]:
-    """Tell each corner of a result where in the map the point lies that it shows, and each point how the mirror stands
-    there."""
+def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: KeptMap,
+            material: bpy.types.Material) -> Steps[None]:
+    """Tell each corner of a result where in the map the point lies that it shows, and how the mirror stands there and
+    what its layers are, as far as the `material` that shows the map asks for them."""
     mesh = result.data
     write_mirror_normals(mesh, view)
+    write_mirror_layers(result, view, material)
     # engines darken what is shaded by one normal and stands by another, and here the mirror is what is shaded
     own = mesh.attributes.get("custom_normal")
     if own is not None:

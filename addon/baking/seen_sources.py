@@ -151,6 +151,12 @@ def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
 
 def weights_of(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Barycentric coordinates (n, k, 3), none negative, in triangles (n, 3, 3) of the points (n, k, 3) nearest."""
+    weights = np.maximum(barycentric(corners, points), 0.0)
+    return weights / np.maximum(weights.sum(axis=2, keepdims=True), 1e-12)
+
+
+def barycentric(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates (n, k, 3), in the planes of triangles (n, 3, 3), of points (n, k, 3)."""
     breathe()
     a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     offset = points - corners[:, :1]
@@ -159,10 +165,7 @@ def weights_of(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
     with np.errstate(divide="ignore", invalid="ignore"):
         first = (bb * pa - ab * pb) / (aa * bb - ab * ab)
         second = (aa * pb - ab * pa) / (aa * bb - ab * ab)
-    weights = np.nan_to_num(np.stack((1.0 - first - second, first, second), axis=2), nan=1.0 / 3.0, posinf=0.0,
-                            neginf=0.0)
-    weights = np.maximum(weights, 0.0)
-    return weights / np.maximum(weights.sum(axis=2, keepdims=True), 1e-12)
+    return np.nan_to_num(np.stack((1.0 - first - second, first, second), axis=2), nan=1.0 / 3.0, posinf=0.0, neginf=0.0)
 
 
 def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple:

@@ -30,7 +30,7 @@ def show_object_light(result: bpy.types.Object, material: bpy.types.Material, vi
                       light_map: KeptMap, whole: AllOrNothing) -> Steps[None]:
     """Let a result show light that stays with the objects of `scene`."""
     told = json.dumps({"kind": "OBJECTS", **_identity(scene), "sheets": light_map.sheets, "dull": light_map.dull})
-    yield from _show(result, material, told, light_map.mesh, lay_out(result, view, scene, light_map), whole)
+    yield from _show(result, material, told, light_map.mesh, lay_out(result, view, scene, light_map, material), whole)
 
 
 def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> None:
@@ -41,7 +41,7 @@ def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> Non
     if light_map is not None:
         kept = _kept_map(record, scene)
         if material is not None and kept is not None and can_be_baked([result]):
-            finished(lay_out(result, view, scene, kept))
+            finished(lay_out(result, view, scene, kept, material))
             _put_on(result, material)
         else:
             record.light_stale = True

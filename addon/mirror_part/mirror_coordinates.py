@@ -1,4 +1,5 @@
-"""Texture coordinates of a mirror on a result that lies on it, so that its textures stay where they are."""
+"""Texture coordinates and attributes of a mirror on a result that lies on it, so that its textures stay where they
+are."""
 from __future__ import annotations
 
 import bpy
@@ -6,14 +7,21 @@ import numpy as np
 
 from ..writing.nodes.shader_builder import ShaderBuilder
 
+LONGEST_NAME = 60  # of an attribute, which Blender cuts
+NAMED = {"ATTRIBUTE": "attribute_name", "VERTEX_COLOR": "layer_name"}
 NEARLY = 1e-4  # of a picture: what a map may stray from a linear one by
 BY_UV = {"TEX_IMAGE"}
 BY_BOX = {"TEX_CHECKER", "TEX_NOISE", "TEX_VORONOI", "TEX_WAVE", "TEX_MAGIC", "TEX_GRADIENT", "TEX_BRICK", "TEX_GABOR",
           "TEX_WHITE_NOISE", "TEX_MUSGRAVE"}
 
 
+def own_layer(name: str) -> str:
+    """What an attribute `name` of a mirror is called on its result, which has such of what it shows."""
+    return f"Mirror {name}"[:LONGEST_NAME]
+
+
 class MirrorCoordinates:
-    """The coordinates of `mirror` as nodes of a tree, each made where it is asked for first.
+    """The coordinates and attributes of `mirror` as nodes of a tree, each made where it is asked for first.
 
     They go by where the mirror stands, so that its textures move with it.
     """
@@ -21,20 +29,34 @@ class MirrorCoordinates:
     def __init__(self, build: ShaderBuilder, mirror: bpy.types.Object) -> None:
         self.build, self.mirror, self.made = build, mirror, {}
 
-    def take_over(self) -> None:
-        """Let the nodes of the tree that go by the result's coordinates go by the mirror's."""
-        for node in list(self.build.tree.nodes):
+    def take_over(self, nodes: list) -> None:
+        """Let those of the nodes that go by the result's coordinates and attributes go by the mirror's."""
+        for node in nodes:
             if node.type == "TEX_COORD" and node.object is None:
                 for name in ("Object", "Generated", "UV"):
                     self._feed(list(node.outputs[name].links), name)
             elif node.type == "UVMAP":
                 self._feed(list(node.outputs[0].links), "UV", node.uv_map)
+            elif node.type in NAMED and getattr(node, "attribute_type", "GEOMETRY") == "GEOMETRY":
+                self._rename(node, NAMED[node.type])
             elif node.type in BY_UV | BY_BOX:
                 socket = node.inputs.get("Vector")
                 if socket is not None and not socket.is_linked:
                     coordinates = self._named("UV" if node.type in BY_UV else "Generated")
                     if coordinates is not None:
                         self.build.feed(coordinates, socket)
+
+    def _rename(self, node: bpy.types.Node, field: str) -> None:
+        """Let a node read the mirror's attribute, which the result knows by another name."""
+        if self.mirror.type != "MESH":
+            return
+        mesh = self.mirror.data
+        colours = mesh.color_attributes
+        name = getattr(node, field)
+        if not name and node.type == "VERTEX_COLOR" and colours.render_color_index >= 0:
+            name = colours[colours.render_color_index].name
+        if name in mesh.attributes:
+            setattr(node, field, own_layer(name))
 
     def _feed(self, links: list, name: str, uv_map: str = "") -> None:
         coordinates = self._named(name, uv_map) if links else None
@@ -50,9 +72,25 @@ class MirrorCoordinates:
             matrix = None if name == "Object" else self._matrix(name, uv_map)
             if name == "Object":
                 self.made[key] = at
+            elif matrix is not None:
+                self.made[key] = self._linear(at, matrix)
             else:
-                self.made[key] = None if matrix is None else self._linear(at, matrix)
+                self.made[key] = self._layer(uv_map) if name == "UV" else None
         return self.made[key]
+
+    def _layer(self, uv_map: str) -> bpy.types.NodeSocket | None:
+        """A UV map that is not linear all over the mirror, from the result's corners."""
+        layer = self._uv_layer(uv_map)
+        if layer is None:
+            return None
+        return self.build.add("ShaderNodeAttribute", attribute_name=own_layer(layer.name)).outputs["Vector"]
+
+    def _uv_layer(self, uv_map: str) -> bpy.types.MeshUVLoopLayer | None:
+        """The UV map of that name, or the active one."""
+        if self.mirror.type != "MESH":
+            return None
+        layers = self.mirror.data.uv_layers
+        return layers.get(uv_map) if uv_map else next((one for one in layers if one.active_render), None)
 
     def _linear(self, at: bpy.types.NodeSocket, matrix: np.ndarray) -> bpy.types.NodeSocket:
         """What a matrix (3, 4) makes of a place."""
@@ -70,8 +108,7 @@ class MirrorCoordinates:
             size, middle = np.array(mesh.texspace_size), np.array(mesh.texspace_location)
             scale = 0.5 / np.where(size == 0.0, 1.0, size)
             return np.column_stack((np.diag(scale), 0.5 - middle * scale))
-        active = [one for one in mesh.uv_layers if one.active_render]
-        layer = mesh.uv_layers.get(uv_map) if uv_map else next(iter(active), None)
+        layer = self._uv_layer(uv_map)
         if layer is None or not len(mesh.loops) or self.mirror.modifiers:
             return None
         places, corners = (np.empty(size, dtype=kind) for size, kind in (

@@ -8,7 +8,7 @@ import bpy
 from .. import compat
 from ..faults import AllOrNothing, remove_new
 from ..lamps import ShownLamp, lamp_light
-from ..reading.materials import index_of, surface_shader
+from ..reading.materials import has_sharp_coat, index_of, is_sharp, surface_shader
 from ..writing import UV_MAP, show_unblurred
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
@@ -55,10 +55,11 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
         whole.undo(remove_new, material)
         material.name = name
         tree = material.node_tree
+        own = list(tree.nodes)
         build = _Builder(tree, image, around)
         shader = surface_shader(tree)
         if around.mirror is not None:
-            MirrorCoordinates(build, around.mirror).take_over()
+            MirrorCoordinates(build, around.mirror).take_over(own)
         shown = None if shader is None else build.shown(shader)
         build.bend_normals()
         build.reflect_outside()
@@ -109,7 +110,26 @@ class _Builder(ShaderBuilder):
         return shader.outputs[0]
 
     def principled(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
-        """Light by the reflection of a Principled BSDF, over what else it is."""
+        """Light by the reflection of a Principled BSDF and of its coat, over what else it is."""
+        coat = self.coat(shader)
+        # under varnish paint may be matte
+        below = shader.outputs[0] if coat is not None and not is_sharp(shader) else self.below_coat(shader)
+        if coat is None:
+            return below
+        return self.added(self.glow(self.blended("MULTIPLY", 1.0, coat, self.lit)), self.mixed(coat, below, None))
+
+    def coat(self, shader: bpy.types.Node) -> bpy.types.NodeSocket | None:
+        """How much the sharp coat of a Principled BSDF reflects, by the angle; None where it has none."""
+        if not has_sharp_coat(shader):
+            return None
+        fresnel = self.add("ShaderNodeFresnel")
+        self.feed(given(shader.inputs["Coat IOR"]), fresnel.inputs["IOR"])
+        share = self.calculated("MULTIPLY", fresnel.outputs[0], given(shader.inputs["Coat Weight"]))
+        cut(self.tree, shader.inputs["Coat Weight"], 0.0)
+        return share
+
+    def below_coat(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+        """Light by the reflection of what is below the coat, over what else that is."""
         metallic = given(shader.inputs["Metallic"])
         metal = None if metallic == 0.0 else self.at_grazing(given(shader.inputs["Base Color"]))
         if metallic == 1.0:

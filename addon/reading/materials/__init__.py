@@ -2,12 +2,22 @@
 from .dielectric import index_of, upright
 from .material_nodes import all_nodes, asked_attributes
 from .materials_of import all_fog, materials_of, materials_on_faces, materials_shown, own_materials
-from .mirror_materials import MIRRORS, SHARP_ROUGHNESS, emits, is_exact, is_mirror, is_sharp, shines, surface_shader
+from .mirror_materials import (
+    MIRRORS,
+    SHARP_ROUGHNESS,
+    emits,
+    has_sharp_coat,
+    is_exact,
+    is_mirror,
+    is_sharp,
+    shines,
+    surface_shader,
+)
 from .opaque_materials import fog_of, is_clear, is_fog, is_opaque
 from .own_light import glows
 from .transparency import transparency
 
 __all__ = ["MIRRORS", "SHARP_ROUGHNESS", "all_fog", "all_nodes", "asked_attributes", "emits", "fog_of", "glows",
-           "index_of", "is_clear", "is_exact", "is_fog", "is_mirror", "is_opaque", "is_sharp", "materials_of",
-           "materials_on_faces", "materials_shown", "own_materials", "shines", "surface_shader", "transparency",
-           "upright"]
+           "has_sharp_coat", "index_of", "is_clear", "is_exact", "is_fog", "is_mirror", "is_opaque", "is_sharp",
+           "materials_of", "materials_on_faces", "materials_shown", "own_materials", "shines", "surface_shader",
+           "transparency", "upright"]

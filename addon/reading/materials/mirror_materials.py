@@ -47,6 +47,13 @@ def is_sharp(shader: bpy.types.Node) -> bool:
     return _constant(shader, "Roughness", at_most=SHARP_ROUGHNESS)
 
 
+def has_sharp_coat(shader: bpy.types.Node) -> bool:
+    """Whether a Principled BSDF is coated with what mirrors."""
+    weight = shader.inputs["Coat Weight"]
+    return (weight.is_linked or weight.default_value > 0.0) and _constant(shader, "Coat Roughness",
+                                                                          at_most=SHARP_ROUGHNESS)
+
+
 def is_exact(material: bpy.types.Material | None) -> bool:
     """Whether all that mirrors in a material does so without any roughness."""
     if material is None or not compat.uses_nodes(material):

@@ -1,0 +1,69 @@
+"""UV maps, colours and other attributes of a mirror on the result that lies on it, as the mirror's shader asks for
+them."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...core import View
+from ...core.trees import BoxTree, first_hits
+from ..mirror_part import own_layer
+from ..reading import DiffuseScene, read_scene, vectors
+from ..reading.materials import asked_attributes
+from .seen_sources import barycentric, corner_vertices, face_values
+
+
+def write_mirror_layers(result: bpy.types.Object, view: View, material: bpy.types.Material) -> None:
+    """Tell each corner of a result that `material` is put on what the mirror's layers are there.
+
+    A face lies in one triangle of the mirror, or over several: there those of its middle are carried on, so that no
+    seam between islands runs through it.
+    """
+    mirror, mesh = result.reflection_mesh.mirror, result.data
+    asked = asked_attributes([material])
+    if mirror is None or mirror.type != "MESH" or asked.isdisjoint(map(own_layer, mirror.data.attributes.keys())):
+        return
+    surface = read_scene(bpy.context.evaluated_depsgraph_get(), [mirror])
+    layers = {own_layer(name): entry for name, entry in _layers(surface) if own_layer(name) in asked}
+    if not layers:
+        return
+    places = vectors(mesh, "mirror_position")[corner_vertices(mesh)]
+    triangle = _triangles(mesh, surface, places, view)
+    weights = barycentric(surface.mesh.positions[surface.mesh.triangles[triangle]], places)
+    for name, (kind, values) in layers.items():
+        attribute = mesh.attributes.get(name) or mesh.attributes.new(name, kind, "CORNER")
+        field = "color" if kind == "FLOAT_COLOR" else "vector" if kind == "FLOAT_VECTOR" else "value"
+        attribute.data.foreach_set(field, np.matmul(weights, values[triangle]).astype(np.float32).reshape(-1))
+
+
+def _layers(surface: DiffuseScene):
+    """Names, types and values (m, 3, c) of a mirror's layers at the corners of its triangles."""
+    for name, values in surface.uv_maps.items():
+        # no UV map: a result may have as many as there can be, and glTF and solid view would take one for the light
+        yield name, ("FLOAT_VECTOR", _Padded(values))
+    for name, (_, values) in surface.colours.items():
+        yield name, ("FLOAT_COLOR", values)
+    yield from surface.numbers.items()
+
+
+class _Padded:
+    """UV maps with a third component."""
+
+    def __init__(self, values) -> None:
+        self.values = values
+
+    def __getitem__(self, chosen: np.ndarray) -> np.ndarray:
+        return np.pad(self.values[chosen], ((0, 0), (0, 0), (0, 1)))
+
+
+def _triangles(mesh: bpy.types.Mesh, surface: DiffuseScene, places: np.ndarray, view: View) -> np.ndarray:
+    """The triangle (n,) of a mirror that each face lies in, with corners at `places` (n, 3, 3); the one in its middle
+    where there are several."""
+    triangle = face_values(mesh, "mirror_face")
+    triangle = np.where(triangle < len(surface.mesh.triangles), triangle, -1)
+    several = np.flatnonzero(triangle < 0)
+    if len(several):
+        origins, directions = view.rays(view.pixels(places[several].mean(axis=1)))
+        met = first_hits(BoxTree.build(surface.mesh), origins.T, directions.T).triangle
+        triangle[several] = np.maximum(met, 0)
+    return triangle

@@ -1,0 +1,70 @@
+"""Light that stays with the objects, in curved mirrors whose own look goes by their UV maps and attributes."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from lamp_scenes import link, picture, principled, psnr, scene_of, shader_of
+
+
+def _ball(scene, paint: str) -> bpy.types.Object:
+    """A ball in the place of the wall mirror: tinted, or varnished paint, by a map or colours that differ from those of
+    what it shows; a part of tinted ones is matte."""
+    bpy.data.objects.remove(bpy.data.objects["Mirror"])
+    ball = parts.add("uv_sphere", "Mirror", radius=1.5, location=(0.0, 1.0, 0.9), segments=24, ring_count=12)
+    ball.data.shade_smooth()
+    varnished = paint.startswith("varnish")
+    made = principled("Ball", Metallic=0.0 if varnished else 1.0, Roughness=0.9 if varnished else 0.0)
+    tree, shader = made.node_tree, shader_of(made)
+    if varnished:
+        shader.inputs["Coat Weight"].default_value, shader.inputs["Coat Roughness"].default_value = 1.0, 0.0
+    ball.data.materials.append(made)
+    ball.data.materials.append(principled("Matte", (0.2, 0.2, 0.2)))
+    if "colours" in paint:
+        layer = ball.data.color_attributes.new("Col", "BYTE_COLOR", "CORNER")
+        colours = np.random.default_rng(3).uniform(0.2, 1.0, (len(layer.data), 4)).astype(np.float32)
+        layer.data.foreach_set("color", colours.ravel())
+        read = tree.nodes.new("ShaderNodeVertexColor")
+        read.layer_name = "" if paint.endswith("active") else "Col"
+        link(tree, read.outputs["Color"], shader.inputs["Base Color"])
+    else:
+        checks = tree.nodes.new("ShaderNodeTexChecker")
+        checks.inputs["Color1"].default_value, checks.inputs["Color2"].default_value = (1, .9, .5, 1), (.2, .4, .9, 1)
+        checks.inputs["Scale"].default_value = 16.0
+        if "map" in paint:
+            ball.data.uv_layers[0].name = "Livery"
+            coordinates = tree.nodes.new("ShaderNodeUVMap")
+            coordinates.uv_map = "Livery"
+            link(tree, coordinates.outputs[0], checks.inputs["Vector"])
+        else:
+            link(tree, tree.nodes.new("ShaderNodeTexCoord").outputs["UV"], checks.inputs["Vector"])
+        link(tree, checks.outputs["Color"], shader.inputs["Base Color"])
+    for polygon in ball.data.polygons:
+        polygon.material_index = int(polygon.center.z < -0.9 and not varnished)
+    ball.reflection_mesh.role = "MIRROR"
+    parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], ball)
+    return ball
+
+
+@pytest.mark.parametrize(("paint", "faces"), [
+    ("tint", "cut"), ("varnish map", "cut"), ("tint by colours", "cut"), ("varnish by colours, the active", "cut"),
+    ("varnish map", "whole")])
+def test_its_look_stays_on_a_curved_mirror(blank, room, paint, faces):
+    scene_of(blank)
+    ball = _ball(blank.scene, paint)
+    if faces == "whole":
+        # what is dense is drawn by its vertices, over several triangles of the mirror
+        fine = bpy.data.objects["Floor"].modifiers.new("Fine", "SUBSURF")
+        fine.subdivision_type, fine.levels, fine.render_levels = "SIMPLE", 6, 6
+    reference, other = picture(room), picture(room, seed=7)
+    result = parts.generate()
+    spans = np.empty(len(result.data.polygons), dtype=np.int32)
+    result.data.attributes["mirror_face"].data.foreach_get("value", spans)
+    assert ((spans < 0).mean() > 0.05) == (faces == "whole")
+    bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # generated again it keeps it
+    parts.select(ball)
+    parts.generate()
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
