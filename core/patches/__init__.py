@@ -1,10 +1,9 @@
 """The largest part of a mirror in which a point has one image at the most, and the way of points to these images.
 
-In come cameras and points; out come the mirror's triangles, places on them and distances. Starts come from a cube map
-(N. Greene, IEEE CG&A 1986), and Newton's method walks from there.
+In come cameras and points; out come the mirror's triangles, places on them and distances.
 """
 from .patch import Patch, speck
 from .patch_nodes import Descent, Walk
-from .walk import Starts, find, jacobians
+from .walk import find, jacobians
 
-__all__ = ["Descent", "Patch", "Starts", "Walk", "find", "jacobians", "speck"]
+__all__ = ["Descent", "Patch", "Walk", "find", "jacobians", "speck"]

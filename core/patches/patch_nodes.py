@@ -41,11 +41,11 @@ class Walk:
 
     def afresh(self, points: np.ndarray) -> tuple:
         """The same from where rays pass near."""
-        parts = [self._near(points[:, part]) for part in portions(max(points.shape[1], 1), FAR_AT_ONCE)]
+        parts = [self.near(points[:, part]) for part in portions(max(points.shape[1], 1), FAR_AT_ONCE)]
         member, uv, s = (np.concatenate(part, axis=-1) for part in zip(*parts))
         return find(self.patch, member, uv, s, points)
 
-    def _near(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def near(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Triangle, (u, v) and s of the ray that passes nearest to each point, of some all over the patch."""
         middle = self.place.mean(axis=0)
         place, point = self.place - middle, points.T - middle

@@ -1,8 +1,7 @@
 """Images of points on a patch: Newton's method on the true map, with a walk over the mirror's triangles.
 
 An image is a root of Q(u, v) + s R(u, v) = P; on a patch there is one at the most, and any start that leads to it will
-do. Starts come from a table of the directions in which the patch reflects, a cube map (N. Greene, "Environment Mapping
-and Other Applications of World Projections", IEEE CG&A 1986), asked again from the place that it answers.
+do.
 """
 from __future__ import annotations
 
@@ -11,12 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..cameras import least_weight
-from ..geometry import columns, cross, dot, norm
+from ..geometry import columns, cross, dot
 from ..support import portions
 from .patch import Patch
 
-SIDE = 48  # cells along a side of the cube map
-ASKED = 3  # times, each from the place of the last answer
 AT_ONCE = 8192  # points: what their arrays take fits the cache
 STEPS, LOOKS = 2, 40  # of Newton's method between looks at where it is; of such looks
 NEAR_LOOKS = 6  # of one step each, from a near start
@@ -25,60 +22,6 @@ ARRIVED = 1e-7  # of a mirror triangle: the step after which the next is roundin
 NEARLY = 1e-5  # the same, where the next is about the square of this
 LONGEST = 1.5  # mirror triangles: no step goes further
 INSIDE = 1e-6  # of a triangle: rounding
-
-
-@dataclass(frozen=True)
-class Starts:
-    """The place of the patch whose reflected direction is nearest.
-
-    Attributes
-    ----------
-    patch : Patch
-    member : (n,) int64, triangles of the patch
-    place : (3, n) float64, from the eye
-    middle : (3, 1) float64
-    table : (6 * SIDE * SIDE,) int64
-    """
-
-    patch: Patch
-    member: np.ndarray
-    place: np.ndarray
-    middle: np.ndarray
-    table: np.ndarray
-
-    @classmethod
-    def of(cls, patch: Patch) -> Starts:
-        member = np.repeat(np.arange(len(patch)), 4)
-        uv = np.tile(np.array([[1 / 3, 0.2, 0.6, 0.2], [1 / 3, 0.2, 0.2, 0.6]]), (1, len(patch)))
-        place, ray = patch.leaving(member, uv)
-        table = np.full(6 * SIDE * SIDE, -1)
-        table[_cell(ray)] = np.arange(len(member))
-        table = table.reshape(6, SIDE, SIDE)
-        for _ in range(2 * SIDE):
-            if (table >= 0).all():
-                break
-            for axis, step in ((1, 1), (1, -1), (2, 1), (2, -1)):
-                table = np.where(table < 0, np.roll(table, step, axis=axis), table)
-        return cls(patch, member, place, place.mean(axis=1, keepdims=True), np.maximum(table, 0).ravel())
-
-    def near(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Triangle, (u, v) and s from which to look for the images of points (3, n) from the eye."""
-        found = self.table[_cell(points - self.middle)]
-        for _ in range(ASKED - 1):
-            found = self.table[_cell(points - self.place[:, found])]
-        place = self.place[:, found]
-        way = norm(self.patch.arriving(place))
-        return self.member[found], np.full((2, len(found)), 1 / 3), norm(points - place) / way
-
-
-def _cell(direction: np.ndarray) -> np.ndarray:
-    """The cell of the cube map that each direction (3, n) lies in."""
-    axis, row = np.abs(direction).argmax(axis=0), np.arange(direction.shape[1])
-    along = direction[axis, row]
-    size = np.maximum(np.abs(along), 1e-300)
-    x, y = (np.clip(np.nan_to_num((direction[(axis + step) % 3, row] / size * 0.5 + 0.5) * SIDE), 0.0, SIDE - 1.0)
-            for step in (1, 2))
-    return ((axis * 2 + (along < 0.0)) * SIDE + x.astype(np.int64)) * SIDE + y.astype(np.int64)
 
 
 def find(patch: Patch, member: np.ndarray, uv: np.ndarray, s: np.ndarray,

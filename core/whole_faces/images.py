@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..geometry import ColumnArrays
-from ..patches import Patch, Starts, find, jacobians
+from ..patches import Patch, find, jacobians
 from ..support import portions
 
 AT_ONCE = 16384  # points: what their arrays take fits the cache
@@ -36,11 +36,6 @@ class Images(ColumnArrays):
     place: np.ndarray
     pixel: np.ndarray
     moving: np.ndarray
-
-    @classmethod
-    def of(cls, patch: Patch, points: np.ndarray) -> Images:
-        """Images of points (3, n) from the eye, looked for by their directions."""
-        return cls.near(patch, points, *Starts.of(patch).near(points))
 
     @classmethod
     def near(cls, patch: Patch, points: np.ndarray, member: np.ndarray, uv: np.ndarray, s: np.ndarray) -> Images:

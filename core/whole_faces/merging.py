@@ -85,7 +85,8 @@ def _images(patch: Patch, descent: Descent, points: np.ndarray) -> Images:
             columns(points, vertex), some.nodes, some.node)
     images = Images.at(patch, points, member, uv, s, found)
     lost = np.flatnonzero(asked & ~images.found)
-    images.put(lost, Images.of(patch, columns(points, lost)))
+    far = columns(points, lost)
+    images.put(lost, Images.at(patch, far, *descent.walk.afresh(far)))
     return images
 
 

@@ -24,7 +24,7 @@ import numpy as np
 from core import TriangleMesh, View, project
 from core.cameras import MirrorMap, three_ray_cameras, visible_triangles
 from core.geometry import ordered, rows
-from core.patches import Patch, Starts
+from core.patches import Patch, Walk
 from core.patches.walk import AT_ONCE, LONGEST, STEPS, newton
 from core.rivals.scenes import icosphere
 from core.solver.cubic import coefficients, differences
@@ -107,8 +107,8 @@ def walk_starts(rng: np.random.Generator, count: int) -> tuple[Patch, list[tuple
     assert patch is not None
     points = rows(rng.uniform((-2.0, -4.0, -2.0), (2.0, -1.5, 2.0), (count, 3))) - patch.eye
     chunks = [np.ascontiguousarray(points[:, start:start + AT_ONCE]) for start in range(0, count, AT_ONCE)]
-    starts = Starts.of(patch)
-    return patch, [(*starts.near(chunk), chunk) for chunk in chunks]
+    walk = Walk(patch)
+    return patch, [(*walk.near(chunk), chunk) for chunk in chunks]
 
 
 def _first(images: Images) -> np.ndarray:
