@@ -6,14 +6,14 @@ its corners lie behind nearer parts at all samples round them. What is left is f
 """
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import ranges, shares
-from ..support import breathe
-from ..views import View
+from ..geometry import largest, rows, shares, smallest
+from ..views import Covered, box, planes
 
 SAMPLES = 256  # across the wider side of the picture
 SAMPLES_AT_ONCE = 1 << 19
@@ -27,51 +27,53 @@ class DepthGrid:
 
     Attributes
     ----------
-    view : View
     nearest : (height, width) float64, -inf where a sample sees no mirror
     layers : (height, width) int64, cameras at each sample, hidden ones too
     scale : float, samples per pixel
     room : float, share of the nearness, or for an orthographic view depth, by which two samples of one surface differ
+    relative : bool, whether it is a share
     """
 
-    view: View
     nearest: np.ndarray
     layers: np.ndarray
     scale: float
     room: float
+    relative: bool
 
     @classmethod
     def of(cls, cameras: Cameras) -> tuple[DepthGrid, np.ndarray]:
         """The grid of cameras (n,), and which of them the eye may see."""
         view = cameras.view
-        depth = view.depths(cameras.places.T)
-        depths, pixels = depth[cameras.corners], view.pixels(cameras.places.T)[cameras.corners]
+        depth, corners = view.depths(cameras.places.T), cameras.corners.T
+        spots = np.nan_to_num(rows(view.pixels(cameras.places.T)))
+        inside = (depth > 0.0) & (spots >= 0.0).all(axis=0) & (spots <= np.array(view.resolution)[:, None]).all(axis=0)
+        with np.errstate(divide="ignore"):
+            order = (-depth if view.orthographic else 1.0 / depth)[corners]
+        spots, before = spots[:, corners], np.flatnonzero((depth[corners] > 0.0).all(axis=0))
         scale = SAMPLES / max(view.resolution)
         while True:
             width, height = (int(side) for side in np.ceil(np.array(view.resolution) * scale))
-            runs = _runs(pixels * scale, (depths > 0.0).all(axis=1), (width, height))
-            if runs[2].sum() <= MOST_SAMPLES or max(width, height) <= LEAST_SAMPLES:
+            size = np.array([[width], [height]])
+            low, high = (np.floor(np.clip(end * scale, 0, size) + 0.5) for end in box(spots[:, :, before]))
+            count = np.prod(high - low, axis=0).astype(np.int64)
+            if count.sum() <= MOST_SAMPLES or max(width, height) <= LEAST_SAMPLES:
                 break
             scale *= 0.5
         room = SURFACE * max(float(np.ptp(depth)), 1e-300) if view.orthographic else SURFACE
-        grid = cls(view, np.full((height, width), -np.inf), np.zeros((height, width), dtype=np.int64), scale, room)
-        pixels = pixels * scale
-        parts = list(shares(runs[2], SAMPLES_AT_ONCE))
+        grid = cls(np.full((height, width), -np.inf), np.zeros((height, width), dtype=np.int64), scale, room,
+                   not view.orthographic)
+        spots *= scale
+        parts = [before[part] for part in shares(count, SAMPLES_AT_ONCE)]
         shows, hides = np.zeros(len(cameras), dtype=bool), np.zeros(len(cameras), dtype=bool)
-        kept = None
-        for marking in (True, False):
-            for part in parts:
-                breathe()
-                # one share, as nearly always, is worked out once; of more only one is held at a time
-                camera, x, y, nearness = kept if kept and len(parts) == 1 else grid._samples(pixels, depths, runs, part)
-                kept = camera, x, y, nearness
-                if marking:
-                    np.maximum.at(grid.nearest, (y, x), nearness)
-                    np.add.at(grid.layers, (y, x), 1)
-                else:
-                    seen = nearness + grid._margin(nearness) >= grid.nearest[y, x]
-                    shows[camera[seen]], hides[camera[~seen]] = True, True
-        hides = grid.hides(cameras.places, cameras.corners).all(axis=1) & (hides | ~shows)
+        # one share, as nearly always, is worked out once; of more only one is held at a time
+        kept = list(grid._samples(spots, order, parts)) if len(parts) == 1 else None
+        for _, pixel, nearness in kept or grid._samples(spots, order, parts):
+            np.maximum.at(grid.nearest.ravel(), pixel, nearness)
+            np.add.at(grid.layers.ravel(), pixel, 1)
+        for camera, pixel, nearness in kept or grid._samples(spots, order, parts):
+            seen = nearness + grid._margin(nearness) >= grid.nearest.ravel()[pixel]
+            shows[camera[seen]], hides[camera[~seen]] = True, True
+        hides = (inside[corners] & grid._hides(spots, order)).all(axis=0) & (hides | ~shows)
         corner_seen = np.zeros(cameras.places.shape[1], dtype=bool)
         corner_seen[cameras.corners[shows | ~hides]] = True
         return grid, corner_seen[cameras.corners].any(axis=1)
@@ -81,61 +83,34 @@ class DepthGrid:
         """About how many pixels see the mirror."""
         return round(float(np.isfinite(self.nearest).sum()) / self.scale**2)
 
-    def hides(self, places: np.ndarray, faces: np.ndarray) -> np.ndarray:
-        """Which corners (m, 3) of faces between `places` (3, n) on the mirror lie in the picture and behind nearer
-        parts of it: at all four samples round them the face's own plane does."""
-        depth = self.view.depths(places.T)
-        with np.errstate(divide="ignore"):
-            nearness = (-depth if self.view.orthographic else 1.0 / depth)[faces]
+    def _samples(self, spots: np.ndarray, order: np.ndarray,
+                 parts: list[np.ndarray]) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Of parts of the triangles with corners at `spots` (2, 3, n) of the grid and the nearness `order` (3, n):
+        which lies at which samples, row after row, and how near."""
         height, width = self.nearest.shape
-        pixels = np.nan_to_num(self.view.pixels(places.T))
-        inside = (depth > 0.0) & (pixels >= 0.0).all(axis=1) & (pixels <= self.view.resolution).all(axis=1)
-        hidden, pixels = inside[faces], pixels[faces]
-        # nearness is affine over a face's plane: an oblique face must not be hidden by its own nearer parts
-        (ax, ay), (bx, by) = (np.moveaxis(pixels[:, k] - pixels[:, 0], 1, 0) for k in (1, 2))
-        a, b = nearness[:, 1] - nearness[:, 0], nearness[:, 2] - nearness[:, 0]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            slope = np.stack((a * by - b * ay, b * ax - a * bx), axis=1) / (ax * by - bx * ay)[:, None]
-        corner = np.floor(np.clip(pixels, -1.0, np.add(self.view.resolution, 1.0)) * self.scale - 0.5).astype(np.int64)
-        for step in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            sample = corner + step
-            away = (sample + 0.5) / self.scale - pixels
-            with np.errstate(invalid="ignore"):
-                own = nearness + (slope[:, None] * away).sum(axis=2)
-                x, y = np.clip(sample[..., 0], 0, width - 1), np.clip(sample[..., 1], 0, height - 1)
-                hidden &= self.nearest[y, x] > own + self._margin(np.abs(own))
+        for part in parts:
+            own = order[:, part]
+            covered = Covered.of(spots[:, :, part], own, (width, height), False)
+            # in a sliver the plane may rise by anything
+            nearness = np.clip(covered.order, smallest(own)[covered.face], largest(own)[covered.face])
+            yield part[covered.face], covered.pixel, nearness
+
+    @np.errstate(over="ignore", invalid="ignore")
+    def _hides(self, spots: np.ndarray, order: np.ndarray) -> np.ndarray:
+        """Which corners (3, n) of triangles at `spots` (2, 3, n) of the grid lie behind nearer parts: at all four
+        samples round them the triangle's own plane, of the nearness `order` (3, n), does."""
+        # an oblique triangle must not be hidden by its own nearer parts
+        slope, base = planes(spots, order)
+        height, width = self.nearest.shape
+        hidden, (column, row) = np.ones(order.shape, dtype=bool), np.floor(spots - 0.5)
+        for right, up in ((0, 0), (1, 0), (0, 1), (1, 1)):
+            x, y = np.clip(column + right, 0, width - 1), np.clip(row + up, 0, height - 1)
+            own = slope[0] * (column + right + 0.5) + slope[1] * (row + up + 0.5) + base
+            hidden &= self.nearest[y.astype(np.int64), x.astype(np.int64)] > own + self._margin(np.abs(own))
         return hidden
 
-    def _margin(self, nearness: np.ndarray):
-        return self.room if self.view.orthographic else self.room * nearness
-
-    def _samples(self, corners: np.ndarray, depths: np.ndarray, runs, part: slice):
-        """Camera, column, row and nearness of the samples inside triangles (n, 3, 2) with `depths` (n, 3) at their
-        corners, those of a `part` of the runs."""
-        camera, y, length = (run[part] for run in runs)
-        corners = np.nan_to_num(corners)
-        start = np.clip(np.ceil(corners[camera, :, 0].min(axis=1) - 0.5), 0, self.nearest.shape[1]).astype(np.int64)
-        x, run = ranges(start, length)
-        camera, y = camera[run], y[run]
-        dx, dy = corners[camera, :, 0] - x[:, None] - 0.5, corners[camera, :, 1] - y[:, None] - 0.5
-        area = np.stack([dx[:, i] * dy[:, j] - dx[:, j] * dy[:, i] for i, j in ((1, 2), (2, 0), (0, 1))])
-        total = area.sum(axis=0)
-        weights = area / np.where(total != 0.0, total, -np.inf)
-        inside = (weights >= 0.0).all(axis=0) & (total != 0.0)
-        camera, weights = camera[inside], weights[:, inside]
-        depth = depths[camera].T
-        nearness = -(weights * depth).sum(axis=0) if self.view.orthographic else (weights / depth).sum(axis=0)
-        return camera, x[inside], y[inside], nearness
-
-
-def _runs(corners: np.ndarray, before: np.ndarray, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Runs of samples over the boxes of triangles (n, 3, 2): the triangle, the row, and how many."""
-    corners = np.nan_to_num(corners)
-    low = np.clip(np.ceil(corners.min(axis=1) - 0.5), 0, size).astype(np.int64)
-    high = np.clip(np.floor(corners.max(axis=1) - 0.5) + 1, 0, size).astype(np.int64)
-    extent = np.where(before[:, None], np.maximum(high - low, 0), 0)
-    y, camera = ranges(low[:, 1], extent[:, 1])
-    return camera, y, extent[camera, 0]
+    def _margin(self, nearness: np.ndarray) -> np.ndarray | float:
+        return self.room * nearness if self.relative else self.room
 
 
 def without_hidden(cameras: Cameras) -> tuple[Cameras, DepthGrid]:
