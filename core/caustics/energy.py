@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import in_order, shared_edges
+from ..geometry import in_order, shared_edges, solid_angles
 from ..views import View
 
 MOST = 2.0  # of a face's mean: how much more a corner may have, near a caustic, where the map tells infinity
@@ -14,19 +14,11 @@ SINGLE = 2.0**-23  # of what is lit: by how much single precision may move its c
 
 def flux_of(view: View, places: np.ndarray) -> np.ndarray:
     """The part of the lamp's picture that triangles with corners (m, 3, 3) cover: their solid angle, or for parallel
-    light their area across it.
-
-    A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 1983.
-    """
+    light their area across it."""
     if view.orthographic:
         area = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
         return 0.5 * np.abs(area @ view.forward)
-    ways = places - view.eye
-    ways = ways / np.maximum(np.linalg.norm(ways, axis=2, keepdims=True), 1e-300)
-    a, b, c = np.moveaxis(ways, 1, 0)
-    # differences of neighbours keep the digits of small triangles
-    triple = np.abs(np.einsum("ij,ij->i", a, np.cross(b - a, c - a)))
-    return 2.0 * np.arctan2(triple, 1.0 + (a * b).sum(axis=1) + (b * c).sum(axis=1) + (c * a).sum(axis=1))
+    return np.abs(solid_angles(view.eye, places))
 
 
 def shown_area(corners: np.ndarray, area: np.ndarray, reach: float) -> np.ndarray:

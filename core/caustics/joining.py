@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh, areas, columns, cross, dot, has_area, norm, rows, unit
+from ..geometry import SceneFrames, TriangleMesh, areas, columns, cross, distinct, dot, has_area, norm, rows, unit
 from ..result import ReflectionMesh
 from ..support import NothingInView, breathe
 from .caustic_mesh import CausticMesh
@@ -108,18 +108,14 @@ def _directions(ray_map: ReflectionMap, faces: LitFaces, kept: np.ndarray) -> np
 def _weights(receivers: TriangleMesh, source: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """Barycentric coordinates (m, 3, 3) of corners in their source triangles, none negative."""
     ends = [columns(rows(receivers.positions), corner)[:, None] for corner in receivers.triangles[source].T]
-    places, (a, b, c) = corners.transpose(2, 1, 0), ends
-    across, along, to = c - a, b - a, places - a
-    normal = cross(along, across)
-    squared = np.maximum(dot(normal, normal), 1e-300)
-    second, third = dot(cross(to, across), normal) / squared, dot(cross(along, to), normal) / squared
-    weights = np.maximum(np.stack((1.0 - second - third, second, third)), 0.0)
+    places, (seen, column) = corners.transpose(2, 1, 0), distinct(source)
+    weights = np.maximum(SceneFrames.of(receivers, seen).weights(column, places), 0.0)
     weights /= weights.sum(axis=0)
     # beside a sliver that tells little of where along it a corner lies
     for one, other in ((0, 1), (1, 2), (2, 0)):
         breathe()
         along = ends[other] - ends[one]
-        told = weights[0] * a + weights[1] * b + weights[2] * c
+        told = sum(weight * end for weight, end in zip(weights, ends))
         moved = dot(places - told, along) / np.maximum(dot(along, along), 1e-300)
         moved = np.clip(moved, -weights[other], weights[one])
         weights[one] -= moved

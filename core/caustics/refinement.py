@@ -12,7 +12,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import ReflectionMap
-from ..geometry import TriangleMesh, columns, cross, dot, following, norm, parent_side, rows, shared_edges, split, unit
+from ..geometry import (
+    SceneFrames,
+    TriangleMesh,
+    columns,
+    cross,
+    dot,
+    following,
+    norm,
+    parent_side,
+    shared_edges,
+    split,
+    unit,
+)
 from ..support import breathe, portions
 from ..views import in_cone
 from .corners import Corners, light_at
@@ -74,7 +86,8 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, la
             most: int) -> LitFaces:
     """The faces in parts; for none that carries less than the `least` flux, or on sides of less than the least length,
     and not in more than `most`."""
-    within = _Within(receivers)
+    with np.errstate(divide="ignore", invalid="ignore"):  # what has no area is not lit
+        within = SceneFrames.of(receivers, np.arange(len(receivers.triangles)))
     new = np.ones(len(faces), dtype=bool)
     for _ in range(LEVELS):
         breathe()
@@ -137,23 +150,7 @@ def _beside(faces: LitFaces, asked: np.ndarray, middles: Corners, points: np.nda
     return area * np.where(found & np.isfinite(lit), lit, 0.0)
 
 
-class _Within:
-    """Tells which points lie in triangles, on their planes."""
-
-    def __init__(self, mesh: TriangleMesh) -> None:
-        a, b, c = (rows(mesh.positions[corner]) for corner in mesh.triangles.T)
-        normal = cross(b - a, c - a)
-        squared = np.maximum(dot(normal, normal), 1e-300)
-        # barycentric coordinates of the second and third corner, by their gradients
-        self._start, self._second, self._third = a, cross(c - a, normal) / squared, cross(normal, b - a) / squared
-
-    def __call__(self, triangle: np.ndarray, points: np.ndarray) -> np.ndarray:
-        offset = points - self._start[:, triangle]
-        second, third = (dot(offset, gradient[:, triangle]) for gradient in (self._second, self._third))
-        return np.minimum(np.minimum(second, third), 1.0 - second - third) >= -BESIDE
-
-
-def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within: _Within,
+def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within: SceneFrames,
              lamp: Lamp) -> tuple[Corners, np.ndarray, np.ndarray]:
     """The light in the middles of the sides 01, 12, 20 of the faces `asked` (k,), where these are, (3, 3, k) as
     [component, side, face], and whether (k, 3) they were found."""
@@ -174,7 +171,7 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within:
         good = np.isfinite(point).all(axis=0)
         point[:, ~good] = chord[:, ~good]
         # where light grazes, a line of the picture within the tolerance may run far out over the receiver's side
-        good &= straight | within(faces.source[own], point)
+        good &= straight | (within.weights(faces.source[own], point).min(axis=0) >= -BESIDE)
         own = np.flatnonzero(straight)
         s = dot(point[:, own] - origin[:, own], ray[:, own]) / np.maximum(dot(ray[:, own], ray[:, own]), 1e-300)
         place = start.copy()

@@ -99,12 +99,12 @@ def solid_angles(point: np.ndarray, corners: np.ndarray) -> np.ndarray:
 
     A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 1983.
     """
-    a, b, c = (corners[:, k] - point for k in range(3))
-    la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
-    numerator = np.einsum("ij,ij->i", a, np.cross(b, c))
-    denominator = (la * lb * lc + np.einsum("ij,ij->i", a, b) * lc + np.einsum("ij,ij->i", b, c) * la
-                   + np.einsum("ij,ij->i", c, a) * lb)
-    return 2.0 * np.arctan2(numerator, denominator)
+    ways = corners - point
+    ways = ways / np.maximum(np.linalg.norm(ways, axis=2, keepdims=True), 1e-300)
+    a, b, c = np.moveaxis(ways, 1, 0)
+    # differences of neighbours keep the digits of small triangles
+    triple = np.einsum("ij,ij->i", a, np.cross(b - a, c - a))
+    return 2.0 * np.arctan2(triple, 1.0 + (a * b).sum(axis=1) + (b * c).sum(axis=1) + (c * a).sum(axis=1))
 
 
 def shared_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

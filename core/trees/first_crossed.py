@@ -5,9 +5,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..geometry import cross, dot, rows
+from ..geometry import SceneFrames, columns
 from .cones import Cones
-from .first_hits import first_hits
+from .first_hits import EDGE, first_hits
 from .point_tree import PointTree
 from .scene_tree import SceneTree
 
@@ -40,24 +40,12 @@ def _by_cones(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: floa
         if asked is not None and len(own):
             kept = asked(own, triangle)
             own, triangle = own[kept], triangle[kept]
-        a, b, c = (rows(tree.mesh.positions[tree.mesh.triangles[triangle, k]]) for k in range(3))
-        s = _crossed(a, b, c, origin[:, own], ray[:, own])
-        met = np.flatnonzero((s > beyond) & (s < best[own]))
+        places, ways = columns(origin, own), columns(ray, own)
+        frames, pair = SceneFrames.of(tree.mesh, triangle), np.arange(len(own))
+        s = frames.distance(pair, places, ways)
+        inside = frames.weights(pair, places + s * ways).min(axis=0) >= -EDGE
+        met = np.flatnonzero(inside & (s > beyond) & (s < best[own]))
         met = met[np.lexsort((triangle[met], s[met], own[met]))]
         found, nearest = np.unique(own[met], return_index=True)
         first[found], best[found] = triangle[met[nearest]], s[met[nearest]]
     return first, best
-
-
-def _crossed(a: np.ndarray, b: np.ndarray, c: np.ndarray, origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
-    """How far along rays (3, n) they pass through triangles with corners (3, n), infinite where they do not.
-
-    T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of Graphics Tools 1997.
-    """
-    u, v, offset = b - a, c - a, origin - a
-    turned, across = cross(ray, v), cross(offset, u)
-    determinant = dot(u, turned)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        second, third = dot(offset, turned) / determinant, dot(ray, across) / determinant
-        inside = (second >= 0.0) & (third >= 0.0) & (second + third <= 1.0)
-        return np.where(inside, dot(v, across) / determinant, np.inf)
