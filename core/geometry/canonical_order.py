@@ -15,7 +15,6 @@ from .subdivision import following
 from .triangle_mesh import TriangleMesh
 
 TURNS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
-_ONE_KEY = 2 ** 21  # three numbers below this fit one int64
 
 
 @dataclass(frozen=True)
@@ -72,10 +71,7 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
     first = np.argmin(corner * count + following(corner), axis=1)
     corner = np.take_along_axis(corner, TURNS[first], axis=1)
     breathe()
-    if count < _ONE_KEY:
-        keys = [(corner[:, 0] * count + corner[:, 1]) * count + corner[:, 2]]
-    else:
-        keys = [corner[:, 0] * count + corner[:, 1], corner[:, 2]]
+    keys = [corner[:, 0] * count + corner[:, 1], corner[:, 2]]
     normals = None
     if shading:
         normals = np.take_along_axis(mesh.corner_normals, TURNS[first][:, :, None], axis=1) + 0.0
