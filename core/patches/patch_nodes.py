@@ -12,7 +12,7 @@ import numpy as np
 
 from ..geometry import columns, dot, norm, unit
 from ..support import portions
-from ..trees import Cones, StandIns, VertexTree, median_leaves
+from ..trees import Cones, StandIns, VertexTree, along_curve
 from .patch import Patch
 from .walk import changes, find, find_near
 
@@ -201,13 +201,10 @@ class Descent:
 
 
 def _groups(patch: Patch, depth: int) -> np.ndarray:
-    """The triangles of a patch in 2**depth groups (g, m), or fewer, of those that look alike; some twice."""
-    cameras = patch.cameras
-    middle, ahead = (np.take(part, cameras.corners, axis=1).mean(axis=2) for part in (cameras.places, cameras.rays))
-    depth = min(depth, int(np.log2(len(patch))))
-    leaf = median_leaves(np.concatenate((middle / np.ptp(middle, axis=1).max(initial=1e-300), unit(ahead))).T, depth)
-    order = np.argsort(leaf, kind="stable")
-    start = np.searchsorted(leaf[order], np.arange(2**depth + 1))
+    """The triangles of a patch in 2**depth groups (g, m), or fewer, of those that lie together; some twice."""
+    order = along_curve(patch.cameras.places[:, patch.cameras.corners].mean(axis=2).T)
+    count = 2**min(depth, int(np.log2(len(order))))
+    start = np.arange(count + 1) * len(order) // count
     return order[np.minimum(start[:-1, None] + np.arange(np.diff(start).max()), start[1:, None] - 1)]
 
 

@@ -10,11 +10,11 @@ from .cones import Balls, Cones
 from .first_crossed import first_crossed
 from .first_hits import first_hits, meet
 from .magnification import Magnification
-from .node_tree import along_curve, curve_leaves, depth_for, median_leaves
+from .node_tree import along_curve, curve_leaves, depth_for
 from .point_tree import SMALL, PointTree
 from .scene_tree import SceneTree
 from .vertex_tree import StandIns, VertexTree
 
 __all__ = ["SMALL", "Balls", "Bound", "BoxTree", "Cones", "Fronts", "Magnification", "PointTree", "SceneTree",
            "StandIns", "Touching", "VertexTree", "along_curve", "bounded_trace", "curve_leaves", "depth_for",
-           "first_crossed", "first_hits", "median_leaves", "meet"]
+           "first_crossed", "first_hits", "meet"]

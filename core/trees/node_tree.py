@@ -128,30 +128,6 @@ def curve_leaves(points: np.ndarray, depth: int) -> np.ndarray:
     return leaf
 
 
-def median_leaves(points: np.ndarray, depth: int) -> np.ndarray:
-    """Leaf of each point (n, 3) in a complete tree of medians of the widest axis; leaf sizes differ by the padding.
-
-    It takes four times as long as a curve, and its nodes are more compact: they stand for all that they hold where that
-    is smaller than a pixel.
-    """
-    count = len(points)
-    if depth == 0:
-        return np.zeros(count, dtype=np.int64)
-    width = -(-count // 2**depth)
-    order = np.arange(2**depth * width) % count
-    for level in range(depth):
-        breathe()
-        order = order.reshape(2**level, -1)
-        node = points[order]
-        axis = np.argmax(node.max(axis=1) - node.min(axis=1), axis=1)
-        along = np.take_along_axis(node, axis[:, None, None], axis=2)[:, :, 0]
-        middle = order.shape[1] // 2
-        order = np.take_along_axis(order, np.argpartition(along, middle, axis=1), axis=1)
-    leaf = np.empty(count, dtype=np.int64)
-    leaf[order.ravel()] = np.repeat(np.arange(2**depth), width)
-    return leaf
-
-
 def _spread(number: np.ndarray) -> np.ndarray:
     """Numbers (n,) of 21 bits with two zeros between each two of their bits."""
     for shift, mask in _SPREADING:

@@ -8,8 +8,8 @@ import numpy as np
 from ..geometry import TriangleMesh, columns, cross, ordered, rows, unit
 from .cones import Cones
 from .magnification import Magnification
-from .node_tree import depth_for, median_leaves, node_spheres
-from .vertex_tree import BUCKET, VertexTree
+from .node_tree import along_curve
+from .vertex_tree import VertexTree
 
 SMALL = 1.0  # pixels: the image of a node that one of its vertices may stand for
 
@@ -69,18 +69,14 @@ class PointTree(VertexTree):
             raise ValueError("The mesh of a PointTree must be a TriangleMesh; make one of its positions and triangles.")
         mesh, given = ordered(mesh, shading=False)
         used, normal, reach = _surface(mesh)
-        depth = depth_for(len(used), BUCKET)
-        leaf = median_leaves(mesh.positions[used], depth)
-        order = np.argsort(leaf, kind="stable")
-        leaf_start = np.searchsorted(leaf[order], np.arange(2**depth + 1))
-        order = used[order]
-        points = rows(mesh.positions[order])
-        spheres = node_spheres(points, points, leaf_start, depth)
+        order = used[along_curve(mesh.positions[used])] if len(used) else used
+        tree = cls.along_curve(mesh, given, order, normal, reach)
         if not len(mesh.triangles):
             # vertices without faces: what a leaf holds is spread evenly over a disc of the leaf's size
-            count = np.maximum(np.diff(leaf_start), 1)
-            reach[order] = np.repeat(2.0 * np.maximum(spheres[-1][3], 0.0) / np.sqrt(count), np.diff(leaf_start))
-        return cls(mesh, given, depth, spheres, leaf_start, order, normal, reach)
+            count = np.diff(tree.leaf_start)
+            leaf_reach = 2.0 * np.maximum(tree.spheres[-1][3], 0.0) / np.sqrt(np.maximum(count, 1))
+            reach[order] = np.repeat(leaf_reach, count)
+        return tree
 
     def trace(self, cones: Cones, magnification: Magnification) -> PointPairs:
         """All pairs whose images together show what the cameras see of the vertices."""

@@ -6,6 +6,7 @@ middle stands for all, so that the work is bounded by what the picture can show.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from ..geometry import Order, TriangleMesh, columns, groups, in_order, norm, ran
 from .node_tree import NodeTree, depth_for, node_spheres
 
 BUCKET = 4
+Kind = TypeVar("Kind", bound="VertexTree")
 
 
 @dataclass(frozen=True)
@@ -39,13 +41,14 @@ class VertexTree(NodeTree):
     """The vertices of a scene."""
 
     @classmethod
-    def along_curve(cls, mesh: TriangleMesh, given: Order, order: np.ndarray) -> VertexTree:
-        """The tree of vertices `order` (n,) of a mesh in its canonical order, which lie along a space-filling curve."""
+    def along_curve(cls: type[Kind], mesh: TriangleMesh, given: Order, order: np.ndarray, *more: np.ndarray) -> Kind:
+        """The tree of vertices `order` (n,) of a mesh in its canonical order, which lie along a space-filling curve;
+        what `more` trees of some kind know comes behind."""
         depth = depth_for(len(order), BUCKET)
         # leaf i begins with the first vertex that comes at i parts of the curve or behind
         start = -(-np.arange(2**depth + 1) * len(order) // 2**depth)
         points = rows(mesh.positions[order])
-        return cls(mesh, given, depth, node_spheres(points, points, start, depth), start, order)
+        return cls(mesh, given, depth, node_spheres(points, points, start, depth), start, order, *more)
 
     def held(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The vertices (m,) in nodes (n,), and in which of the n each is."""
