@@ -38,8 +38,6 @@ class Corners:
     irradiance : (n,) float64
         Infinite on a caustic.
     turned : (n,) float64
-    weight : (n,) float64
-        What a path tracer sees of the light that comes; 1 where normals are those of the faces.
     cosine : (b, n) float64
         At each of the mirrors, the first one first.
     place : (3, n) float64
@@ -53,7 +51,6 @@ class Corners:
     uv: np.ndarray
     irradiance: np.ndarray
     turned: np.ndarray
-    weight: np.ndarray
     cosine: np.ndarray
     place: np.ndarray
     side: np.ndarray
@@ -115,11 +112,12 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
     size = sum(map(norm, ray_map.spans(face)))
     # where the mirror stands on what is lit, light comes from the very place
     arrived = (s * length >= -ARRIVED * size) & (miss <= ARRIVED * (norm(points - origin) + size))
-    return Corners(uv, irradiance, turned, weight, upright, place, np.sign(cosine), arrived)
+    return Corners(uv, irradiance, turned, upright, place, np.sign(cosine), arrived)
 
 
 def mean_weight(ray_map: ReflectionMap, face: np.ndarray, light: Corners, lamp: Lamp) -> np.ndarray:
-    """What counts (m,) of the light of faces with these corners, of the lamp's pattern times the `weight`.
+    """What counts (m,) of the light of faces with these corners, of the lamp's pattern times the weight: what a path
+    tracer sees of the light that comes, 1 where normals are those of the faces.
 
     Over the places of a face it is asked for by the light that comes: as these are seen from the lamp, and as steeply
     as it falls on the mirrors. Where it grazes them the weight alone has no bounds.

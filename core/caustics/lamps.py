@@ -12,7 +12,6 @@ from ..views import LampView, View
 
 WIDEST = 0.9  # radians off the view's middle; a mirror that spans more is seen by six views round the lamp
 MARGIN = 1.01  # of the mirror's picture, so that it lies within the borders
-ROUND = np.pi / 2.0  # the six views meet exactly: tan(pi / 4) is 1 to the last bit or two
 
 
 @dataclass(frozen=True)

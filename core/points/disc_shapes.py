@@ -70,19 +70,17 @@ def picture_ellipses(view: View, seen: tuple, s: np.ndarray, normal: np.ndarray,
     return direction * np.clip(length, SMALLEST, LARGEST), wanted
 
 
-def flat_discs(view: View, places: np.ndarray, axes: np.ndarray, slope: np.ndarray | None,
+def flat_discs(view: View, axes: np.ndarray, slope: np.ndarray | None,
                positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Discs in space that look from the eye like ellipses.
 
     Parameters
     ----------
-    places : (3, n) float64
-        Middles of the ellipses on the mirror.
     axes : (2, 2, n) float64, from `picture_ellipses`
     slope : (3, n) float64 or None
         Normals of the planes to lie in; None for discs that face the eye.
     positions : (3, n) float64
-        Where the middles are drawn, on the view rays through `places`.
+        Where the middles of the ellipses are drawn.
 
     Returns
     -------

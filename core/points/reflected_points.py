@@ -67,7 +67,7 @@ def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, placemen
     drawn = placed(view, spot, path, placement)
     for part in portions(count, AT_ONCE):
         slope = None if placement == "VIRTUAL" else columns(surface.face_normal, images.face[part])
-        flat[part], radius[part] = flat_discs(view, spot[:, part], axes[:, :, part], slope, drawn[:, part])
+        flat[part], radius[part] = flat_discs(view, axes[:, :, part], slope, drawn[:, part])
     counts["coarse"] = int((wanted > LARGEST).sum())
     weights = np.stack((1.0 - images.uv[0] - images.uv[1], *images.uv), axis=1)
     return ReflectionMesh(

@@ -53,14 +53,14 @@ def _probed(met: SceneAndMirrors, candidates: Candidates, probes: np.ndarray) ->
     if cameras.mirror_map.bounce > 1:
         # later cameras follow the sides of their triangles only nearly, and may begin a little behind the next
         corners = np.take(met.mirror_corners, frames.triangle[candidates.column] - met.diffuse, axis=1)
-        behind = np.tile(_side(met, candidates), count) * frames.height(probed, origins) <= 0.0
+        behind = np.tile(_side(candidates), count) * frames.height(probed, origins) <= 0.0
         near[behind] = BEHIND * np.tile(np.ptp(corners, axis=2).max(axis=0), count)[behind]
     ahead = s * norm(rays) > near
     seen = ahead & (frames.weights(probed, origins + s * rays) > ABOVE).all(axis=0)
     return seen.reshape(count, -1).any(axis=0)
 
 
-def _side(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
+def _side(candidates: Candidates) -> np.ndarray:
     """On which side (p,) of the planes of the candidates the cameras' own triangles lie, 1 or -1; 0 on both."""
     cameras, frames = candidates.cameras, candidates.frames
     surface, face = cameras.mirror_map.last(cameras.face[candidates.camera])
