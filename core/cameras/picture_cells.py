@@ -39,10 +39,6 @@ class PictureCells:
         width, height = np.ceil((high - low) / side).astype(np.int64) + 1
         return cls(low, side, np.zeros((height + 1, width + 1), dtype=np.int64))
 
-    def unmarked(self) -> PictureCells:
-        """The grid with no cell marked."""
-        return PictureCells(self.low, self.side, np.zeros_like(self.before))
-
     @property
     def high(self) -> np.ndarray:
         """(2,): the opposite corner, in pixels."""
@@ -60,22 +56,21 @@ class PictureCells:
         return np.clip(np.nan_to_num(cell), 0, self._size - 1).astype(np.int64)
 
     def with_lines(self, start: np.ndarray, end: np.ndarray) -> PictureCells:
-        """The grid with all cells marked that lie on lines (2, n) from `start` to `end`, or beside such a cell."""
+        """The same cells, of which those are marked that lie on lines (2, n) from `start` to `end`, or beside such a
+        cell."""
         count = np.ceil(np.abs(end - start).max(axis=0) / (0.5 * self.side)).astype(np.int64) + 1
         step, line = ranges(np.zeros(len(count), dtype=np.int64), count)
         spots = start[:, line] + step / np.maximum(count - 1, 1)[line] * (end - start)[:, line]
         return self.with_boxes(spots - self.side, spots + self.side)
 
     def with_boxes(self, low: np.ndarray, high: np.ndarray) -> PictureCells:
-        """The grid with all cells marked that boxes from `low` to `high` (2, n) touch."""
+        """The same cells, of which those are marked that boxes from `low` to `high` (2, n) touch."""
         (x0, y0), (x1, y1) = self._cell(low), self._cell(high) + 1
         height, width = self.before.shape
         corner = np.concatenate((y0 * width + x0, y1 * width + x1, y0 * width + x1, y1 * width + x0))
         sign = np.repeat((1.0, -1.0), 2 * len(x0))
         change = np.bincount(corner, sign, minlength=height * width).reshape(height, width)
         marked = change.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0.5
-        if self.before[-1, -1]:
-            marked |= np.diff(np.diff(self.before, axis=0), axis=1) > 0
         before = np.zeros_like(self.before)
         np.cumsum(marked.cumsum(axis=0), axis=1, out=before[1:, 1:])
         return PictureCells(self.low, self.side, before)

@@ -76,7 +76,7 @@ def _behind_some(patch: Patch, images: Images, nodes: np.ndarray, behind: np.nda
     if not behind.shape[1]:
         return behind
     several = nodes[:, images.several(nodes)]
-    cells = patch.border.unmarked().with_boxes(*box(images.pixel[:, several]))
+    cells = patch.border.with_boxes(*box(images.pixel[:, several]))
     kept = np.empty(behind.shape[1], dtype=bool)
     for part in portions(len(kept), AT_ONCE):
         kept[part] = cells.touched(*box(columns(images.pixel, behind[:, part])))
@@ -106,5 +106,5 @@ def _over_what_goes_through(patch: Patch, images: Images, nodes: np.ndarray, fac
         boxes.append((np.minimum(spot, other) - ROOM, np.maximum(spot, other) + ROOM))
     if not boxes:
         return np.zeros(len(faces), dtype=bool)
-    cells = patch.border.unmarked().with_boxes(*(np.concatenate(side, axis=1) for side in zip(*boxes)))
+    cells = patch.border.with_boxes(*(np.concatenate(side, axis=1) for side in zip(*boxes)))
     return images.several(nodes[:, faces]) & cells.touched(*box(images.pixel[:, nodes[:, faces]]))

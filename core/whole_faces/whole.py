@@ -69,7 +69,7 @@ class WholeFaces:
         on_patch, open_ = (np.zeros(len(patch.mirror_map.surface), dtype=bool) for _ in range(2))
         on_patch[patch.face] = True
         low, high, unknown = _boxes(patch, self.images, pieces.nodes)
-        cells = patch.border.unmarked().with_boxes(low[:, ~unknown], high[:, ~unknown])
+        cells = patch.border.with_boxes(low[:, ~unknown], high[:, ~unknown])
         open_[patch.face[_seeing(patch, points[:, pieces.nodes[:, unknown]])]] = True
         positions = np.concatenate((self.positions, (points[:, len(self.positions):] + patch.eye).T))
         return ScenePieces(TriangleMesh(positions, pieces.nodes.T), pieces.source, on_patch, cells, open_, self.merged)
