@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from bpy.app.handlers import persistent
 
-from ..reading import SURFACES
+from ..reading import drawn_meshes
 from ..registration import Handlers
 from .materials import forget_materials
 
@@ -41,11 +41,11 @@ def digest_of(depsgraph: bpy.types.Depsgraph, objects: list) -> str:
     """One digest of what `objects`, and what they instance, show and where; nothing that is hidden takes part."""
     owner_of = {obj: index for index, obj in enumerate(objects)}
     known = []
-    for instance in depsgraph.object_instances:
+    for instance in drawn_meshes(depsgraph):
         evaluated = instance.object
         parent = instance.parent.original if instance.is_instance else None
         owner = owner_of.get(evaluated.original if parent is None else parent)
-        if owner is None or evaluated.type not in SURFACES or not instance.show_self:
+        if owner is None:
             continue
         key = (evaluated.original.session_uid, parent.session_uid if parent else 0, evaluated.data.name)
         if key not in _geometry:
@@ -57,19 +57,15 @@ def digest_of(depsgraph: bpy.types.Depsgraph, objects: list) -> str:
 
 def _hashed(obj: bpy.types.Object) -> bytes:
     """A digest of the shape and the layers of an evaluated object."""
-    mesh = obj.data if obj.type == "MESH" else obj.to_mesh()
-    told = blake2b(digest_size=SIZE)
-    if mesh is not None:
-        told.update(np.array((len(mesh.vertices), len(mesh.polygons)), dtype=np.int64).tobytes())
-        told.update(_values(mesh.polygons, "loop_start", 1, np.int32))
-        for attribute in sorted(mesh.attributes, key=lambda attribute: attribute.name):
-            if attribute.data_type in LAYOUTS and (not attribute.name.startswith(".") or attribute.name == CORNERS):
-                told.update(attribute.name.encode())
-                told.update(_values(attribute.data, *LAYOUTS[attribute.data_type]))
-        if mesh.has_custom_normals:
-            told.update(_values(mesh.corner_normals, "vector", 3, np.float32))
-    if obj.type != "MESH":
-        obj.to_mesh_clear()
+    mesh, told = obj.data, blake2b(digest_size=SIZE)
+    told.update(np.array((len(mesh.vertices), len(mesh.polygons)), dtype=np.int64).tobytes())
+    told.update(_values(mesh.polygons, "loop_start", 1, np.int32))
+    for attribute in sorted(mesh.attributes, key=lambda attribute: attribute.name):
+        if attribute.data_type in LAYOUTS and (not attribute.name.startswith(".") or attribute.name == CORNERS):
+            told.update(attribute.name.encode())
+            told.update(_values(attribute.data, *LAYOUTS[attribute.data_type]))
+    if mesh.has_custom_normals:
+        told.update(_values(mesh.corner_normals, "vector", 3, np.float32))
     return told.digest()
 
 

@@ -9,7 +9,6 @@ import bpy
 import numpy as np
 
 from ..faults import still_there
-from ..reading import SURFACES
 
 RAYS = ("camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow")
 
@@ -96,10 +95,11 @@ def _copy_objects(context: bpy.types.Context, copied: CopiedScene, mirrors: list
             continue
         if original.type == "LIGHT" and not instance.is_instance:
             copied.lights.append(original)
-        if evaluated.type not in SURFACES:
+        # what becomes a mesh, as text does, comes as that too
+        if evaluated.type != "MESH":
             continue
         part, index = part_of.get(owner, (copied.bystanders, -1))
-        key = (evaluated.data.as_pointer() if evaluated.type == "MESH" else original, part is copied.results)
+        key = (evaluated.data.as_pointer(), part is copied.results)
         if key not in meshes:
             meshes[key] = _mesh(evaluated, depsgraph)
             copied.owned.append(meshes[key])

@@ -6,16 +6,16 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ...core import TriangleMesh, breathe
-from ..reading import SURFACES, read_mirror
+from ..reading import drawn_meshes, read_mirror
 
 
 def cut_through(depsgraph: bpy.types.Depsgraph, mirrors: set, objects: list) -> list:
     """Those of `objects`, or of which an instance, whose triangles cross one of a mirror."""
     surfaces, asked, found = [read_mirror(depsgraph, mirror).mesh for mirror in mirrors], set(objects), {}
-    for instance in depsgraph.object_instances:
+    for instance in drawn_meshes(depsgraph):
         evaluated = instance.object
         original = evaluated.original
-        if original not in asked or original in found or evaluated.type not in SURFACES:
+        if original not in asked or original in found:
             continue
         breathe()
         matrix = np.array(instance.matrix_world, dtype=np.float64)

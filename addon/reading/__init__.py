@@ -5,11 +5,11 @@ from .lines import lines_drawn
 from .looked_through import looked_through
 from .materials import all_nodes, fog_of, is_clear, is_fog, is_mirror, is_opaque, materials_of, materials_shown
 from .meshes import (
-    SURFACES,
     DiffuseScene,
     LocalMesh,
     MirrorSurface,
     Placed,
+    drawn_meshes,
     join_mirror,
     join_scene,
     read_meshes,
@@ -40,7 +40,7 @@ from .roles import (
 )
 
 __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
-           "Placed", "RESULTS", "SURFACES", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
+           "Placed", "RESULTS", "all_nodes", "camera_of", "can_take_part", "candidates", "choose", "drawn_meshes",
            "every_result_of", "fog_of", "forget_known", "has_fog", "has_linked_results", "in_background_set",
            "in_viewports", "is_clear", "is_fog", "is_gone", "is_mirror", "is_opaque", "is_part", "join_mirror",
            "join_scene", "known_results", "lines_drawn", "link_state", "looked_through", "materials_of",

@@ -1,7 +1,7 @@
 """Evaluated Blender meshes -> arrays, in each object's own space, with the places where they stand."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
 
@@ -16,8 +16,6 @@ from .read_layers import NO_LAYERS, read_layers
 from .source_lines import SourceLines
 
 FARTHEST = 1e17  # units: squares of what lies somewhat further must still be numbers of single precision
-# what evaluated objects can be turned into a mesh
-SURFACES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
 
 @dataclass(frozen=True)
@@ -94,6 +92,13 @@ class Placed:
         return self.mesh.lines.creases(self.cofactors)
 
 
+def drawn_meshes(depsgraph: bpy.types.Depsgraph) -> Iterator[bpy.types.DepsgraphObjectInstance]:
+    """Every place where something is drawn as a mesh. Curves, text and metaballs come twice: as what they are, and as
+    instances of the meshes that they become, which are what engines draw."""
+    return (instance for instance in depsgraph.object_instances
+            if instance.object.type == "MESH" and instance.show_self)
+
+
 def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool,
                 known: Callable | None = None) -> list[Placed]:
     """Each distinct mesh of `objects`, modifiers applied, with every place where it or an instance of it stands.
@@ -110,22 +115,19 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool,
     owner_of = {obj: index for index, obj in enumerate(objects)}
     meshes, owners, matrices, instances, told = {}, {}, {}, {}, {}
     asked: dict[tuple, frozenset] = {}
-    for instance in depsgraph.object_instances:
+    for instance in drawn_meshes(depsgraph):
         evaluated = instance.object
         original = evaluated.original
         owner = owner_of.get(instance.parent.original if instance.is_instance else original)
-        if owner is None or evaluated.type not in SURFACES or not instance.show_self:
+        if owner is None:
             continue
         if instance.is_instance and not (_takes_part(original) and (mirror or original.visible_glossy)):
             continue
         materials = tuple(slot.material.original if slot.material else None for slot in evaluated.material_slots)
-        key = (evaluated.data.as_pointer(), materials) if evaluated.type == "MESH" else (original, materials)
+        key = (evaluated.data.as_pointer(), materials)
         if key not in meshes:
             read = partial(_read, evaluated, materials, mirror)
-            if known is None or evaluated.type != "MESH":
-                meshes[key] = read()
-            else:
-                meshes[key] = known(*_name(instance, materials, mirror, asked), read)
+            meshes[key] = read() if known is None else known(*_name(instance, materials, mirror, asked), read)
             owners[key], matrices[key], instances[key], told[key] = [], [], [], []
         owners[key].append(owner)
         instances[key].append(instance.is_instance)

@@ -176,21 +176,29 @@ def test_vertex_instances(blank, room):
     assert np.allclose(np.abs(centres[:, :2]), 3.0, atol=1e-6)
 
 
-@pytest.mark.parametrize(("add", "setting"), [("text_add", None), ("metaball", None), ("curve", None)])
-def test_other_kinds_of_surface(blank, room, add, setting):
-    if add == "text_add":
+@pytest.mark.parametrize("add", ["text", "metaball", "curve", "surface"])
+@pytest.mark.parametrize("mirror", [False, True])
+def test_other_kinds_of_surface(blank, room, add, mirror):
+    """Once, as Blender's own conversion makes them a mesh: they come as themselves and as instances of their meshes."""
+    if add == "text":
         bpy.ops.object.text_add()
+        bpy.context.object.data.extrude = 0.1
     elif add == "metaball":
         bpy.ops.object.metaball_add(type="BALL")
+    elif add == "surface":
+        bpy.ops.surface.primitive_nurbs_surface_sphere_add()
     else:
         bpy.ops.curve.primitive_bezier_circle_add()
         bpy.context.object.data.bevel_depth = 0.2
     obj = bpy.context.object
     obj.location = 0.0, 0.0, 7.0
-    mesh = read_scene(room, obj).mesh
-    assert len(mesh.triangles) > 10
-    centre = 0.5 * (mesh.positions.min(axis=0) + mesh.positions.max(axis=0))
-    assert abs(centre[2] - 7.0) < 0.1
+    depsgraph = blank.evaluated_depsgraph_get()
+    expected = bpy.data.meshes.new_from_object(obj.evaluated_get(depsgraph), depsgraph=depsgraph)
+    expected.calc_loop_triangles()
+    mesh = room("addon.reading").read_mirror(depsgraph, obj).mesh if mirror else read_scene(room, obj).mesh
+    assert len(mesh.triangles) == len(expected.loop_triangles) > 10
+    places = np.array([vertex.co for vertex in expected.vertices]) + (0.0, 0.0, 7.0)
+    assert np.allclose(mesh.positions, places, atol=1e-5)
 
 
 def test_materials_follow_the_object(blank, room):
