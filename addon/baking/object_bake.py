@@ -14,7 +14,7 @@ from ..reading.meshes import read_meshes
 from .bake_scene import bake_scene
 from .levels import FINER, fine_where_seen, levels_of
 from .mirror_bodies import MirrorBodies, mirror_bodies
-from .seen_sources import SeenSources, has_rim, seen_sources, triangles_by_source
+from .seen_sources import SeenSources, has_rim, outer_sides, seen_sources, triangles_by_source
 from .shown_texels import shown_texels
 from .stand_ins import new_meshes, stand_ins
 from .texels import arranged, is_glossy, packed
@@ -96,11 +96,20 @@ def _sheets(scene: DiffuseScene, seen: SeenSources) -> tuple[list, list, list]:
     parts = triangles_by_source(scene)
     breathe()
     open_ = [not all(is_opaque(scene.materials[index]) for index in np.unique(scene.material[part])) for part in parts]
-    # through an object that is open in places its backs are seen, and what has a rim shows both sides as it is
-    both = [through or (seen.both[number] and has_rim(scene.mesh.triangles[parts[number]]))
-            for number, through in enumerate(open_)]
-    return parts, open_, [(number, back) for number in range(len(parts)) for back in (False, True)
-                          if both[number] or back == bool(seen.backs[number])]
+    return parts, open_, [(number, back) for number, through in enumerate(open_)
+                          for back in _sides(scene.mesh.positions, scene.mesh.triangles[parts[number]], seen, number,
+                                             through)]
+
+
+def _sides(positions: np.ndarray, triangles: np.ndarray, seen: SeenSources, number: int, open_: bool) -> list:
+    """Whether backs are baked, for each side of a source that is: where it is `open_` in places its backs are seen
+    through it, what has a rim shows both sides as it is, and of what is closed the outside hides the inside."""
+    if open_:
+        return [False, True]
+    if not seen.both[number] or seen.backs[number]:
+        return [bool(seen.backs[number])]
+    sides = (True, True) if has_rim(triangles) else outer_sides(positions, triangles)
+    return [back for back, outside in zip((False, True), sides) if outside]
 
 
 def _pictures(context: bpy.types.Context, scene: DiffuseScene, how: tuple[SeenSources, MirrorBodies], levels: dict,

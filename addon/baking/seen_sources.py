@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, View, breathe
-from ...core.geometry import distinct, edge_numbers
+from ...core.geometry import connected, distinct, edge_numbers, first_of
 from ..reading import DiffuseScene, vectors
 from .sight import places_of_sight
 
@@ -36,8 +36,7 @@ class SeenSources:
     one_eye : (k,) bool
         Whether all of it is seen nearly as from there: by flat mirrors exactly, by small or far ones as by holes.
     backs : (k,) bool
-        Of which sources only backs are seen. Those of closed others lie behind their fronts, but for a hair of them
-        that looks out at outlines.
+        Of which sources only backs are seen.
     both : (k,) bool
         Of which sources more than that is seen of both sides.
     """
@@ -96,6 +95,17 @@ def has_rim(triangles: np.ndarray) -> bool:
     edges = edge_numbers(triangles.astype(np.int64), np.roll(triangles, -1, axis=1), int(triangles.max(initial=0)) + 1)
     breathe()
     return bool((np.bincount(distinct(edges.ravel())[1]) == 1).any())
+
+
+def outer_sides(positions: np.ndarray, triangles: np.ndarray) -> tuple[bool, bool]:
+    """Whether some shells of a surface without a rim, triangles (n, 3), have their fronts outside, and whether some
+    have their backs there: what is seen of a shell from outside hides the rest of it."""
+    shell = connected(triangles.astype(np.int64))
+    breathe()
+    # from a corner of its own a small shell far away has a volume that rounding does not turn over
+    corners = positions[triangles] - positions[triangles[first_of(shell)[1][shell], :1]]
+    volume = np.bincount(shell, np.linalg.det(corners))
+    return bool((volume >= 0.0).any()), bool((volume < 0.0).any())
 
 
 def can_be_baked(results: list) -> bool:
