@@ -42,20 +42,26 @@ def told_of(result: bpy.types.Object, freed: bpy.types.Object | None) -> list[st
 
 
 def _own_vertices(result: bpy.types.Object) -> int:
-    """How many vertices, the first ones, are the result's own; 0 where that are all, or where other faces than its own
-    have some of these."""
+    """How many vertices, the first ones, are the result's own; 0 where that are all, or where other faces or edges than
+    its own have some of these."""
     record, mesh = result.reflection_mesh, result.data
     if record.points:
         # without the nodes that draw its points it was made another mesh (Object > Convert)
         joined = len(mesh.vertices) > record.points and disc_nodes(result) is not None
         return record.points if joined else 0
-    if not 0 < record.faces < len(mesh.polygons):
+    if not 0 < record.faces <= len(mesh.polygons):
         return 0
     corners = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
-    first = mesh.polygons[record.faces].loop_start
+    more_faces = record.faces < len(mesh.polygons)
+    first = mesh.polygons[record.faces].loop_start if more_faces else len(corners)
+    # a result has no vertex that none of its faces has: wire and loose points behind them were joined, too
     own = int(corners[:first].max()) + 1
-    return own if corners[first:].min() >= own else 0
+    ends = np.empty(2 * len(mesh.edges), dtype=np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    is_own = ends.reshape(-1, 2) < own
+    apart = bool((corners[first:] >= own).all() and (is_own[:, 0] == is_own[:, 1]).all())
+    return own if apart and own < len(mesh.vertices) else 0
 
 
 def _keep_used_materials(mesh: bpy.types.Mesh, shown: list) -> None:

@@ -66,6 +66,58 @@ def test_it_is_an_object_again(scene, capfd, how):
         assert [obj.name for obj in bpy.data.objects if "Joined" in obj.name] == ["Ball Reflection Joined"]
 
 
+def join_wire(result: bpy.types.Object) -> np.ndarray:
+    """A bent wire and a loose point, joined to a result; where their vertices are."""
+    mesh = bpy.data.meshes.new("Wire")
+    mesh.from_pydata([(3.0, 0.0, 1.0), (3.0, 1.0, 2.0), (2.0, 1.0, 2.5), (4.0, 4.0, 4.0)], [(0, 1), (1, 2)], [])
+    wire = bpy.data.objects.new("Wire", mesh)
+    bpy.context.scene.collection.objects.link(wire)
+    wire.location.z = 0.5
+    bpy.context.view_layer.update()
+    where = places(wire)
+    parts.select(wire, result)
+    bpy.ops.object.join()
+    bpy.context.view_layer.update()
+    return where
+
+
+@pytest.mark.parametrize("what", ["wire", "wire and faces"])
+@pytest.mark.parametrize("method", ["GENERAL", "POINTS"])
+def test_wire_and_loose_points_are_an_object_again(scene, capfd, what, method):
+    result, faces = scene.result, 0
+    parts.select(result)
+    parts.generate(method=method)
+    own = len(result.data.vertices), len(result.data.edges), len(result.data.polygons)
+    where = join_wire(result)
+    if what == "wire and faces":
+        where, faces = np.concatenate((where, join_a_cube(result))), 6
+        where = where[np.lexsort(where.round(4).T)]
+    capfd.readouterr()
+    parts.select(result)
+    assert parts.generate(method=method) == result
+    assert (len(result.data.vertices), len(result.data.edges), len(result.data.polygons)) == own
+    assert "'Ball Reflection Joined'" in capfd.readouterr().out
+    freed = bpy.data.objects["Ball Reflection Joined"]
+    bpy.context.view_layer.update()
+    assert np.allclose(places(freed), where, atol=1e-5)
+    assert (len(freed.data.edges), len(freed.data.polygons)) == (2 + 2 * faces, faces)
+    parts.select(result)
+    parts.generate(method=method)
+    assert [obj.name for obj in bpy.data.objects if "Joined" in obj.name] == ["Ball Reflection Joined"]
+
+
+def test_what_was_drawn_out_of_a_result_is_no_object(scene):
+    """It hangs on the result's own vertices, and goes with them."""
+    result = scene.result
+    result.data.vertices.add(1)
+    result.data.edges.add(1)
+    result.data.edges[-1].vertices = (0, len(result.data.vertices) - 1)
+    result.data.update()
+    parts.select(result)
+    parts.generate()
+    assert not [obj.name for obj in bpy.data.objects if "Joined" in obj.name]
+
+
 def test_it_is_an_object_again_where_frames_are_baked(scene, capfd, tmp_path):
     where = join_a_cube(scene.result)
     parts.select(scene.result)
