@@ -41,6 +41,12 @@ def left_out_before(context: bpy.types.Context, pairs: list) -> dict:
     return {pair: not obj.reflection_mesh.keeps_own for pair in pairs for obj in results_with(context, *pair)[:1]}
 
 
+def left_out_of(objects: list) -> bool | None:
+    """Whether Cycles' own caustics are left out for all of this light, or kept for all; None where some are."""
+    left_out = {not obj.reflection_mesh.keeps_own for obj in objects}
+    return left_out.pop() if len(left_out) == 1 else None
+
+
 def remember(objects: list, asked: Asked) -> None:
     """Let light know what it was asked for, for the next time; how many places it comes from it knows."""
     for obj in objects:

@@ -14,6 +14,7 @@ from ...illumination import meant_lamps
 from ...reading import candidates
 from ...settings import SETTINGS, SettingsOptions, UsesSettings, option
 from .. import polls
+from ..asked_light import left_out_of
 from ..shortcomings import render_shortcomings
 from .bake import IN_OBJECT_MODE, NO_USD, baking
 from .plan import Plan, blur_remarks, layer_remarks, plan_of, summary
@@ -73,8 +74,11 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
             plan = replace(plan, overwrite=False)
         kept: list = []
         sequences = yield from part(baking(context, plan, written.append, kept.append), start, 1.0 - start)
-        _, hidden = showing(context, plan, sequences)
+        objects, hidden = showing(context, plan, sequences)
         self.show_used(wanted, candidates(context)[0])
+        left_out = left_out_of(objects) if lamps else None
+        if left_out is not None:
+            self.leave_out = left_out
         remarks = kept + hidden + render_shortcomings(context, *candidates(context))
         remarks += blur_remarks(context.scene, plan.cameras, bool(lamps))
         remarks += layer_remarks(context.scene, [context.view_layer])

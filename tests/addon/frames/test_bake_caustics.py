@@ -4,6 +4,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import bpy
+import caustic_scene
 import faults
 import numpy as np
 import parts
@@ -209,3 +210,16 @@ def test_what_was_left_out_comes_back_where_it_is_kept(thrown):
     for leave_out in (True, False):
         assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", leave_out=leave_out) == {"FINISHED"}
         assert (lamp.light_linking.receiver_collection is not None) == leave_out
+
+
+@pytest.mark.parametrize("leave_out", [True, False])
+def test_the_panel_after_a_bake_shows_what_was_used(blank, tmp_path, leave_out):
+    """Of Cycles' own caustics too, though that was said when the light was generated; the next bake is not told."""
+    floor, mirror, lamp = caustic_scene.scene_of()
+    parts.select(floor, lamp, mirror)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", leave_out=leave_out) == {"FINISHED"}
+    # as from a button: such runs have a panel
+    assert bpy.ops.reflection_mesh.bake("EXEC_DEFAULT", True, what="CAUSTICS", filepath=str(tmp_path),
+                                        frames="1") == {"FINISHED"}
+    ran = bpy.context.window_manager.operators[-1]
+    assert ran.bl_idname == "REFLECTION_MESH_OT_bake" and ran.properties.leave_out == leave_out
