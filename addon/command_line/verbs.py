@@ -17,8 +17,9 @@ from ..operators.asked_light import asked_again, remember
 from ..operators.caustics import throwing
 from ..operators.clear import chosen_results
 from ..operators.generate import generation
-from ..operators.light import lighting_groups, unlike_the_mirror
-from ..operators.light import summary as lighting_summary
+from ..operators.light import lighting_groups
+from ..operators.light_remarks import summary as lighting_summary
+from ..operators.light_remarks import unlike_the_mirror
 from ..operators.mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
 from ..operators.print_sheet import DPI, check_print, printing
 from ..operators.shortcomings import scene_shortcomings

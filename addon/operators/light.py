@@ -8,13 +8,12 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, View
-from ..baking import KeptMap, are_few, baked, can_be_baked, kept_map, random_by_island
+from ..baking import KeptMap, are_few, baked, can_be_baked, kept_map
 from ..faults import AllOrNothing, SteppedOperator, Steps, Undivided, part, tell
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
     Window,
     beside_lamps,
-    dull_objects,
     is_overexposed,
     is_plain,
     light_scene,
@@ -31,11 +30,7 @@ from ..lighting import (
 )
 from ..mirror_part import LaterMirrors, Surroundings, new_object_material
 from ..reading import (
-    camera_of,
-    has_fog,
     has_linked_results,
-    in_viewports,
-    is_gone,
     is_mirror,
     is_opaque,
     materials_of,
@@ -50,13 +45,13 @@ from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
 from ..writing import forget_mesh, place_of
 from . import polls
 from .clear import chosen_results
+from .light_remarks import summary, unlike_the_mirror
+from .lit_groups import for_the_camera, with_mirrors
 
 NAME = "Reflection Light"
-NAMED = 3
 IN_OBJECT_MODE = "Reflections are lit in Object Mode: leave the present mode first."
 FOR_THIS_FRAME = ("So many objects are reflected that their light was made for this frame alone: bake frames for an "
                   "animation, or choose Light: Objects to keep it while things move.")
-FOG = "Fog before what mirrors show is not in light on the objects: choose Light: Picture for a still."
 NOTHING_TO_LIGHT = "The scene has no reflection to light: generate one first."
 LINKED_TO_LIGHT = ("The reflections are linked from another file: light them in that file, save it, and reload the "
                    "library here.")
@@ -103,7 +98,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
         raise ReflectionError(LINKED_TO_LIGHT if has_linked_results() else NOTHING_TO_LIGHT)
     yield 0.0, "Reading the scene"
     view = read_view(context)
-    groups = _for_the_camera(context.scene.camera, _with_mirrors(context, groups))
+    groups = for_the_camera(context.scene.camera, with_mirrors(context, groups))
     everything, shows, lamps = [], [], lamps_that_show(context)
     with AllOrNothing() as whole:
         for number, (results, samples, kind) in enumerate(groups):
@@ -148,36 +143,6 @@ def _stay_linked(linked: list, whole: AllOrNothing) -> None:
         whole.undo(setattr, result, "data", result.data)
         whole.after(forget_mesh, result.data)
         result.data = linked[0].data
-
-
-def _with_mirrors(context: bpy.types.Context, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
-    """The groups without the results whose mirror is gone or hidden, and what is no mesh any more, which the panel
-    tells of."""
-    # those that are hidden in renders alone are lit as ever
-    there = in_viewports(context)
-    own = [([result for result in results if result.type == "MESH" and result.reflection_mesh.mirror in there],
-            samples, kind)
-           for results, samples, kind in groups]
-    if not any(results for results, _, _ in own):
-        lost = next(result for results, _, _ in groups for result in results)
-        mirror = lost.reflection_mesh.mirror
-        if is_gone(mirror):
-            raise ReflectionError(f"The mirror of '{lost.name}' is gone: clear it, or select another mirror.")
-        if lost.type != "MESH":
-            raise ReflectionError(f"'{lost.name}' is no mesh any more: generate the reflection again.")
-        raise ReflectionError(f"The mirror '{mirror.name}' is hidden: show it in the viewport and in renders.")
-    return own
-
-
-def _for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
-    """The groups without the results of other cameras."""
-    own = [([result for result in results if camera_of(result) in (None, camera)], samples, kind)
-           for results, samples, kind in groups]
-    if not any(results for results, _, _ in own):
-        other = next(result for results, _, _ in groups for result in results)
-        raise ReflectionError(f"'{other.name}' is for the camera '{camera_of(other).name}': make that the scene's "
-                              f"camera, or generate the reflection for '{camera.name}' too.")
-    return own
 
 
 def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing,
@@ -256,30 +221,6 @@ def _mirror_material(result: bpy.types.Object) -> bpy.types.Material | None:
     slots = [material for material in materials_of(result.reflection_mesh.mirror) if material is not None]
     reflecting = next(iter([material for material in slots if is_mirror(material)] + slots), None)
     return None if reflecting is None or is_plain(reflecting) else reflecting
-
-
-def unlike_the_mirror(scene: bpy.types.Scene, lit: list) -> list[str]:
-    """Sentences on what `lit` show otherwise than their mirrors do, if there is anything."""
-    dull = sorted({name for result in lit for name in dull_objects(result)})
-    on_objects = [result for result in lit if result.reflection_mesh.light_map is not None]
-    random = random_by_island(on_objects)
-    return ([FOG] * bool(on_objects and has_fog(scene))
-            + [f"The gloss of {_listed(dull)} is not what so close a curved mirror shows: choose Light: Picture for a "
-             f"still."] * bool(dull)
-            + [f"What is random by island on {_listed(random)} is so in other colours: choose Light: Picture for its "
-               f"own."] * bool(random))
-
-
-def _listed(names: list[str]) -> str:
-    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
-    return ", ".join(f"'{name}'" for name in names[:NAMED]) + more
-
-
-def summary(lit: list, seconds: float) -> str:
-    """One line on what was lit."""
-    if not lit:
-        return "Nothing to light: the reflected materials emit what they show, and the mirrors add nothing."
-    return f"{', '.join(repr(obj.name) for obj in lit)}: lit in {seconds:.2f} s"
 
 
 class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator):

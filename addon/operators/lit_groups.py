@@ -1,0 +1,37 @@
+"""Which results of those that are chosen can be lit: the mirror is there, and the scene's camera is theirs."""
+from __future__ import annotations
+
+import bpy
+
+from ...core import ReflectionError
+from ..reading import camera_of, in_viewports, is_gone
+
+
+def with_mirrors(context: bpy.types.Context, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
+    """The groups without the results whose mirror is gone or hidden, and what is no mesh any more, which the panel
+    tells of."""
+    # those that are hidden in renders alone are lit as ever
+    there = in_viewports(context)
+    own = [([result for result in results if result.type == "MESH" and result.reflection_mesh.mirror in there],
+            samples, kind)
+           for results, samples, kind in groups]
+    if not any(results for results, _, _ in own):
+        lost = next(result for results, _, _ in groups for result in results)
+        mirror = lost.reflection_mesh.mirror
+        if is_gone(mirror):
+            raise ReflectionError(f"The mirror of '{lost.name}' is gone: clear it, or select another mirror.")
+        if lost.type != "MESH":
+            raise ReflectionError(f"'{lost.name}' is no mesh any more: generate the reflection again.")
+        raise ReflectionError(f"The mirror '{mirror.name}' is hidden: show it in the viewport and in renders.")
+    return own
+
+
+def for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
+    """The groups without the results of other cameras."""
+    own = [([result for result in results if camera_of(result) in (None, camera)], samples, kind)
+           for results, samples, kind in groups]
+    if not any(results for results, _, _ in own):
+        other = next(result for results, _, _ in groups for result in results)
+        raise ReflectionError(f"'{other.name}' is for the camera '{camera_of(other).name}': make that the scene's "
+                              f"camera, or generate the reflection for '{camera.name}' too.")
+    return own
