@@ -6,10 +6,12 @@ import bpy
 import numpy as np
 
 from ...core import View
+from ...core.geometry import unit
 from ...core.trees import BoxTree, first_hits
-from ..mirror_part import own_layer
+from ..mirror_part import BACK, NORMAL, OWN_NORMAL, own_layer
 from ..reading import DiffuseScene, read_scene, vectors
 from ..reading.materials import asked_attributes
+from ..writing import FIELDS
 from .seen_sources import barycentric, corner_vertices, face_values
 
 
@@ -21,19 +23,31 @@ def write_mirror_layers(result: bpy.types.Object, view: View, material: bpy.type
     """
     mirror, mesh = result.reflection_mesh.mirror, result.data
     asked = asked_attributes([material])
-    if mirror is None or mirror.type != "MESH" or asked.isdisjoint(map(own_layer, mirror.data.attributes.keys())):
+    if mirror is None:
+        return
+    if OWN_NORMAL in asked and NORMAL in mesh.attributes:
+        turned = vectors(mesh, NORMAL) @ np.array(mirror.matrix_world, dtype=np.float64)[:3, :3]
+        _write(mesh, OWN_NORMAL, "FLOAT_VECTOR", "POINT", unit(turned.T).T)
+    own = {own_layer(name) for name in mirror.data.attributes.keys()} if mirror.type == "MESH" else set()
+    if asked.isdisjoint(own | {BACK}):
         return
     surface = read_scene(bpy.context.evaluated_depsgraph_get(), [mirror])
-    layers = {own_layer(name): entry for name, entry in _layers(surface) if own_layer(name) in asked}
-    if not layers:
-        return
     places = vectors(mesh, "mirror_position")[corner_vertices(mesh)]
     triangle = _triangles(mesh, surface, places, view)
-    weights = barycentric(surface.mesh.positions[surface.mesh.triangles[triangle]], places)
-    for name, (kind, values) in layers.items():
-        attribute = mesh.attributes.get(name) or mesh.attributes.new(name, kind, "CORNER")
-        field = "color" if kind == "FLOAT_COLOR" else "vector" if kind == "FLOAT_VECTOR" else "value"
-        attribute.data.foreach_set(field, np.matmul(weights, values[triangle]).astype(np.float32).reshape(-1))
+    corners = surface.mesh.positions[surface.mesh.triangles[triangle]]
+    if BACK in asked:
+        _, ahead = view.rays(view.pixels(places.mean(axis=1)))
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        _write(mesh, BACK, "FLOAT", "FACE", np.einsum("ni,ni->n", normals, ahead) > 0.0)
+    weights = barycentric(corners, places)
+    for name, (kind, values) in _layers(surface):
+        if own_layer(name) in asked:
+            _write(mesh, own_layer(name), kind, "CORNER", np.matmul(weights, values[triangle]))
+
+
+def _write(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, values: np.ndarray) -> None:
+    attribute = mesh.attributes.get(name) or mesh.attributes.new(name, kind, domain)
+    attribute.data.foreach_set(FIELDS.get(kind, "value"), values.astype(np.float32).reshape(-1))
 
 
 def _layers(surface: DiffuseScene):

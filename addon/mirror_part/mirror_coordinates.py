@@ -8,6 +8,10 @@ import numpy as np
 from ..writing.nodes.shader_builder import ShaderBuilder
 
 LONGEST_NAME = 60  # of an attribute, which Blender cuts
+BACK = "mirror_back"
+"""The attribute that is 1 on faces in which the eye sees the mirror's back, by which Cycles turns Fresnel over."""
+OWN_NORMAL = "mirror_own_normal"
+"""The attribute with the unit normal of the mirror at each point as the mirror's Normal coordinates have it."""
 NAMED = {"ATTRIBUTE": "attribute_name", "VERTEX_COLOR": "layer_name"}
 NEARLY = 1e-4  # of a picture: what a map may stray from a linear one by
 BY_UV = {"TEX_IMAGE"}
@@ -33,6 +37,8 @@ class MirrorCoordinates:
         """Let those of the nodes that go by the result's coordinates and attributes go by the mirror's."""
         for node in nodes:
             if node.type == "TEX_COORD" and node.object is None:
+                for link in list(node.outputs["Normal"].links):
+                    self.build.feed(self._normal(), link.to_socket)
                 for name in ("Object", "Generated", "UV"):
                     self._feed(list(node.outputs[name].links), name)
             elif node.type == "UVMAP":
@@ -77,6 +83,9 @@ class MirrorCoordinates:
             else:
                 self.made[key] = self._layer(uv_map) if name == "UV" else None
         return self.made[key]
+
+    def _normal(self) -> bpy.types.NodeSocket:
+        return self.build.add("ShaderNodeAttribute", attribute_name=OWN_NORMAL).outputs["Vector"]
 
     def _layer(self, uv_map: str) -> bpy.types.NodeSocket | None:
         """A UV map that is not linear all over the mirror, from the result's corners."""

@@ -12,7 +12,7 @@ from ..reading.materials import has_sharp_coat, index_of, is_sharp, surface_shad
 from ..writing import UV_MAP, show_unblurred
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
-from .mirror_coordinates import MirrorCoordinates
+from .mirror_coordinates import BACK, MirrorCoordinates
 from .mirror_share import GLOSSY, NORMAL, layer_weights_as_fresnel
 
 
@@ -62,7 +62,7 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
             MirrorCoordinates(build, around.mirror).take_over(own)
         shown = None if shader is None else build.shown(shader)
         build.bend_normals()
-        build.reflect_outside()
+        build.reflect_by_side()
     output = tree.get_output_node("ALL")
     if shown is not None:
         if not opaque:
@@ -174,13 +174,17 @@ class _Builder(ShaderBuilder):
             if socket is not None and not socket.is_linked:
                 self.feed(normal.outputs["Vector"], socket)
 
-
-    def reflect_outside(self) -> None:
-        """Let Fresnel be that of the mirror's outside on faces which show the back of what is reflected: there Cycles
-        takes the eye to be inside."""
-        inside = self.add("ShaderNodeNewGeometry").outputs["Backfacing"]
+    def reflect_by_side(self) -> None:
+        """Let Fresnel go by the side of the mirror that the eye sees. Cycles takes the eye to be within what turns its
+        back, and a result turns its back wherever it shows that of what is reflected."""
         layer_weights_as_fresnel(self)
-        for node in [node for node in self.tree.nodes if node.type == "FRESNEL"]:
+        nodes = [node for node in self.tree.nodes if node.type == "FRESNEL"]
+        if not nodes:
+            return
+        shown_back = self.add("ShaderNodeNewGeometry").outputs["Backfacing"]
+        seen_back = self.add("ShaderNodeAttribute", attribute_name=BACK).outputs["Fac"]
+        inside = self.calculated("ABSOLUTE", self.calculated("SUBTRACT", shown_back, seen_back))
+        for node in nodes:
             index = given(node.inputs["IOR"])
             choice = self.add("ShaderNodeMix")
             for value, socket in ((inside, choice.inputs[0]), (index, choice.inputs[2]),

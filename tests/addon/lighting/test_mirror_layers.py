@@ -5,15 +5,22 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from lamp_scenes import link, picture, principled, psnr, scene_of, shader_of
+from lamp_scenes import link, mirror_material, picture, principled, psnr, scene_of, shader_of
 
 
 def _ball(scene, paint: str) -> bpy.types.Object:
     """A ball in the place of the wall mirror: tinted, or varnished paint, by a map or colours that differ from those of
     what it shows; a part of tinted ones is matte."""
     bpy.data.objects.remove(bpy.data.objects["Mirror"])
-    ball = parts.add("uv_sphere", "Mirror", radius=1.5, location=(0.0, 1.0, 0.9), segments=24, ring_count=12)
+    ball = parts.add("uv_sphere", "Mirror", radius=1.5, location=(0.0, 1.0, 0.9), segments=24, ring_count=12,
+                     rotation=(0.5, 0.2, 0.4))
     ball.data.shade_smooth()
+    if paint == "Fresnel from behind":
+        ball.data.flip_normals()
+        ball.data.materials.append(mirror_material("Fresnel"))
+        parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], ball)
+        ball.reflection_mesh.role = "MIRROR"
+        return ball
     varnished = paint.startswith("varnish")
     made = principled("Ball", Metallic=0.0 if varnished else 1.0, Roughness=0.9 if varnished else 0.0)
     tree, shader = made.node_tree, shader_of(made)
@@ -31,14 +38,16 @@ def _ball(scene, paint: str) -> bpy.types.Object:
     else:
         checks = tree.nodes.new("ShaderNodeTexChecker")
         checks.inputs["Color1"].default_value, checks.inputs["Color2"].default_value = (1, .9, .5, 1), (.2, .4, .9, 1)
-        checks.inputs["Scale"].default_value = 16.0
         if "map" in paint:
+            checks.inputs["Scale"].default_value = 16.0
             ball.data.uv_layers[0].name = "Livery"
             coordinates = tree.nodes.new("ShaderNodeUVMap")
             coordinates.uv_map = "Livery"
             link(tree, coordinates.outputs[0], checks.inputs["Vector"])
         else:
-            link(tree, tree.nodes.new("ShaderNodeTexCoord").outputs["UV"], checks.inputs["Vector"])
+            checks.inputs["Scale"].default_value = 16.0 if paint == "tint" else 3.0
+            coordinates = tree.nodes.new("ShaderNodeTexCoord").outputs
+            link(tree, coordinates["UV" if paint == "tint" else "Normal"], checks.inputs["Vector"])
         link(tree, checks.outputs["Color"], shader.inputs["Base Color"])
     for polygon in ball.data.polygons:
         polygon.material_index = int(polygon.center.z < -0.9 and not varnished)
@@ -49,7 +58,7 @@ def _ball(scene, paint: str) -> bpy.types.Object:
 
 @pytest.mark.parametrize(("paint", "faces"), [
     ("tint", "cut"), ("varnish map", "cut"), ("tint by colours", "cut"), ("varnish by colours, the active", "cut"),
-    ("varnish map", "whole")])
+    ("tint by normals", "cut"), ("Fresnel from behind", "cut"), ("varnish map", "whole")])
 def test_its_look_stays_on_a_curved_mirror(blank, room, paint, faces):
     scene_of(blank)
     ball = _ball(blank.scene, paint)
