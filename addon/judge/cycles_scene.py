@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..faults import still_there
+from ..reading import is_rendered
 
 RAYS = ("camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow")
 
@@ -91,7 +92,7 @@ def _copy_objects(context: bpy.types.Context, copied: CopiedScene, mirrors: list
         evaluated = instance.object
         original = evaluated.original
         owner = instance.parent.original if instance.is_instance else original
-        if owner not in seen or owner in old_results or original.hide_render or not instance.show_self:
+        if owner not in seen or owner in old_results or not is_rendered(instance) or not instance.show_self:
             continue
         if original.type == "LIGHT" and not instance.is_instance:
             copied.lights.append(original)

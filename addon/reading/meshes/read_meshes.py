@@ -15,6 +15,7 @@ from .creases import Creases
 from .read_layers import NO_LAYERS, read_layers
 from .source_lines import SourceLines
 
+NO_NUMBER = 2**31 - 1  # of a level of instances that there is not: a whole collection has one, and one of each object
 FARTHEST = 1e17  # units: squares of what lies somewhat further must still be numbers of single precision
 
 
@@ -99,6 +100,16 @@ def drawn_meshes(depsgraph: bpy.types.Depsgraph) -> Iterator[bpy.types.Depsgraph
             if instance.object.type == "MESH" and instance.show_self)
 
 
+def is_rendered(instance: bpy.types.DepsgraphObjectInstance) -> bool:
+    """Whether renders show something at a place. What Geometry Nodes or particles instance they show though it is
+    hidden there itself, as what is instanced mostly is; of collections, vertices and faces they do not."""
+    if not instance.object.original.hide_render:
+        return True
+    alone = instance.is_instance and instance.persistent_id[1] == NO_NUMBER
+    return instance.is_instance and (instance.particle_system is not None
+                                     or alone and instance.parent.instance_type == "NONE")
+
+
 def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool,
                 known: Callable | None = None) -> list[Placed]:
     """Each distinct mesh of `objects`, modifiers applied, with every place where it or an instance of it stands.
@@ -121,7 +132,8 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool,
         owner = owner_of.get(instance.parent.original if instance.is_instance else original)
         if owner is None:
             continue
-        if instance.is_instance and not (_takes_part(original) and (mirror or original.visible_glossy)):
+        if instance.is_instance and not (is_rendered(instance) and _takes_part(original)
+                                         and (mirror or original.visible_glossy)):
             continue
         materials = tuple(slot.material.original if slot.material else None for slot in evaluated.material_slots)
         key = (evaluated.data.as_pointer(), materials)
@@ -166,7 +178,7 @@ def _name(instance: bpy.types.DepsgraphObjectInstance, materials: tuple, mirror:
 
 
 def _takes_part(obj: bpy.types.Object) -> bool:
-    return not obj.hide_render and obj.reflection_mesh.role not in {"IGNORE", "REFLECTION", "CAUSTICS"}
+    return obj.reflection_mesh.role not in {"IGNORE", "REFLECTION", "CAUSTICS"}
 
 
 def _read(obj: bpy.types.Object, materials: tuple, mirror: bool) -> LocalMesh | None:
