@@ -8,7 +8,7 @@ import numpy as np
 from ...core import View
 from ...core.geometry import unit
 from ...core.trees import BoxTree, first_hits
-from ..mirror_part import BACK, NORMAL, OWN_NORMAL, own_layer
+from ..mirror_part import BACK, NORMAL, OWN_NORMAL, OWN_PLACE, own_layer
 from ..reading import DiffuseScene, read_scene, vectors
 from ..reading.materials import asked_attributes
 from ..writing import FIELDS
@@ -25,9 +25,13 @@ def write_mirror_layers(result: bpy.types.Object, view: View, material: bpy.type
     asked = asked_attributes([material])
     if mirror is None:
         return
+    to_world = np.array(mirror.matrix_world, dtype=np.float64)
     if OWN_NORMAL in asked and NORMAL in mesh.attributes:
-        turned = vectors(mesh, NORMAL) @ np.array(mirror.matrix_world, dtype=np.float64)[:3, :3]
-        _write(mesh, OWN_NORMAL, "FLOAT_VECTOR", "POINT", unit(turned.T).T)
+        _write(mesh, OWN_NORMAL, "FLOAT_VECTOR", "POINT", unit((vectors(mesh, NORMAL) @ to_world[:3, :3]).T).T)
+    if OWN_PLACE in asked:
+        # a mirror of no thickness has no way back along it
+        own_place = (vectors(mesh, "mirror_position") - to_world[:3, 3]) @ np.linalg.pinv(to_world[:3, :3]).T
+        _write(mesh, OWN_PLACE, "FLOAT_VECTOR", "POINT", own_place)
     own = {own_layer(name) for name in mirror.data.attributes.keys()} if mirror.type == "MESH" else set()
     if asked.isdisjoint(own | {BACK}):
         return

@@ -1,10 +1,10 @@
 """What mirrors make of the light that they show: their shaders, with light in place of what is glossy in them."""
 from .later_mirrors import LaterMirrors
-from .mirror_coordinates import BACK, OWN_NORMAL, own_layer
+from .mirror_coordinates import BACK, OWN_NORMAL, OWN_PLACE, own_layer
 from .mirror_part import Surroundings, new_object_material
 from .mirror_share import NORMAL, WHITE, Share
 from .opacity import as_mirrors_see, hide_own_light, opacity_of, show_opacity, turn_over, without_openings
 
-__all__ = ["BACK", "LaterMirrors", "NORMAL", "OWN_NORMAL", "Share", "Surroundings", "WHITE", "as_mirrors_see",
-           "hide_own_light", "new_object_material", "opacity_of", "own_layer", "show_opacity", "turn_over",
-           "without_openings"]
+__all__ = ["BACK", "LaterMirrors", "NORMAL", "OWN_NORMAL", "OWN_PLACE", "Share", "Surroundings", "WHITE",
+           "as_mirrors_see", "hide_own_light", "new_object_material", "opacity_of", "own_layer", "show_opacity",
+           "turn_over", "without_openings"]

@@ -10,8 +10,9 @@ from ..writing.nodes.shader_builder import ShaderBuilder
 LONGEST_NAME = 60  # of an attribute, which Blender cuts
 BACK = "mirror_back"
 """The attribute that is 1 on faces in which the eye sees the mirror's back, by which Cycles turns Fresnel over."""
-OWN_NORMAL = "mirror_own_normal"
-"""The attribute with the unit normal of the mirror at each point as the mirror's Normal coordinates have it."""
+OWN_NORMAL, OWN_PLACE = "mirror_own_normal", "mirror_own_place"
+"""The attributes with the mirror's unit normal at each point, and with where that is seen, in the mirror's own space: a
+result may lie before the mirror, or behind it."""
 NAMED = {"ATTRIBUTE": "attribute_name", "VERTEX_COLOR": "layer_name"}
 NEARLY = 1e-4  # of a picture: what a map may stray from a linear one by
 BY_UV = {"TEX_IMAGE"}
@@ -25,10 +26,7 @@ def own_layer(name: str) -> str:
 
 
 class MirrorCoordinates:
-    """The coordinates and attributes of `mirror` as nodes of a tree, each made where it is asked for first.
-
-    They go by where the mirror stands, so that its textures move with it.
-    """
+    """The coordinates and attributes of `mirror` as nodes of a tree, each made where it is asked for first."""
 
     def __init__(self, build: ShaderBuilder, mirror: bpy.types.Object) -> None:
         self.build, self.mirror, self.made = build, mirror, {}
@@ -74,12 +72,11 @@ class MirrorCoordinates:
         """The coordinates of that name; None where they are not known all over the mirror."""
         key = name, uv_map
         if key not in self.made:
-            at = self.build.add("ShaderNodeTexCoord", object=self.mirror).outputs["Object"]
             matrix = None if name == "Object" else self._matrix(name, uv_map)
             if name == "Object":
-                self.made[key] = at
+                self.made[key] = self.build.add("ShaderNodeAttribute", attribute_name=OWN_PLACE).outputs["Vector"]
             elif matrix is not None:
-                self.made[key] = self._linear(at, matrix)
+                self.made[key] = self._linear(self._named("Object"), matrix)
             else:
                 self.made[key] = self._layer(uv_map) if name == "UV" else None
         return self.made[key]
