@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from ..judge import CopiedScene, render_picture, show, take_settings
-from ..rendering import copied_scene, look_through, only_the_picture, sharp_camera
+from ..rendering import copied_scene, look_through, only_the_picture, sharp_camera, show_mirrors
 
 NAME = "Reflection Comparison"
 
@@ -71,10 +71,10 @@ def render_lit(context: bpy.types.Context, results: list, samples: int) -> Gener
         scene.cycles.time_limit = 0.0
         take_settings(scene, user)
         look_through(scene, sharp_camera(user.camera), back)
-        _show_mirrors([obj for obj in user.objects if obj.reflection_mesh.role == "REFLECTION" and obj not in results],
-                      back)
+        show_mirrors([obj for obj in user.objects if obj.reflection_mesh.role == "REFLECTION" and obj not in results],
+                     back)
         with ExitStack() as without:
-            _show_mirrors(results, without)
+            show_mirrors(results, without)
             yield "the picture with the mirror"
             reference, first = _timed(scene, samples, user)
             yield "the picture with the mirror once more"
@@ -82,17 +82,6 @@ def render_lit(context: bpy.types.Context, results: list, samples: int) -> Gener
         yield "the picture with the mesh"
         result, second = _timed(scene, samples, user)
     return Pictures(reference, result, {"reference": first, "result": second}, again)
-
-
-def _show_mirrors(results: list, back: ExitStack) -> None:
-    """Let mirrors be seen in the place of results, until the stack takes that back."""
-    for result in results:
-        back.callback(setattr, result, "hide_render", result.hide_render)
-        result.hide_render = True
-        mirror = result.reflection_mesh.mirror
-        if mirror is not None and mirror.reflection_mesh.camera_hidden:
-            back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
-            mirror.visible_camera = True
 
 
 def _timed(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> tuple[np.ndarray, float]:

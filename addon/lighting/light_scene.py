@@ -22,6 +22,7 @@ from ..rendering import (
     put_swift_world,
     rendered,
     sharp_camera,
+    show_mirrors,
 )
 from .clear_air import clear_air, is_of_fog
 from .cutting import cut_through
@@ -107,13 +108,7 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         _prepare(scene, window)
         put_swift_world(scene, back)
         look_through(scene, sharp_camera(context.scene.camera), back)
-        for result in results:
-            back.callback(setattr, result, "hide_render", result.hide_render)
-            result.hide_render = True
-            mirror = result.reflection_mesh.mirror
-            if mirror is not None and mirror.reflection_mesh.camera_hidden:
-                back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
-                mirror.visible_camera = True
+        show_mirrors(results, back)
         mirrors = {result.reflection_mesh.mirror for result in results} - {None}
         others, parts = _seen_others(context, {*results, *mirrors})
         # where a mirror stands in fog, Cycles knows of it on the way from there by the way to there alone

@@ -61,3 +61,14 @@ def only_the_picture(render: bpy.types.RenderSettings) -> None:
     for name in ("use_compositing", "use_sequencer", "use_motion_blur", "use_freestyle", "use_multiview", "use_stamp",
                  "film_transparent"):
         setattr(render, name, False)
+
+
+def show_mirrors(results: list, back: ExitStack) -> None:
+    """Let mirrors be seen in the place of results, until the stack takes that back."""
+    for result in results:
+        back.callback(setattr, result, "hide_render", result.hide_render)
+        result.hide_render = True
+        mirror = result.reflection_mesh.mirror
+        if mirror is not None and mirror.reflection_mesh.camera_hidden:
+            back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
+            mirror.visible_camera = True

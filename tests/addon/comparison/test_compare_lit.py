@@ -35,20 +35,11 @@ def test_compare_tells_how_lit_pictures_differ(lit, tmp_path, source, mirror):
 def test_the_pictures_are_those_that_the_file_shows(lit, room):
     """With the sampling of the scene, against renders of the file: what they differ by is noise."""
     result = lit("Random", "Tint")
-    compared = _drawn(room("addon.comparison.pictures").render_lit(bpy.context, [result], 0))
+    compared = room("addon.faults").finished(room("addon.comparison.pictures").render_lit(bpy.context, [result], 0))
     srgb = room("addon.metrics.picture_metrics").srgb
     assert psnr(srgb(compared.result), picture(room)) > 30.0
     result.hide_render = True
     assert psnr(srgb(compared.reference), picture(room)) > 30.0
-
-
-def _drawn(renders):
-    """What a generator returns at its end."""
-    while True:
-        try:
-            next(renders)
-        except StopIteration as stop:
-            return stop.value
 
 
 def test_the_file_stays_as_it_was_wherever_it_is_stopped(lit, room):

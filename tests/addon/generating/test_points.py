@@ -211,13 +211,6 @@ def test_coarse_objects_are_told(blank, room):
     leaf = parts.add_triangle("Leaf", [(-0.5, -1.0, 0.6), (0.7, -1.5, 0.8), (0.1, -0.5, 1.7)])
     parts.select(leaf, parts.add_wall_mirror())
     generate, choose = room("addon.operators.generate").generation, room("addon.reading.roles").choose
-    outcome = _end(generate(bpy.context, choose(bpy.context), room("core").Settings(method="POINTS")))
+    steps = generate(bpy.context, choose(bpy.context), room("core").Settings(method="POINTS"))
+    outcome = room("addon.faults").finished(steps)
     assert len(outcome.remarks) == 1 and outcome.remarks[0].startswith("Mirror: 3 of 3 points")
-
-
-def _end(steps):
-    while True:
-        try:
-            next(steps)
-        except StopIteration as stop:
-            return stop.value
