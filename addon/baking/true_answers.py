@@ -70,7 +70,7 @@ class _Answers(ShaderBuilder):
 
     def in_camera(self, view: View) -> bpy.types.NodeSocket:
         """Where a point is, as the camera counts: to the right, up and ahead."""
-        return self._combined(*(self._place(row) for row in _ahead(view)[:3]))
+        return self.combined(*(self._place(row) for row in _ahead(view)[:3]))
 
     def depth(self, view: View) -> bpy.types.NodeSocket:
         return self._place(_ahead(view)[2])
@@ -79,19 +79,13 @@ class _Answers(ShaderBuilder):
         """Where in the picture a point is, from its lower left corner to the upper right one."""
         clip = view.projection @ np.linalg.inv(view.camera_to_world)
         ahead = self._place(clip[3])
-        return self._combined(*(self.calculated("DIVIDE", self._place(0.5 * (clip[axis] + clip[3])), ahead)
-                                for axis in (0, 1)))
+        return self.combined(*(self.calculated("DIVIDE", self._place(0.5 * (clip[axis] + clip[3])), ahead)
+                               for axis in (0, 1)), 0.0)
 
     def _place(self, row: np.ndarray) -> bpy.types.NodeSocket:
         """A linear function of where a point is."""
         position = self.add("ShaderNodeNewGeometry").outputs["Position"]
         return self.calculated("ADD", self.dot(position, tuple(row[:3].tolist())), float(row[3]))
-
-    def _combined(self, *values) -> bpy.types.NodeSocket:
-        node = self.add("ShaderNodeCombineXYZ")
-        for value, socket in zip(values, node.inputs):
-            self.feed(value, socket)
-        return node.outputs[0]
 
 
 def _ahead(view: View) -> np.ndarray:

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from ..writing.nodes.shader_builder import ShaderBuilder
+from .box_projection import project_by
 
 LONGEST_NAME = 60  # of an attribute, which Blender cuts
 BACK = "mirror_back"
@@ -49,6 +50,9 @@ class MirrorCoordinates:
                     coordinates = self._named("UV" if node.type in BY_UV else "Generated")
                     if coordinates is not None:
                         self.build.feed(coordinates, socket)
+        for node in nodes:
+            if node.type == "TEX_IMAGE" and node.projection == "BOX":
+                project_by(self.build, node, self._normal())
 
     def _rename(self, node: bpy.types.Node, field: str) -> None:
         """Let a node read the mirror's attribute, which the result knows by another name."""
@@ -100,10 +104,8 @@ class MirrorCoordinates:
 
     def _linear(self, at: bpy.types.NodeSocket, matrix: np.ndarray) -> bpy.types.NodeSocket:
         """What a matrix (3, 4) makes of a place."""
-        both = self.build.add("ShaderNodeCombineXYZ")
-        for row, socket in zip(matrix.tolist(), both.inputs):
-            self.build.feed(self.build.calculated("ADD", self.build.dot(at, tuple(row[:3])), row[3]), socket)
-        return both.outputs[0]
+        return self.build.combined(*(self.build.calculated("ADD", self.build.dot(at, tuple(row[:3])), row[3])
+                                     for row in matrix.tolist()))
 
     def _matrix(self, name: str, uv_map: str) -> np.ndarray | None:
         """How coordinates follow from places in the mirror's own space, where they do so evenly."""

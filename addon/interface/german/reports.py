@@ -20,6 +20,9 @@ DONE = {
     "choose Light: Objects to keep it while things move.":
         "So viele Objekte werden gespiegelt, dass ihr Licht nur für dieses Bild gemacht ist: backe Einzelbilder für "
         "eine Animation, oder wähle Licht: Objekte, damit es bleibt, während sich etwas bewegt.",
+    "The matte part of {} is lit where the reflection lies: choose Placement: Layered, or Light: Picture for a still.":
+        "Der matte Teil von {} wird beleuchtet, wo die Spiegelung liegt: wähle die Lage Geschichtet, oder für ein "
+        "Standbild Licht: Bild.",
     "The gloss of {} is not what so close a curved mirror shows: choose Light: Picture for a still.":
         "Der Glanz von {} ist nicht der, den ein so naher gekrümmter Spiegel zeigt: wähle Licht: Bild für ein "
         "Standbild.",

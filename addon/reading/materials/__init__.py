@@ -15,9 +15,10 @@ from .mirror_materials import (
 )
 from .opaque_materials import fog_of, is_clear, is_fog, is_opaque
 from .own_light import glows
+from .surface_shaders import surface_shaders
 from .transparency import transparency
 
 __all__ = ["MIRRORS", "SHARP_ROUGHNESS", "all_fog", "all_nodes", "asked_attributes", "emits", "fog_of", "glows",
            "has_sharp_coat", "index_of", "is_clear", "is_exact", "is_fog", "is_mirror", "is_opaque", "is_sharp",
            "materials_of", "materials_on_faces", "materials_shown", "own_materials", "shines", "surface_shader",
-           "transparency", "upright"]
+           "surface_shaders", "transparency", "upright"]

@@ -53,6 +53,19 @@ class ShaderBuilder(Builder):
                 self.feed(value, socket)
         return next(socket for socket in node.outputs if socket.enabled)
 
+    def combined(self, x, y, z) -> bpy.types.NodeSocket:
+        """A vector of three numbers."""
+        node = self.add("ShaderNodeCombineXYZ")
+        for value, socket in zip((x, y, z), node.inputs):
+            self.feed(value, socket)
+        return node.outputs[0]
+
+    def separated(self, vector) -> tuple:
+        """The three numbers of a vector."""
+        node = self.add("ShaderNodeSeparateXYZ")
+        self.feed(vector, node.inputs[0])
+        return tuple(node.outputs)
+
     def dot(self, first, second) -> bpy.types.NodeSocket:
         """The product of two vectors, a number."""
         return self.vector("DOT_PRODUCT", first, second)

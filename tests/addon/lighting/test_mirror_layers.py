@@ -8,6 +8,13 @@ import pytest
 from lamp_scenes import link, mirror_material, picture, principled, psnr, scene_of, shader_of
 
 
+def random_picture() -> bpy.types.Image:
+    image = bpy.data.images.new("Random", 8, 8)
+    pixels = np.random.default_rng(4).uniform(0.2, 1.0, (64, 4)).astype(np.float32)
+    image.pixels.foreach_set(pixels.ravel())
+    return image
+
+
 def _ball(scene, paint: str) -> bpy.types.Object:
     """A ball in the place of the wall mirror: tinted, or varnished paint, by a map or colours that differ from those of
     what it shows; a part of tinted ones is matte."""
@@ -35,6 +42,12 @@ def _ball(scene, paint: str) -> bpy.types.Object:
         read = tree.nodes.new("ShaderNodeVertexColor")
         read.layer_name = "" if paint.endswith("active") else "Col"
         link(tree, read.outputs["Color"], shader.inputs["Base Color"])
+    elif "box" in paint:
+        by_box = tree.nodes.new("ShaderNodeTexImage")
+        by_box.projection, by_box.projection_blend = "BOX", 0.4 if "blended" in paint else 0.0
+        by_box.image, by_box.interpolation = random_picture(), "Closest"
+        link(tree, tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"], by_box.inputs["Vector"])
+        link(tree, by_box.outputs["Color"], shader.inputs["Base Color"])
     else:
         checks = tree.nodes.new("ShaderNodeTexChecker")
         checks.inputs["Color1"].default_value, checks.inputs["Color2"].default_value = (1, .9, .5, 1), (.2, .4, .9, 1)
@@ -58,7 +71,8 @@ def _ball(scene, paint: str) -> bpy.types.Object:
 
 @pytest.mark.parametrize(("paint", "faces"), [
     ("tint", "cut"), ("varnish map", "cut"), ("tint by colours", "cut"), ("varnish by colours, the active", "cut"),
-    ("tint by normals", "cut"), ("Fresnel from behind", "cut"), ("varnish map", "whole")])
+    ("tint by normals", "cut"), ("tint by box", "cut"), ("tint by blended box", "cut"),
+    ("Fresnel from behind", "cut"), ("varnish map", "whole")])
 def test_its_look_stays_on_a_curved_mirror(blank, room, monkeypatch, paint, faces):
     scene_of(blank)
     ball = _ball(blank.scene, paint)

@@ -155,3 +155,14 @@ def test_linked_objects_are_baked_under_their_names(blank, tmp_path):
     result = parts.generate()
     light(1)
     assert result.reflection_mesh.light_map is not None and not box.hide_render and box.name == "Box"
+
+
+@pytest.mark.parametrize(("mirror", "placement", "told"), [
+    ("Fresnel", "SURFACE", True), ("Fresnel", "VIRTUAL", True), ("Fresnel", "LAYERED", False),
+    ("Tint", "SURFACE", False)])
+def test_where_mirrors_shadow_their_own_matte_part_that_is_said(blank, capsys, mirror, placement, told):
+    """The matte part of a result is lit by lamps as it lies: on the mirror, or behind it, in the mirror's shadow."""
+    scene_of(blank, "", mirror)
+    parts.generate(placement=placement)
+    light(1)
+    assert ("The matte part of 'Mirror' is lit where the reflection lies" in capsys.readouterr().out) == told
