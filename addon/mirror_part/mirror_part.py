@@ -8,7 +8,7 @@ import bpy
 from .. import compat
 from ..faults import AllOrNothing, remove_new
 from ..lamps import ShownLamp, lamp_light
-from ..reading.materials import has_sharp_coat, index_of, is_sharp, surface_shader
+from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, surface_shader
 from ..writing import UV_MAP, show_unblurred
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
@@ -28,11 +28,14 @@ class Surroundings:
         That stand before what is shown.
     later : LaterMirrors
         That it shows mirrors in.
+    behind : bool
+        Whether the mirror itself is seen behind what shows the light.
     """
 
     mirror: bpy.types.Object | None = None
     lamps: tuple[ShownLamp, ...] = ()
     later: LaterMirrors = LaterMirrors()
+    behind: bool = False
 
 
 def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Material | None, opaque: bool,
@@ -73,10 +76,22 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
         for link in list(output.inputs[name_].links):
             tree.links.remove(link)
     show_unblurred(tree, [build.light], output, whole)
+    if around.behind and not is_opaque(mirror):
+        _leave_to_the_mirror(tree)
     for node in tree.nodes:
         node.select = node == build.light
     tree.nodes.active = build.light
     return material
+
+
+def _leave_to_the_mirror(tree: bpy.types.NodeTree) -> None:
+    """Let Cycles see a mirror that light goes through, glass or what is cut out, and nothing before it: that shows its
+    reflection as well as what is behind it, and would show the former twice."""
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    output.target, output.location = "CYCLES", (0.0, 400.0)
+    clear = tree.nodes.new("ShaderNodeBsdfTransparent")
+    clear.location = (-200.0, 400.0)
+    tree.links.new(clear.outputs[0], output.inputs["Surface"])
 
 
 class _Builder(ShaderBuilder):
@@ -110,7 +125,13 @@ class _Builder(ShaderBuilder):
         return shader.outputs[0]
 
     def principled(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
-        """Light by the reflection of a Principled BSDF and of its coat, over what else it is."""
+        """Light by the reflection of a Principled BSDF and of its coat, over what else it is; clear where that is."""
+        alpha = given(shader.inputs["Alpha"])
+        cut(self.tree, shader.inputs["Alpha"], 1.0)
+        whole = self.varnished(shader)
+        return whole if alpha == 1.0 else self.mixed(alpha, self.add("ShaderNodeBsdfTransparent").outputs[0], whole)
+
+    def varnished(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
         coat = self.coat(shader)
         # under varnish paint may be matte
         below = shader.outputs[0] if coat is not None and not is_sharp(shader) else self.below_coat(shader)

@@ -209,7 +209,7 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int,
         whole.undo(bpy.data.meshes.remove, light_map)
         for result in lit:
             around = Surroundings(result.reflection_mesh.mirror, lamps_before(result, lamps),
-                                  LaterMirrors.of(result, context.scene.objects))
+                                  LaterMirrors.of(result, context.scene.objects), not result.reflection_mesh.window)
             material = new_object_material(NAME, image, _mirror_material(result), opaque, around, whole)
             yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets, light.dull),
                                          whole)

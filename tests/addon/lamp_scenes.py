@@ -100,6 +100,9 @@ def mirror_material(kind: str) -> bpy.types.Material:
         shader_of(silver).inputs["Roughness"].default_value = 0.1
     elif kind == "Half open":
         shader_of(silver).inputs["Alpha"].default_value = 0.7
+    elif kind == "Pane":
+        shader_of(silver).inputs["Metallic"].default_value = 0.0
+        shader_of(silver).inputs["Transmission Weight"].default_value = 1.0
     elif kind in ("Fresnel", "Layer weight"):
         share = tree.nodes.new("ShaderNodeFresnel" if kind == "Fresnel" else "ShaderNodeLayerWeight")
         ground, gloss, both = (tree.nodes.new(f"ShaderNode{name}") for name in ("BsdfDiffuse", "BsdfAnisotropic",

@@ -11,7 +11,7 @@ from lamp_scenes import link, picture, principled, psnr, scene_of, shine
 # gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
 SOURCES = ("Generated", "Object", "Normal", "UV", "Camera", "Window", "Reflection", "Bump", "Normal map", "Random",
            "Instances", "View distance", "Attribute", "Gloss", "Alpha", "Backfacing", "Light path")
-MIRRORS = ("Tint", "Textured tint", "Fresnel", "Layer weight")
+MIRRORS = ("Tint", "Textured tint", "Fresnel", "Layer weight", "Half open", "Pane")
 
 
 def light(samples: int = 64) -> None:
@@ -20,7 +20,7 @@ def light(samples: int = 64) -> None:
 
 @pytest.mark.parametrize(("source", "mirror"), [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)])
 def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
-    scene_of(blank, source, mirror)
+    scene_of(blank, source, mirror).reflection_mesh.role = "MIRROR"
     reference, other = picture(room), picture(room, seed=7)
     parts.generate()
     before = psnr(picture(room), reference)

@@ -26,7 +26,7 @@ TOLD = "Light: Picture"  # where a result is told to lack what this has
 
 @dataclass(frozen=True)
 class Judged:
-    """PSNR over the mirror's pixels, in dB, of the lit result and of Cycles with other noise; and how many these are."""
+    """PSNR, in dB, over the pixels of the mirror: of the lit result, and of Cycles with other noise; how many they are."""
 
     lit: float
     own: float
