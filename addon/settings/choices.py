@@ -3,7 +3,8 @@
 PLACEMENTS = (
     ("LAYERED", "Layered", "In front of the mirror, near images before far ones, so that they hide each other rightly",
      0),
-    ("SURFACE", "Surface", "Exactly on the mirror", 1),
+    ("SURFACE", "Surface", "Exactly on the mirror, where images over one another share a plane: for light of the "
+     "picture", 1),
     ("VIRTUAL", "Virtual", "Behind the mirror, where its picture seems to be; the mirror, now a window, is hidden from "
      "the camera", 2),
 )

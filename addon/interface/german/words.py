@@ -136,7 +136,8 @@ SETTINGS = {
     "In front of the mirror, near images before far ones, so that they hide each other rightly":
         "Vor dem Spiegel, Nahes vor Fernem, so dass eines das andere richtig verdeckt",
     "Surface": "Oberfläche",
-    "Exactly on the mirror": "Genau auf dem Spiegel",
+    "Exactly on the mirror, where images over one another share a plane: for light of the picture":
+        "Genau auf dem Spiegel, wo Bilder übereinander in einer Ebene liegen: für Licht des Bildes",
     "Virtual": "Virtuell",
     "Behind the mirror, where its picture seems to be; the mirror, now a window, is hidden from the camera":
         "Hinter dem Spiegel, wo sein Bild zu sein scheint; der Spiegel, jetzt ein Fenster, ist für die Kamera "

@@ -42,7 +42,8 @@ def lit_scene(seed: int) -> Scene:
     select(list(bpy.context.scene.objects), mirror)
     kind = chosen(rng, list(LIGHT))
     options = {"kind": kind, "samples": LIGHT[kind]}
-    placement = chosen(rng, ["LAYERED", "LAYERED", "SURFACE"])
+    # on the surface images over one another share a plane, and only the picture looks alike on all of them
+    placement = chosen(rng, ["LAYERED", "LAYERED", "SURFACE"]) if kind == "PICTURE" else "LAYERED"
     return Scene(", ".join([*names, placement, kind]), {"light": options, "placement": placement}, [mirror])
 
 
