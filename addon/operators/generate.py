@@ -79,7 +79,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
             if own[index].placement == "VIRTUAL":
-                remarks += window_shortcomings(context, mirror, result, chosen.mirrors)
+                remarks += window_shortcomings(context, mirror, view, result, chosen.mirrors)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             continue

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ...core import ReflectionError, ReflectionMesh
+from ...core import ReflectionError, ReflectionMesh, View
 from ..faults import one_or_more
 from ..reading import (
     Participants,
@@ -148,7 +148,7 @@ def _hidden(found: list) -> list[str]:
             "in no reflection: show them, or hide them in renders too."]
 
 
-def window_shortcomings(context: bpy.types.Context, mirror: bpy.types.Object, result: ReflectionMesh,
+def window_shortcomings(context: bpy.types.Context, mirror: bpy.types.Object, view: View, result: ReflectionMesh,
                         mirrors: list) -> list[str]:
     """Sentences on the window that `mirror` is to be, beside the others in `mirrors`.
 
@@ -160,11 +160,11 @@ def window_shortcomings(context: bpy.types.Context, mirror: bpy.types.Object, re
     if mirror.library is not None and mirror.visible_camera:
         return [f"{mirror.name}: this mirror is linked and cannot be hidden, so that it stands before the virtual "
                 "image; override it, or choose the placement Layered."]
-    hider, hidden = what_is_in_the_way(context, result, mirrors)
+    hider, hidden, disturbed = what_is_in_the_way(context, view, result, mirrors)
     if hidden > HIDDEN:
         raise ReflectionError(f"'{hider}' stands before the virtual image behind this mirror and would hide it; choose "
                               "the placement Layered, or hide that object from the camera.")
-    if hidden > PARTLY_HIDDEN:
+    if disturbed > PARTLY_HIDDEN:
         return [f"{mirror.name}: '{hider}' hides a part of the virtual image behind this mirror; the placement Layered "
                 "shows all of it."]
     return []

@@ -11,7 +11,7 @@ import numpy as np
 from bpy.app.handlers import persistent
 from mathutils import Vector
 
-from ...core import ReflectionMesh
+from ...core import ReflectionMesh, View
 from ..registration import Handlers
 
 RAYS = 200          # by which the view through a window is tried
@@ -40,28 +40,59 @@ def set_window(result: bpy.types.Object, placement: str) -> None:
     (open_window if record.window else close_window)(record.mirror)
 
 
-def what_is_in_the_way(context: bpy.types.Context, result: ReflectionMesh, mirrors: list) -> tuple[str, float]:
-    """Which object hides most of a virtual image, behind its mirror, and the share of it that anything hides.
+def what_is_in_the_way(context: bpy.types.Context, view: View, result: ReflectionMesh, mirrors: list
+                       ) -> tuple[str, float, float]:
+    """Which object hides most of a virtual image, behind its mirror, the share of it that anything hides, and that
+    together with what anything lies in, as a floor does in its own image.
 
     Parameters
     ----------
+    view : View
+        That the image was made for.
     mirrors : list of bpy.types.Object
         All that are to be windows.
     """
     if not len(result.positions):
-        return "", 0.0
+        return "", 0.0, 0.0
     depsgraph = context.evaluated_depsgraph_get()
-    some = np.unique(np.linspace(0, len(result.positions) - 1, RAYS).astype(np.int64))
+    ways = [_some(result.mirror_position, result.positions), _within_faces(result, view)]
     found: Counter = Counter()
-    for start, end in zip(result.mirror_position[some].tolist(), result.positions[some].tolist()):
-        found[_first_seen(context.scene, depsgraph, Vector(start), Vector(end), mirrors)] += 1
-    clear = found.pop("", 0)
-    return (found.most_common(1)[0][0], 1.0 - clear / len(some)) if found else ("", 0.0)
+    before, tried = 0, 0
+    for start, end in zip(*(np.concatenate(ends).tolist() for ends in zip(*ways))):
+        name, lies_before = _first_seen(context.scene, depsgraph, Vector(start), Vector(end), mirrors)
+        found[name] += bool(name)
+        before, tried = before + lies_before, tried + 1
+    (name, _), = found.most_common(1)
+    return name, before / tried, found.total() / tried
+
+
+def _some(*places: np.ndarray) -> list[np.ndarray]:
+    """As many as are to be tried."""
+    some = np.unique(np.linspace(0, len(places[0]) - 1, RAYS // 2).astype(np.int64))
+    return [own[some] for own in places]
+
+
+def _within_faces(result: ReflectionMesh, view: View) -> list[np.ndarray]:
+    """Places on the mirror, and on the image that is seen there, in the middle of faces: of large ones all vertices may
+    lie where the image ends."""
+    if not len(result.triangles):
+        return [np.zeros((0, 3))] * 2
+    triangles, = _some(result.triangles)
+    on_mirror = result.mirror_position[triangles].mean(axis=1)
+    origins, ways = view.rays(view.pixels(on_mirror))
+    a, b, c = np.moveaxis(result.positions[triangles], 1, 0)
+    normals = np.cross(b - a, c - a)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        away = ((a - origins) * normals).sum(axis=1) / (ways * normals).sum(axis=1)
+        behind = origins + away[:, None] * ways
+    known = np.isfinite(behind).all(axis=1) & (away > 0.0)
+    return [on_mirror[known], behind[known]]
 
 
 def _first_seen(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, start: Vector, end: Vector,
-                mirrors: list) -> str:
-    """The name of the first object that the camera sees between two places; empty where there is none."""
+                mirrors: list) -> tuple[str, bool]:
+    """The name of the first object that the camera sees between two places, or at the second, empty where there is
+    none; and whether it lies before that."""
     way = end - start
     # Blender's rays are in single precision, whose steps are wider far from the origin
     wide = max(map(abs, (*start, *end)))
@@ -70,13 +101,13 @@ def _first_seen(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, start: V
     for _ in range(MOST_THROUGH):
         hit, place, _, _, obj, _ = scene.ray_cast(depsgraph, at, direction, distance=(end - at).dot(direction))
         if not hit:
-            return ""
+            return "", False
         original = obj.original
         if (original not in mirrors and original.visible_camera and not original.hide_render
                 and original.reflection_mesh.role != "REFLECTION"):
-            return original.name
+            return original.name, (end - place).dot(direction) > 2.0 * step
         at = place + step * direction
-    return ""
+    return "", False
 
 
 def close_abandoned_windows() -> None:

@@ -39,7 +39,7 @@ def test_virtual_leaves_a_linked_mirror_alone(library, room):
     parts.select(leaf, mirror)
     parts.generate(placement="VIRTUAL")
     assert mirror.visible_camera
-    told, = room("addon.operators.shortcomings").window_shortcomings(bpy.context, mirror, None, [mirror])
+    told, = room("addon.operators.shortcomings").window_shortcomings(bpy.context, mirror, None, None, [mirror])
     assert "linked and cannot be hidden" in told
 
 

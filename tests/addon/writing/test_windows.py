@@ -197,6 +197,17 @@ def test_what_hides_a_part_is_told_of(scene, room):
                     "all of it.")
 
 
+@pytest.mark.parametrize("behind", [True, False])
+def test_a_floor_in_which_its_own_image_lies_is_told_of(blank, room, behind):
+    """Of the few faces of such an image all vertices lie on the borders of mirror and picture."""
+    mirror = parts.add_wall_mirror()
+    floor = parts.add("plane", "Floor", size=12.0, location=(0.0, 0.0 if behind else -5.0, 0.0))
+    parts.select(floor, mirror)
+    told = remarks(room)
+    assert ("Mirror: 'Floor' hides a part of the virtual image behind this mirror; the placement Layered shows all of "
+            "it." in told) == behind
+
+
 def test_the_mirror_itself_and_other_windows_do_not_count(scene, room):
     """A thick mirror's back is hidden with its front; so is another mirror behind it."""
     mirror, cube = scene

@@ -19,9 +19,9 @@ def mirror_material(rng: np.random.Generator) -> tuple[str, bpy.types.Material]:
     return kind, _made("Mirror", MIRRORS[kind], rng)
 
 
-def object_material(rng: np.random.Generator) -> tuple[str, bpy.types.Material]:
-    """What an object is called and made of."""
-    kind = chosen(rng, list(OBJECTS))
+def object_material(rng: np.random.Generator, without: tuple[str, ...] = ()) -> tuple[str, bpy.types.Material]:
+    """What an object is called and made of, none of the kinds `without`."""
+    kind = chosen(rng, [kind for kind in OBJECTS if kind not in without])
     return kind, _made("Object", OBJECTS[kind], rng)
 
 
