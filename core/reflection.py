@@ -220,7 +220,7 @@ def _whole_first(cameras: Cameras, uncut: int, task: Task,
     """The faces that a part of the mirror shows whole, drawn from the images of their vertices, and the task with what
     is left; cameras that have not been cut have no corners behind the first `uncut`."""
     settings, limits = task.settings, task.limits
-    if not isinstance(task.met.tree, SceneTree) or not _draws_whole(settings):
+    if not _draws_whole(settings):
         return None, task
     task.progress.next(0.15, "whole faces")
     eligible = _entire(cameras, uncut) & ~showing[cameras.face]

@@ -86,20 +86,17 @@ class SceneAndMirrors:
         self.surface = MirrorSurface(mirrors)
         self._beyond = rows(mirrors.opposite_corners)
         self.outward: np.ndarray | None = None
-        self._fronts: tuple[Fronts | None, Fronts | None] = (None, None)
+        self._fronts: list[Fronts | None] = [None, None]
         self._piece_fronts: Fronts | None = None
         self._number(None)
 
     def from_outside(self, view: View) -> SceneAndMirrors:
         """The same, without what closed bodies turn away from the view, which looks from outside."""
         seen = copy(self)
-        assert isinstance(self.tree, SceneTree)
-        fronts = []
-        for tree in (self.tree, self.mirror_tree):
-            outward = tree.bodies.outward_from(view)
-            fronts.append(Fronts.of(tree.mesh, outward) if outward.any() else None)
-            seen.outward = outward if tree is self.tree else seen.outward
-        seen._fronts = fronts[0], fronts[1]
+        trees = self.scene, self.mirror_tree
+        outward = [tree.bodies.outward_from(view) for tree in trees]
+        seen.outward = outward[0]
+        seen._fronts = [Fronts.of(tree.mesh, side) if side.any() else None for tree, side in zip(trees, outward)]
         return seen
 
     def _number(self, pieces: ScenePieces | None) -> None:
@@ -138,6 +135,12 @@ class SceneAndMirrors:
         return np.where(source < self._merged, source, source - self._merged)
 
     @property
+    def scene(self) -> SceneTree:
+        """The diffuse scene, where it is one of triangles: points have a trace of their own."""
+        assert isinstance(self.tree, SceneTree)
+        return self.tree
+
+    @property
     def bounds(self) -> tuple[np.ndarray, float]:
         """Centre (3,) and radius of a sphere round the diffuse scene."""
         sphere = self.tree.spheres[0][:, 0]
@@ -163,12 +166,11 @@ class SceneAndMirrors:
 
     def diffuse_in(self, cameras: Cameras, bound: Bound) -> Touching:
         """Cameras and diffuse triangles that may be seen in them."""
-        assert isinstance(self.tree, SceneTree)  # points have a trace of their own
         if self.pieces is None:
-            return _traced(self.tree, cameras, bound, self._fronts[0])
+            return _traced(self.scene, cameras, bound, self._fronts[0])
         on_patch = self.pieces.holds(cameras)
         found = []
-        for tree, first, own, fronts in ((self.tree, 0, ~on_patch, self._fronts[0]),
+        for tree, first, own, fronts in ((self.scene, 0, ~on_patch, self._fronts[0]),
                                          (self.pieces.tree, len(self.tree.mesh.triangles), on_patch,
                                           self._piece_fronts)):
             chosen = np.flatnonzero(own)
@@ -216,7 +218,7 @@ class SceneAndMirrors:
     def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
         """The triangle (n,) that each ray, from `origin` along unit vectors `ray` (3, n), meets first, -1 where none.
         They leave mirrors on `sides`, a place and a normal (3, n) each; what does not rise above is not met."""
-        diffuse, near = first_crossed(self.tree, origin, ray)
+        diffuse, near = first_crossed(self.scene, origin, ray)
         mirror, nearer = first_crossed(self.mirror_tree, origin, ray, ABOVE * self.size,
                                        lambda own, triangle: self._above(sides, own, triangle))
         return np.where(nearer < near, mirror + self.diffuse, diffuse)
@@ -224,12 +226,12 @@ class SceneAndMirrors:
     def hidden_within(self, origin: np.ndarray, ray: np.ndarray, reach: np.ndarray) -> np.ndarray:
         """Which rays (3, n), unit vectors, meet the diffuse scene within `reach` (n,) of where they begin, on a
         mirror."""
-        return first_crossed(self.tree, origin, ray, ABOVE * self.size, limit=reach)[0] >= 0
+        return first_crossed(self.scene, origin, ray, ABOVE * self.size, limit=reach)[0] >= 0
 
     def first_distances(self, origin: np.ndarray, ray: np.ndarray, diffuse: bool) -> np.ndarray:
         """How far along rays (3, n), unit vectors, the diffuse scene, or this and the mirrors lie, infinite where not
         at all."""
-        trees = [self.tree] if diffuse else [self.tree, self.mirror_tree]
+        trees = [self.scene] if diffuse else [self.scene, self.mirror_tree]
         return np.minimum.reduce([first_crossed(tree, origin, ray)[1] for tree in trees])
 
     def shown_at(self, cameras: Cameras, places: np.ndarray) -> np.ndarray:

@@ -8,21 +8,18 @@ import numpy as np
 from ..geometry import SceneFrames, columns
 from .cones import Cones
 from .first_hits import EDGE, first_hits
-from .point_tree import PointTree
 from .scene_tree import SceneTree
 
 WORTH_BOXES = 10  # triangles for each ray, up to which boxes round them pay: a ray through these takes a fifth, or less
 
 
-def first_crossed(tree: SceneTree | PointTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,
+def first_crossed(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,
                   asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
                   limit: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
     """The triangle (n,) of a tree that each ray (3, n), a unit vector, meets first farther than `beyond` and nearer
     than `limit` (n,), -1 where it meets none, and how far away, infinite there; of pairs (ray, triangle) only those
     that are `asked` for."""
     count = ray.shape[1]
-    if isinstance(tree, PointTree):
-        return np.full(count, -1), np.full(count, np.inf)
     if count * WORTH_BOXES > len(tree):  # by counts alone, so that what is kept from before changes nothing
         hits = first_hits(tree.boxes, origin, ray, least=beyond, asked=asked, limit=limit)
         return hits.triangle, hits.distance

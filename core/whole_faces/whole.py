@@ -135,8 +135,7 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, re
     WholeFaces or None
         None where no part of the mirror may show any, or too few to be worth it.
     """
-    tree = met.tree
-    assert isinstance(tree, SceneTree)
+    tree = met.scene
     positions, triangles = tree.mesh.positions, tree.mesh.triangles
     if not LEAST_TRIANGLES <= len(triangles) <= most or speck(cameras.view, tree.spheres[0][:, 0]):
         return None
