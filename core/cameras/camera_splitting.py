@@ -58,10 +58,9 @@ def split_at(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np
                             rays), parent
 
 
-def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
-                weights: np.ndarray) -> tuple[Cameras, np.ndarray]:
+def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray, weights: np.ndarray) -> Cameras:
     """The `whole` cameras (n,) and behind them pieces (m) of the cameras `parent`, with weights (3, 3, m) of their
-    corners, entry [i, k]: weight i of corner k; and the parents. New corners are welded where place and ray agree."""
+    corners, entry [i, k]: weight i of corner k. New corners are welded where place and ray agree."""
     mirror_map = cameras.mirror_map
     places = np.einsum("xjn,jkn->xkn", np.take(cameras.places, cameras.corners[parent].T, axis=1), weights)
     places, face = places.reshape(3, -1), np.tile(cameras.face[parent], 3)
@@ -80,7 +79,7 @@ def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray,
     kept = cameras.select(whole)
     return cameras.replaced(np.concatenate((kept.corners, corner.reshape(3, -1).T)),
                             np.concatenate((kept.face, cameras.face[parent])), places[:, first], origins[:, first],
-                            rays[:, first]), parent
+                            rays[:, first])
 
 
 def true_rays(mirror_map: ReflectionMap, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

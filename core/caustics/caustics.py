@@ -148,4 +148,4 @@ def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, rec
         uv = ray_map.coordinates(owner, seen.mirror_position[corner].T)
         parts.append(light_at(ray_map, owner, uv, points[:, corner], np.tile(normal[:, own], 3), lamp))
     return LitFaces(triangles, points, face, normal, source, chosen, seen.source_sides[chosen] >= 0,
-                    np.full((len(chosen), 3), np.nan), Corners.joined(parts, 3))
+                    np.full((len(chosen), 3), np.nan), Corners.joined(parts))

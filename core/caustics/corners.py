@@ -57,11 +57,11 @@ class Corners:
     arrived: np.ndarray
 
     @staticmethod
-    def joined(parts: Sequence[Corners], runs: int = 1) -> Corners:
-        """Several as one, which are `runs` runs of corners each: run after run."""
+    def joined(parts: Sequence[Corners]) -> Corners:
+        """Several as one, which are runs of the first, second and third corners each: run after run."""
         def together(name: str) -> np.ndarray:
             values = [getattr(part, name) for part in parts]
-            values = [value.reshape(*value.shape[:-1], runs, -1) for value in values]
+            values = [value.reshape(*value.shape[:-1], 3, -1) for value in values]
             joined = np.concatenate(values, axis=-1)
             return joined.reshape(*joined.shape[:-2], -1)
         return Corners(*(together(name) for name in NAMES))

@@ -105,7 +105,7 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, la
         if not marked.any() or len(faces) + marked.sum() > most:
             break
         asked = np.concatenate((asked, beside))
-        middles = Corners.joined([middles, more], 3)
+        middles = Corners.joined([middles, more])
         place = np.full(len(faces), -1)
         place[asked] = np.arange(len(asked))
         faces, parent = _split(faces, edge, chosen, (place, middles, np.concatenate((points, more_points), axis=2)))
@@ -185,7 +185,7 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within:
         parts.append(light)
         points.append(point.reshape(3, 3, -1))
         found.append(good.reshape(3, -1).T)
-    return Corners.joined(parts, 3), np.concatenate(points, axis=2), np.concatenate(found)
+    return Corners.joined(parts), np.concatenate(points, axis=2), np.concatenate(found)
 
 
 def _off(uv: np.ndarray) -> np.ndarray:

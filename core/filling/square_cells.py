@@ -53,7 +53,7 @@ def _cells(cameras: Cameras, size: float,
     middles."""
     view = cameras.view
     parent, weights = in_squares(cameras, size, None if squares is None else squares.holds).triangles(0.0)
-    cells, _ = with_pieces(cameras, np.zeros(len(cameras), dtype=bool), parent, weights)
+    cells = with_pieces(cameras, np.zeros(len(cameras), dtype=bool), parent, weights)
     cells = cells.select(pixels_of(cells) > SMALLEST)
     square = np.floor((view.pixels(cells.places.T)[cells.corners].mean(axis=1) - first_side(size)) / size)
     places, holds = places_at(cells, first_side(size) + (square + 0.5) * size)

@@ -40,7 +40,7 @@ class Nodes(ColumnArrays):
 
 @dataclass(frozen=True)
 class _Corners:
-    """What the corners of the polygons are made of, one row each; the arguments that all kinds of nodes need."""
+    """What the corners of the polygons are made of, one row each, and the images of vertices that some of them are."""
 
     cameras: Cameras
     frames: SceneFrames
@@ -49,6 +49,7 @@ class _Corners:
     weights: np.ndarray
     low: np.ndarray
     high: np.ndarray
+    images: VertexImages
 
     @property
     def mirror_map(self) -> ReflectionMap:
@@ -105,7 +106,7 @@ def polygon_nodes(polygons: Polygons, images: VertexImages) -> tuple[Nodes, np.n
     low = np.minimum(before, polygons.after).astype(np.int64)
     high = np.maximum(before, polygons.after).astype(np.int64)
     corners = _Corners(polygons.candidates.cameras, polygons.candidates.frames, np.repeat(polygons.camera, size),
-                       np.repeat(polygons.column, size), polygons.weights, low, high)
+                       np.repeat(polygons.column, size), polygons.weights, low, high, images)
     node_of = np.empty(len(low), dtype=np.int64)
     made, count = [], 0
     on_mirror_edge = low < Line.SCENE_EDGE
@@ -119,7 +120,7 @@ def polygon_nodes(polygons: Polygons, images: VertexImages) -> tuple[Nodes, np.n
         chosen = np.flatnonzero(chosen)
         if len(chosen):
             breathe()
-            part, shared = kind(corners, chosen, images)
+            part, shared = kind(corners, chosen)
             made.append(part)
             node_of[chosen] = shared + count
             count += len(part[2])
@@ -128,7 +129,7 @@ def polygon_nodes(polygons: Polygons, images: VertexImages) -> tuple[Nodes, np.n
     return Nodes(*(np.concatenate(side, axis=-1) for side in zip(*made))), node_of
 
 
-def _mirror_corners(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+def _mirror_corners(corners: _Corners, chosen: np.ndarray):
     camera, column = corners.camera[chosen], corners.column[chosen]
     corner = corners.cameras.corners[camera, 3 - corners.low[chosen] - corners.high[chosen]]
     first, group = groups(corner, column)
@@ -138,7 +139,7 @@ def _mirror_corners(corners: _Corners, chosen: np.ndarray, images: VertexImages)
     return (corners.cameras.places[:, corner], origin + distance * ray, distance), group
 
 
-def _crossings(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+def _crossings(corners: _Corners, chosen: np.ndarray):
     mirror_edge = corners.mirror_edge(chosen, corners.low[chosen])
     scene_edge = corners.scene_edge(chosen, corners.high[chosen])
     first, group = groups(*mirror_edge.T, *scene_edge.T)
@@ -167,8 +168,8 @@ def _share(offset: np.ndarray, way: np.ndarray) -> np.ndarray:
     return np.divide(dot(offset, way), square, out=np.zeros_like(square), where=square > 0.0)
 
 
-def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
-    camera, column = corners.camera[chosen], corners.column[chosen]
+def _vertices(corners: _Corners, chosen: np.ndarray):
+    camera, column, images = corners.camera[chosen], corners.column[chosen], corners.images
     side = 3 - (corners.low[chosen] - Line.SCENE_EDGE) - (corners.high[chosen] - Line.SCENE_EDGE)
     vertex = corners.frames.vertices[side, column]
     guess = corners.guess(chosen)
@@ -195,19 +196,19 @@ def _vertices(corners: _Corners, chosen: np.ndarray, images: VertexImages):
     return (place, point, distance), group
 
 
-def _contacts_of_mirror_edges(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+def _contacts_of_mirror_edges(corners: _Corners, chosen: np.ndarray):
     mirror_edge = corners.mirror_edge(chosen, corners.low[chosen])
     first, group = groups(*mirror_edge.T, corners.column[chosen])
     return _contact(corners, chosen[first]), group
 
 
-def _contacts_of_scene_edges(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+def _contacts_of_scene_edges(corners: _Corners, chosen: np.ndarray):
     scene_edge = corners.scene_edge(chosen, corners.low[chosen])
     first, group = groups(corners.cameras.face[corners.camera[chosen]], *scene_edge.T)
     return _contact(corners, chosen[first]), group
 
 
-def _on_lines_of_hiding(corners: _Corners, chosen: np.ndarray, images: VertexImages):
+def _on_lines_of_hiding(corners: _Corners, chosen: np.ndarray):
     place = corners.guess(chosen)
     point, distance = corners.seen(chosen, place)
     # the lines have no names by which neighbours could share them: what meets in one place is one node

@@ -22,7 +22,7 @@ def cut_before_eye(cameras: Cameras) -> Cameras:
     """The cameras, those across the eye's plane without what lies behind it."""
     view = cameras.view
     whole, parent, weights = _before(view, cameras.places[:, cameras.corners.T])
-    return cameras if whole.all() else with_pieces(cameras, whole, parent, weights)[0]
+    return cameras if whole.all() else with_pieces(cameras, whole, parent, weights)
 
 
 def triangles_before_eye(view: View, mesh: TriangleMesh, chosen: np.ndarray) -> tuple[TriangleMesh, np.ndarray]:

@@ -29,8 +29,8 @@ from ..geometry import (
     shares,
 )
 from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
+from .picture_pairs import PAIRS_AT_ONCE
 
-PAIRS_AT_ONCE = 1 << 17
 DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden places lie; doubled faces hide nothing
 
 
@@ -59,7 +59,7 @@ class HiddenParts(ColumnArrays):
 
     @classmethod
     def of(cls, cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray,
-           deeper: np.ndarray | float = 0.0) -> HiddenParts:
+           deeper: np.ndarray | float) -> HiddenParts:
         """What the triangles of pairs of a camera and a column hide, `deeper` behind their planes than so many scene
         units, of each pair (p,) or of all, without the pairs in which that is nothing."""
         sides, eye, solid = _sides(cameras, frames, camera, column)
@@ -119,7 +119,7 @@ class HiddenParts(ColumnArrays):
         parent, triangles = self._seen(cut, pieces)
         whole = shown.copy()
         whole[cut] = False
-        return (*with_pieces(cameras, whole, parent, triangles)[:1], cut, parent, len(left))
+        return with_pieces(cameras, whole, parent, triangles), cut, parent, len(left)
 
     def _seen(self, cut: np.ndarray, pieces: ConvexPolygons) -> tuple[np.ndarray, np.ndarray]:
         """The pieces of the cameras `cut` that no triangle hides, as triangles: the camera each lies in and its

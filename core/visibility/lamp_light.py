@@ -39,4 +39,4 @@ def cut_at_borders(cameras: Cameras) -> Cameras:
     for side in sides:
         pieces = pieces.cut(side[:, across], Line.HIDDEN)
     parent, weights = pieces.triangles()
-    return with_pieces(cameras, whole, across[parent], weights)[0]
+    return with_pieces(cameras, whole, across[parent], weights)

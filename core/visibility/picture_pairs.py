@@ -12,13 +12,14 @@ from ..views import View
 
 COARSER = 9  # times that the cells may be doubled
 MOST_PAIRS = 1 << 26
+PAIRS_AT_ONCE = 1 << 17
 
 
-def pairs_in_picture(cameras: Cameras, mesh: TriangleMesh, owner: np.ndarray, taken: np.ndarray, scale: float,
-                     at_once: int) -> Iterable[tuple[np.ndarray, np.ndarray]] | None:
+def pairs_in_picture(cameras: Cameras, mesh: TriangleMesh, owner: np.ndarray, taken: np.ndarray,
+                     scale: float) -> Iterable[tuple[np.ndarray, np.ndarray]] | None:
     """Pairs of cameras and triangles of a mesh, parts of the mirror's triangles that `owner` (m,) names, -1 for none,
     and no camera's own, whose boxes in the picture overlap in some of the cells `taken` (height, width), `scale` of
-    them a pixel, or beside one; each once, in shares of about `at_once`. What is not before the eye has no box.
+    them a pixel, or beside one; each once, in shares. What is not before the eye has no box.
 
     Cells are made as coarse as gives the least work: large triangles share many small cells. None where
     there would be more than `MOST_PAIRS`.
@@ -42,11 +43,11 @@ def pairs_in_picture(cameras: Cameras, mesh: TriangleMesh, owner: np.ndarray, ta
     if work[level] > MOST_PAIRS:
         return None
     cells = [_cells(part, level, levels[level]) for part in (boxes, others)]
-    return _meeting(cameras, owner, (boxes, others), cells, at_once)
+    return _meeting(cameras, owner, (boxes, others), cells)
 
 
-def _meeting(cameras: Cameras, owner: np.ndarray, boxes: tuple, cells: list,
-             at_once: int) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
+def _meeting(cameras: Cameras, owner: np.ndarray, boxes: tuple,
+             cells: list) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
     """Pairs whose boxes, of cameras and of triangles, overlap, found by the cells that they share."""
     (cell, camera), (other_cell, column) = cells
     boxes, others = boxes
@@ -57,7 +58,7 @@ def _meeting(cameras: Cameras, owner: np.ndarray, boxes: tuple, cells: list,
     start, stop = (np.searchsorted(other_cell, cell, side=side) for side in ("left", "right"))
     ends = np.append(0, np.flatnonzero(np.diff(camera, append=-1)) + 1)
     before = np.append(0, np.cumsum(stop - start))[ends]
-    for part in shares(np.diff(before), at_once):
+    for part in shares(np.diff(before), PAIRS_AT_ONCE):
         own = slice(ends[part.start], ends[part.stop])
         entry, run = ranges(start[own], (stop - start)[own])
         near, far = camera[own][run], column[entry]

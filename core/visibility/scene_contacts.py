@@ -11,11 +11,11 @@ import numpy as np
 
 from ..cameras import Cameras, picture_areas
 from ..culling import Candidates, inherited
-from ..geometry import TriangleMesh, distinct, largest, meeting, norm, rows, shares, smallest
+from ..geometry import TriangleMesh, distinct, largest, meeting, norm, rows, smallest
 from ..result import DEPTH, GAP
-from ..support import crowded
-from .hidden_parts import DEEPER, PAIRS_AT_ONCE, HiddenParts
-from .picture_pairs import pairs_in_picture
+from ..support import crowded, portions
+from .hidden_parts import DEEPER, HiddenParts
+from .picture_pairs import PAIRS_AT_ONCE, pairs_in_picture
 
 AGAIN = 4  # pairs that are looked at again after cutting, to one that may be left
 CELLS = 256.0  # across the wider side of the picture, for what lies over what
@@ -105,7 +105,7 @@ def _lying_over(near: Candidates, column: np.ndarray,
                         np.arange(3 * len(column)).reshape(3, -1).T)
     scale = CELLS / max(view.resolution)
     everywhere = np.ones(tuple(int(side) for side in np.ceil(np.array(view.resolution[::-1]) * scale)), dtype=bool)
-    yield from pairs_in_picture(cameras, mesh, np.full(len(column), -1), everywhere, scale, PAIRS_AT_ONCE) or ()
+    yield from pairs_in_picture(cameras, mesh, np.full(len(column), -1), everywhere, scale) or ()
     behind, others = ((view.depths(places.T) <= 0.0)[corners].any(axis=1) for places, corners in (
         (cameras.places, cameras.corners), (mesh.positions.T, mesh.triangles)))
     pairs = np.unique((near.camera * len(column) + row_of)[behind[near.camera] | others[row_of]])
@@ -119,7 +119,7 @@ def _near(candidates: Candidates, room: np.ndarray) -> Candidates:
     some = room[candidates.camera] * norm(frames.normal)[candidates.column]
     near = np.flatnonzero((smallest(candidates.ahead) < some) & (largest(candidates.ahead) > -some))
     found = [near[:0]]
-    for part in shares(np.ones(len(near), dtype=np.int64), PAIRS_AT_ONCE):
+    for part in portions(len(near), PAIRS_AT_ONCE):
         camera, column = candidates.camera[near[part]], candidates.column[near[part]]
         corners = np.take(cameras.places, cameras.corners[camera].T, axis=1)
         found.append(near[part][meeting(corners, rows(frames.positions[frames.vertices[:, column]]), room[camera])])

@@ -12,7 +12,7 @@ from ..geometry import SceneFrames, TriangleMesh, cross, norm
 from ..support import crowded
 from ..views import LampView
 from .eye_plane import triangles_before_eye
-from .hidden_parts import DEEPER, PAIRS_AT_ONCE, HiddenParts
+from .hidden_parts import DEEPER, HiddenParts
 from .mirror_visibility import DepthGrid
 from .picture_pairs import pairs_in_picture
 
@@ -31,7 +31,7 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
     frames = SceneFrames.of(mirror, np.arange(len(owner)))
     shown, deeper = np.ones(len(cameras), dtype=bool), DEEPER * np.ptp(cameras.places, axis=1).max()
     parts = []
-    pairs = pairs_in_picture(cameras, mirror, owner, grid.layers > 1, grid.scale, PAIRS_AT_ONCE)
+    pairs = pairs_in_picture(cameras, mirror, owner, grid.layers > 1, grid.scale)
     if pairs is None:
         return cameras, 0, len(cameras)
     for camera, column in pairs:

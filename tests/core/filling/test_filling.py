@@ -210,7 +210,7 @@ def test_pixels_that_many_cells_lie_over_are_filled_once():
 
 def in_squares_of_a_pixel(cameras):
     parent, weights = in_squares(cameras, 1.0).triangles(0.0)
-    return with_pieces(cameras, np.zeros(len(cameras), dtype=bool), parent, weights)[0]
+    return with_pieces(cameras, np.zeros(len(cameras), dtype=bool), parent, weights)
 
 
 def test_a_sliver_across_a_picture_becomes_no_more_cells_than_squares_it_passes():
