@@ -7,6 +7,7 @@ P = O(u, v) + s R(u, v), s > 0.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -113,21 +114,15 @@ class ReflectionMap(ABC):
     def locate(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray,
                steps: int = 4) -> tuple[np.ndarray, np.ndarray]:
         """Newton's method for O(u, v) + s R(u, v) = P from a near start, `points` P as (3, n); returns uv and s."""
-        found, going = np.concatenate((uv, s[None])), np.arange(len(s))
-        for _ in range(steps):
-            now = found[:, going]
+        def stepped(now: np.ndarray, face: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             origin, ray, ((ou, ru), (ov, rv)) = self.linearise(face, now[:2], *ALONG_UV)
             s = now[2]
             step = solve(ou + s * ru, ov + s * rv, ray, points - origin - s * ray)
             # a step longer than the triangle tells a start too far off: keep its direction only
             step /= np.maximum(1.0, np.maximum(np.abs(step[0]), np.abs(step[1])))
-            now += step
-            found[:, going] = now
-            more = np.flatnonzero(_moving(step, now[2]))
-            if not len(more):
-                break
-            if len(more) < len(going):
-                going, face, points = going[more], face[more], points[:, more]
+            return now + step, step
+
+        found = _newton(stepped, np.concatenate((uv, s[None])), (face, points), steps)
         return found[:2], found[2]
 
     def meet(self, face: np.ndarray, line: tuple[np.ndarray, np.ndarray], other: tuple[np.ndarray, np.ndarray],
@@ -136,23 +131,17 @@ class ReflectionMap(ABC):
         `other` line P + r E, P and E (3, n), from a near guess of t and s; returns t along the mirror's line, r along
         the other, and s."""
         (start, end), (point, edge), (t, s) = line, other, guess
-        way = end - start
-        found, going = np.stack((t, s, np.zeros_like(t))), np.arange(len(t))
-        for _ in range(steps):
-            t, s, r = found[:, going]
+
+        def stepped(now: np.ndarray, face: np.ndarray, start: np.ndarray, way: np.ndarray, point: np.ndarray,
+                    edge: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            t, r, s = now
             origin, ray, ((move, change),) = self.linearise(face, start + t * way, way)
             moved = solve(move + s * change, ray, -edge, point - origin - s * ray)
             # s is a length in orthographic views: only t can tell a step that is too long
             moved[:2] /= np.maximum(1.0, np.abs(moved[0]))
-            now = np.stack((t + moved[0], s + moved[1], moved[2]))
-            found[:, going] = now
-            more = np.flatnonzero(_moving(np.stack((moved[0], moved[2] - r, moved[1])), now[1]))
-            if not len(more):
-                break
-            if len(more) < len(going):
-                going, face, start, way, point, edge = (going[more], face[more], start[:, more], way[:, more],
-                                                        point[:, more], edge[:, more])
-        t, s, r = found
+            return np.stack((t + moved[0], moved[2], s + moved[1])), np.stack((moved[0], moved[2] - r, moved[1]))
+
+        t, r, s = _newton(stepped, np.stack((t, np.zeros_like(t), s)), (face, start, end - start, point, edge), steps)
         return t, r, s
 
     def meets(self, face: np.ndarray, uv: np.ndarray, s: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -171,9 +160,20 @@ class ReflectionMap(ABC):
         return self.turned_before(face, uv) * grown(self.linearise(face, uv, *ALONG_UV), s)
 
 
-def _moving(step: np.ndarray, s: np.ndarray) -> np.ndarray:
-    """Whether the last `step` (3, n), of two shares and of s, was more than what another one leaves to rounding."""
-    return (np.maximum(np.abs(step[0]), np.abs(step[1])) > SETTLED) | (np.abs(step[2]) > SETTLED * np.abs(s))
+def _newton(stepped: Callable, found: np.ndarray, given: Sequence[np.ndarray], steps: int) -> np.ndarray:
+    """Two shares and s (3, n) after so many steps, or as many as change more than rounding: `stepped` makes of what is
+    found of some so far, and what is `given` for each, what is found next, and the step to it."""
+    going = np.arange(found.shape[1])
+    for _ in range(steps):
+        now, step = stepped(found[:, going], *given)
+        found[:, going] = now
+        moving = np.maximum(np.abs(step[0]), np.abs(step[1])) > SETTLED
+        more = np.flatnonzero(moving | (np.abs(step[2]) > SETTLED * np.abs(now[2])))
+        if not len(more):
+            break
+        if len(more) < len(going):
+            going, given = going[more], [part[..., more] for part in given]
+    return found
 
 
 def grown(seen: tuple, s: np.ndarray) -> np.ndarray:
