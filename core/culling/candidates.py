@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import ColumnArrays, SceneFrames, columns, in_order, largest, ranges
+from ..geometry import ColumnArrays, SceneFrames, between, columns, in_order, largest, ranges
 
 
 @dataclass(frozen=True)
@@ -101,8 +101,7 @@ def inherited(camera: np.ndarray, column: np.ndarray, parent: np.ndarray,
     """Pairs of the cameras `child` (k,) with what their parents (k,) are paired with, `camera` and `column` (p,), each
     once: a camera across a triangle's plane stands twice among the pairs."""
     order = in_order(camera)
-    start, stop = (np.searchsorted(camera[order], parent, side=side) for side in ("left", "right"))
-    entry, run = ranges(start, stop - start)
+    entry, run = ranges(*between(camera[order], parent, parent))
     count = max(int(column.max(initial=0)) + 1, 1)
     pairs = np.unique(child[run] * count + column[order[entry]])
     return pairs // count, pairs % count

@@ -96,8 +96,4 @@ def _reaches(parts: ConvexPolygons, across: np.ndarray, depth: np.ndarray) -> tu
     """The pixels (2, q) from and to which the parts reach."""
     of = parts.owner[parts.polygon]
     deep = (parts.weights * depth[:, of]).sum(axis=0)
-    pixels = (parts.weights * across[:, :, of]).sum(axis=1) / np.where(deep > 0.0, deep, 1.0)
-    if not len(parts):
-        return pixels, pixels
-    return (np.minimum.reduceat(pixels, parts.start[:-1], axis=1),
-            np.maximum.reduceat(pixels, parts.start[:-1], axis=1))
+    return parts.extents((parts.weights * across[:, :, of]).sum(axis=1) / np.where(deep > 0.0, deep, 1.0))

@@ -23,6 +23,7 @@ from .subdivision import (
 )
 from .triangle_mesh import TriangleMesh, area_normals, areal, has_area
 from .vectors import (
+    between,
     columns,
     cross,
     dot,
@@ -38,9 +39,8 @@ from .vectors import (
     unit,
 )
 
-__all__ = ["ColumnArrays", "Order", "SceneFrames", "TURNS", "TriangleMesh",
-           "area_normals", "areal", "areas", "columns", "connected", "corners_beyond", "cross", "distinct", "dot",
-           "doubled_areas", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups",
-           "has_area", "in_order", "largest", "meeting", "norm", "ordered", "others", "parent_side",
-           "ranges", "rows", "shared_edges", "shares", "smallest", "solid_angles", "solve", "split",
-           "spread_directions", "unit"]
+__all__ = ["ColumnArrays", "Order", "SceneFrames", "TURNS", "TriangleMesh", "area_normals", "areal", "areas", "between",
+           "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas", "edge_lengths",
+           "edge_numbers", "falling", "first_of", "following", "groups", "has_area", "in_order", "largest", "meeting",
+           "norm", "ordered", "others", "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest",
+           "solid_angles", "solve", "split", "spread_directions", "unit"]

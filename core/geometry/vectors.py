@@ -87,6 +87,12 @@ def ranges(starts: np.ndarray, lengths: np.ndarray) -> tuple[np.ndarray, np.ndar
     return np.arange(len(run)) - np.repeat(before - starts, lengths), run
 
 
+def between(rising: np.ndarray, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where in `rising` numbers those from `low` to `high` (n,) begin, and how many there are."""
+    start = np.searchsorted(rising, low)
+    return start, np.searchsorted(rising, high, side="right") - start
+
+
 def shares(lengths: np.ndarray, most: int) -> Generator[slice, None, None]:
     """Parts of runs of `lengths` (n,) that have about `most` entries each, and no run in two of them, with a breath
     before each."""

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import groups, in_order, ranges, shares
+from ..geometry import between, groups, in_order, ranges, shares
 from ..support import breathe
 
 BESIDE = 0.05  # pixels: a spot that is no farther from a line lies on it
@@ -36,8 +36,8 @@ def beside(spots: np.ndarray, start: np.ndarray, end: np.ndarray) -> tuple[np.nd
     found = []
     for row in (-1, 0, 1):
         middle = (cell[:, 1] + row) * width + cell[:, 0]
-        first, last = np.searchsorted(key, middle - 1, side="left"), np.searchsorted(key, middle + 1, side="right")
-        count = np.minimum(last - first, MOST)
+        first, count = between(key, middle - 1, middle + 1)
+        count = np.minimum(count, MOST)
         for part in shares(count, AT_ONCE):
             index, run = ranges(first[part], count[part])
             breathe()

@@ -94,6 +94,11 @@ class ConvexPolygons(ColumnArrays):
         total = np.stack([np.bincount(polygon, weight, minlength=len(self)) for weight in self.weights])
         return total / np.maximum(self.size, 1)
 
+    def extents(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The least and the largest (..., q) of what the corners of each polygon have, `values` (..., k)."""
+        start = self.start[:-1]
+        return np.minimum.reduceat(values, start, axis=-1), np.maximum.reduceat(values, start, axis=-1)
+
     def select(self: Kind, chosen: np.ndarray | slice) -> Kind:
         """The polygons `chosen`, as indices, as a mask or as a slice."""
         size = self.size[chosen]

@@ -12,8 +12,9 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras, ReflectionMap
-from ..geometry import ColumnArrays, SceneFrames, columns, dot, groups, largest, others, smallest
+from ..geometry import ColumnArrays, SceneFrames, columns, dot, groups, others
 from ..support import breathe
+from ..views import box
 from .clipping import Polygons
 from .convex_polygons import Line
 from .vertex_images import NEAR_IMAGE, VertexImages
@@ -74,8 +75,7 @@ class _Corners:
     @cached_property
     def _boxes(self) -> tuple[np.ndarray, np.ndarray]:
         """From where to where (2, n) in the picture each camera reaches."""
-        corner = columns(self.cameras.view.pixels(self.cameras.places.T).T, self.cameras.corners.T)
-        return smallest(corner.swapaxes(0, 1)), largest(corner.swapaxes(0, 1))
+        return box(columns(self.cameras.view.pixels(self.cameras.places.T).T, self.cameras.corners.T))
 
     def seen(self, chosen: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The point (3, n) that the true ray at a place meets on the triangle's plane, and its s."""

@@ -63,17 +63,17 @@ def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Face
     local = np.arange(len(polygon)) - start
     # the corner with the shortest diagonals: sum of squared distances to the corners that are not its neighbours
     spots = pixels[node_of]
-    total = np.add.reduceat(spots, polygons.start[:-1], axis=0)[polygon] if len(size) else spots
+    total = np.add.reduceat(spots, polygons.start[:-1], axis=0)[polygon]
     breathe()
     squares = (spots**2).sum(axis=1)
-    square_total = np.add.reduceat(squares, polygons.start[:-1])[polygon] if len(size) else squares
+    square_total = np.add.reduceat(squares, polygons.start[:-1])[polygon]
     before, after = start + (local - 1) % length, start + (local + 1) % length
     spread = length * squares - 2.0 * (spots * total).sum(axis=1) + square_total
     breathe()
     spread -= ((spots - spots[before]) ** 2).sum(axis=1) + ((spots - spots[after]) ** 2).sum(axis=1)
     breathe()
     spread = np.where(np.isnan(spread), np.inf, spread)
-    bound = np.minimum.reduceat(spread, polygons.start[:-1])[polygon] if len(size) else spread
+    bound = np.minimum.reduceat(spread, polygons.start[:-1])[polygon]
     least = np.flatnonzero(spread <= bound)
     apex = local[least[np.flatnonzero(np.diff(polygon[least], prepend=-1))]]
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..cameras import Cameras
 from ..culling import Candidates
-from ..geometry import ColumnArrays, ranges
+from ..geometry import ColumnArrays, between, ranges
 from ..solver import project
 from ..support import breathe
 from ..trees import Cones
@@ -45,9 +45,9 @@ class VertexImages(ColumnArrays):
         order = np.argsort(key, kind="stable")
         breathe()
         key = key[order]
-        start, stop = np.searchsorted(key, wanted - 1.0), np.searchsorted(key, wanted + 1.0, side="right")
+        start, count = between(key, wanted - 1.0, wanted + 1.0)
         breathe()
-        image, guess = ranges(start, stop - start)
+        image, guess = ranges(start, count)
         image = order[image]
         away = np.linalg.norm(self.pixel[:, image] - pixel[:, guess], axis=0)
         breathe()

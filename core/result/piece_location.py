@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import distinct, in_order, ranges
+from ..geometry import between, distinct, in_order, ranges
 from ..support import breathe
 
 TOUCHING = 1e-9     # of a barycentric coordinate: what a point on an edge may be off by
@@ -84,9 +84,9 @@ def _near(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.n
     wanted = start[face[asked]] + row * across[face[asked]] + column
     rising = held_by[order]
     breathe()
-    first, last = (np.searchsorted(rising, wanted, side=side) for side in ("left", "right"))
+    first, count = between(rising, wanted, wanted)
     breathe()
-    entry, point = ranges(first, last - first)
+    entry, point = ranges(first, count)
     breathe()
     point, piece = asked[point], piece[order[entry]]
     lowest, highest = corners.min(axis=1) - TOUCHING, corners.max(axis=1) + TOUCHING

@@ -16,6 +16,7 @@ from ..cameras import Cameras, with_pieces
 from ..geometry import (
     ColumnArrays,
     SceneFrames,
+    between,
     columns,
     cross,
     distinct,
@@ -79,7 +80,7 @@ class HiddenParts(ColumnArrays):
         """(q,): how close behind its plane each part begins, as a share of the way to the eye; in orthographic views in
         scene units."""
         depth = (self.parts.weights * self.sides[3][:, self.parts.polygon]).sum(axis=0)
-        least = np.maximum(np.minimum.reduceat(depth, self.parts.start[:-1]), 0.0) if len(depth) else depth
+        least = np.maximum(np.minimum.reduceat(depth, self.parts.start[:-1]), 0.0)
         return least / (self.eye if orthographic else least + self.eye)
 
     def outlines(self, view, frames: SceneFrames) -> Lines:
@@ -125,10 +126,10 @@ class HiddenParts(ColumnArrays):
         """The pieces of the cameras `cut` that no triangle hides, as triangles: the camera each lies in and its
         corners' weights (3, 3, n)."""
         middle, order = pieces.middles, in_order(self.camera)
-        start, stop = (np.searchsorted(self.camera[order], cut[pieces.owner], side=side) for side in ("left", "right"))
+        start, count = between(self.camera[order], cut[pieces.owner], cut[pieces.owner])
         seen = np.ones(len(pieces), dtype=bool)
-        for part in shares(stop - start, PAIRS_AT_ONCE):
-            entry, piece = ranges(start[part], (stop - start)[part])
+        for part in shares(count, PAIRS_AT_ONCE):
+            entry, piece = ranges(start[part], count[part])
             piece += part.start
             hiding = columns(order, entry)
             # most pairs are told apart by the first side or two

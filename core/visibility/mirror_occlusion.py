@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import columns, dot, groups, in_order, largest, others, ranges, shares, smallest
+from ..geometry import between, columns, dot, groups, in_order, largest, others, ranges, shares, smallest
 from ..polygons import Line, Lines, Polygons, clip, divide, scene_edges
 
 MOST_PIECES = 1 << 20  # what is not cut along all outlines is hidden or not by its middle
@@ -44,7 +44,7 @@ def _along_outlines(lines: Lines, polygons: Polygons) -> tuple[Polygons, np.ndar
     that are not cut along all of them."""
     first = np.searchsorted(lines.camera, np.arange(len(polygons.candidates.cameras) + 1))
     line, polygon = ranges(first[polygons.camera], np.diff(first)[polygons.camera])
-    low, high = (bound.reduceat(polygons.weights, polygons.start[:-1], axis=1) for bound in (np.minimum, np.maximum))
+    low, high = polygons.extents(polygons.weights)
     near = np.ones(len(line), dtype=bool)
     for k in range(3):
         near &= low[k][polygon] <= np.maximum(lines.start[k], lines.stop[k])[line]
@@ -91,10 +91,10 @@ def _hidden(mirror: np.ndarray, polygons: Polygons) -> tuple[np.ndarray, np.ndar
     """The polygons (k,) that pass through a mirror, of the candidates `mirror`, sorted by camera; which one (k,) they
     pass through; and which polygons (q,) are hidden in their middles."""
     camera = polygons.candidates.camera[mirror]
-    start, stop = (np.searchsorted(camera, polygons.camera, side=side) for side in ("left", "right"))
+    start, count = between(camera, polygons.camera, polygons.camera)
     answers = []
-    for part in shares(stop - start, PAIRS_AT_ONCE):
-        entry, polygon = ranges(start[part], (stop - start)[part])
+    for part in shares(count, PAIRS_AT_ONCE):
+        entry, polygon = ranges(start[part], count[part])
         passing, through, behind = _behind(mirror[entry], polygon, polygons.select(part))
         answers.append((part.start + passing, through, behind))
     passing, through, behind = (np.concatenate(side) for side in zip(*answers))
@@ -140,8 +140,7 @@ def _behind(other: np.ndarray, polygon: np.ndarray,
 
 def _near(other: np.ndarray, polygon: np.ndarray, polygons: Polygons) -> np.ndarray:
     """Which mirror triangles have no side that keeps the box of the polygon's weights outside."""
-    low, high = (columns(bound.reduceat(polygons.weights, polygons.start[:-1], axis=1), polygon)
-                 for bound in (np.minimum, np.maximum))
+    low, high = (columns(bound, polygon) for bound in polygons.extents(polygons.weights))
     near = np.ones(len(other), dtype=bool)
     for side in polygons.candidates.sides:
         values = columns(side, other)
@@ -151,10 +150,7 @@ def _near(other: np.ndarray, polygon: np.ndarray, polygons: Polygons) -> np.ndar
 
 def _changes_sign(polygons: Polygons, corner_values: np.ndarray) -> np.ndarray:
     """Whether a function, given at the corners of the cameras (3, q), is positive and negative on each polygon."""
-    if not len(polygons.pair):
-        return np.zeros(0, dtype=bool)
-    value = (polygons.weights * np.repeat(corner_values, polygons.size, axis=1)).sum(axis=0)
-    low, high = (bound.reduceat(value, polygons.start[:-1]) for bound in (np.minimum, np.maximum))
+    low, high = polygons.extents((polygons.weights * np.repeat(corner_values, polygons.size, axis=1)).sum(axis=0))
     least = CROSSING * np.abs(corner_values).max(axis=0)
     return (low < -least) & (high > least)
 

@@ -6,7 +6,7 @@ from collections.abc import Generator, Iterable
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import TriangleMesh, in_order, ranges, rows, shares
+from ..geometry import TriangleMesh, between, in_order, ranges, rows, shares
 from ..support import breathe
 from ..views import View
 
@@ -55,12 +55,12 @@ def _meeting(cameras: Cameras, owner: np.ndarray, boxes: tuple,
     cell, camera = cell[order], camera[order]
     order = in_order(other_cell)
     other_cell, column = other_cell[order], column[order]
-    start, stop = (np.searchsorted(other_cell, cell, side=side) for side in ("left", "right"))
+    start, count = between(other_cell, cell, cell)
     ends = np.append(0, np.flatnonzero(np.diff(camera, append=-1)) + 1)
-    before = np.append(0, np.cumsum(stop - start))[ends]
+    before = np.append(0, np.cumsum(count))[ends]
     for part in shares(np.diff(before), PAIRS_AT_ONCE):
         own = slice(ends[part.start], ends[part.stop])
-        entry, run = ranges(start[own], (stop - start)[own])
+        entry, run = ranges(start[own], count[own])
         near, far = camera[own][run], column[entry]
         meet = ((boxes[0][near] < others[1][far]) & (others[0][far] < boxes[1][near])).all(axis=1)
         meet &= cameras.face[near] != owner[far]

@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import SceneFrames, edge_numbers, following, others, ranges
+from ..geometry import SceneFrames, between, edge_numbers, following, others, ranges
 from ..polygons import Faces, Nodes
 from .images import Images
 from .whole import WholeFaces
@@ -131,8 +131,7 @@ def _with_nodes(whole: WholeFaces, images: Images, nodes: np.ndarray, own: np.nd
     """The faces (f, 3), those with further nodes on edges as fans round their middles, whose images are new; the nodes
     of all, and the face that each is a part of. Nodes come along each edge (k,) from its lower end to its higher."""
     count = len(images)
-    start, stop = (np.searchsorted(key, own, side) for side in ("left", "right"))
-    more = stop - start
+    start, more = between(key, own, own)
     chosen = np.flatnonzero(more.any(axis=1))
     rest = np.flatnonzero(~more.any(axis=1))
     if not len(chosen):
