@@ -77,7 +77,7 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
                                                                 (whole.point, bounce.nodes.point)))
     sources = met.on_patch(whole.source)
     turned = _turned(mirror_map, whole.nodes, places, places,
-                     rows(met.positions[met.triangles[sources]].swapaxes(0, 1)))
+                     rows(met.positions[met.triangles[sources].T]))
     nodes = np.where(turned[:, None], whole.nodes[:, [0, 2, 1]], whole.nodes)
     # vertices that the faces of cameras have already
     vertex_of = np.full(places.shape[1], -1)

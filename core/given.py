@@ -27,7 +27,7 @@ def check_given(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTre
     if np.abs(view.eye).max() > LARGEST:
         raise ReflectionError("The view's eye is further than 1e40 from the origin; move it nearer or make the scene "
                               "smaller.")
-    corners = rows(mirror.positions[mirror.triangles].swapaxes(0, 1))
+    corners = rows(mirror.positions[mirror.triangles.T])
     normals = area_normals(corners)
     length = norm(normals)
     if not (length > 0.0).any():

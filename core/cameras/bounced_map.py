@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import dot, norm
+from ..geometry import dot, falling
 from .mirror_surface import MirrorSurface, Way, drawn_in
 from .reflection_map import ReflectionMap
 
@@ -64,9 +64,8 @@ class BouncedMap(ReflectionMap):
     def _distance(self, face: np.ndarray, origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
         triangle = self.triangle[face]
         flat = self.surface.face_normal[:, triangle]
-        falling = _falling(ray, flat)
         # the plane behind the ray's origin is seen by rounding alone, where both touch
-        return np.maximum(dot(self.surface.a[:, triangle] - origin, flat) / falling, 0.0)
+        return np.maximum(dot(self.surface.a[:, triangle] - origin, flat) / falling(flat, ray), 0.0)
 
     def leave(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         triangle = self.triangle[face]
@@ -108,12 +107,12 @@ class BouncedMap(ReflectionMap):
         origin, ray, moves = self.before.linearise(self.face_before[face], uv, *ways)
         s = self._distance(face, origin, ray)
         flat = self.surface.face_normal[:, triangle]
-        falling = _falling(ray, flat)
+        speed = falling(flat, ray)
         place, direction = origin + s * ray, ray if self.orthographic else (1.0 + s) * ray
         places, changes = [], []
         for move, change in moves:
             move = move + s * change
-            farther = -dot(move, flat) / falling
+            farther = -dot(move, flat) / speed
             places.append(move + farther * ray)
             changes.append((self.surface.move_coordinates(triangle, places[-1]),
                             change if self.orthographic else farther * ray + (1.0 + s) * change))
@@ -121,9 +120,3 @@ class BouncedMap(ReflectionMap):
         leaving, turned = self.surface.derivatives(triangle, on, direction, changes)
         self._bend(np.flatnonzero(self.surface.enters(triangle, leaving, direction)), (face, uv), ways, leaving, turned)
         return place, leaving, list(zip(places, turned))
-
-
-def _falling(rays: np.ndarray, flat: np.ndarray) -> np.ndarray:
-    """How fast rays (3, n) come nearer to planes with unit normals; never so slowly that it is rounding alone."""
-    falling, least = dot(rays, flat), 1e-14 * norm(rays) + 1e-150
-    return np.where(np.abs(falling) > least, falling, least)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import distinct, doubled_areas, edge_lengths, shared_edges
+from ..geometry import distinct, doubled_areas, edge_lengths, following, shared_edges
 from .three_ray_cameras import Cameras
 
 LEAST_WORTH = 1.0 / 16.0  # square pixels: no camera counts for less
@@ -52,8 +52,8 @@ def places_at(cameras: Cameras, spots: np.ndarray) -> tuple[np.ndarray, np.ndarr
     without an area, and whether they lie in the cameras."""
     view = cameras.view
     ways = view.pixels(cameras.places.T)[cameras.corners] - spots[:, None]
-    after = np.roll(ways, -1, axis=1)
-    areas = np.roll(ways[..., 0] * after[..., 1] - ways[..., 1] * after[..., 0], -1, axis=1)
+    after = following(ways)
+    areas = following(ways[..., 0] * after[..., 1] - ways[..., 1] * after[..., 0])
     turn = np.sign(areas.sum(axis=1, keepdims=True))
     # straight lines in the picture are straight on the mirror, but not as long
     weights = areas / view.clip(cameras.places.T)[cameras.corners, 3]

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import in_order, shared_edges, solid_angles
+from ..geometry import edge_lengths, in_order, shared_edges, solid_angles
 from ..views import View
 
 MOST = 2.0  # of a face's mean: how much more a corner may have, near a caustic, where the map tells infinity
@@ -24,8 +24,7 @@ def flux_of(view: View, places: np.ndarray) -> np.ndarray:
 def shown_area(corners: np.ndarray, area: np.ndarray, reach: float) -> np.ndarray:
     """What the `area` (m,) of faces with `corners` (m, 3, 3) may be where they are drawn, in single precision with all
     that is lit, which reaches so far: that of slivers is rounding."""
-    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1, initial=0.0)
-    return np.hypot(area, SINGLE * reach * longest)
+    return np.hypot(area, SINGLE * reach * edge_lengths(corners).max(axis=1, initial=0.0))
 
 
 def on_faces(flux: np.ndarray, beside: np.ndarray, triangles: np.ndarray) -> np.ndarray:

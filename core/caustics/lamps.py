@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..geometry import TriangleMesh
+from ..geometry import TriangleMesh, following
 from ..support import LARGEST, ReflectionError, numbers
 from ..views import LampView, View
 
@@ -71,7 +71,7 @@ class Lamp:
 
     def mean_share(self, corners: np.ndarray) -> np.ndarray:
         """The same for all of triangles (m, 3, 3)."""
-        middles, middle = 0.5 * (corners + np.roll(corners, -1, axis=1)), corners.mean(axis=1)
+        middles, middle = 0.5 * (corners + following(corners)), corners.mean(axis=1)
         return mean_of_seven(self.share(corners).T, self.share(middles).T, self.share(middle))
 
     def directions(self, places: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..cameras import ReflectionMap
+from ..cameras import ReflectionMap, least_weight
 from ..geometry import (
     SceneFrames,
     TriangleMesh,
@@ -142,7 +142,7 @@ def _beside(faces: LitFaces, asked: np.ndarray, middles: Corners, points: np.nda
     """The light (k, 3) between the sides of the faces asked and parabolas through their `points` (3, 3, k) as
     [component, side, face]; none where these were not `found` (k, 3), or are on a caustic."""
     corners = faces.corners(asked)
-    after = np.roll(corners, -1, axis=1)
+    after = following(corners)
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     beyond = cross(points - 0.5 * (corners + after), after - corners)
     area = 2.0 / 3.0 * (beyond * (normal / np.maximum(norm(normal), 1e-300))[:, None]).sum(axis=0).T
@@ -190,7 +190,7 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within:
 
 def _off(uv: np.ndarray) -> np.ndarray:
     """How far places (2, ...) lie beside their triangles, in barycentric coordinates; 0 within."""
-    return -np.minimum(np.minimum(np.minimum(uv[0], uv[1]), 1.0 - uv[0] - uv[1]), 0.0)
+    return -np.minimum(least_weight(uv), 0.0)
 
 
 def _split(faces: LitFaces, edge: np.ndarray, chosen: np.ndarray,

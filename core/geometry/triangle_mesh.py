@@ -150,12 +150,6 @@ class TriangleMesh:
         return np.where(self.beyond[:, :, None] >= 0, self.positions[self.triangles.ravel()[self.beyond]], np.nan)
 
 
-def _areas(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Twice the areas (m,) of triangles with corners (3, 3, m), component and corner first, and their sizes."""
-    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    return norm(cross(u, v)), largest(np.maximum(np.abs(u), np.abs(v)))
-
-
 def area_normals(corners: np.ndarray) -> np.ndarray:
     """Normals (3, m) of triangles with the corners (3, 3, m), component and corner first, twice as long as their area.
 
@@ -174,7 +168,8 @@ def area_normals(corners: np.ndarray) -> np.ndarray:
 
 def areal(corners: np.ndarray) -> np.ndarray:
     """Which triangles with corners (3, 3, m), component and corner first, have an area that is more than rounding."""
-    return has_area(*_areas(corners))
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return has_area(norm(cross(u, v)), largest(np.maximum(np.abs(u), np.abs(v))))
 
 
 def has_area(area: np.ndarray, size: np.ndarray) -> np.ndarray:

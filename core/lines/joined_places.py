@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..geometry import doubled_areas, following, groups, in_order, ranges
+from ..geometry import connected, doubled_areas, following, groups, in_order, ranges
 from ..result import ReflectionMesh
 from ..support import breathe
 from .borders import Borders
@@ -29,12 +29,11 @@ def with_places_joined(mesh: ReflectionMesh, surfaces: Surfaces) -> ReflectionMe
     one, other = vertex[one[goes_on]], vertex[other[goes_on]]
     if not len(one):
         return mesh
-    stands = np.arange(len(mesh.positions))
-    while (stands[one] != stands[other]).any():
-        low = np.minimum(stands[one], stands[other])
-        for end in (one, other):
-            np.minimum.at(stands, stands[end], low)
-        stands = stands[stands]
+    ends, stands = np.stack((one, other), axis=1), np.arange(len(mesh.positions))
+    place = np.repeat(connected(ends), 2)
+    lowest = np.full(int(place.max()) + 1, len(stands))
+    np.minimum.at(lowest, place, ends.ravel())
+    stands[ends.ravel()] = lowest[place]
     triangles = stands[mesh.triangles]
     kept = np.flatnonzero((triangles != following(triangles)).all(axis=1))
     joined = replace(mesh, triangles=triangles[kept], **of_faces(mesh, kept))

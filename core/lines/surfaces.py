@@ -37,7 +37,7 @@ class Surfaces:
         apart = norm(start + share * way - point)
         close = apart <= ONWARD * np.maximum(*(self._motion(mesh, face[some]) for face in faces))
         some = some[close]
-        one, other = (area_normals(rows(self.scene.positions[self.scene.triangles[source[some]]].swapaxes(0, 1)))
+        one, other = (area_normals(rows(self.scene.positions[self.scene.triangles[source[some]].T]))
                       for source in (one, other))
         found[:] = False
         found[some] = dot(one, other) >= CREASE * norm(one) * norm(other)

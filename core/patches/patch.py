@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, MirrorMap, PictureCells, may_fold, picture_areas
-from ..geometry import connected, corners_beyond, dot, norm, others, rows
+from ..geometry import connected, corners_beyond, dot, in_order, norm, others, rows
 from ..views import View
 
 MARGIN = 8.0  # pixels: by how much the picture's grid is larger than the patch
@@ -53,7 +53,7 @@ class Patch:
         cameras = cameras.select(_smooth(mirror_map, cameras.face) & ~may_fold(cameras))
         if not len(cameras):
             return None
-        cameras = cameras.select(np.argsort(cameras.face, kind="stable"))
+        cameras = cameras.select(in_order(cameras.face))
         label = _parts(corners_beyond(cameras.corners) // 3)
         size = np.bincount(label, picture_areas(cameras))
         cameras = cameras.select(label == np.argmax(size))

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import ColumnArrays, connected, distinct, doubled_areas, following, split
+from ..geometry import ColumnArrays, connected, distinct, doubled_areas, edge_lengths, following, split
 from ..support import breathe, portions
 from ..views import View
 from .hidden_images import FrontImages
@@ -130,8 +130,8 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
         partly = hidden.any(axis=1) & ~hidden.all(axis=1)
         marked = np.zeros((len(clip), 3), dtype=bool)
         for own in portions(len(clip), AT_ONCE):
-            marked[own] = _straying(clip[own], view) > straying
-            marked[own] |= partly[own, None] & (_lengths(clip[own], view) > FINEST)
+            marked[own] = _straying(clip[own, :, 3], pixels[own]) > straying
+            marked[own] |= partly[own, None] & (edge_lengths(pixels[own]) > FINEST)
         if not marked.any():
             break
         parent, local = split(marked)
@@ -173,17 +173,11 @@ def _pixels(clip: np.ndarray, view: View) -> np.ndarray:
     return found
 
 
-def _straying(clip: np.ndarray, view: View) -> np.ndarray:
-    """Pixels (k, 3) between the middles of the edges 01, 12, 20 as they are seen and those of their pictures."""
-    depth = clip[..., 3]
+def _straying(depth: np.ndarray, pixels: np.ndarray) -> np.ndarray:
+    """Pixels (k, 3) between the middles of the edges 01, 12, 20 as they are seen and those of their pictures, of
+    triangles with corners at `pixels` (k, 3, 2) that lie at a `depth` (k, 3)."""
     other = following(depth)
-    return 0.5 * np.abs(other - depth) / (other + depth) * _lengths(clip, view)
-
-
-def _lengths(clip: np.ndarray, view: View) -> np.ndarray:
-    """Pixels (k, 3) that the edges 01, 12, 20 are long."""
-    pixels = _pixels(clip, view)
-    return np.linalg.norm(following(pixels) - pixels, axis=2)
+    return 0.5 * np.abs(other - depth) / (other + depth) * edge_lengths(pixels)
 
 
 def _children(corners: np.ndarray, parent: np.ndarray, local: np.ndarray) -> np.ndarray:

@@ -28,7 +28,7 @@ def cut_before_eye(cameras: Cameras) -> Cameras:
 def triangles_before_eye(view: View, mesh: TriangleMesh, chosen: np.ndarray) -> tuple[TriangleMesh, np.ndarray]:
     """The triangles `chosen` (n,) of a mesh before the eye, and for each of the result which one of the mesh it is or
     is a part of; without normals."""
-    corners = rows(mesh.positions[mesh.triangles[chosen]]).swapaxes(1, 2)
+    corners = rows(mesh.positions[mesh.triangles[chosen].T])
     whole, parent, weights = _before(view, corners)
     if not len(parent):
         return mesh.like(mesh.positions, mesh.triangles[chosen], None), chosen

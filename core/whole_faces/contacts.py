@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import meeting, norm
+from ..geometry import meeting, norm, rows
 from ..patches import Patch
 from ..result import DEPTH, GAP
 from ..trees import Balls, SceneTree
@@ -24,7 +24,7 @@ def contacts(patch: Patch, tree: SceneTree) -> tuple[np.ndarray, np.ndarray]:
     radius = norm(corners - middle[:, None]).max(axis=0) + slid
     near, met = [np.zeros(0, dtype=np.int64)], np.zeros(len(patch), dtype=bool)
     for member, triangle, _ in tree.traced(Balls(middle, radius), np.ones(len(patch), dtype=bool)):
-        scene = np.moveaxis(tree.mesh.positions[tree.mesh.triangles[triangle]], 2, 0).swapaxes(1, 2)
+        scene = rows(tree.mesh.positions[tree.mesh.triangles[triangle].T])
         close = meeting(corners[:, :, member], scene, slid[member])
         near.append(np.unique(triangle[close]))
         met[member[close]] = True

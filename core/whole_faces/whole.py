@@ -7,7 +7,7 @@ import numpy as np
 
 from ..cameras import Cameras, picture_areas
 from ..culling import SceneAndMirrors, ScenePieces
-from ..geometry import TriangleMesh, norm
+from ..geometry import TriangleMesh, norm, rows
 from ..patches import Patch, speck
 from ..support import FACE_SHARE, Settings, breathe
 from ..trees import Cones, SceneTree
@@ -164,7 +164,7 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, re
         shown = shown[~sinking.sunk(patch, images, pieces.nodes[:, shown])]
     shown = shown[~division.strays_inside(images, pieces.nodes[:, shown])]
     breathe()
-    near = np.moveaxis(positions[triangles[near]], 2, 0).swapaxes(1, 2)
+    near = rows(positions[triangles[near].T])
     drawn, left = drawn_or_left(Layers(patch, images, sinking), pieces, shown, behind, near)
     if met.outward is not None:
         away = turned_away(images, pieces, met.outward[pieces.source])
