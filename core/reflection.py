@@ -140,8 +140,8 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     showing = _showing_mirrors(cameras, task)
     whole, task = (None, task) if overlaid else _whole_first(cameras, uncut, task, showing.plainly)
     bounces, seams, error, reach = _bounces(cameras, task, showing), None, 0.0, 0.0
-    if whole is not None and task.met.pieces is not None:
-        seams, nodes = seamed(whole, bounces[0], task.met.pieces.on_patch)
+    if whole is not None:
+        seams, nodes = seamed(whole, bounces[0].cameras, bounces[0].frames, bounces[0].nodes, bounces[0].faces)
         bounces[0] = replace(bounces[0], nodes=nodes)
         # whole faces were told apart by where they would lie if this were the longest path
         reach, error = task.reach(cameras), INSIDE_WHOLE * _over_length(*whole.straying)

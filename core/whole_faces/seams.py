@@ -6,12 +6,11 @@ the other side of that edge would leave a crack of as much as its chord strays: 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import SceneFrames, between, edge_numbers, following, others, ranges
+from ..geometry import SceneFrames, between, edge_numbers, following, groups, others, ranges
 from ..polygons import Faces, Nodes
 from .images import Images
 from .whole import WholeFaces
@@ -45,31 +44,16 @@ class Seamed:
     mirror_face: np.ndarray
 
 
-class CutFaces(Protocol):
-    """Faces that cameras have cut."""
-
-    @property
-    def cameras(self) -> Cameras: ...
-
-    @property
-    def frames(self) -> SceneFrames: ...
-
-    @property
-    def nodes(self) -> Nodes: ...
-
-    @property
-    def faces(self) -> Faces: ...
-
-
-def seamed(whole: WholeFaces, cut: CutFaces, on_patch: np.ndarray) -> tuple[Seamed, Nodes]:
-    """The whole faces that are drawn beside the faces that cameras have `cut`, some of these `on_patch` (m,), the
-    mirror's triangles that both are seen on; and the nodes of the latter with the ends that both share in one place."""
-    nodes = cut.nodes
+def seamed(whole: WholeFaces, cameras: Cameras, frames: SceneFrames, nodes: Nodes,
+           faces: Faces) -> tuple[Seamed, Nodes]:
+    """The whole faces that are drawn beside the `faces` that cameras have cut; and the nodes of the latter with the
+    ends that both share in one place."""
     images, drawn, left = whole.images, whole.pieces.select(whole.drawn), whole.pieces.select(whole.left)
     count = len(images)
     own = _edges(drawn.nodes.T, count)
     seam = np.intersect1d(own, _edges(left.nodes.T, count))
-    key, node, share = _on_edges(cut, on_patch, seam, count)
+    on_patch = faces.select(np.isin(cameras.face[faces.camera], whole.patch.face))
+    key, node, share = _on_edges(frames, nodes, on_patch, seam, count)
     same = np.full(count, -1)
     view, eye = whole.patch.view, whole.patch.eye
     for end, near in ((key // count, share < ON_EDGE), (key % count, share > 1.0 - ON_EDGE)):
@@ -98,12 +82,11 @@ def _edges(nodes: np.ndarray, count: int) -> np.ndarray:
     return edge_numbers(nodes, following(nodes), count)
 
 
-def _on_edges(cut: CutFaces, on_patch: np.ndarray, seam: np.ndarray,
+def _on_edges(frames: SceneFrames, nodes: Nodes, faces: Faces, seam: np.ndarray,
               count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The nodes of the cameras' faces that lie on edges of the `seam`: the edge, the node, and its share of the way
     along it."""
-    frames, nodes, faces = cut.frames, cut.nodes, cut.faces
-    face, side = np.nonzero(faces.on_scene_edge & on_patch[cut.cameras.face[faces.camera]][:, None])
+    face, side = np.nonzero(faces.on_scene_edge)
     ends = np.stack((faces.nodes[face, side], faces.nodes[face, (side + 1) % 3]))
     column, row = faces.column[face], np.arange(len(face))
     weights = [frames.weights(column, nodes.point[:, end]) for end in ends]
@@ -119,11 +102,8 @@ def _on_edges(cut: CutFaces, on_patch: np.ndarray, seam: np.ndarray,
     toward = np.where(one > other, first, second)
     found = [(key[kept], end[kept], weight[toward[kept], kept]) for end, weight in zip(ends, weights)]
     key, node, share = (np.concatenate(part) for part in zip(*found))
-    order = np.lexsort((node, key))
-    new = np.ones(len(order), dtype=bool)
-    new[1:] = (np.diff(key[order]) != 0) | (np.diff(node[order]) != 0)
-    order = order[new]
-    return key[order], node[order], share[order]
+    once, _ = groups(key, node)
+    return key[once], node[once], share[once]
 
 
 def _with_nodes(whole: WholeFaces, images: Images, nodes: np.ndarray, own: np.ndarray, key: np.ndarray,
