@@ -18,14 +18,15 @@ from .picture_areas import (
     pixels_of,
     places_at,
 )
-from .picture_cells import PictureCells
+from .picture_cells import PictureCells, box_counts, cells_before, cells_between
 from .reflection_map import ReflectionMap, grown
 from .shading_horizon import beyond_horizon, cut_at_horizon
 from .three_ray_cameras import Cameras, not_edge_on, three_ray_cameras, visible_triangles
 from .triangle_walk import INSIDE, brought_back, distance_from, settle
 
 __all__ = ["ALONG_UV", "BouncedMap", "Cameras", "INSIDE", "MirrorMap", "MirrorSurface", "PictureCells", "ReflectionMap",
-           "beyond_horizon", "brought_back", "covered_pixels", "cut_at_horizon", "distance_from", "drawn_in", "grown",
-           "in_picture", "least_weight", "may_fold", "not_edge_on", "picture_areas", "pixels_around_faces",
-           "pixels_crossed", "pixels_held", "pixels_of", "places_at", "refine_mirror", "settle", "split_cameras",
-           "three_ray_cameras", "true_rays", "visible_triangles", "with_pieces"]
+           "beyond_horizon", "box_counts", "brought_back", "cells_before", "cells_between", "covered_pixels",
+           "cut_at_horizon", "distance_from", "drawn_in", "grown", "in_picture", "least_weight", "may_fold",
+           "not_edge_on", "picture_areas", "pixels_around_faces", "pixels_crossed", "pixels_held", "pixels_of",
+           "places_at", "refine_mirror", "settle", "split_cameras", "three_ray_cameras", "true_rays",
+           "visible_triangles", "with_pieces"]

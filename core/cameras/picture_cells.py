@@ -65,22 +65,38 @@ class PictureCells:
 
     def with_boxes(self, low: np.ndarray, high: np.ndarray) -> PictureCells:
         """The same cells, of which those are marked that boxes from `low` to `high` (2, n) touch."""
-        (x0, y0), (x1, y1) = self._cell(low), self._cell(high) + 1
-        height, width = self.before.shape
-        corner = np.concatenate((y0 * width + x0, y1 * width + x1, y0 * width + x1, y1 * width + x0))
-        sign = np.repeat((1.0, -1.0), 2 * len(x0))
-        change = np.bincount(corner, sign, minlength=height * width).reshape(height, width)
-        marked = change.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0.5
-        before = np.zeros_like(self.before)
-        np.cumsum(marked.cumsum(axis=0), axis=1, out=before[1:, 1:])
-        return PictureCells(self.low, self.side, before)
+        marked = box_counts(self._cell(low), self._cell(high) + 1, self._size.ravel()) > 0.5
+        return PictureCells(self.low, self.side, cells_before(marked))
 
     def touched(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """Whether boxes from `low` to `high` (2, n) touch a marked cell, those outside of the grid one at its rim."""
-        (x0, y0), (x1, y1) = self._cell(low), self._cell(high) + 1
-        return self.before[y1, x1] - self.before[y0, x1] - self.before[y1, x0] + self.before[y0, x0] > 0
+        return cells_between(self.before, self._cell(low), self._cell(high) + 1) > 0
 
     def holds(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """Whether boxes from `low` to `high` (2, n) lie in the grid whole."""
         with np.errstate(invalid="ignore"):
             return ((low > self.low[:, None]) & (high < self.high[:, None])).all(axis=0)
+
+
+def box_counts(first: np.ndarray, end: np.ndarray, size: np.ndarray | tuple[int, ...]) -> np.ndarray:
+    """How many of the boxes from columns and rows `first` to before their `end` (2, n) hold each cell of a grid of
+    `size` (width, height), as (height, width) float64."""
+    width, height = np.add(size, 1)
+    change = np.zeros(height * width)
+    for x, y, sign in ((first, first, 1.0), (end, first, -1.0), (first, end, -1.0), (end, end, 1.0)):
+        change += sign * np.bincount(y[1] * width + x[0], minlength=len(change))
+    return change.reshape(height, width).cumsum(axis=0).cumsum(axis=1)[:-1, :-1]
+
+
+def cells_before(marked: np.ndarray) -> np.ndarray:
+    """How many of the `marked` (height, width) cells lie before each row and column, (height + 1, width + 1)."""
+    before = np.zeros(np.add(marked.shape, 1), dtype=np.int64)
+    np.cumsum(marked.cumsum(axis=0), axis=1, out=before[1:, 1:])
+    return before
+
+
+def cells_between(before: np.ndarray, first: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """How many marked cells, of which so many lie `before` each row and column, boxes (n,) hold that go from columns
+    and rows `first` to before their `end` (2, n)."""
+    (x0, y0), (x1, y1) = first, end
+    return before[y1, x1] - before[y0, x1] - before[y1, x0] + before[y0, x0]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..cameras import Cameras, places_at, true_rays
+from ..cameras import Cameras, cells_before, cells_between, places_at, true_rays
 from ..culling import SceneAndMirrors
 from ..geometry import SceneFrames, columns, distinct, dot, norm, rows, unit
 from ..result import GAP
@@ -90,10 +90,8 @@ class WholeSquares:
         straying = np.sqrt(2.0) * grid.side * _straying(met, triangle, (places[:, five], rays[:, five]), cameras.view)
         straying[_sunk(places[:, five], cameras) | ~(moved[corner[:, :2]] | moved[corner[:, 2:]]).T] = np.inf
         corners, of_square = _faces(five, straying)
-        before = np.zeros(np.add(whole.shape, 1), dtype=np.int64)
-        np.cumsum(whole.cumsum(axis=0), axis=1, out=before[1:, 1:])
-        return cls(grid, before, corners, face[middle][of_square], triangle[of_square], places, origins, rays, face,
-                   len(square))
+        return cls(grid, cells_before(whole), corners, face[middle][of_square], triangle[of_square], places, origins,
+                   rays, face, len(square))
 
     def holds(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """Whether boxes from `low` to `high` (2, n) of the picture lie in whole squares."""
@@ -101,9 +99,8 @@ class WholeSquares:
         first = np.floor(self.grid.spots(low) + TOUCHING)
         end = np.maximum(np.ceil(self.grid.spots(high) - TOUCHING), first + 1.0)
         inside = ((first >= 0.0) & (end <= np.array([[width], [height]]))).all(axis=0)
-        (x0, y0), (x1, y1) = (np.where(inside, bound, 0.0).astype(np.int64) for bound in (first, end))
-        found = self.before[y1, x1] - self.before[y0, x1] - self.before[y1, x0] + self.before[y0, x0]
-        return inside & (found == (x1 - x0) * (y1 - y0))
+        first, end = (np.where(inside, bound, 0.0).astype(np.int64) for bound in (first, end))
+        return inside & (cells_between(self.before, first, end) == np.prod(end - first, axis=0))
 
 
 class Holders:

@@ -5,7 +5,7 @@ from collections.abc import Generator, Iterable
 
 import numpy as np
 
-from ..cameras import Cameras
+from ..cameras import Cameras, box_counts
 from ..geometry import TriangleMesh, between, in_order, ranges, rows, shares
 from ..support import breathe
 from ..views import View
@@ -38,7 +38,8 @@ def pairs_in_picture(cameras: Cameras, mesh: TriangleMesh, owner: np.ndarray, ta
     work = []
     for level, taken in enumerate(levels):
         breathe()
-        work.append((_counts(boxes, level, taken) * _counts(others, level, taken) * taken).sum())
+        one, other = (box_counts(*_extents(part, level, taken), taken.shape[::-1]) for part in (boxes, others))
+        work.append((one * other * taken).sum())
     level = int(np.argmin(work))
     if work[level] > MOST_PAIRS:
         return None
@@ -86,30 +87,18 @@ def _halved(taken: np.ndarray) -> np.ndarray:
 
 
 def _extents(boxes: tuple[np.ndarray, np.ndarray], level: int, taken: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """First cell of each box and the cell behind its last, (n, 2) each, column and row."""
+    """First cell of each box and the cell behind its last, (2, n) each, column and row."""
     size = taken.shape[::-1]
     first = np.clip(np.floor(boxes[0] / 2.0**level), 0, size).astype(np.int64)
-    return first, np.maximum(np.clip(np.floor(boxes[1] / 2.0**level) + 1, 0, size).astype(np.int64), first)
-
-
-def _counts(boxes: tuple[np.ndarray, np.ndarray], level: int, taken: np.ndarray) -> np.ndarray:
-    """How many boxes touch each cell, as (height, width) float64."""
-    first, behind = _extents(boxes, level, taken)
-    # an empty side takes the other away with it
-    real = (behind > first).all(axis=1)
-    first, behind = first[real], behind[real]
-    height, width = taken.shape
-    change = np.zeros((height + 1) * (width + 1))
-    for x, y, sign in ((first, first, 1.0), (behind, first, -1.0), (first, behind, -1.0), (behind, behind, 1.0)):
-        change += sign * np.bincount(y[:, 1] * (width + 1) + x[:, 0], minlength=len(change))
-    return change.reshape(height + 1, width + 1).cumsum(axis=0).cumsum(axis=1)[:height, :width]
+    behind = np.clip(np.floor(boxes[1] / 2.0**level) + 1, 0, size).astype(np.int64)
+    return first.T, np.maximum(behind, first).T
 
 
 def _cells(boxes: tuple[np.ndarray, np.ndarray], level: int, taken: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The cells among those `taken` that each box touches, and which box."""
     first, behind = _extents(boxes, level, taken)
-    y, row = ranges(first[:, 1], behind[:, 1] - first[:, 1])
-    x, run = ranges(first[row, 0], (behind - first)[row, 0])
+    y, row = ranges(first[1], behind[1] - first[1])
+    x, run = ranges(first[0, row], (behind - first)[0, row])
     cell, box = y[run] * taken.shape[1] + x, row[run]
     kept = taken.ravel()[cell]
     return cell[kept], box[kept]
