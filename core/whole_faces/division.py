@@ -153,7 +153,7 @@ class Division:
         breathe()
         length = np.hypot(*np.where(both, chord, moved))
         diced = over & (length > DICED)
-        sunk = both & (length > DEEP) & self.sinking.too_deep(self.patch, images, a, b)
+        sunk = both & (length > DEEP) & self.sinking.too_deep(images, a, b)
         asked = np.flatnonzero(diced | sunk | (both & (length > SHORTEST) & (straying > DOUBT * tolerance)))
         middles = images.between(self.patch, a[asked], b[asked])
         halfway = images.pixel[:, a[asked]] + share[asked] * chord[:, asked]

@@ -30,7 +30,7 @@ def shown_or_behind(images: Images, pieces: Pieces, outward: np.ndarray | None) 
     return pieces.select(shown), pieces.nodes[:, away]
 
 
-def without_hidden(patch: Patch, images: Images, pieces: Pieces, sinking: Sinking) -> Pieces:
+def without_hidden(images: Images, pieces: Pieces, sinking: Sinking) -> Pieces:
     """The pieces without those that others hide, where many are so small that none is divided before that is told."""
     found = images.found[pieces.nodes]
     small = np.flatnonzero(found[0] & found[1] & found[2])
@@ -38,9 +38,9 @@ def without_hidden(patch: Patch, images: Images, pieces: Pieces, sinking: Sinkin
     small = small[(high - low).max(axis=0) < SMALL]
     if len(small) < MANY:
         return pieces
-    small = small[whole(patch, images, pieces.select(small))]
+    small = small[whole(sinking.patch, images, pieces.select(small))]
     kept = np.ones(len(pieces), dtype=bool)
-    kept[small] = ~Layers(patch, images, sinking).hidden(pieces.nodes[:, small])
+    kept[small] = ~Layers(images, sinking).hidden(pieces.nodes[:, small])
     return pieces.select(kept)
 
 
@@ -48,7 +48,7 @@ def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: np.
                    near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Which of the pieces (f,) are drawn, of those `shown` (n,) whole, and which are left to cameras, where `behind`
     them lie such with nodes (3, k), and before them triangles of the scene with corners `near` (3, 3, t)."""
-    patch, images = layers.patch, layers.images
+    patch, images = layers.sinking.patch, layers.images
     found = images.found[pieces.nodes]
     found = np.flatnonzero(found[0] & found[1] & found[2])
     found = found[~_beyond(patch, images, pieces.nodes[:, found])]

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import distinct, rows
-from ..patches import Patch
 from ..result import DEPTH, GAP
 from ..views import Covered
 from .images import Images
@@ -21,7 +20,6 @@ APART = 1e-6  # of the nearness: what lies closer before a face does not hide it
 class Layers:
     """What of whole faces is seen, and in which order."""
 
-    patch: Patch
     images: Images
     sinking: Sinking
 
@@ -50,8 +48,8 @@ class Layers:
 
     def _given(self, nodes: np.ndarray) -> tuple[Grid, np.ndarray, np.ndarray]:
         """The grid, and on it the corners (2, 3, f) of faces (3, f); and how near these come to the eye."""
-        grid = Grid.over(self.patch)
-        return grid, grid.spots(self.images.pixel[:, nodes]), self.sinking.order(self.patch, self.images)[nodes]
+        grid = Grid.over(self.sinking.patch)
+        return grid, grid.spots(self.images.pixel[:, nodes]), self.sinking.order(self.images)[nodes]
 
     def _hidden(self, solid: np.ndarray, covered: Covered, given: tuple) -> np.ndarray:
         """Which faces (f,) those that are `solid` hide; `given` are their corners, their order and the grid's size."""
@@ -79,12 +77,12 @@ class Layers:
         ahead &= second[pixel] >= 0.0
         face, pixel = face[ahead], pixel[ahead]
         over, column = distinct(face)
-        sagitta = INSIDE * self.sinking.deepest(self.patch, self.images, nodes[:, over])
+        sagitta = INSIDE * self.sinking.deepest(self.images, nodes[:, over])
         return face[DEPTH * (first - second)[pixel] <= sagitta[column]]
 
     def _behind_contacts(self, nodes, face, pixel, grid: Grid, near: np.ndarray) -> np.ndarray:
         """Faces that the scene hides from the eye from so near that they would slide through it."""
-        patch = self.patch
+        patch = self.sinking.patch
         depth = patch.view.depths(near.reshape(3, -1).T).reshape(near.shape[1:])
         ahead = (depth > 0.0).all(axis=0)
         near, depth = near[:, :, ahead], depth[:, ahead]

@@ -24,27 +24,28 @@ class Sinking:
 
     Attributes
     ----------
+    patch : Patch
     layered : bool
         Whether they are apart at all.
     size, reach : float
         Of an orthographic view: what is seen of the mirror, and the longest path.
     """
 
+    patch: Patch
     layered: bool
     size: float
     reach: float
 
-    def order(self, patch: Patch, images: Images, node: np.ndarray | slice = slice(None)) -> np.ndarray:
+    def order(self, images: Images, node: np.ndarray | slice = slice(None)) -> np.ndarray:
         """How near nodes (n,) come to the eye, from 0 to 1."""
         s = np.maximum(images.distance[node], 0.0)
-        return 1.0 - np.minimum(s / self.reach, 1.0) if patch.mirror_map.orthographic else 1.0 / (1.0 + s)
+        return 1.0 - np.minimum(s / self.reach, 1.0) if self.patch.mirror_map.orthographic else 1.0 / (1.0 + s)
 
-    def sagitta(self, patch: Patch, images: Images, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    def sagitta(self, images: Images, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """How far the edges (e,) from a to b sink below the mirror along view rays, to the size of the view. An edge
         over two flat triangles, whose ends lie p and q below the other end's plane, sinks by p q / (p + q); over more
         of them, as over a smooth mirror, by less."""
-        way = images.place[:, b] - images.place[:, a]
-        depths = []
+        patch, way, depths = self.patch, images.place[:, b] - images.place[:, a], []
         for end in (a, b):
             flat = patch.mirror_map.surface.face_normal[:, patch.face[images.member[end]]]
             arriving = patch.arriving(images.place[:, end])
@@ -53,29 +54,29 @@ class Sinking:
         deepest = one * other / np.maximum(one + other, 1e-300)
         return deepest / (self.size if patch.mirror_map.orthographic else 1.0)
 
-    def deepest(self, patch: Patch, images: Images, nodes: np.ndarray) -> np.ndarray:
+    def deepest(self, images: Images, nodes: np.ndarray) -> np.ndarray:
         """How far the edges of faces (3, f) sink at most."""
         most = np.zeros(nodes.shape[1])
         # a face on one triangle of the mirror does not sink
         some = np.flatnonzero(images.several(nodes))
         for edge in sides(nodes[:, some]):
-            most[some] = np.maximum(most[some], self.sagitta(patch, images, *edge))
+            most[some] = np.maximum(most[some], self.sagitta(images, *edge))
         return most
 
-    def sunk(self, patch: Patch, images: Images, nodes: np.ndarray) -> np.ndarray:
+    def sunk(self, images: Images, nodes: np.ndarray) -> np.ndarray:
         """Which faces (3, f) sink nearly to the mirror."""
         some = np.flatnonzero(images.several(nodes))
         found = np.zeros(nodes.shape[1], dtype=bool)
         for edge in sides(nodes[:, some]):
-            found[some] |= self.too_deep(patch, images, *edge)
+            found[some] |= self.too_deep(images, *edge)
         return found
 
-    def too_deep(self, patch: Patch, images: Images, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    def too_deep(self, images: Images, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Which edges (e,) from a to b sink nearly to the mirror."""
         if not self.layered:
             return np.zeros(len(a), dtype=bool)
-        order = np.minimum(self.order(patch, images, a), self.order(patch, images, b))
-        return self.sagitta(patch, images, a, b) > SINKING * (GAP + DEPTH * order)
+        order = np.minimum(self.order(images, a), self.order(images, b))
+        return self.sagitta(images, a, b) > SINKING * (GAP + DEPTH * order)
 
 
 def sides(nodes: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], ...]:

@@ -152,20 +152,20 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, re
     images = merged.images
     seen = images.place[:, images.found]
     size = float(np.ptp(seen, axis=1).max()) if seen.shape[1] else 0.0
-    sinking = Sinking(settings.placement == "LAYERED", size, reach)
+    sinking = Sinking(patch, settings.placement == "LAYERED", size, reach)
     division = Division(patch, FACE_SHARE * settings.tolerance, sinking, settings.placement == "VIRTUAL", most)
     pieces, behind = shown_or_behind(images, Pieces.of(merged.triangles[merged.left], merged.left), met.outward)
     breathe()
-    pieces = without_hidden(patch, images, pieces, sinking)
+    pieces = without_hidden(images, pieces, sinking)
     images, pieces, straying, limited = division.divided(images, pieces)
     shown = np.flatnonzero(whole(patch, images, pieces))
     breathe()
     if sinking.layered:
-        shown = shown[~sinking.sunk(patch, images, pieces.nodes[:, shown])]
+        shown = shown[~sinking.sunk(images, pieces.nodes[:, shown])]
     shown = shown[~division.strays_inside(images, pieces.nodes[:, shown])]
     breathe()
     near = rows(positions[triangles[near].T])
-    drawn, left = drawn_or_left(Layers(patch, images, sinking), pieces, shown, behind, near)
+    drawn, left = drawn_or_left(Layers(images, sinking), pieces, shown, behind, near)
     if met.outward is not None:
         away = turned_away(images, pieces, met.outward[pieces.source])
         drawn, left = drawn & ~away, left & ~away

@@ -125,7 +125,7 @@ PARTS = {
         cells, np.arange(len(cells))), (SMALL, BALLS, ROOM), "maximum", settings=RAYS),
     "what hides what rays show": Part(SceneAndMirrors, "hidden_within", lambda self, origin, ray, reach: np.zeros(
         len(reach), dtype=bool), (VIEW, FLOOR, BOXES), "uncovered", above=0.1, settings=RAYS),
-    "sinking faces": Part(Sinking, "too_deep", lambda self, patch, images, a, b: np.zeros(len(a), dtype=bool),
+    "sinking faces": Part(Sinking, "too_deep", lambda self, images, a, b: np.zeros(len(a), dtype=bool),
                           "dense sphere_ortho", "uncovered", 10.0),
     "bodies that turn away": Part(ClosedBodies, "outward_from", lambda self, view: np.zeros(len(self.outward)),
                                   "sphere", "faces", 1.2),
