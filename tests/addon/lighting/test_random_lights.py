@@ -1,0 +1,35 @@
+"""Light on reflections of scenes drawn at random, judged by Cycles; and that the judge finds what it is there for."""
+import bpy
+import pytest
+
+from tests.fuzz.blender import lit_trial
+from tests.fuzz.blender.lit_trial import tried_lit
+from tests.fuzz.kept import kept_seeds
+
+SEEDS = (11, 46)  # light of the picture, and on the objects; `make fuzz` tries others
+
+
+@pytest.mark.parametrize("seed", kept_seeds("lit"))
+def test_kept_seeds(seed):
+    assert tried_lit(seed)["problems"] == []
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_lit_scenes_at_random(seed):
+    tried = tried_lit(seed)
+    assert tried["problems"] == [] and not tried["refusal"], tried["name"]
+
+
+def test_what_is_wrong_is_found(monkeypatch):
+    """After lighting the file is meddled with: a lamp shines more, and something is left over."""
+    called = lit_trial.scene_trial._called
+
+    def meddling(operator, *arguments, **options):
+        outcome = called(operator, *arguments, **options)
+        if operator == "light":
+            next(obj for obj in bpy.data.objects if obj.type == "LIGHT").data.energy *= 1.5
+            bpy.data.materials.new("Left over")
+        return outcome
+    monkeypatch.setattr(lit_trial.scene_trial, "_called", meddling)
+    found = "\n".join(tried_lit(SEEDS[1])["problems"])
+    assert "light: " in found and "clear: data materials" in found and "Left over" in found
