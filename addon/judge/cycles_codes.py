@@ -9,6 +9,7 @@ import numpy as np
 from .cycles_scene import CopiedScene
 
 MIRROR_NORMAL = "reflection_mesh_normal"
+NO_LENGTH = 1e-6
 
 
 class CodedMaterials:
@@ -125,19 +126,30 @@ class CodedMaterials:
         return node
 
     def _world_normal(self, tree: bpy.types.NodeTree, name: str) -> bpy.types.NodeSocket:
-        """The normal that the mesh carries as the attribute `name`, in world space, on the side that is seen."""
+        """The normal that the mesh carries as the attribute `name`, in world space, on the side that is seen; that of
+        its triangles where it carries none."""
+        carried, seen = self._attribute(tree, name).outputs["Vector"], tree.nodes.new("ShaderNodeNewGeometry")
+        none = tree.nodes.new("ShaderNodeMath")
+        none.operation, none.inputs[1].default_value = "LESS_THAN", NO_LENGTH
+        tree.links.new(_vector(tree, "LENGTH", carried).outputs["Value"], none.inputs[0])
+        # what has no length is no number once it is in world space
+        some = _vector(tree, "ADD", carried, none.outputs["Value"])
         transform = tree.nodes.new("ShaderNodeVectorTransform")
         transform.vector_type, transform.convert_from, transform.convert_to = "NORMAL", "OBJECT", "WORLD"
-        tree.links.new(self._attribute(tree, name).outputs["Vector"], transform.inputs["Vector"])
+        tree.links.new(some.outputs["Vector"], transform.inputs["Vector"])
         side = tree.nodes.new("ShaderNodeMath")
         side.operation = "MULTIPLY_ADD"
-        tree.links.new(tree.nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"], side.inputs[0])
+        tree.links.new(seen.outputs["Backfacing"], side.inputs[0])
         side.inputs[1].default_value, side.inputs[2].default_value = -2.0, 1.0
-        turned = tree.nodes.new("ShaderNodeVectorMath")
-        turned.operation = "SCALE"
-        tree.links.new(transform.outputs["Vector"], turned.inputs["Vector"])
+        turned = _vector(tree, "SCALE", transform.outputs["Vector"])
         tree.links.new(side.outputs["Value"], turned.inputs["Scale"])
-        return turned.outputs["Vector"]
+        both = tree.nodes.new("ShaderNodeMix")
+        both.data_type = "VECTOR"
+        given = {socket.identifier: socket for socket in both.inputs}
+        for source, socket in ((none.outputs["Value"], "Factor_Float"), (turned.outputs["Vector"], "A_Vector"),
+                               (seen.outputs["Normal"], "B_Vector")):
+            tree.links.new(source, given[socket])
+        return next(socket for socket in both.outputs if socket.identifier == "Result_Vector")
 
     def _from_origin(self, tree: bpy.types.NodeTree, socket, emission: bpy.types.Node) -> None:
         subtract = tree.nodes.new("ShaderNodeVectorMath")
@@ -151,16 +163,28 @@ def carry_normals(copied: CopiedScene) -> None:
     """Write the mirrors' shading normals into the attribute `MIRROR_NORMAL`, which Cycles does not round.
 
     Cycles interpolates them as unit vectors in world space, or in the object's where several objects share a mesh.
+    Those of meshes that are flat all over are their triangles', be a face bent or not, and are not rounded.
     """
     places = {copy.data: np.array(copy.matrix_world, dtype=np.float64)[:3, :3] for copy, _ in copied.mirrors}
     users = Counter(copy.data for copy in copied.everything)
     for mesh, place in places.items():
+        if mesh.normals_domain == "FACE":
+            continue
         normals = np.empty((len(mesh.loops), 3), dtype=np.float32)
         mesh.corner_normals.foreach_get("vector", normals.reshape(-1))
         if users[mesh] == 1 and abs(np.linalg.det(place)) > 0.0:
             length = np.linalg.norm(normals @ np.linalg.inv(place), axis=1, keepdims=True)
             normals = (normals / np.where(length > 0.0, length, 1.0)).astype(np.float32)
         mesh.attributes.new(MIRROR_NORMAL, "FLOAT_VECTOR", "CORNER").data.foreach_set("vector", normals.reshape(-1))
+
+
+def _vector(tree: bpy.types.NodeTree, operation: str, *sources: bpy.types.NodeSocket) -> bpy.types.Node:
+    """A node that calculates with vectors."""
+    node = tree.nodes.new("ShaderNodeVectorMath")
+    node.operation = operation
+    for source, socket in zip(sources, node.inputs):
+        tree.links.new(source, socket)
+    return node
 
 
 def _glossy(tree: bpy.types.NodeTree) -> bpy.types.Node:

@@ -9,10 +9,10 @@ import bpy
 import numpy as np
 
 from ....core import ReflectionError
-from ... import compat
 from ..materials import asked_attributes
 from .creases import Creases
 from .read_layers import NO_LAYERS, read_layers
+from .shading_normals import bent_faces, corner_normals, with_bent_faces
 from .source_lines import SourceLines
 
 NO_NUMBER = 2**31 - 1  # of a level of instances that there is not: a whole collection has one, and one of each object
@@ -35,7 +35,7 @@ class LocalMesh:
     materials : tuple
         The object's materials by index; None where a slot is empty.
     normals : (m, 3, 3) float32
-        Shading normals of the corners: smooth, flat or custom, as Blender shades.
+        Shading normals of the corners: smooth, flat or custom, as Cycles shades.
     lines : SourceLines or None
         None of a mirror.
     uv_maps : dict of str to (corners, 2) float32
@@ -197,14 +197,16 @@ def _read(obj: bpy.types.Object, materials: tuple, mirror: bool) -> LocalMesh | 
     corners, face = _triangulation(mesh)
     corner_vertex = _values(mesh.attributes[".corner_vert"].data, "value", len(mesh.loops), np.int32)
     materials = materials or tuple(mesh.materials)
-    normals = _corner_normals(mesh)
+    normals = corner_normals(mesh)
     if mirror and not np.isfinite(normals).all():
         obj.to_mesh_clear()
         raise ReflectionError(f"'{obj.name}' has a normal that is not a finite number: recalculate its normals.")
     normals[~np.isfinite(normals)] = 0.0
+    triangles = corner_vertex[corners]
+    normals = with_bent_faces(normals[corners], positions[triangles], bent_faces(mesh)[face])
     local = LocalMesh(
-        positions, corner_vertex[corners], corners, len(mesh.loops), _face_materials(mesh)[face], materials,
-        normals[corners], None if mirror else SourceLines.of(mesh, corners, face),
+        positions, triangles, corners, len(mesh.loops), _face_materials(mesh)[face], materials,
+        normals, None if mirror else SourceLines.of(mesh, corners, face),
         *(NO_LAYERS if mirror else read_layers(mesh, materials)),
         np.array((mesh.texspace_location, mesh.texspace_size), dtype=np.float32))
     obj.to_mesh_clear()
@@ -235,14 +237,3 @@ def _face_materials(mesh: bpy.types.Mesh) -> np.ndarray:
     if attribute is None or attribute.data_type != "INT" or attribute.domain != "FACE":
         return np.zeros(len(mesh.polygons), dtype=np.int32)
     return _values(attribute.data, "value", len(mesh.polygons), np.int32)
-
-
-def _corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
-    normals = _values(mesh.corner_normals, "vector", (len(mesh.loops), 3), np.float32)
-    if compat.smooth_faces_take_vertex_normals(mesh):
-        smooth = np.repeat(_values(mesh.polygons, "use_smooth", len(mesh.polygons), bool),
-                           _values(mesh.polygons, "loop_total", len(mesh.polygons), np.int32))
-        of_vertices = _values(mesh.vertex_normals, "vector", (len(mesh.vertices), 3), np.float32)
-        vertex = _values(mesh.attributes[".corner_vert"].data, "value", len(mesh.loops), np.int32)
-        normals[smooth] = of_vertices[vertex[smooth]]
-    return normals

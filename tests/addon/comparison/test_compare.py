@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import bpy
 import numpy as np
+import parts
 import pytest
 
 SIZE = 64
@@ -322,3 +323,20 @@ def test_rounding_explains_all_that_cycles_does_to_normals(rooms, curved_scene, 
     # positions of a few units in float32, along rays that the mirror spreads; rounding moves them by over 1e-4
     assert found["stored"].max() < 2e-5
     assert (np.median(found["exact"]) > 1e-4) == (bpy.app.version[0] >= 5)
+
+
+def test_the_judge_shades_bent_faces_as_cycles_does(blank, tmp_path):
+    """A flat wall mirror, one of whose corners is pulled out."""
+    mirror = parts.add_wall_mirror()
+    mirror.data.vertices[3].co.z = 0.5
+    balls = [parts.add("ico_sphere", f"Ball {place}", radius=0.5, location=(place, -2.0, 1.0 + 0.2 * place))
+             for place in (-2, 0, 2)]
+    for ball in balls:
+        ball.data.materials.append(parts.material("Paint"))
+    parts.select(*balls, mirror)
+    parts.generate()
+    bpy.ops.reflection_mesh.compare(filepath=str(tmp_path), samples=1)
+    report = json.loads((tmp_path / "report.json").read_text())
+    for judged in (report, report["without_packed_normals"] or report):
+        assert judged["displacement_px"]["max"] < 1.0
+        assert judged["coverage_percent"]["all"] < 1.0

@@ -31,6 +31,18 @@ def test_smooth_faces_are_lit_smoothly(blank, tmp_path, smooth):
     assert np.percentile(np.abs(ratio - 1.0), 90) < 0.01
 
 
+def test_faces_that_are_bent_are_lit_as_their_triangles(blank, tmp_path):
+    """A flat floor, one of whose corners is raised."""
+    floor, mirror, lamp = scene_of("SPOT", spot_size=0.9)
+    blank.scene.cycles.max_bounces = 0
+    mirror.scale, floor.scale = (3.0, 3.0, 3.0), (0.15, 0.15, 1.0)
+    floor.data.vertices[3].co.z = 0.7
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
+    ratio = (light / np.maximum(expected, 1e-12))[inner(light)]
+    assert len(ratio) > 1500
+    assert np.percentile(np.abs(ratio - 1.0), 95) < 0.01
+
+
 @pytest.mark.parametrize("tilt, values", [
     (0.0, {}), (1.1, {}), (1.1, {"Roughness": 1.0}), (1.1, {"Roughness": 0.1, "Specular IOR Level": 1.0}),
     (0.0, {"Transmission Weight": 0.5}), (1.1, {"Alpha": 0.3})], ids=str)

@@ -6,17 +6,22 @@ import pytest
 from mathutils import Matrix
 
 
-def plain_triangles(obj: bpy.types.Object, of_vertices: bool = False) -> tuple[np.ndarray, np.ndarray]:
+def plain_triangles(obj: bpy.types.Object, of_vertices: bool = False,
+                    bent: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """World corners (m, 3, 3) and world corner normals of an object, through mathutils, one at a time.
 
-    `of_vertices` asks for the vertices' normals on smooth faces, as Cycles takes them beside flat ones up to 4.5.
+    `of_vertices` asks for the vertices' normals on smooth faces, as Cycles takes them beside flat ones up to 4.5;
+    `bent` for the triangles' own on flat faces.
     """
+    def normal_of(triangle, vertex: int, index: int):
+        if triangle.use_smooth and of_vertices:
+            return mesh.vertices[vertex].normal
+        return mesh.corner_normals[index].vector if triangle.use_smooth or not bent else triangle.normal
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh, matrix = evaluated.data, obj.matrix_world
     to_normal = matrix.to_3x3().inverted().transposed()
     corners = [[matrix @ mesh.vertices[index].co for index in triangle.vertices] for triangle in mesh.loop_triangles]
-    normals = [[(to_normal @ (mesh.vertices[vertex].normal if of_vertices and triangle.use_smooth
-                              else mesh.corner_normals[index].vector)).normalized()
+    normals = [[(to_normal @ normal_of(triangle, vertex, index)).normalized()
                 for vertex, index in zip(triangle.vertices, triangle.loops)] for triangle in mesh.loop_triangles]
     return np.array(corners), np.array(normals)
 
@@ -53,7 +58,8 @@ def test_corners_and_normals(blank, room, shading, mirrored):
     if mirrored:
         obj.scale.x = -1.5
     surface = read_mirror(room, obj)
-    corners, normals = plain_triangles(obj, shading == "mixed" and bpy.app.version < (5, 0, 0))
+    of_vertices = shading == "mixed" and bpy.app.version < (5, 0, 0)
+    corners, normals = plain_triangles(obj, of_vertices, of_vertices or shading == "flat")
     order = [0, 2, 1] if mirrored else [0, 1, 2]
     assert np.allclose(surface.mesh.positions[surface.mesh.triangles], corners[:, order], atol=2e-6)
     assert np.allclose(surface.mesh.corner_normals, normals[:, order], atol=2e-6)
@@ -109,6 +115,29 @@ def test_smooth_beside_flat_is_shaded_as_in_cycles(blank, room, tmp_path, sharp_
         read = surface.corner_normals[side][at_ridge[side]]
         # a half pixel from the ridge the normal has turned by a 128th of the way
         assert np.linalg.norm(read - normal / np.linalg.norm(normal), axis=1).max() < 0.02
+
+
+@pytest.mark.parametrize("beside", ["nothing", "a smooth face", "a sharp edge"])
+def test_bent_faces_are_shaded_as_in_cycles(blank, room, tmp_path, beside):
+    """A flat quad with a corner that is raised, seen from above: the normals of its two triangles."""
+    quad = bpy.data.meshes.new("Bent")
+    quad.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0.7), (-1, 1, 0), (5, 5, 0), (6, 5, 1), (6, 6, 0)], [],
+                     [(0, 1, 2, 3), (4, 5, 6)])
+    quad.polygons.foreach_set("use_smooth", [False, beside != "nothing"])
+    if beside == "a sharp edge":
+        quad.attributes.new("sharp_edge", "BOOLEAN", "EDGE").data[0].value = True
+    bent = bpy.data.objects.new("Bent", quad)
+    scene = blank.scene
+    scene.collection.objects.link(bent)
+    scene.camera.data.type, scene.camera.data.ortho_scale = "ORTHO", 2.0
+    scene.camera.location, scene.camera.rotation_euler = (0.0, 0.0, 4.0), (0.0, 0.0, 0.0)
+    scene.render.resolution_x = scene.render.resolution_y = 128
+    surface = read_mirror(room, bent).mesh
+    shown = shading_normals_in_cycles(tmp_path / "normals.exr")
+    middle = surface.positions[surface.triangles].mean(axis=1)
+    for index in np.flatnonzero(np.abs(middle).max(axis=1) < 2.0):
+        column, row = ((middle[index, :2] + 1.0) * 64.0).astype(int)
+        assert np.abs(surface.corner_normals[index] - shown[row, column]).max() < 1e-3
 
 
 def test_modifiers_are_applied(blank, room):
