@@ -8,6 +8,7 @@ import bpy
 
 from .. import compat
 from ..faults import AllOrNothing
+from ..reading.materials import shown_output
 from ..writing.nodes.muted_nodes import take_out_muted
 from ..writing.nodes.shader_builder import ShaderBuilder
 from .diffuse_colour import GREY, DiffuseColour, diffuse_colour
@@ -37,7 +38,7 @@ def adds_light(receiver: bpy.types.Material | None, stains: list[tuple[Tint, bpy
         take_out_muted(tree)
         strange = asks_for_more(tree)
         show_by_places(tree, whole)
-        output = tree.get_output_node("ALL")
+        output = shown_output(tree)
         found = DiffuseColour() if output is None else diffuse_colour(tree, output.inputs["Surface"], whole)
         found = replace(found, known=found.known and not (found.by_nodes and strange))
     material[MARK] = True

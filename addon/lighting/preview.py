@@ -11,7 +11,7 @@ from ..baking import write_mirror_normals
 from ..faults import AllOrNothing
 from ..lamps import ShownLamp, lamp_light, lamps_before
 from ..mirror_part import WHITE, LaterMirrors, Share, opacity_of
-from ..reading.materials import surface_shader
+from ..reading.materials import one_output, surface_shader
 from ..writing.kept_changes import PREVIEW as MARK
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
 
@@ -123,9 +123,7 @@ class _Builder(ShaderBuilder):
 
     def put_out(self, surface: bpy.types.NodeSocket) -> None:
         """Let Cycles and EEVEE show a surface; exporters begin at what the material was before."""
-        known = self.tree.get_output_node("ALL")
-        for other in [node for node in self.tree.nodes if node.type == "OUTPUT_MATERIAL" and node.target != "ALL"]:
-            self.tree.nodes.remove(other)
+        known = one_output(self.tree)
         for engine in ("CYCLES", "EEVEE"):
             output = self.add("ShaderNodeOutputMaterial", target=engine)
             self.feed(surface, output.inputs["Surface"])

@@ -8,7 +8,7 @@ import bpy
 from .. import compat
 from ..faults import AllOrNothing, remove_new
 from ..lamps import ShownLamp, lamp_light
-from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, surface_shader
+from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, one_output, surface_shader
 from ..writing import UV_MAP, show_unblurred
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
@@ -66,7 +66,7 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Mat
         shown = None if shader is None else build.shown(shader)
         build.bend_normals()
         build.reflect_by_side()
-    output = tree.get_output_node("ALL")
+    output = one_output(tree)
     if shown is not None:
         if not opaque:
             clear = build.add("ShaderNodeBsdfTransparent").outputs[0]

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..reading.materials import surface_shader
+from ..reading.materials import one_output, surface_shader
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
 from .mirror_share import layer_weights_as_fresnel
 
@@ -80,7 +80,7 @@ def as_mirrors_see(tree: bpy.types.NodeTree) -> None:
 
 def show_opacity(tree: bpy.types.NodeTree) -> None:
     """Let a material emit how opaque it is, from 0 to 1."""
-    output = tree.get_output_node("ALL")
+    output = one_output(tree)
     if output is None:
         return
     shader = surface_shader(tree)

@@ -11,6 +11,7 @@ import numpy as np
 
 from ....core import Lamp, ReflectionError
 from ... import compat
+from ...reading.materials import shown_output
 from .area_lamps import across_area, disc, rays_meet, spread_of
 from .eye import Eye, across
 from .mesh_lamps import eyes_of_mesh, is_mesh_lamp
@@ -167,7 +168,7 @@ def light_of_nodes(data: bpy.types.Light) -> tuple[np.ndarray, bool]:
     plugged into an Emission counts as if it were not."""
     if not compat.uses_nodes(data):
         return np.ones(3), True
-    output = data.node_tree.get_output_node("ALL")
+    output = shown_output(data.node_tree)
     if output is None or not output.inputs["Surface"].is_linked:
         return np.zeros(3), True
     shader = output.inputs["Surface"].links[0].from_node

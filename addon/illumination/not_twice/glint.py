@@ -12,6 +12,7 @@ import bpy
 
 from ... import compat
 from ...faults import AllOrNothing
+from ...reading.materials import one_output
 from ...writing import link_beside
 from ..light_sources import GLINT, is_glint
 from .shining_shell import follow_materials, forget_materials, has_shell, shell_of
@@ -156,7 +157,7 @@ def _replace(old: bpy.types.Light, glint: bpy.types.Object) -> None:
 
 def _darken_behind_diffuse(data: bpy.types.Light) -> None:
     tree = data.node_tree if compat.uses_nodes(data) else _plain_nodes(data)
-    surface = tree.get_output_node("ALL").inputs["Surface"]
+    surface = one_output(tree).inputs["Surface"]
     shader = surface.links[0].from_socket
     path, mix = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeMixShader")
     tree.links.new(path.outputs["Diffuse Depth"], mix.inputs["Fac"])

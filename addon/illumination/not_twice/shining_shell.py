@@ -11,7 +11,7 @@ from mathutils import Matrix
 
 from ... import compat
 from ...faults import AllOrNothing
-from ...reading.materials import all_nodes, surface_shader
+from ...reading.materials import all_nodes, one_output, surface_shader
 from ..light_sources import EMISSION, GLINT
 
 THICKNESS = 2e-4  # of the mesh's size
@@ -83,7 +83,7 @@ def _shining(material: bpy.types.Material | None, name: str) -> bpy.types.Materi
     if not found:
         tree.nodes.clear()
         add("ShaderNodeOutputMaterial")
-    output = tree.get_output_node("ALL")
+    output = one_output(tree)
     for link in [link for socket in output.inputs for link in socket.links]:
         tree.links.remove(link)
     through, added = add("ShaderNodeBsdfTransparent"), add("ShaderNodeAddShader")

@@ -1,4 +1,4 @@
-"""The nodes of a material, those in groups too, and which attributes of a mesh they ask for."""
+"""The nodes of a material, those in groups too, where they end, and which attributes of a mesh they ask for."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
@@ -14,6 +14,22 @@ NAMES = {"ATTRIBUTE": "attribute_name", "VERTEX_COLOR": "layer_name", "UVMAP": "
 def all_nodes(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.Node]:
     """The nodes of a tree and of all groups in it, each tree once."""
     return _nodes(tree, set())
+
+
+def shown_output(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
+    """The node at which the tree of a material, a lamp or a world ends: Cycles', where engines have their own; None
+    where there is none."""
+    return tree.get_output_node("CYCLES") or tree.get_output_node("EEVEE")
+
+
+def one_output(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
+    """The same node of a copy, at which it ends for every engine from now on: its others go."""
+    output = shown_output(tree)
+    if output is not None:
+        for other in [node for node in tree.nodes if node.type == output.type and node != output]:
+            tree.nodes.remove(other)
+        output.target, output.is_active_output = "ALL", True
+    return output
 
 
 def asked_attributes(materials: Iterable[bpy.types.Material | None]) -> set[str]:

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from ... import compat
-from .material_nodes import all_nodes
+from .material_nodes import all_nodes, shown_output
 from .surface_shaders import surface_shaders
 
 # as Blender holds them, in single precision: a tenth there is more than 0.1
@@ -64,7 +64,7 @@ def is_exact(material: bpy.types.Material | None) -> bool:
 
 def surface_shader(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
     """The shader node behind the active output's Surface socket."""
-    output = tree.get_output_node("ALL")
+    output = shown_output(tree)
     if output is None:
         return None
     socket = output.inputs["Surface"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ... import compat
-from .material_nodes import all_nodes
+from .material_nodes import all_nodes, shown_output
 from .surface_shaders import surface_shaders
 
 OPEN_SHADERS = {"BSDF_TRANSPARENT", "BSDF_GLASS", "BSDF_REFRACTION", "HOLDOUT"}
@@ -22,7 +22,7 @@ def is_opaque(material: bpy.types.Material | None) -> bool:
 def fog_of(owner: bpy.types.Material | bpy.types.World | None) -> bpy.types.NodeSocket | None:
     """The socket into which a material's, or a world's, nodes put fog or what else fills a volume; None where there is
     nothing."""
-    output = owner.node_tree.get_output_node("ALL") if owner is not None and compat.uses_nodes(owner) else None
+    output = shown_output(owner.node_tree) if owner is not None and compat.uses_nodes(owner) else None
     socket = None if output is None else output.inputs["Volume"]
     return socket if socket is not None and socket.is_linked else None
 

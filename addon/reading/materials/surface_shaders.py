@@ -3,12 +3,14 @@ from __future__ import annotations
 
 import bpy
 
+from .material_nodes import shown_output
+
 MIXING = {"MIX_SHADER", "ADD_SHADER", "REROUTE"}
 
 
 def surface_shaders(tree: bpy.types.NodeTree) -> list:
     """The nodes behind the active output's Surface socket that are neither mixes nor groups, but what is in these."""
-    output = tree.get_output_node("ALL")
+    output = shown_output(tree)
     return [] if output is None else list(dict.fromkeys(_behind(output.inputs["Surface"])))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ... import compat
+from .material_nodes import shown_output
 from .opaque_materials import is_clear, is_fog
 
 GREY = 1e-3  # by how much red, green and blue of what goes through may differ
@@ -16,7 +17,7 @@ def transparency(material: bpy.types.Material | None) -> float | None:
         return 0.0
     if is_fog(material) or is_clear(material):
         return 1.0
-    output = material.node_tree.get_output_node("ALL")
+    output = shown_output(material.node_tree)
     return 0.0 if output is None else _through(output.inputs["Surface"])
 
 

@@ -43,6 +43,26 @@ def test_faces_that_are_bent_are_lit_as_their_triangles(blank, tmp_path):
     assert np.percentile(np.abs(ratio - 1.0), 95) < 0.01
 
 
+@pytest.mark.parametrize("targets", [("EEVEE", "CYCLES"), ("ALL", "CYCLES"), ("EEVEE", "ALL")], ids="+".join)
+def test_of_outputs_for_each_engine_the_one_for_cycles_counts(blank, tmp_path, targets):
+    """The last; the other one is a mirror's on the floor, and none on the mirror."""
+    floor, mirror, lamp = scene_of()
+    blank.scene.cycles.max_bounces = 0
+    for obj in (floor, mirror):
+        tree = obj.active_material.node_tree
+        shader, output = tree.nodes[0], tree.get_output_node("ALL")
+        others = [tree.nodes.new("ShaderNodeOutputMaterial"), output]
+        for node, target in zip(others, targets, strict=True):
+            node.target = target
+        if obj == floor:
+            tree.links.new(tree.nodes.new("ShaderNodeBsdfAnisotropic").outputs[0], others[0].inputs["Surface"])
+        assert output.inputs["Surface"].links[0].from_node == shader
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
+    ratio = (light / np.maximum(expected, 1e-12))[inner(light)]
+    assert len(ratio) > 500
+    assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 2e-3
+
+
 @pytest.mark.parametrize("tilt, values", [
     (0.0, {}), (1.1, {}), (1.1, {"Roughness": 1.0}), (1.1, {"Roughness": 0.1, "Specular IOR Level": 1.0}),
     (0.0, {"Transmission Weight": 0.5}), (1.1, {"Alpha": 0.3})], ids=str)
