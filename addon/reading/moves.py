@@ -1,7 +1,11 @@
-"""What is going to move: light that goes by the view is worth little there."""
+"""What is going to move: light that goes by the view is worth little there; and what comes and goes."""
 from __future__ import annotations
 
 import bpy
+
+from .. import compat
+
+SWITCHES = ("hide_render", "hide_viewport")
 
 
 def moves(obj: bpy.types.Object | None) -> bool:
@@ -13,3 +17,12 @@ def moves(obj: bpy.types.Object | None) -> bool:
             return True
         obj = obj.parent
     return False
+
+
+def comes_and_goes(obj: bpy.types.Object) -> bool:
+    """Whether what hides an object from viewports or renders is animated or driven."""
+    data = obj.animation_data
+    if data is None:
+        return False
+    curves = [*data.drivers, *(compat.curves_of(obj) if data.action is not None else ())]
+    return any(curve.data_path in SWITCHES for curve in curves)

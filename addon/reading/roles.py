@@ -8,6 +8,7 @@ import bpy
 
 from ...core import ReflectionError
 from .materials import all_fog, is_mirror, materials_on_faces, own_materials
+from .moves import comes_and_goes
 from .results import RESULTS, is_gone, meant, of_results
 
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
@@ -75,7 +76,7 @@ def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list,
     explicit = [obj for obj in objects if obj.reflection_mesh.role in {"MIRROR", "DIFFUSE"}]
     mirrors = [obj for obj in chosen if says_mirror(obj)]
     if not chosen and not any(obj.reflection_mesh.role == "MIRROR" for obj in explicit):
-        is_seen = seen_in(context)
+        is_seen = _seen_at_times(context)
         mirrors = [obj for obj in objects if says_mirror(obj) and is_seen(obj)]
     if mirrors:
         # what is a mirror without any doubt is meant, and the roles say what it shows
@@ -85,8 +86,8 @@ def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list,
 
 
 def _others_seen(context: bpy.types.Context, objects: list, mirrors: list) -> list:
-    """What the mirrors show of the objects that are there now."""
-    is_seen = seen_in(context)
+    """What the mirrors show of the objects that are there now, or at other frames."""
+    is_seen = _seen_at_times(context)
     return [obj for obj in objects if obj not in mirrors and is_seen(obj) and obj.visible_glossy]
 
 
@@ -178,6 +179,12 @@ def seen_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
     """Tells of an object whether it is seen, in the viewport and in renders."""
     in_layer, rendered = set(context.view_layer.objects), rendered_in(context)
     return lambda obj: obj in in_layer and obj.visible_get() and rendered(obj)
+
+
+def _seen_at_times(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
+    """As `seen_in`, but of what comes and goes too: frames show it, and results know it from then on."""
+    in_layer, is_seen = set(context.view_layer.objects), seen_in(context)
+    return lambda obj: is_seen(obj) or (obj in in_layer and comes_and_goes(obj))
 
 
 def rendered_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
