@@ -38,6 +38,9 @@ def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
     if not np.linalg.cond(matrix[:3, :3]) < 1e6:    # a space as flat as that tells no places
         matrix = np.eye(4)
     inverse = np.linalg.inv(matrix)
+    if np.linalg.det(matrix[:3, :3]) < 0.0:
+        # such a space turns faces over, and in the world they look to the side of their normals
+        weights, pixels = weights[:, ::-1], pixels[:, ::-1]
     breathe()
     places = (weights @ scene.mesh.positions[scene.mesh.triangles[face]]) @ inverse[:3, :3].T + inverse[:3, 3]
     breathe()

@@ -70,6 +70,15 @@ def test_the_copy_is_the_object_cut(wall):
     assert wall.hide_render and wall.hide_get()
 
 
+@pytest.mark.parametrize("scale", [(-1.0, 1.0, 1.0), (1.0, 0.5, -2.0), (-1.0, -1.0, 1.0)])
+def test_the_copy_of_what_is_turned_over_by_its_scale_looks_to_the_same_side(wall, scale):
+    """Or Cycles shows it black: faces and normals both look up in its own space, as the object's do."""
+    wall.scale = scale
+    copy = write()
+    assert np.allclose([face.normal for face in copy.data.polygons if face.area > 1e-6], (0.0, 0.0, 1.0), atol=1e-2)
+    assert np.allclose([corner.vector for corner in copy.data.corner_normals], (0.0, 0.0, 1.0), atol=1e-3)
+
+
 def test_slivers_are_cut_too(room):
     """Of Suzanne's ear: Blender's triangulation runs through a corner twice where they crowd."""
     weights = np.concatenate((1.0 - SLIVERS.sum(axis=2, keepdims=True), SLIVERS), axis=2)
