@@ -22,7 +22,7 @@ from ..operators.light_remarks import summary as lighting_summary
 from ..operators.light_remarks import unlike_the_mirror
 from ..operators.mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
 from ..operators.print_sheet import DPI, check_print, printing
-from ..operators.shortcomings import scene_shortcomings
+from ..operators.shortcomings import other_meshes, scene_shortcomings
 from ..reading import Participants, choose, with_copies
 from ..settings import Wanted
 from .bake_verb import add_bake
@@ -167,7 +167,8 @@ def _caustics(context: bpy.types.Context, options: argparse.Namespace) -> None:
     thrown = announced(throwing(context, chosen, lamps, asked))
     remember(thrown.objects, asked)
     save_blend(path)
-    print(*thrown.remarks, thrown.summary(time.perf_counter() - started), sep="\n")
+    told = thrown.remarks + other_meshes(context.scene, chosen.mirrors + chosen.diffuse)
+    print(*told, thrown.summary(time.perf_counter() - started), sep="\n")
 
 
 def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None:

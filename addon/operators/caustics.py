@@ -43,7 +43,7 @@ from ..writing import set_free, told_of
 from . import polls
 from .asked_light import Asked, asked_again, remember
 from .caustic_remarks import remarks_on, remarks_on_taking
-from .shortcomings import left_out
+from .shortcomings import left_out, other_meshes
 
 IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
 NOTHING_LIT = "Light falls on nothing but lamps: select what it is to fall on, or give it the role Reflected."
@@ -257,7 +257,8 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Opera
             if len({used(*pair) for pair in pairs}) == 1:
                 setattr(self, name, used(*pairs[0]))
         context.view_layer.update()
-        tell_done(self, [thrown.summary(time.perf_counter() - started)], thrown.remarks)
+        remarks = thrown.remarks + other_meshes(context.scene, chosen.mirrors + chosen.diffuse)
+        tell_done(self, [thrown.summary(time.perf_counter() - started)], remarks)
 
 
 def register() -> None:

@@ -102,7 +102,7 @@ def blur_shortcomings(scene: bpy.types.Scene, placements: list[str]) -> list[str
 def render_shortcomings(context: bpy.types.Context, mirrors: list, diffuse: list) -> list[str]:
     """Sentences on what renders show otherwise than viewports do, of which a reflection has what these show: meshes of
     mirrors and diffuse objects, and what is hidden in the viewport alone; and on what has no mesh."""
-    told = _other_meshes(context.scene, mirrors + diffuse) + _hidden(rendered_alone(context, mirrors, diffuse))
+    told = other_meshes(context.scene, mirrors + diffuse) + _hidden(rendered_alone(context, mirrors, diffuse))
     told += [CUTS] * _cuts_unlocked(context, mirrors)
     told += [f"Renders show '{obj.name}' of the background set too, which no reflection shows: link it into this scene."
              for obj in in_background_set(context, mirrors, diffuse)[:1]]
@@ -127,15 +127,16 @@ def _cuts_unlocked(context: bpy.types.Context, mirrors: list) -> bool:
         len(bound & {camera_of(result) for result in every_result_of(context, mirror)}) > 1 for mirror in mirrors)
 
 
-def _other_meshes(scene: bpy.types.Scene, objects: list) -> list[str]:
+def other_meshes(scene: bpy.types.Scene, objects: list) -> list[str]:
+    """A sentence on objects of which renders of the scene show another mesh than viewports."""
     found = [(obj.name, why) for obj in objects if (why := rendered_otherwise(scene, obj))]
     if not found:
         return []
     if len(found) == 1:
-        return ["Renders show another mesh of '{}' than viewports do, by '{}', and the reflection has the viewport's: "
-                "give both the same levels.".format(*found[0])]
-    return ["Renders show other meshes of {} objects than viewports do, of '{}' by '{}', and the reflection has the "
-            "viewport's: give both the same levels.".format(len(found), *found[0])]
+        return ["Renders show another mesh of '{}' than viewports do, by '{}', and what was generated has the "
+                "viewport's: give both the same levels.".format(*found[0])]
+    return ["Renders show other meshes of {} objects than viewports do, of '{}' by '{}', and what was generated has "
+            "the viewport's: give both the same levels.".format(len(found), *found[0])]
 
 
 def _hidden(found: list) -> list[str]:

@@ -126,13 +126,13 @@ LACKS = {
     "hide them in renders too.":
         "Gerendert sind {} Objekte zu sehen, unter ihnen '{}', die in der Ansicht ausgeblendet sind und darum in "
         "keiner Spiegelung: zeige sie, oder blende sie auch im Render aus.",
-    "Renders show another mesh of '{}' than viewports do, by '{}', and the reflection has the viewport's: give both "
-    "the same levels.":
-        "Gerendert hat '{}' durch '{}' ein anderes Netz als in Ansichten, und die Spiegelung hat das der Ansichten: "
+    "Renders show another mesh of '{}' than viewports do, by '{}', and what was generated has the viewport's: give "
+    "both the same levels.":
+        "Gerendert hat '{}' durch '{}' ein anderes Netz als in Ansichten, und das Erzeugte hat das der Ansichten: "
         "gib beiden dieselben Stufen.",
-    "Renders show other meshes of {} objects than viewports do, of '{}' by '{}', and the reflection has the "
+    "Renders show other meshes of {} objects than viewports do, of '{}' by '{}', and what was generated has the "
     "viewport's: give both the same levels.":
-        "Gerendert haben {} Objekte andere Netze als in Ansichten, '{}' durch '{}', und die Spiegelung hat die der "
+        "Gerendert haben {} Objekte andere Netze als in Ansichten, '{}' durch '{}', und das Erzeugte hat die der "
         "Ansichten: gib beiden dieselben Stufen.",
     "Motion blur: reflections are sharp, since their faces change from frame to frame; blur them after the render, or "
     "render in-between frames and mix them.":

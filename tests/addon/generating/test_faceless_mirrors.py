@@ -39,7 +39,8 @@ def test_metaballs_that_melt_are_one_mirror(balls, capfd):
     balls[0].data.resolution = 0.2
     assert bpy.ops.reflection_mesh.generate("EXEC_DEFAULT") == {"FINISHED"}
     assert told(capfd) == [f"Warning: Renders show another mesh of '{balls[0].name}' than viewports do, by "
-                           f"'{balls[0].data.name}', and the reflection has the viewport's: give both the same levels."]
+                           f"'{balls[0].data.name}', and what was generated has the viewport's: give both the same "
+                           "levels."]
 
 
 def test_mirrors_without_faces_are_left_out(balls, capfd):

@@ -204,3 +204,16 @@ def test_what_is_muted_does_not_count(blank, tmp_path, muted):
     ratio = (light / np.maximum(expected, 1e-12))[inner(light)]
     assert len(ratio) > 500
     assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 2e-3
+
+
+@pytest.mark.parametrize("finer", ["Floor", "Mirror", ""])
+def test_another_mesh_in_renders_is_told(blank, capfd, finer):
+    """The light lies on the viewport's, which renders do not show: it may be hidden below theirs."""
+    scene_of()
+    for name in ("Floor", "Mirror"):
+        rounder = bpy.data.objects[name].modifiers.new("Rounder", "SUBSURF")
+        rounder.levels, rounder.render_levels = 1, 1 + (name == finer)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    told = capfd.readouterr().out
+    assert (f"another mesh of '{finer}' than viewports do, by 'Rounder'" in told) == bool(finer)
+    assert ("another mesh" in told) == bool(finer)
