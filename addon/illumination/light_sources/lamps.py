@@ -13,6 +13,7 @@ from ....core import Lamp, ReflectionError
 from ... import compat
 from ...reading.materials import shown_output
 from .area_lamps import across_area, disc, rays_meet, spread_of
+from .constant_nodes import constant, plain
 from .eye import Eye, across
 from .mesh_lamps import eyes_of_mesh, is_mesh_lamp
 
@@ -165,7 +166,7 @@ def _of_size(data: bpy.types.Light, size: float, normalised: float) -> float:
 
 def light_of_nodes(data: bpy.types.Light) -> tuple[np.ndarray, bool]:
     """What a lamp's nodes make of red, green and blue of its light, and whether that is all that they tell: what is
-    plugged into an Emission counts as if it were not."""
+    plugged into an Emission counts as if it were not, but for what says the same everywhere."""
     if not compat.uses_nodes(data):
         return np.ones(3), True
     output = shown_output(data.node_tree)
@@ -174,6 +175,8 @@ def light_of_nodes(data: bpy.types.Light) -> tuple[np.ndarray, bool]:
     shader = output.inputs["Surface"].links[0].from_node
     if shader.type != "EMISSION":
         return np.ones(3), False
-    colour, strength = (shader.inputs[name] for name in ("Color", "Strength"))
-    light = np.array(colour.default_value[:3], dtype=np.float64) * strength.default_value
-    return np.maximum(light, 0.0), not (colour.is_linked or strength.is_linked)
+    light, known = np.ones(3), True
+    for socket in (shader.inputs["Color"], shader.inputs["Strength"]):
+        said = constant(socket)
+        light, known = light * (plain(socket) if said is None else said), known and said is not None
+    return np.maximum(light, 0.0), known

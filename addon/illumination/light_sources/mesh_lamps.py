@@ -11,6 +11,7 @@ from ....core import Lamp, TriangleMesh
 from ... import compat
 from ...reading import is_mirror, read_scene
 from ...reading.materials import surface_shader
+from .constant_nodes import constant
 from .eye import Eye, across
 
 EMISSION = {"EMISSION": ("Color", "Strength"), "BSDF_PRINCIPLED": ("Emission Color", "Emission Strength")}
@@ -32,10 +33,10 @@ def radiance_of(material: bpy.types.Material | None) -> np.ndarray:
     shader = surface_shader(material.node_tree) if material is not None and compat.uses_nodes(material) else None
     if shader is None or shader.type not in EMISSION:
         return np.zeros(3)
-    colour, strength = (shader.inputs[name] for name in EMISSION[shader.type])
-    if colour.is_linked or strength.is_linked:
+    colour, strength = (constant(shader.inputs[name]) for name in EMISSION[shader.type])
+    if colour is None or strength is None:
         return np.zeros(3)
-    return np.maximum(np.array(colour.default_value[:3], dtype=np.float64) * strength.default_value, 0.0)
+    return np.maximum(colour * strength, 0.0) * np.ones(3)
 
 
 def eyes_of_mesh(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int,

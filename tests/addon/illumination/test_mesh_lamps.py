@@ -70,10 +70,13 @@ def test_what_is_a_lamp_and_what_is_lit(scene, room):
     parts.select(floor, painted, panel, mirror)
     lamps = room("addon.illumination").chosen_lamps
     assert lamps(bpy.context) == [panel]
-    panel.reflection_mesh.role = "DIFFUSE"
+    tree.links.new(tree.nodes.new("ShaderNodeBlackbody").outputs["Color"], tree.nodes["Emission"].inputs["Color"])
+    assert set(lamps(bpy.context)) == {painted, panel}
+    painted.reflection_mesh.role = panel.reflection_mesh.role = "DIFFUSE"
     with pytest.raises(room("core").ReflectionError, match="no lamp"):
         lamps(bpy.context)
     panel.reflection_mesh.role = "AUTO"
+    painted.reflection_mesh.role = "AUTO"
     parts.select(panel, mirror)
     assert "nothing but lamps" in parts.refusal(bpy.ops.reflection_mesh.caustics)
     # and what has no role of a lamp is not lit by chance: unselected, it stands in the way alone
