@@ -67,8 +67,9 @@ def _band(corners: np.ndarray, uv: np.ndarray, framed: np.ndarray, width: int, r
     spot = np.einsum("kn,nkc->nc", drawn.weights[:, pixel], uv[drawn.triangle[pixel]])
     band = np.ones((lines * across, 3), dtype=np.float32)
     band[pixel] = _looked_up(framed, spot)
-    shown = band.reshape(lines // FINER, FINER, width, FINER, 3).mean(axis=(1, 3))
-    return np.round(shown * 255.0).astype(np.uint8)
+    samples = band.reshape(lines // FINER, FINER, width, FINER, 3)
+    shown = sum(samples[:, row, :, column] for row in range(FINER) for column in range(FINER))
+    return np.round(shown * (255.0 / FINER**2)).astype(np.uint8)
 
 
 def _looked_up(framed: np.ndarray, uv: np.ndarray) -> np.ndarray:
@@ -76,11 +77,22 @@ def _looked_up(framed: np.ndarray, uv: np.ndarray) -> np.ndarray:
     (h + 2, w + 2, 4)."""
     height, width = framed.shape[0] - 2, framed.shape[1] - 2
     place = np.clip(uv * (width, height) + 0.5, 0.0, (width + 0.999, height + 0.999))
-    column, row = place.astype(np.int64).T
-    right, up = (place - np.floor(place)).astype(np.float32).T[..., None]
-    shown = ((framed[row, column] * (1.0 - right) + framed[row, column + 1] * right) * (1.0 - up)
-             + (framed[row + 1, column] * (1.0 - right) + framed[row + 1, column + 1] * right) * up)
-    return np.clip(shown[:, :3] * shown[:, 3:] + 1.0 - shown[:, 3:], 0.0, 1.0)
+    corner = np.floor(place)
+    right, up = (place - corner).astype(np.float32).T[..., None]
+    first = (corner[:, 1] * (width + 2) + corner[:, 0]).astype(np.int64)
+    texels = framed.reshape(-1, 4)
+    below, above = (_between(texels.take(row, axis=0), texels.take(row + 1, axis=0), right)
+                    for row in (first, first + width + 2))
+    shown = _between(below, above, up)
+    return np.clip(_between(np.float32(1.0), shown[:, :3], shown[:, 3:]), 0.0, 1.0)
+
+
+def _between(start: np.ndarray, end: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """From `start` to `end`, which is written over."""
+    end -= start
+    end *= share
+    end += start
+    return end
 
 
 def pixels_of(image: bpy.types.Image) -> np.ndarray:
