@@ -35,6 +35,10 @@ def lit_scene(seed: int) -> Scene:
     names = [str(seed), f"{shape} of {of}"]
     if shape in FLAT:
         mirror.rotation_euler = Euler((np.pi / 2 + rng.uniform(-0.3, 0.2), 0.0, rng.uniform(-0.4, 0.4)))
+    mirrors = [mirror]
+    if rng.random() < 0.25:
+        mirrors.append(_beside(rng))
+        names.append("beside a mirror")
     eye = Vector((rng.uniform(-2.0, 2.0), -6.5, rng.uniform(0.3, 2.5)))
     names += [_placed(rng, number, eye, UNKNOWN[kind]) for number in range(chosen(rng, [2, 3, 5]))]
     if rng.random() < 0.7:
@@ -46,7 +50,8 @@ def lit_scene(seed: int) -> Scene:
     options = {"kind": kind, "samples": LIGHT[kind]}
     # on the surface images over one another share a plane, and only the picture looks alike on all of them
     placement = chosen(rng, ["LAYERED", "LAYERED", "SURFACE"]) if kind == "PICTURE" else "LAYERED"
-    return Scene(", ".join([*names, placement, kind]), {"light": options, "placement": placement}, [mirror])
+    return Scene(", ".join([*names, placement, kind]),
+                 {"light": options, "generate": {"placement": placement, "depth": len(mirrors)}}, mirrors)
 
 
 def _object(rng: np.random.Generator, name: str, kinds: dict) -> tuple[str, bpy.types.Object]:
@@ -63,6 +68,18 @@ def _object(rng: np.random.Generator, name: str, kinds: dict) -> tuple[str, bpy.
         values[:, :3] = rng.uniform(0.3, 1.0, (len(values), 3))
         shades.data.foreach_set("color", values.ravel())
     return kind, obj
+
+
+def _beside(rng: np.random.Generator) -> bpy.types.Object:
+    """A flat mirror of metal, turned to the first one, which shows it."""
+    side = chosen(rng, [-1.0, 1.0])
+    bpy.ops.mesh.primitive_plane_add(size=2.0, location=(2.6 * side, -0.4, 0.3),
+                                     rotation=(np.pi / 2, 0.0, side * rng.uniform(-1.4, -0.9)))
+    other = bpy.context.object
+    other.name = "Other Mirror"
+    other.data.materials.append(mirror_material(rng, ("metal",))[1])
+    other.reflection_mesh.role = "MIRROR"
+    return other
 
 
 def _placed(rng: np.random.Generator, number: int, eye: Vector, without: tuple[str, ...]) -> str:

@@ -49,7 +49,7 @@ def tried_lit(seed: int, keep: Path | None = None) -> dict:
     scene = lit_scene(seed)
     before, reference, again, inside = state(), _picture(0), _picture(1), _mirror_pixels(scene.mirrors)
     problems, said = [], ""
-    outcome = scene_trial._called("generate", SECONDS, placement=scene.options["placement"])
+    outcome = scene_trial._called("generate", SECONDS, **scene.options["generate"])
     if not outcome:
         with _heard() as words:
             outcome = scene_trial._called("light", SECONDS, **scene.options["light"])
