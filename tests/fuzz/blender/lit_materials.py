@@ -13,9 +13,9 @@ COORDINATES = ("UV", "Generated", "Object", "Normal")
 SHADE = "Shade"  # an attribute of colours on some of the meshes
 
 
-def mirror_material(rng: np.random.Generator, kinds: tuple[str, ...] = ()) -> tuple[str, bpy.types.Material]:
-    """What a mirror is called and made of, one of the `kinds`, or of all."""
-    kind = chosen(rng, kinds or list(MIRRORS))
+def mirror_material(rng: np.random.Generator, without: tuple[str, ...] = ()) -> tuple[str, bpy.types.Material]:
+    """What a mirror is called and made of, none of the kinds `without`."""
+    kind = chosen(rng, [kind for kind in MIRRORS if kind not in without])
     return kind, _made("Mirror", MIRRORS[kind], rng)
 
 

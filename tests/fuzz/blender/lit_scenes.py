@@ -11,14 +11,15 @@ import bmesh
 import numpy as np
 from mathutils import Euler, Vector
 
+from tests.fuzz.blender.lit_materials import MIRRORS as MATERIALS
 from tests.fuzz.blender.lit_materials import SHADE, colour, mirror_material, node, object_material
 from tests.fuzz.blender.scene_shapes import chosen
 from tests.fuzz.blender.scenes import Scene, select
 
 SIZE = 80      # pixels
 SAMPLES = 256  # of its pictures
-# what lights on the objects cannot show: the mirror is seen through veils before the sky, and shows them once more
-UNKNOWN = {"PICTURE": (), "OBJECTS": ("veiled",)}
+# what light on the objects is told not to show: blur, and veils before the sky, through which the mirror is seen
+UNKNOWN = {"PICTURE": (), "OBJECTS": ("veiled", "blurred")}
 LIGHT = {"PICTURE": SAMPLES, "OBJECTS": 64}  # samples of each kind; whole objects have many texels
 ROOM = 1.2     # the least distance of an object's middle from the way that the camera looks along
 
@@ -29,7 +30,7 @@ def lit_scene(seed: int) -> Scene:
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     kind = chosen(rng, list(LIGHT))
     shape, mirror = _object(rng, "Mirror", MIRRORS)
-    of, material = mirror_material(rng)
+    of, material = mirror_material(rng, UNKNOWN[kind])
     mirror.data.materials.append(material)
     mirror.reflection_mesh.role = "MIRROR"
     names = [str(seed), f"{shape} of {of}"]
@@ -77,7 +78,7 @@ def _beside(rng: np.random.Generator) -> bpy.types.Object:
                                      rotation=(np.pi / 2, 0.0, side * rng.uniform(-1.4, -0.9)))
     other = bpy.context.object
     other.name = "Other Mirror"
-    other.data.materials.append(mirror_material(rng, ("metal",))[1])
+    other.data.materials.append(mirror_material(rng, tuple(kind for kind in MATERIALS if kind != "metal"))[1])
     other.reflection_mesh.role = "MIRROR"
     return other
 
