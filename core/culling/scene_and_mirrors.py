@@ -5,7 +5,6 @@ asked for it is the next mirror. Convex mirrors never see themselves: their tria
 """
 from __future__ import annotations
 
-from collections.abc import Callable
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
@@ -13,38 +12,16 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
-from ..geometry import (
-    SceneFrames,
-    TriangleMesh,
-    columns,
-    cross,
-    dot,
-    in_order,
-    others,
-    rows,
-    spread_directions,
-    unit,
-)
-from ..trees import (
-    Bound,
-    Cones,
-    Fronts,
-    PointTree,
-    SceneTree,
-    Touching,
-    bounded_trace,
-    curve_leaves,
-    depth_for,
-    first_crossed,
-)
+from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, others, rows, unit
+from ..trees import Bound, Cones, Fronts, PointTree, SceneTree, Touching, first_crossed
 from ..views import View
+from .camera_families import traced
 from .candidates import Candidates
+from .convex_mirrors import outer_side
 from .mirrors_shown import MirrorsShown
 from .scene_pieces import ScenePieces
 
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
-FAMILY = 16  # cameras that are looked at together at the most, or about half as many
-DIRECTIONS = 64  # in which a body's farthest corner is looked for
 RISEN = 1e-5  # of the mirrors' size: what rises less is seen by rays along the mirror alone
 
 
@@ -167,35 +144,20 @@ class SceneAndMirrors:
     def diffuse_in(self, cameras: Cameras, bound: Bound) -> Touching:
         """Cameras and diffuse triangles that may be seen in them."""
         if self.pieces is None:
-            return _traced(self.scene, cameras, bound, self._fronts[0])
+            return traced(self.scene, cameras, bound, self._fronts[0])
         on_patch = self.pieces.holds(cameras)
         found = []
         for tree, first, own, fronts in ((self.scene, 0, ~on_patch, self._fronts[0]),
                                          (self.pieces.tree, len(self.tree.mesh.triangles), on_patch,
                                           self._piece_fronts)):
             chosen = np.flatnonzero(own)
-            part = _traced(tree, cameras.select(chosen), bound.select(chosen), fronts).among(chosen, len(cameras))
+            part = traced(tree, cameras.select(chosen), bound.select(chosen), fronts).among(chosen, len(cameras))
             found.append(replace(part, triangle=first + part.triangle))
         return Touching.joined(found)
 
     @cached_property
     def _outside(self) -> float:
-        """On which side of their triangles the mirrors bound one convex body from without: 1 on that of their normals,
-        -1 on the other; 0 where they do not, or not all round."""
-        heights = dot(self._beyond - self.surface.a[:, :, None], self.surface.face_normal[:, :, None])
-        room = RISEN * self.size
-        for side in (1.0, -1.0):
-            if (side * heights <= room).all():  # not where there is nothing beyond
-                break
-        else:
-            return 0.0
-        # a surface that winds about itself is convex everywhere but as a whole
-        corners = rows(self.mirrors.positions[np.unique(self.mirrors.triangles)])
-        for direction in spread_directions(DIRECTIONS):
-            farthest = corners[:, np.argmax(dot(direction, corners))]
-            if (side * dot(farthest[:, None] - self.surface.a, self.surface.face_normal) > room).any():
-                return 0.0
-        return side
+        return outer_side(self.mirrors, self.surface, self._beyond, RISEN * self.size)
 
     def mirrors_in(self, cameras: Cameras, bound: Bound, before: MirrorsShown | None = None) -> Touching:
         """Cameras and triangles of mirrors that may be seen in them. What was found `before` is not looked for
@@ -212,7 +174,7 @@ class SceneAndMirrors:
             surface, face = cameras.mirror_map.last(cameras.face)
             if (self._outside * dot(sides[1], surface.face_normal[:, face]) > 0.0).all():
                 return Touching.none(len(cameras))
-        return _traced(self.mirror_tree, cameras, bound, self._fronts[1],
+        return traced(self.mirror_tree, cameras, bound, self._fronts[1],
                        lambda camera, triangle: self._above(sides, camera, triangle))
 
     def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
@@ -297,31 +259,3 @@ class SceneAndMirrors:
                          for corner in (own[side], beyond))
             inner[side, pair] = near * far == -9.0
         return inner
-
-
-def _traced(tree: SceneTree, cameras: Cameras, bound: Bound, fronts: Fronts | None,
-            asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None) -> Touching:
-    """`bounded_trace` of cameras, those side by side that look nearly the same way, without what turns away."""
-    family = _families(cameras)
-    order = in_order(family)
-    cones = Cones.around(cameras.select(order))
-
-    def counting(cone: np.ndarray, triangle: np.ndarray) -> np.ndarray:
-        kept = np.ones(len(cone), dtype=bool) if fronts is None else fronts.may_show(cones, cone, triangle)
-        if asked is not None:
-            kept[kept] = asked(order[cone[kept]], triangle[kept])
-        return kept
-
-    found = bounded_trace(tree, cones, bound.select(order), counting, family[order])
-    return found.among(order, len(order))
-
-
-def _families(cameras: Cameras) -> np.ndarray:
-    """(n,): cameras with the same number lie on one mirror triangle, and where these are many, close together."""
-    face = cameras.face
-    many = np.flatnonzero(np.bincount(face)[face] > FAMILY)
-    depth = depth_for(len(many), FAMILY // 2)
-    family = face << depth
-    if len(many):
-        family[many] += curve_leaves(cameras.places[:, cameras.corners[many]].mean(axis=2).T, depth)
-    return family
