@@ -17,6 +17,7 @@ from ..registration import Handlers
 RAYS = 200          # by which the view through a window is tried
 NEARLY = 1e-4       # of a ray's length: what lies in the image itself fights with it
 MOST_THROUGH = 100  # objects that a ray goes on through
+TOO_SHORT = 100.0   # steps of single precision: on a shorter way what is met hangs on these
 
 
 def open_window(mirror: bpy.types.Object) -> None:
@@ -97,6 +98,8 @@ def _first_seen(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, start: V
     # Blender's rays are in single precision, whose steps are wider far from the origin
     wide = max(map(abs, (*start, *end)))
     direction, step = way.normalized(), max(NEARLY * way.length, 2.0 * float(np.spacing(np.float32(wide))))
+    if way.length < TOO_SHORT * step:
+        return "", False
     at, end = start - step * direction, end + step * direction
     for _ in range(MOST_THROUGH):
         hit, place, _, _, obj, _ = scene.ray_cast(depsgraph, at, direction, distance=(end - at).dot(direction))
