@@ -1,5 +1,6 @@
 """Light on reflections of scenes drawn at random, judged by Cycles; and that the judge finds what it is there for."""
 import bpy
+import numpy as np
 import pytest
 
 from tests.fuzz.blender import lit_trial
@@ -21,13 +22,14 @@ def test_lit_scenes_at_random(seed):
 
 
 def test_what_is_wrong_is_found(monkeypatch):
-    """After lighting the file is meddled with: a lamp shines more, and something is left over."""
+    """After lighting the file is meddled with: the light is half of what it was, and something is left over."""
     called = lit_trial.scene_trial._called
 
     def meddling(operator, *arguments, **options):
         outcome = called(operator, *arguments, **options)
         if operator == "light":
-            next(obj for obj in bpy.data.objects if obj.type == "LIGHT").data.energy *= 1.5
+            light = next(image for image in bpy.data.images if image.name == "Reflection Light")
+            light.pixels.foreach_set(0.5 * np.array(light.pixels[:], dtype=np.float32))
             bpy.data.materials.new("Left over")
         return outcome
     monkeypatch.setattr(lit_trial.scene_trial, "_called", meddling)
