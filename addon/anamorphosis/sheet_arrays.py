@@ -21,12 +21,14 @@ ONE_PLACE = 1e-6    # of a sheet's size: vertices of neighbouring faces that lie
 
 @dataclass(frozen=True)
 class Sheet:
-    """One source object cut: `arrays` to be written in the space of `matrix`, with shading `normals` (m, 3, 3)."""
+    """One source object cut: `arrays` to be written in the space of `matrix`, with shading `normals` (m, 3, 3), and the
+    names of UV maps that there is no room for beside the new one."""
 
     source: bpy.types.Object
     matrix: np.ndarray
     arrays: MeshArrays
     normals: np.ndarray
+    left_out: tuple[str, ...] = ()
 
 
 def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
@@ -58,7 +60,8 @@ def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
     single = weights.astype(np.float32)
     layers = shown_layers(scene, own_attributes, "CORNER", lambda values: np.matmul(single, values[face]))
     maps = [layer.name for layer in layers if layer.kind == "FLOAT2"]
-    layers = tuple(layer for layer in layers if layer.name not in maps[MOST_UV_MAPS - 1:])
+    left_out = tuple(maps[MOST_UV_MAPS - 1:])
+    layers = tuple(layer for layer in layers if layer.name not in left_out)
     arrays = MeshArrays(np.zeros(3), positions, triangles.astype(np.int32), own_attributes + layers,
                         [scene.materials[entry] for entry in used], edges=Edges.of(triangles))
     breathe()
@@ -66,7 +69,7 @@ def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
     turned = weights @ scene.normals[face] @ matrix[:3, :3]
     breathe()
     length = np.linalg.norm(turned, axis=2, keepdims=True)
-    return Sheet(source, matrix, arrays, (turned / np.where(length > 0.0, length, 1.0)).astype(np.float32))
+    return Sheet(source, matrix, arrays, (turned / np.where(length > 0.0, length, 1.0)).astype(np.float32), left_out)
 
 
 def _welded(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

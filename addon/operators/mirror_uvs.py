@@ -127,6 +127,8 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
                                     READING + REFLECTING + PIECES, CUTTING)
             sheets = yield from part(core.in_steps(lambda: [sheet(index, scene, parts, frame) for index in indices]),
                                      1.0, 0.0, "Cutting faces")
+            remarks += [f"A mesh has eight UV maps at the most: '{name}' of '{entry.source.name}' is not on the copy."
+                        for entry in sheets for name in entry.left_out]
         if choices.target == "ORIGINAL":
             objects = yield from _written(lambda entry: write_own_map(entry, frame, whole), maps)
         else:

@@ -189,6 +189,8 @@ LACKS = {
     "lower Lamp Places or the depth.":
         "Cycles folgt durch {} durchsichtige Schichten, und {} oder mehr vom Licht sind zu durchqueren, so dass es "
         "dahinter dunkel ist: senke Orte je Lampe oder die Tiefe.",
+    "A mesh has eight UV maps at the most: '{}' of '{}' is not on the copy.":
+        "Ein Netz hat höchstens acht UV-Maps: '{}' von '{}' ist nicht auf der Kopie.",
     "Between the corners of '{}' the picture is up to {} px off: subdivide it, or choose A Copy.":
         "Zwischen den Ecken von '{}' ist das Bild bis zu {} px daneben: unterteile es, oder wähle Eine Kopie.",
     "About {} % of what the mirror shows is missing: give it a clean mesh, or move the camera.":

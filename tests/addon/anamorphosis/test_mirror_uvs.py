@@ -50,6 +50,18 @@ def test_a_flat_mirror_gives_every_corner_of_the_copy_its_place_in_closed_form(w
     assert np.linalg.norm(off, axis=1).max() < 0.5
 
 
+@pytest.mark.parametrize("count", [7, 8])
+def test_a_map_that_a_copy_has_no_room_for_is_told(wall, capsys, count):
+    while len(wall.data.uv_layers) < count:
+        wall.data.uv_layers.new(name=f"Map {len(wall.data.uv_layers)}")
+    copy = write()
+    assert UV_MAP in copy.data.uv_layers and len(copy.data.uv_layers) == 8 and len(wall.data.uv_layers) == count
+    missing = [name for name in wall.data.uv_layers.keys() if name not in copy.data.uv_layers]
+    told = capsys.readouterr().out
+    assert len(missing) == count - 7
+    assert ("eight UV maps" in told) == bool(missing) and all(f"'{name}' of 'Sheet'" in told for name in missing)
+
+
 def test_the_copy_is_the_object_cut(wall):
     material = parts.material("Own")
     wall.data.materials.append(material)
