@@ -132,6 +132,7 @@ class _Builder(ShaderBuilder):
         return whole if alpha == 1.0 else self.mixed(alpha, self.add("ShaderNodeBsdfTransparent").outputs[0], whole)
 
     def varnished(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+        """Light by the coat, if there is one, over what is below it."""
         coat = self.coat(shader)
         # under varnish paint may be matte
         below = shader.outputs[0] if coat is not None and not is_sharp(shader) else self.below_coat(shader)
