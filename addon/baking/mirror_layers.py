@@ -8,21 +8,20 @@ import numpy as np
 from ...core import View
 from ...core.geometry import unit
 from ...core.trees import BoxTree, first_hits
-from ..mirror_part import BACK, NORMAL, OWN_NORMAL, OWN_PLACE, own_layer
+from ..mirror_part import BACK, MATERIAL, NORMAL, OWN_NORMAL, OWN_PLACE, own_layer
 from ..reading import DiffuseScene, read_scene, vectors
-from ..reading.materials import asked_attributes
+from ..reading.materials import reflecting_materials
 from ..writing import FIELDS
 from .seen_sources import barycentric, corner_vertices, face_values
 
 
-def write_mirror_layers(result: bpy.types.Object, view: View, material: bpy.types.Material) -> None:
-    """Tell each corner of a result that `material` is put on what the mirror's layers are there.
+def write_mirror_layers(result: bpy.types.Object, view: View, asked: set[str]) -> None:
+    """Tell each corner of a result what the mirror's layers are there, those of the attributes that are `asked` for.
 
     A face lies in one triangle of the mirror, or over several: there those of its middle are carried on, so that no
     seam between islands runs through it.
     """
     mirror, mesh = result.reflection_mesh.mirror, result.data
-    asked = asked_attributes([material])
     if mirror is None:
         return
     to_world = np.array(mirror.matrix_world, dtype=np.float64)
@@ -33,7 +32,7 @@ def write_mirror_layers(result: bpy.types.Object, view: View, material: bpy.type
         own_place = (vectors(mesh, "mirror_position") - to_world[:3, 3]) @ np.linalg.pinv(to_world[:3, :3]).T
         _write(mesh, OWN_PLACE, "FLOAT_VECTOR", "POINT", own_place)
     own = {own_layer(name) for name in mirror.data.attributes.keys()} if mirror.type == "MESH" else set()
-    if asked.isdisjoint(own | {BACK}):
+    if asked.isdisjoint(own | {BACK, MATERIAL}):
         return
     surface = read_scene(bpy.context.evaluated_depsgraph_get(), [mirror])
     places = vectors(mesh, "mirror_position")[corner_vertices(mesh)]
@@ -43,6 +42,10 @@ def write_mirror_layers(result: bpy.types.Object, view: View, material: bpy.type
         _, ahead = view.rays(view.pixels(places.mean(axis=1)))
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         _write(mesh, BACK, "FLOAT", "FACE", np.einsum("ni,ni->n", normals, ahead) > 0.0)
+    if MATERIAL in asked:
+        known = reflecting_materials(mirror)
+        number = np.array([known.index(one) if one in known else 0 for one in surface.materials])
+        _write(mesh, MATERIAL, "FLOAT", "FACE", number[surface.material[triangle]])
     weights = barycentric(corners, places)
     for name, (kind, values) in _layers(surface):
         if own_layer(name) in asked:

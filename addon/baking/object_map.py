@@ -10,6 +10,7 @@ from ...core import View, reflecting_normals
 from ..faults import Steps
 from ..mirror_part import NORMAL
 from ..reading import DiffuseScene, vectors
+from ..reading.materials import asked_attributes
 from ..writing import light_layer
 from .mirror_layers import write_mirror_layers
 from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, weights_of
@@ -50,7 +51,7 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     what its layers are, as far as the `material` that shows the map asks for them."""
     mesh = result.data
     write_mirror_normals(mesh, view)
-    write_mirror_layers(result, view, material)
+    write_mirror_layers(result, view, asked_attributes([material]))
     # engines darken what is shaded by one normal and stands by another, and here the mirror is what is shaded
     own = mesh.attributes.get("custom_normal")
     if own is not None:

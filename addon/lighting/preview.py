@@ -2,15 +2,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 
 import bpy
 
 from ...core import View
 from .. import compat
-from ..baking import write_mirror_normals
+from ..baking import write_mirror_layers, write_mirror_normals
 from ..faults import AllOrNothing
 from ..lamps import ShownLamp, lamp_light, lamps_before
-from ..mirror_part import WHITE, LaterMirrors, Share, opacity_of
+from ..mirror_part import MATERIAL, WHITE, LaterMirrors, Share, by_material, opacity_of
 from ..reading.materials import one_output, surface_shader
 from ..writing.kept_changes import PREVIEW as MARK
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
@@ -33,15 +34,17 @@ def show_previews(results: Iterable[bpy.types.Object], scene: bpy.types.Scene, v
     made: dict = {}
     for result in results:
         lamps, later = lamps_before(result, shown), LaterMirrors.of(result, scene.objects)
-        share = Share.of(result.reflection_mesh.mirror)
-        if share.kind != "ALL" and not (len(result.data.polygons) and write_mirror_normals(result.data, view)):
-            share = Share(share.tint)
+        shares, faces = Share.of(result.reflection_mesh.mirror), len(result.data.polygons) > 0
+        if any(share.kind != "ALL" for share in shares) and not (faces and write_mirror_normals(result.data, view)):
+            shares = tuple(Share(share.tint) for share in shares)
+        if len(shares) > 1 and faces:
+            write_mirror_layers(result, view, {MATERIAL})
         # a slot that has a material of its own has it from the user, and so what stands in place of what was made
         for slot in [slot for slot, made in zip(result.material_slots, result.reflection_mesh.materials)
                      if slot.link == "DATA" and slot.material == made.material]:
-            key = slot.material, share, later, tuple(map(id, lamps))
+            key = slot.material, shares, later, tuple(map(id, lamps))
             if key not in made:
-                made[key] = _preview(slot.material, share, later, lamps)
+                made[key] = _preview(slot.material, shares, later, lamps)
                 whole.undo(bpy.data.materials.remove, made[key])
             slot.link = "OBJECT"
             slot.material = made[key]
@@ -53,7 +56,7 @@ def forget_previews() -> None:
                            if MARK in material and not material.users and material.library is None])
 
 
-def _preview(source: bpy.types.Material | None, share: Share, later: LaterMirrors,
+def _preview(source: bpy.types.Material | None, shares: tuple[Share, ...], later: LaterMirrors,
              lamps: tuple[ShownLamp, ...]) -> bpy.types.Material:
     if source is not None and compat.uses_nodes(source):
         material = source.copy()
@@ -66,8 +69,9 @@ def _preview(source: bpy.types.Material | None, share: Share, later: LaterMirror
     material.name = f"{'Reflection' if source is None else source.name} Preview"
     material[MARK] = True
     plain = GREY if source is None else tuple(source.diffuse_color)
-    build = _Builder(tree, share.tint, plain)
-    build.tint = later.leave(build, share.tint)
+    build = _Builder(tree, plain)
+    tint = by_material(build, [share.tint for share in shares], partial(build.blended, "MIX"))
+    build.tint = later.leave(build, tint)
     if source is None or not compat.uses_nodes(source):
         shader = build.add("ShaderNodeBsdfDiffuse")
         build.feed(plain, shader.inputs["Color"])
@@ -77,16 +81,17 @@ def _preview(source: bpy.types.Material | None, share: Share, later: LaterMirror
         surface, opacity = build.shown(shader), opacity_of(tree, shader)
         if lamps:
             surface = build.with_lamps(surface, lamps, opacity)
-        build.put_out(share.of_the_whole(build, surface, opacity))
+        wholes = [share.of_the_whole(build, surface, opacity) for share in shares]
+        build.put_out(by_material(build, wholes, build.mixed))
     return material
 
 
 class _Builder(ShaderBuilder):
     """Puts what shines in its own colour into the place of what lamps shine on."""
 
-    def __init__(self, tree: bpy.types.NodeTree, tint: tuple, plain: tuple) -> None:
+    def __init__(self, tree: bpy.types.NodeTree, plain: tuple) -> None:
         super().__init__(tree)
-        self.tint, self.plain = tint, plain
+        self.tint, self.plain = WHITE, plain
 
     def tinted(self, colour):
         return colour if self.tint == WHITE else self.blended("MULTIPLY", 1.0, colour, self.tint)

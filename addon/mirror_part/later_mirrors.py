@@ -35,7 +35,7 @@ class LaterMirrors:
         if most < 2:
             return cls()
         mirrors = {obj.reflection_mesh.mirror for obj in objects if obj.reflection_mesh.role == "REFLECTION"} - {None}
-        tints = {Share.of(other).tint for other in mirrors if other != mirror or not _is_flat(other)}
+        tints = {share.tint for other in mirrors if other != mirror or not _is_flat(other) for share in Share.of(other)}
         return cls(tints.pop(), most) if len(tints) == 1 else cls()
 
     def leave(self, build: ShaderBuilder, colour):

@@ -1,6 +1,7 @@
 """What a mirror makes of the light that it shows: its own shader, with light in place of what is glossy in it."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
@@ -10,10 +11,12 @@ from ..faults import AllOrNothing, remove_new
 from ..lamps import ShownLamp, lamp_light
 from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, one_output, surface_shader
 from ..writing import UV_MAP, show_unblurred
+from ..writing.nodes.copied_nodes import copied
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
 from .mirror_coordinates import BACK, MirrorCoordinates
 from .mirror_share import GLOSSY, NORMAL, layer_weights_as_fresnel
+from .several_materials import by_material
 
 
 @dataclass(frozen=True)
@@ -38,60 +41,68 @@ class Surroundings:
     behind: bool = False
 
 
-def new_object_material(name: str, image: bpy.types.Image, mirror: bpy.types.Material | None, opaque: bool,
+def new_object_material(name: str, image: bpy.types.Image, mirror: Sequence[bpy.types.Material | None], opaque: bool,
                         around: Surroundings, whole: AllOrNothing) -> bpy.types.Material:
-    """A material that shows light that stays with objects as `mirror` would: tinted, by Fresnel, mixed with what else
-    it is; `None` shows all of the light.
+    """A material that shows light that stays with objects as those of a `mirror` would: tinted, by Fresnel, mixed with
+    what else they are; `None` shows all of the light.
 
-    Tints go by the true angle at the mirror, which the attribute `NORMAL` tells. EEVEE has nodes of its own.
+    Tints go by the true angle at the mirror, which the attribute `NORMAL` tells, and several materials by the attribute
+    `MATERIAL`. EEVEE has nodes of its own.
     """
-    if mirror is None or not compat.uses_nodes(mirror):
-        material = bpy.data.materials.new(name)
-        whole.undo(remove_new, material)
-        tree = compat.use_nodes(material)
-        tree.nodes.clear()
-        tree.nodes.new("ShaderNodeOutputMaterial")
-        build = _Builder(tree, image, around)
-        shown = build.glow(build.lit)
-    else:
-        material = mirror.copy()
-        whole.undo(remove_new, material)
-        material.name = name
-        tree = material.node_tree
-        own = list(tree.nodes)
-        build = _Builder(tree, image, around)
-        shader = surface_shader(tree)
-        if around.mirror is not None:
-            MirrorCoordinates(build, around.mirror).take_over(own)
-        shown = None if shader is None else build.shown(shader)
-        build.bend_normals()
-        build.reflect_by_side()
+    material, shaders = _merged(name, mirror, whole)
+    tree = material.node_tree
+    own = list(tree.nodes)
+    build = _Builder(tree, image, around)
+    if around.mirror is not None:
+        MirrorCoordinates(build, around.mirror).take_over(own)
+    parts = [build.part(one, shader) for one, shader in zip(mirror, shaders)]
+    build.bend_normals()
+    build.reflect_by_side()
     output = one_output(tree)
-    if shown is not None:
-        if not opaque:
-            clear = build.add("ShaderNodeBsdfTransparent").outputs[0]
-            shown = build.mixed(build.light.outputs["Alpha"], clear, shown)
-        tree.links.new(shown, output.inputs["Surface"])
+    shown = by_material(build, parts, build.mixed)
+    if not opaque:
+        clear = build.add("ShaderNodeBsdfTransparent").outputs[0]
+        shown = build.mixed(build.light.outputs["Alpha"], clear, shown)
+    tree.links.new(shown, output.inputs["Surface"])
     for name_ in ("Displacement", "Volume"):
         for link in list(output.inputs[name_].links):
             tree.links.remove(link)
     show_unblurred(tree, [build.light], output, whole)
-    if around.behind and not is_opaque(mirror):
-        _leave_to_the_mirror(tree)
+    if around.behind and not all(map(is_opaque, mirror)):
+        _leave_to_the_mirror(build, shown, mirror)
     for node in tree.nodes:
         node.select = node == build.light
     tree.nodes.active = build.light
     return material
 
 
-def _leave_to_the_mirror(tree: bpy.types.NodeTree) -> None:
+def _merged(name: str, mirror: Sequence[bpy.types.Material | None], whole: AllOrNothing
+            ) -> tuple[bpy.types.Material, list[bpy.types.Node | None]]:
+    """A new material with the nodes of all that have some, and the shader of each, None where it has none."""
+    with_nodes = [one for one in mirror if one is not None and compat.uses_nodes(one)]
+    material = with_nodes[0].copy() if with_nodes else bpy.data.materials.new(name)
+    whole.undo(remove_new, material)
+    material.name = name
+    tree = compat.use_nodes(material)
+    if not with_nodes:
+        tree.nodes.clear()
+        tree.nodes.new("ShaderNodeOutputMaterial")
+    shader_of = {one: surface_shader(tree) for one in with_nodes[:1]}
+    for other in with_nodes[1:]:
+        nodes = [node for node in other.node_tree.nodes if node.type not in {"OUTPUT_MATERIAL", "FRAME"}]
+        shader = surface_shader(other.node_tree)
+        shader_of[other] = copied(nodes, tree).get(shader)
+    return material, [shader_of.get(one) for one in mirror]
+
+
+def _leave_to_the_mirror(build: ShaderBuilder, shown: bpy.types.NodeSocket,
+                         mirror: Sequence[bpy.types.Material | None]) -> None:
     """Let Cycles see a mirror that light goes through, glass or what is cut out, and nothing before it: that shows its
     reflection as well as what is behind it, and would show the former twice."""
-    output = tree.nodes.new("ShaderNodeOutputMaterial")
-    output.target, output.location = "CYCLES", (0.0, 400.0)
-    clear = tree.nodes.new("ShaderNodeBsdfTransparent")
-    clear.location = (-200.0, 400.0)
-    tree.links.new(clear.outputs[0], output.inputs["Surface"])
+    clear = build.add("ShaderNodeBsdfTransparent").outputs[0]
+    output = build.add("ShaderNodeOutputMaterial", target="CYCLES")
+    parts = [shown if is_opaque(one) else clear for one in mirror]
+    build.feed(by_material(build, parts, build.mixed), output.inputs["Surface"])
 
 
 class _Builder(ShaderBuilder):
@@ -106,6 +117,13 @@ class _Builder(ShaderBuilder):
         self.lit = around.later.leave(self, self.light.outputs["Color"])
         if around.lamps:
             self.lit = self.vector("ADD", self.lit, lamp_light(self, around.lamps))
+
+    def part(self, material: bpy.types.Material | None, shader: bpy.types.Node | None) -> bpy.types.NodeSocket:
+        """What one of the mirror's materials becomes, which has this shader."""
+        if material is None or not compat.uses_nodes(material):
+            return self.glow(self.lit)
+        shown = None if shader is None else self.shown(shader)
+        return self.glow(0.0) if shown is None else shown
 
     def shown(self, shader: bpy.types.Node) -> bpy.types.NodeSocket | None:
         """What a shader node becomes: light where it is glossy, itself where it is not."""

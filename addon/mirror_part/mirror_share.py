@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 
 from .. import compat
-from ..reading.materials import is_mirror, materials_of, surface_shader
+from ..reading.materials import is_mirror, reflecting_materials, surface_shader
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
 
 NORMAL = "mirror_normal"
@@ -42,12 +42,14 @@ class Share:
     ground: tuple = BLACK
 
     @classmethod
-    def of(cls, mirror: bpy.types.Object | None) -> Share:
-        """Of the material of a mirror that reflects, or of its first one."""
-        materials = [] if mirror is None else [material for material in materials_of(mirror)
-                                               if material is not None and compat.uses_nodes(material)]
-        material = next(iter([material for material in materials if is_mirror(material)] + materials), None)
-        shader = None if material is None else surface_shader(material.node_tree)
+    def of(cls, mirror: bpy.types.Object | None) -> tuple[Share, ...]:
+        """Of each of the materials of a mirror that reflect."""
+        shares = () if mirror is None else tuple(map(cls.of_material, reflecting_materials(mirror)))
+        return shares if len(set(shares)) > 1 else (*shares, cls())[:1]
+
+    @classmethod
+    def of_material(cls, material: bpy.types.Material) -> Share:
+        shader = surface_shader(material.node_tree) if compat.uses_nodes(material) else None
         if shader is None:
             return cls()
         if shader.type == "MIX_SHADER":

@@ -31,9 +31,7 @@ from ..lighting import (
 from ..mirror_part import LaterMirrors, Surroundings, new_object_material
 from ..reading import (
     has_linked_results,
-    is_mirror,
     is_opaque,
-    materials_of,
     moves,
     read_scene,
     read_view,
@@ -41,6 +39,7 @@ from ..reading import (
     vectors,
     with_copies,
 )
+from ..reading.materials import reflecting_materials
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
 from ..writing import forget_mesh, place_of
 from . import polls
@@ -210,17 +209,16 @@ def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int,
         for result in lit:
             around = Surroundings(result.reflection_mesh.mirror, lamps_before(result, lamps),
                                   LaterMirrors.of(result, context.scene.objects), not result.reflection_mesh.window)
-            material = new_object_material(NAME, image, _mirror_material(result), opaque, around, whole)
+            material = new_object_material(NAME, image, _mirror_materials(result), opaque, around, whole)
             yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets, light.dull),
                                          whole)
     return show
 
 
-def _mirror_material(result: bpy.types.Object) -> bpy.types.Material | None:
-    """The material of a result's mirror that reflects; None where all of the light is shown."""
-    slots = [material for material in materials_of(result.reflection_mesh.mirror) if material is not None]
-    reflecting = next(iter([material for material in slots if is_mirror(material)] + slots), None)
-    return None if reflecting is None or is_plain(reflecting) else reflecting
+def _mirror_materials(result: bpy.types.Object) -> list[bpy.types.Material | None]:
+    """The materials of a result's mirror that reflect; None where all of the light is shown."""
+    reflecting = reflecting_materials(result.reflection_mesh.mirror)
+    return [None if is_plain(one) else one for one in reflecting] if not all(map(is_plain, reflecting)) else [None]
 
 
 class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator):

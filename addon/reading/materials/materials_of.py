@@ -4,6 +4,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from .mirror_materials import is_mirror
 from .opaque_materials import is_fog
 
 # modifiers that may give faces other slots than the mesh does
@@ -34,6 +35,14 @@ def materials_on_faces(obj: bpy.types.Object) -> list:
     shown.data.polygons.foreach_get("material_index", used)
     # as Blender does, the last slot where there are too few
     return [own[index] for index in np.flatnonzero(np.bincount(used.clip(0, len(own) - 1))).tolist()]
+
+
+def reflecting_materials(mirror: bpy.types.Object) -> list:
+    """The distinct materials of a mirror that reflect; all that it has where none does."""
+    instanced = mirror.instance_type == "COLLECTION" and mirror.instance_collection is not None
+    known = materials_of(mirror) if instanced else materials_on_faces(mirror)
+    known = list(dict.fromkeys(material for material in known if material is not None))
+    return [material for material in known if is_mirror(material)] or known
 
 
 def _shown(obj: bpy.types.Object) -> bpy.types.Object:

@@ -12,6 +12,7 @@ from ..metaballs import basis_of, is_part
 from .join_layers import join_layers
 from .placed_values import PlacedValues, generated_places, lines_of, normals_of, own_places
 from .read_meshes import Placed, read_meshes
+from .shading_normals import told_apart
 
 
 @dataclass(frozen=True)
@@ -121,8 +122,9 @@ def join_mirror(placed: list[Placed], obj: bpy.types.Object) -> MirrorSurface:
     positions, triangles, _, faces, material, materials = _join(placed, 1)
     reflects = np.array([is_mirror(entry) for entry in materials])[material]
     kept = np.flatnonzero(reflects) if reflects.any() else np.arange(len(triangles))
-    mesh = _triangle_mesh([obj], positions, triangles[kept], normals_of(placed)[kept])
-    return MirrorSurface(mesh, faces[kept], material[kept], materials)
+    material = material[kept]
+    normals = told_apart(normals_of(placed)[kept], material)
+    return MirrorSurface(_triangle_mesh([obj], positions, triangles[kept], normals), faces[kept], material, materials)
 
 
 def _triangle_mesh(objects: list, positions, triangles, normals=None) -> TriangleMesh:

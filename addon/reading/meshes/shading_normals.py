@@ -7,6 +7,8 @@ import numpy as np
 from ... import compat
 
 BENT = 1e-6  # between unit normals: what differs by less is rounding
+APART = 1e-9  # radians: far above rounding, and far below what a picture shows
+ASKEW = (0.31, 0.57, 0.76)  # no axis of anything
 
 
 def corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -41,6 +43,17 @@ def with_bent_faces(normals: np.ndarray, corners: np.ndarray, bent: np.ndarray) 
     off = (length > 0.0) & (np.abs(own - normals[some, 0]).max(axis=1) > BENT)
     normals[some[off]] = own[off, None].astype(np.float32)
     return normals
+
+
+def told_apart(normals: np.ndarray, material: np.ndarray) -> np.ndarray:
+    """Normals (m, 3, 3) of a mirror's triangles that agree in no corner in which several materials (m,) meet.
+
+    A face of a result lies over several triangles of the mirror where their normals agree, and else in each of them by
+    itself: so it lies on one material.
+    """
+    if not len(material) or (material == material[0]).all():
+        return normals
+    return normals + APART * material[:, None, None] * np.cross(normals, ASKEW)
 
 
 def _is_smooth(mesh: bpy.types.Mesh) -> np.ndarray:
