@@ -46,11 +46,14 @@ def lit_scene(seed: int) -> Scene:
         names.append("on a floor of " + _floor(rng, UNKNOWN[kind]))
     names += [_lamp(rng, number) for number in range(chosen(rng, [1, 1, 2]))] + [_world(rng), _camera(rng, eye)]
     _rendered(rng)
-    bpy.context.view_layer.update()
-    select(list(bpy.context.scene.objects), mirror)
     options = {"kind": kind, "samples": LIGHT[kind]}
     # on the surface images over one another share a plane, and only the picture looks alike on all of them
     placement = chosen(rng, ["LAYERED", "LAYERED", "SURFACE"]) if kind == "PICTURE" else "LAYERED"
+    rng = np.random.default_rng((seed, 14))  # of what came later: the scenes of all seeds else stay what they are
+    if rng.random() < 0.2:
+        names.append("in part of " + _second_material(rng, mirror, UNKNOWN[kind]))
+    bpy.context.view_layer.update()
+    select(list(bpy.context.scene.objects), mirror)
     return Scene(", ".join([*names, placement, kind]),
                  {"light": options, "generate": {"placement": placement, "depth": len(mirrors)}}, mirrors)
 
@@ -69,6 +72,17 @@ def _object(rng: np.random.Generator, name: str, kinds: dict) -> tuple[str, bpy.
         values[:, :3] = rng.uniform(0.3, 1.0, (len(values), 3))
         shades.data.foreach_set("color", values.ravel())
     return kind, obj
+
+
+def _second_material(rng: np.random.Generator, mirror: bpy.types.Object, without: tuple[str, ...]) -> str:
+    """On the half of the faces that lies to one side."""
+    of, material = mirror_material(rng, without)
+    mirror.data.materials.append(material)
+    middles = np.empty(3 * len(mirror.data.polygons), dtype=np.float32)
+    mirror.data.polygons.foreach_get("center", middles)
+    along = middles.reshape(-1, 3) @ rng.normal(size=3)
+    mirror.data.polygons.foreach_set("material_index", (along > np.median(along)).astype(np.int32))
+    return of
 
 
 def _beside(rng: np.random.Generator) -> bpy.types.Object:

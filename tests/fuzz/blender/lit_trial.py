@@ -20,7 +20,7 @@ from tests.fuzz.blender.scenes import select
 SECONDS = 120.0  # of processor time
 WANTED = 38.0    # dB over the mirror's pixels
 NEARLY = 1.5     # dB that Cycles may be nearer to itself, where its noise is more than that
-WORST = 0.005    # of the pixels, which are left out
+WORST = 0.01     # of the pixels, which are left out
 FEW = 60         # pixels: a mirror of which less is seen says nothing
 TOLD = "Light: Picture"  # where a result is told to lack what this has
 
@@ -48,17 +48,16 @@ def tried_lit(seed: int, keep: Path | None = None) -> dict:
     """
     scene = lit_scene(seed)
     before, reference, again, inside = state(), _picture(0), _picture(1), _mirror_pixels(scene.mirrors)
-    problems, said = [], ""
-    outcome = scene_trial._called("generate", SECONDS, **scene.options["generate"])
-    if not outcome:
-        with _heard() as words:
-            outcome = scene_trial._called("light", SECONDS, **scene.options["light"])
-        said = "".join(words)
+    problems: list[str] = []
+    with _heard() as words:
+        outcome = (scene_trial._called("generate", SECONDS, **scene.options["generate"])
+                   or scene_trial._called("light", SECONDS, **scene.options["light"]))
+    told = TOLD in "".join(words)
     if outcome:
         problems += scene_trial._refusal_problems(outcome)
     shown = _picture(2)
     judged = Judged(_psnr(shown, reference, inside), _psnr(again, reference, inside), int(inside.sum()))
-    if judged.wrong and not outcome and TOLD not in said:
+    if judged.wrong and not outcome and not told:
         problems.append(f"light: {judged.lit:.1f} dB, Cycles with other noise {judged.own:.1f}")
     if keep is not None:
         for name, picture in (("mirror", reference), ("again", again), ("result", shown)):
