@@ -2,52 +2,23 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 
 import bpy
-import numpy as np
 
-from ...core import ReflectionError, View
-from ..baking import KeptMap, are_few, baked, can_be_baked, kept_map
-from ..faults import AllOrNothing, SteppedOperator, Steps, Undivided, part, tell
+from ...core import ReflectionError
+from ..baking import are_few, can_be_baked
+from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
 from ..lamps import lamps_before, lamps_that_show
-from ..lighting import (
-    Window,
-    beside_lamps,
-    is_overexposed,
-    is_plain,
-    light_scene,
-    needs_light,
-    new_export_image,
-    new_image,
-    new_material,
-    paper_white_of,
-    pixel_kernel,
-    show_light,
-    show_object_light,
-    texels_of,
-    white_of,
-)
-from ..mirror_part import LaterMirrors, Surroundings, new_object_material
-from ..reading import (
-    has_linked_results,
-    is_opaque,
-    moves,
-    read_scene,
-    read_view,
-    seen_in,
-    vectors,
-    with_copies,
-)
-from ..reading.materials import reflecting_materials
+from ..lighting import needs_light
+from ..reading import has_linked_results, moves, read_view, with_copies
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
-from ..writing import forget_mesh, place_of
+from ..writing import forget_mesh
 from . import polls
 from .clear import chosen_results
 from .light_remarks import summary, unlike_the_mirror
 from .lit_groups import for_the_camera, with_mirrors
+from .made_light import light_in_picture, light_on_objects
 
-NAME = "Reflection Light"
 IN_OBJECT_MODE = "Reflections are lit in Object Mode: leave the present mode first."
 FOR_THIS_FRAME = ("So many objects are reflected that their light was made for this frame alone: bake frames for an "
                   "animation, or choose Light: Objects to keep it while things move.")
@@ -106,8 +77,8 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
                 continue
             with_objects = kind == "OBJECTS" or (kind == "AUTO" and _view_moves(context, lit) and can_be_baked(lit)
                                                  and are_few(lit))
-            steps = (_on_objects(context, lit, view, samples, whole) if with_objects
-                     else _in_picture(context, lit, view, samples, whole, lamps_apart))
+            steps = (light_on_objects(context, lit, view, samples, whole) if with_objects
+                     else light_in_picture(context, lit, view, samples, whole, lamps_apart))
             shows.append((yield from part(steps, number / len(groups), 1.0 / len(groups))))
             everything += lit
         meshes: dict = {}
@@ -142,83 +113,6 @@ def _stay_linked(linked: list, whole: AllOrNothing) -> None:
         whole.undo(setattr, result, "data", result.data)
         whole.after(forget_mesh, result.data)
         result.data = linked[0].data
-
-
-def _in_picture(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing,
-                lamps_apart: bool) -> Steps[Callable[[], Steps[None]]]:
-    """Render what `lit` show of the picture; returns what lets them show it."""
-    window = Window.around(view, np.concatenate([_on_the_mirror(result) for result in lit]))
-    if window is None:
-        raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
-    with light_scene(context, lit, window) as scene:
-        yield 0.02, Undivided("Cycles renders the light")
-        light = scene.light(samples)
-        yield 0.9, Undivided("Cycles renders what reflections cover")
-        coverage, shining = scene.coverage()
-    # what was clear for a while counts as changed only now
-    context.view_layer.update()
-    cycles = context.scene.cycles
-    kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
-    opacity = light[..., 3] if scene.alone else None
-    white = white_of(context.scene)
-    texels = yield from part(texels_of(light[..., :3], coverage, kernel, white, opacity), 0.93, 0.04)
-    image, apart = (yield from part(new_image(NAME, texels, whole), 0.97, 0.01)), None
-    if lamps_apart and is_overexposed(light[..., :3], shining, paper_white_of(context.scene)):
-        # what shines ends where its faces do, however bright it is: between texels it could not
-        apart = []
-        for name, part_of in (("Matte", beside_lamps(coverage, shining)), ("Shining", shining)):
-            found = yield from part(texels_of(light[..., :3], part_of, kernel, white, opacity, name == "Shining"), 0.98,
-                                    0.005)
-            apart.append((yield from part(new_image(f"{NAME} {name}", found, whole), 0.985, 0.0)))
-    export_image = yield from part(new_export_image(f"{NAME} Export", texels, whole), 0.99, 0.01)
-
-    def show() -> Steps[None]:
-        material = new_material(NAME, image, export_image, texels, whole, apart)
-        for result in lit:
-            yield from show_light(result, material, view, window, whole)
-    return show
-
-
-def _on_the_mirror(result: bpy.types.Object) -> np.ndarray:
-    """Places (n, 3) of a result's points where the camera sees them in the mirror: any on the same line of sight do."""
-    if "mirror_position" in result.data.attributes:
-        return vectors(result.data, "mirror_position")
-    to_world = np.array(place_of(result))
-    return vectors(result.data, "position") @ to_world[:3, :3].T + to_world[:3, 3]
-
-
-def _on_objects(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing
-                ) -> Steps[Callable[[], Steps[None]]]:
-    """Bake the objects that `lit` show; returns what lets them show it."""
-    if not can_be_baked(lit):
-        raise ReflectionError("A reflection of points, or of objects that have been deleted, or one that knows only "
-                              "what is seen, has no light on objects: light it in the picture.")
-    is_seen = seen_in(context)
-    sources = [obj for obj in dict.fromkeys(entry.object for result in lit for entry in result.reflection_mesh.sources)
-               if is_seen(obj)]
-    scene = read_scene(context.evaluated_depsgraph_get(), sources)
-    light = yield from part(baked(context, lit, view, scene, samples), 0.02, 0.93)
-    image = yield from part(new_image(NAME, light.texels, whole), 0.95, 0.05)
-    # what was hidden for a while counts as changed only now
-    context.view_layer.update()
-    opaque, lamps = all(map(is_opaque, scene.materials)), lamps_that_show(context)
-
-    def show() -> Steps[None]:
-        light_map = kept_map(NAME, light.uv)
-        whole.undo(bpy.data.meshes.remove, light_map)
-        for result in lit:
-            around = Surroundings(result.reflection_mesh.mirror, lamps_before(result, lamps),
-                                  LaterMirrors.of(result, context.scene.objects), not result.reflection_mesh.window)
-            material = new_object_material(NAME, image, _mirror_materials(result), opaque, around, whole)
-            yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets, light.dull),
-                                         whole)
-    return show
-
-
-def _mirror_materials(result: bpy.types.Object) -> list[bpy.types.Material | None]:
-    """The materials of a result's mirror that reflect; None where all of the light is shown."""
-    reflecting = reflecting_materials(result.reflection_mesh.mirror)
-    return [None if is_plain(one) else one for one in reflecting] if not all(map(is_plain, reflecting)) else [None]
 
 
 class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator):

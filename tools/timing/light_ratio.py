@@ -42,7 +42,8 @@ def measured(name: str, options: argparse.Namespace) -> tuple[str, ...]:
     """One row."""
     import bpy
     from bl_ext.user_default.reflection_mesh.addon.lighting import Window
-    from bl_ext.user_default.reflection_mesh.addon.operators.light import _on_the_mirror, lighting
+    from bl_ext.user_default.reflection_mesh.addon.operators.light import lighting
+    from bl_ext.user_default.reflection_mesh.addon.operators.made_light import on_the_mirror
     from bl_ext.user_default.reflection_mesh.addon.reading import read_view
     from bl_ext.user_default.reflection_mesh.addon.rendering import denoise
     bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{name}.blend"))
@@ -51,7 +52,7 @@ def measured(name: str, options: argparse.Namespace) -> tuple[str, ...]:
     scene.render.resolution_percentage = 100
     bpy.ops.reflection_mesh.generate("EXEC_DEFAULT")
     results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"]
-    window = Window.around(read_view(bpy.context), np.concatenate([_on_the_mirror(result) for result in results]))
+    window = Window.around(read_view(bpy.context), np.concatenate([on_the_mirror(result) for result in results]))
     assert window is not None
     cycles, denoised, stages, lights = [], [], {}, []
     for _ in range(options.rounds):

@@ -74,7 +74,7 @@ def test_a_frame_makes_no_more_pictures_than_it_plays(moving, room, monkeypatch,
     shining.node_tree.nodes[0].inputs["Strength"].default_value = 30.0
     bpy.data.objects["Box"].material_slots[1].material = shining
     bpy.ops.wm.save_mainfile()
-    light, made = room("addon.operators.light"), []
+    light, made = room("addon.operators.made_light"), []
     found = light.texels_of
     monkeypatch.setattr(light, "texels_of", lambda *given: made.append(given) or found(*given))
     assert bake(room, "--output", tmp_path / "out", "--frames", "4", "--light", "4", "--frames-only") == 0

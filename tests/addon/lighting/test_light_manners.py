@@ -27,7 +27,7 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaqu
 
 @pytest.mark.parametrize("failing", ["rendered", "new_material", "show_light"])
 def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
-    where = "addon.lighting.light_scene" if failing == "rendered" else "addon.operators.light"
+    where = "addon.lighting.light_scene" if failing == "rendered" else "addon.operators.made_light"
     leaves_no_trace(blank, room, monkeypatch, (where, failing), "PICTURE")
 
 

@@ -59,7 +59,7 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, stage, times):
 
 @pytest.mark.parametrize("failing", ["kept_map", "new_object_material", "show_object_light"])
 def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
-    leaves_no_trace(blank, room, monkeypatch, ("addon.operators.light", failing), "OBJECTS")
+    leaves_no_trace(blank, room, monkeypatch, ("addon.operators.made_light", failing), "OBJECTS")
 
 
 def test_clear_takes_it_away(blank):
