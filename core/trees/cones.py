@@ -53,13 +53,9 @@ class Cones:
         sine, cosine = columns(self.sine, cone), columns(self.cosine, cone)
         return (cosine <= 0.0) | ((norm(offset) * cosine - height * sine <= room) & (height >= -room))
 
-
     def together(self, start: np.ndarray) -> Cones:
         """Cones round the cones of each run from one of `start` (f,) to the next."""
-        count = np.diff(np.append(start, len(self.radius)))
-        run = np.repeat(np.arange(len(start)), count)
-        centre = np.add.reduceat(self.centre, start, axis=1) / count
-        radius = np.maximum.reduceat(norm(self.centre - columns(centre, run)) + self.radius, start)
+        centre, radius, run = _spheres_round(self.centre, self.radius, start)
         total = np.add.reduceat(self.axis, start, axis=1)
         axis = unit(total)
         # half the sum of two angles has no larger a sine than the halves' sines together
@@ -83,6 +79,18 @@ class Balls:
     def touch(self, ball: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
         """Whether the spheres `ball` (n,) and those with `centre` (3, n) and `radius` (n,) overlap."""
         return norm(columns(self.centre, ball) - centre) <= self.radius[ball] + radius
+
+    def together(self, start: np.ndarray) -> Balls:
+        """Spheres round the spheres of each run from one of `start` (f,) to the next."""
+        return Balls(*_spheres_round(self.centre, self.radius, start)[:2])
+
+
+def _spheres_round(centre: np.ndarray, radius: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Centres (3, f) and radii (f,) round runs of spheres from one of `start` (f,) to the next; the run (n,) of each."""
+    count = np.diff(np.append(start, len(radius)))
+    run = np.repeat(np.arange(len(start)), count)
+    middle = np.add.reduceat(centre, start, axis=1) / count
+    return middle, np.maximum.reduceat(norm(centre - columns(middle, run)) + radius, start), run
 
 
 def _opening(half: np.ndarray, everywhere: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

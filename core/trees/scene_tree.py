@@ -117,7 +117,7 @@ class SceneTree(NodeTree):
         comes is not followed, nor is one wanted any longer that is to be tested against more than `enough` (n,)
         triangles at a time. Cones that lie side by side and have the same `family` (n,) descend as one."""
         start = np.flatnonzero(np.diff(family, prepend=-1)) if family is not None else np.zeros(0, dtype=np.int64)
-        if isinstance(cones, Cones) and LEAST_FAMILY * len(start) < len(wanted) and len(start):
+        if LEAST_FAMILY * len(start) < len(wanted) and len(start):
             yield from self._traced_together(cones, wanted, start, enough)
             return
         for cone, leaf, visited in self.descended(cones, wanted):
@@ -133,7 +133,7 @@ class SceneTree(NodeTree):
                 yield own[touching], triangle[touching], visited
                 visited = 0
 
-    def _traced_together(self, cones: Cones, wanted: np.ndarray, start: np.ndarray,
+    def _traced_together(self, cones: Cones | Balls, wanted: np.ndarray, start: np.ndarray,
                          enough: np.ndarray | None) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
         """What `traced` returns for families of cones that begin at `start` (f,)."""
         size = np.diff(np.append(start, len(wanted)))

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import meeting, norm, rows
+from ..geometry import in_order, meeting, norm, rows
 from ..patches import Patch
 from ..result import DEPTH, GAP
-from ..trees import Balls, SceneTree
+from ..trees import Balls, SceneTree, curve_leaves, depth_for
 
+FAMILY = 16  # triangles of the patch that are looked at together
 LARGE = 256.0  # pixels: larger triangles of the mirror are cut too often to be cut along pieces of the scene
 
 
@@ -23,7 +24,11 @@ def contacts(patch: Patch, tree: SceneTree) -> tuple[np.ndarray, np.ndarray]:
     slid = (GAP + DEPTH) * patch.far(corners - patch.eye[:, None])
     radius = norm(corners - middle[:, None]).max(axis=0) + slid
     near, met = [np.zeros(0, dtype=np.int64)], np.zeros(len(patch), dtype=bool)
-    for member, triangle, _ in tree.traced(Balls(middle, radius), np.ones(len(patch), dtype=bool)):
+    family = curve_leaves(middle.T, depth_for(len(patch), FAMILY))
+    order = in_order(family)
+    balls = Balls(middle[:, order], radius[order])
+    for place, triangle, _ in tree.traced(balls, np.ones(len(patch), dtype=bool), family[order]):
+        member = order[place]
         scene = rows(tree.mesh.positions[tree.mesh.triangles[triangle].T])
         close = meeting(corners[:, :, member], scene, slid[member])
         near.append(np.unique(triangle[close]))
