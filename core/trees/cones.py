@@ -86,7 +86,7 @@ class Balls:
 
 
 def _spheres_round(centre: np.ndarray, radius: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Centres (3, f) and radii (f,) round runs of spheres from one of `start` (f,) to the next; the run (n,) of each."""
+    """Centres (3, f) and radii (f,) round spheres from one of `start` (f,) to the next; the run (n,) of each."""
     count = np.diff(np.append(start, len(radius)))
     run = np.repeat(np.arange(len(start)), count)
     middle = np.add.reduceat(centre, start, axis=1) / count
