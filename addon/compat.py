@@ -105,11 +105,32 @@ def line_art_of(obj: bpy.types.Object) -> list:
 
 def curves_of(data: bpy.types.ID) -> list:
     """The animation curves of what has its own action; in layers since Blender 4.4, and from 5.0 on in no other way."""
-    action = data.animation_data.action
+    return _curves(data.animation_data)
+
+
+def every_curve_of(data: bpy.types.ID) -> list:
+    """The animation curves of what is animated, by its own action or by strips that are not muted, within others or
+    not."""
+    animated, found = data.animation_data, []
+    waiting = [strip for track in animated.nla_tracks if animated.use_nla and not track.mute for strip in track.strips]
+    while waiting:
+        strip = waiting.pop()
+        if not strip.mute:
+            waiting.extend(strip.strips)
+            found += _curves(strip)
+    return found + _curves(animated)
+
+
+def _curves(holder: bpy.types.AnimData | bpy.types.NlaStrip) -> list:
+    """The curves of the action that is assigned here, none where there is none; of those that move other things by the
+    same action it has none."""
+    action = holder.action
+    if action is None:
+        return []
     if bpy.app.version < (4, 4, 0):
         return list(action.fcurves)
     return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags
-            for curve in bag.fcurves]
+            if bag.slot_handle == holder.action_slot_handle for curve in bag.fcurves]
 
 
 def dices(scene: bpy.types.Scene, obj: bpy.types.Object) -> bool:

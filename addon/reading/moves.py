@@ -5,7 +5,7 @@ import bpy
 
 from .. import compat
 
-SWITCHES = ("hide_render", "hide_viewport")
+SWITCHES = ("hide_render", "hide_viewport", "visible_glossy")
 
 
 def moves(obj: bpy.types.Object | None) -> bool:
@@ -20,9 +20,8 @@ def moves(obj: bpy.types.Object | None) -> bool:
 
 
 def comes_and_goes(obj: bpy.types.Object) -> bool:
-    """Whether what hides an object from viewports or renders is animated or driven."""
+    """Whether what hides an object from viewports, renders or mirrors is animated, by strips too, or driven."""
+    # collections cannot be animated
     data = obj.animation_data
-    if data is None:
-        return False
-    curves = [*data.drivers, *(compat.curves_of(obj) if data.action is not None else ())]
-    return any(curve.data_path in SWITCHES for curve in curves)
+    return data is not None and any(curve.data_path in SWITCHES
+                                    for curve in (*data.drivers, *compat.every_curve_of(obj)))

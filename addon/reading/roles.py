@@ -88,7 +88,8 @@ def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list,
 def _others_seen(context: bpy.types.Context, objects: list, mirrors: list) -> list:
     """What the mirrors show of the objects that are there now, or at other frames."""
     is_seen = _seen_at_times(context)
-    return [obj for obj in objects if obj not in mirrors and is_seen(obj) and obj.visible_glossy]
+    return [obj for obj in objects if obj not in mirrors and is_seen(obj)
+            and (obj.visible_glossy or comes_and_goes(obj))]
 
 
 def says_mirror(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | None], bool] = is_mirror) -> bool:

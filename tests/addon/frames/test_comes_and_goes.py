@@ -14,9 +14,30 @@ def shown(result: bpy.types.Object) -> np.ndarray:
     return placed[np.lexsort(placed.T)]
 
 
-@pytest.mark.parametrize("switches", [("hide_render",), ("hide_render", "hide_viewport")], ids="+".join)
+def into_a_strip(obj: bpy.types.Object, meta: bool = False) -> None:
+    """Push an object's action down, as the NLA editor does, and there into a strip of strips."""
+    data = obj.animation_data
+    track = data.nla_tracks.new()
+    strip = track.strips.new("Strip", int(data.action.frame_range[0]), data.action)
+    if bpy.app.version >= (4, 4, 0):
+        strip.action_slot = data.action_slot
+    data.action = None
+    if meta:
+        strip.select = True
+        area = bpy.context.window.screen.areas[0]
+        area.ui_type = "NLA_EDITOR"
+        parts.select(obj)
+        with bpy.context.temp_override(area=area, region=area.regions[-1]):
+            assert bpy.ops.nla.meta_add() == {"FINISHED"}
+        assert [strip.type for strip in track.strips] == ["META"]
+
+
+@pytest.mark.parametrize(("switches", "strips"), [
+    (("hide_render",), ""), (("hide_render", "hide_viewport"), ""), (("visible_glossy",), ""),
+    (("hide_render", "hide_viewport"), "one"), (("hide_render",), "meta")],
+    ids=lambda value: "+".join(value) if isinstance(value, tuple) else value)
 @pytest.mark.parametrize("begun", [1, 2])
-def test_frames_show_what_is_there_at_each(blank, tmp_path, switches, begun):
+def test_frames_show_what_is_there_at_each(blank, tmp_path, switches, strips, begun):
     """Whether it is there at the frame at which the bake begins or not; beside what is generated of all that is
     selected at each frame."""
     always, guest = (parts.add("cube", name, size=0.8, location=(side, -1.5, 1.0))
@@ -27,8 +48,10 @@ def test_frames_show_what_is_there_at_each(blank, tmp_path, switches, begun):
         obj.data.materials.append(parts.material(obj.name))
     for switch in switches:
         for frame, hidden in ((1, True), (2, False), (3, True)):
-            setattr(guest, switch, hidden)
+            setattr(guest, switch, hidden != (switch == "visible_glossy"))
             guest.keyframe_insert(switch, frame=frame)
+    if strips:
+        into_a_strip(guest, strips == "meta")
     scene = blank.scene
     scene.frame_start, scene.frame_end = 1, 3
     scene.frame_set(begun)
