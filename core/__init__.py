@@ -3,11 +3,11 @@ from .caustics import CausticMesh, Lamp, caustic_steps, caustics
 from .following import FollowedImages
 from .geometry import TriangleMesh
 from .lines import with_borders_closed
-from .reflection import ReflectionError, reflect, reflection_steps
+from .reflection import reflect, reflection_steps
 from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
 from .solver import Images, project
 from .standing import Standing
-from .support import METHODS, PLACEMENTS, NothingInView, Settings, breathe, in_steps
+from .support import METHODS, PLACEMENTS, NothingInView, ReflectionError, Settings, breathe, in_steps
 from .trees import PointTree, SceneTree
 from .views import View, draw
 

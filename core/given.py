@@ -4,9 +4,11 @@ from __future__ import annotations
 import numpy as np
 
 from .geometry import TriangleMesh, area_normals, cross, dot, norm, rows
-from .support import LARGEST, ReflectionError, Settings, must_be
+from .support import LARGEST, NothingInView, ReflectionError, Settings, must_be
 from .trees import PointTree, SceneTree
 from .views import View
+
+NO_AREA = "The mirror has no face with an area; give it faces or choose another mirror."
 
 
 def check_given(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
@@ -31,7 +33,7 @@ def check_given(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTre
     normals = area_normals(corners)
     length = norm(normals)
     if not (length > 0.0).any():
-        raise ReflectionError("The mirror has no face with an area; give it faces or choose another mirror.")
+        raise NothingInView(NO_AREA)
     if not view.orthographic and _touched(view.eye, corners, normals, length):
         raise ReflectionError("The eye lies on the mirror; move the camera away from the mirror's surface.")
 

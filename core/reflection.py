@@ -26,7 +26,7 @@ from .points import reflected_points
 from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
 from .standing import Standing
-from .support import NothingInView, Progress, ReflectionError, Settings, in_steps, keep_freed_memory
+from .support import NothingInView, Progress, Settings, in_steps, keep_freed_memory
 from .trees import PointTree, SceneTree
 from .views import LampView, View
 from .visibility import cut_at_borders, cut_before_eye, lit, with_shades, without_hidden, without_occluded
@@ -117,7 +117,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     tree = given_tree if isinstance(given_tree, kind) else kind.build(
         given_tree if isinstance(given_tree, TriangleMesh) else given_tree.mesh)
     if not len(tree):
-        raise ReflectionError("The reflected objects have no faces with an area; select objects with faces to reflect.")
+        raise NothingInView("The reflected objects have no faces with an area; select objects with faces to reflect.")
     known = scene if isinstance(scene, Standing) and scene.tree is tree and scene.mirrors is mirrors else None
     mirror, given, met = _with_mirrors(view, tree, mirror, mirrors, known)
     if isinstance(tree, SceneTree) and not settings.hidden_faces:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import argparse
 import os
 import time
+from itertools import chain
 
 import bpy
 
@@ -17,6 +18,7 @@ from ..operators.bake_frames import (
     baking,
     blur_remarks,
     chosen_frames,
+    empty_remarks,
     layer_remarks,
     plan_of,
     showing,
@@ -92,6 +94,8 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
     told = remarks + render_shortcomings(context, *candidates(context)) + blur_remarks(scene, cameras, thrown)
     told += layer_remarks(scene, layers)
     if not options.frames_only:
+        # of a farm's chunk others have more frames
+        told += empty_remarks(list(chain.from_iterable(sequences)))
         for layer, plan, shown in zip(layers, plans, sequences):
             with context.temp_override(scene=scene, view_layer=layer):
                 objects, remarks = showing(context, plan, shown)

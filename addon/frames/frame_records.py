@@ -33,6 +33,11 @@ class ResultRecord:
     materials: tuple
     lit: bool
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is nothing in it: else it has places on the mirror at the least."""
+        return not self.attributes
+
 
 @dataclass(frozen=True)
 class FrameRecord:

@@ -40,6 +40,12 @@ class Sequence:
     layers: int = 0
     stretch: float = 1.0
 
+    @property
+    def empty(self) -> set[str]:
+        """Those of its results, as the records name them, that are empty in every frame."""
+        return {key for key in self.records[0].results
+                if all(record.results[key].is_empty for record in self.records)}
+
     def times(self, values: dict) -> dict:
         """Values by frames as values by where Blender looks for them on curves, rounded as it rounds."""
         return {float(np.float32(frame) * np.float32(self.stretch)): value for frame, value in values.items()}

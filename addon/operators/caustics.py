@@ -37,7 +37,7 @@ from ..illumination import (
     textured,
     write_caustics,
 )
-from ..reading import DiffuseScene, Participants, choose, materials_shown, read_mirror, read_scene
+from ..reading import DiffuseScene, Participants, choose, materials_shown, read_mirrors, read_scene
 from ..settings import UsesSettings, option
 from ..writing import set_free, told_of
 from . import polls
@@ -110,7 +110,8 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     chosen = replace(chosen, diffuse=[obj for obj in chosen.diffuse if obj not in lamps])
     if not chosen.diffuse:
         raise core.ReflectionError(NOTHING_LIT)
-    surfaces = {mirror: read_mirror(depsgraph, mirror) for mirror in chosen.mirrors}
+    surfaces, faceless = read_mirrors(depsgraph, chosen.mirrors)
+    dark, pairs = ([pair for pair in pairs if (pair[0] in surfaces) == there] for there in (False, True))
     places = {mirror: MirrorPlaces(textured(mirror), places_on_mirror(depsgraph, mirror)) for mirror in surfaces}
     scene = read_scene(depsgraph, chosen.diffuse)
     receivers = {mirror: receiving(scene, surface.mesh) for mirror, surface in surfaces.items()}
@@ -120,19 +121,18 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
     for pair in pairs:
         origins[pair] = light_record(context, *pair, scene.sources)
         yield 0.0, "Reading the scene"
-    prepared, dark, refused = [], [], left_out(context, chosen.hidden) + remarks_on_taking(scene, surfaces)
+    prepared, refused = [], left_out(context, chosen.hidden) + faceless + remarks_on_taking(scene, surfaces)
     for number, (mirror, lamp) in enumerate(pairs):
         name = name_of(mirror, lamp, lamps)
         eyes = partial(eyes_of, depsgraph, lamp, wanted.places(mirror, lamp))
-        parts = parts_of(surfaces[mirror], [surfaces[other] for other in chosen.mirrors if other != mirror])
+        parts = parts_of(surfaces[mirror], [surfaces[other] for other in surfaces if other != mirror])
         steps = _lit(eyes, parts, receivers[mirror], blockers[lamp], wanted.settings(mirror))
         try:
             lit = yield from part(steps, READING + (1.0 - READING) * number / len(pairs), (1.0 - READING) / len(pairs),
                                   name)
         except core.ReflectionError as error:
             refused.append(f"{name}: {error}")
-            if isinstance(error, NoLight | core.NothingInView):
-                dark.append((mirror, lamp))
+            dark += [(mirror, lamp)] * isinstance(error, NoLight | core.NothingInView)
             continue
         done = READING + (1.0 - READING) * (number + 1) / len(pairs)
         steps = _made(context, name, (mirror, lamp), lit, scene, places[mirror])
@@ -140,7 +140,7 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
         # what is seen through sheets passes the layers on each of them
         prepared.append(replace(made, layers=made.layers * len(receivers[mirror]).bit_length()))
     if not prepared:
-        raise (NothingThrown if len(dark) == len(pairs) else core.ReflectionError)(refused[-1])
+        raise (NothingThrown if {*pairs} <= {*dark} else core.ReflectionError)(refused[-1])
     yield 1.0, "Writing"
     thrown = _written(context, prepared, wanted, (refused, dark))
     for obj in thrown.objects:

@@ -82,6 +82,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
                 remarks += window_shortcomings(context, mirror, view, result, chosen.mirrors)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
+            unseen += isinstance(error, core.NothingInView)
             continue
         if not len(result.positions):
             refused.append(f"{mirror.name}: The camera sees none of the reflected objects in this mirror; move the "

@@ -9,15 +9,12 @@ import bpy
 from ...core import ReflectionError
 from .materials import all_fog, is_mirror, materials_on_faces, own_materials
 from .moves import comes_and_goes
+from .nothing_seen import NothingSeen
 from .results import RESULTS, is_gone, meant, of_results
 
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
              "Reflection tab.")
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
-
-
-class NothingSeen(ReflectionError):
-    """There is a mirror, and something to reflect, and nothing of it is to be seen at the moment."""
 
 
 @dataclass(frozen=True)

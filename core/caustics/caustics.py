@@ -8,6 +8,7 @@ import numpy as np
 
 from ..cameras import ReflectionMap
 from ..geometry import TriangleMesh
+from ..given import NO_AREA
 from ..recentring import far_corner, moved_surface
 from ..reflection import reflect
 from ..result import ReflectionMesh
@@ -71,6 +72,8 @@ def caustics(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings
     must_be(lamp, Lamp, "The lamp must be a Lamp; make one of its position, or of a sun's direction with shining.")
     must_be(receivers, TriangleMesh, "The receivers must be a TriangleMesh; make one of their positions and triangles.")
     must_be(blockers, (TriangleMesh, type(None)), "The blockers must be one TriangleMesh; join them or leave them out.")
+    if isinstance(mirror, TriangleMesh) and len(mirror.triangles) and not mirror.face_normals().any():
+        raise NothingInView(NO_AREA)
     corner = far_corner(mirror) if isinstance(mirror, TriangleMesh) and len(mirror.triangles) else None
     if corner is None:
         return _near_origin(lamp, mirror, receivers, settings, mirrors, blockers)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..cameras import MirrorMap
 from ..geometry import TriangleMesh, dot, unit
-from ..reflection import ReflectionError
+from ..support import ReflectionError
 from ..trees import SceneTree
 from ..views import View, draw
 from .rival_picture import Work

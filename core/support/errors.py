@@ -18,7 +18,7 @@ class ReflectionError(ValueError):
 
 
 class NothingInView(ReflectionError):
-    """The view sees nothing of the mirror.
+    """The view sees nothing of the mirror, or nothing in it, since one of them has no area.
 
     Examples
     --------

@@ -86,6 +86,8 @@ KEPT = {
     "another folder, to have all alike.":
         "Behalten, obwohl die Szene beim Backen eine andere war ({}): {} in '{}'; überschreibe sie, oder wähle "
         "einen anderen Ordner, damit alle gleich sind.",
+    "Empty in every baked frame, since hidden, out of sight or with nothing to show: {}.":
+        "Leer in jedem gebackenen Einzelbild, da ausgeblendet, außer Sicht oder mit nichts zu zeigen: {}.",
     "frame {}": "Einzelbild {}",
     "frames {}": "Einzelbilder {}",
     "frames {} and {} more": "Einzelbilder {} und {} weitere",

@@ -4,9 +4,9 @@ From here come the operator's registration and what the verb `bake` puts in orde
 """
 from .bake import baking
 from .bake_operator import FOLDER, WHAT, register, unregister
-from .plan import blur_remarks, chosen_frames, layer_remarks, plan_of, summary
+from .plan import blur_remarks, chosen_frames, empty_remarks, layer_remarks, plan_of, summary
 from .playing import showing
 from .side_by_side import side_by_side
 
-__all__ = ["FOLDER", "WHAT", "baking", "blur_remarks", "chosen_frames", "layer_remarks", "plan_of", "register",
-           "showing", "side_by_side", "summary", "unregister"]
+__all__ = ["FOLDER", "WHAT", "baking", "blur_remarks", "chosen_frames", "empty_remarks", "layer_remarks", "plan_of",
+           "register", "showing", "side_by_side", "summary", "unregister"]

@@ -17,7 +17,7 @@ from .. import polls
 from ..asked_light import left_out_of
 from ..shortcomings import render_shortcomings
 from .bake import IN_OBJECT_MODE, NO_USD, baking
-from .plan import Plan, blur_remarks, layer_remarks, plan_of, summary
+from .plan import Plan, blur_remarks, empty_remarks, layer_remarks, plan_of, summary
 from .playing import showing
 from .side_by_side import side_by_side, words_of
 
@@ -79,7 +79,7 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
         left_out = left_out_of(objects) if lamps else None
         if left_out is not None:
             self.leave_out = left_out
-        remarks = kept + hidden + render_shortcomings(context, *candidates(context))
+        remarks = kept + hidden + empty_remarks(sequences) + render_shortcomings(context, *candidates(context))
         remarks += blur_remarks(context.scene, plan.cameras, bool(lamps))
         remarks += layer_remarks(context.scene, [context.view_layer])
         tell_done(self, [summary([plan], elsewhere + len(written), time.perf_counter() - started)], remarks)

@@ -8,7 +8,7 @@ import bpy
 
 from .... import core
 from ...faults import Steps, one_or_more
-from ...frames import frame_numbers, frame_text, is_done, read_record, record_path, told_apart
+from ...frames import Sequence, frame_numbers, frame_text, is_done, read_record, record_path, told_apart
 from ...freshness import frame_difference, frame_origin
 from ...reading import NothingSeen, Participants, candidates, render_size, visible
 from ...settings import SAMPLES, SettingsOfMirrors, Wanted, of_each
@@ -158,6 +158,17 @@ def blur_remarks(scene: bpy.types.Scene, cameras: tuple, thrown: bool = False) -
                           for camera in (cameras or [scene.camera, *marked])):
         told.append(DEPTH_OF_FIELD)
     return told + [STEREO] * (scene.render.use_multiview and not thrown)
+
+
+def empty_remarks(sequences: list[Sequence]) -> list[str]:
+    """A sentence on the mirrors that show nothing, or throw nothing of a lamp's light, in any frame of any sequence; of
+    single frames nobody is told."""
+    seen = {key for sequence in sequences for key in sequence.records[0].results if key not in sequence.empty}
+    empty = sorted(set().union(*(sequence.empty for sequence in sequences)) - seen)
+    if not empty:
+        return []
+    named = ", ".join([*map(repr, empty[:NAMED]), *["..."] * (len(empty) > NAMED)])
+    return [f"Empty in every baked frame, since hidden, out of sight or with nothing to show: {named}."]
 
 
 def layer_remarks(scene: bpy.types.Scene, layers: list) -> list[str]:

@@ -9,6 +9,7 @@ import numpy as np
 from ....core import ReflectionError, TriangleMesh, breathe
 from ..materials import is_mirror
 from ..metaballs import basis_of, is_part
+from ..nothing_seen import NothingSeen
 from .join_layers import join_layers
 from .placed_values import PlacedValues, generated_places, lines_of, normals_of, own_places
 from .read_meshes import Placed, read_meshes
@@ -84,7 +85,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
     Raises
     ------
     ReflectionError
-        Where they have no faces, or a coordinate is not a finite number.
+        Where they have no faces, `NothingSeen`, or a coordinate is not a finite number.
     """
     return join_scene(read_meshes(depsgraph, objects, mirror=False), objects)
 
@@ -92,7 +93,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
 def join_scene(placed: list[Placed], objects: list) -> DiffuseScene:
     """As `read_scene`, of meshes that have been read."""
     if not placed:
-        raise ReflectionError(f"'{objects[0].name}' has no faces to reflect: choose objects with faces.")
+        raise NothingSeen(f"'{objects[0].name}' has no faces to reflect: choose objects with faces.")
     positions, triangles, owners, faces, material, materials = _join(placed, len(objects))
     return DiffuseScene(_triangle_mesh(objects, positions, triangles), list(objects), owners, faces, material,
                         materials, normals_of(placed), *lines_of(placed), *join_layers(placed),
@@ -107,9 +108,28 @@ def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> Mirror
     Raises
     ------
     ReflectionError
-        Where the mirror has no faces, or a coordinate or a normal is not a finite number.
+        Where the mirror has no faces, `NothingSeen`, or a coordinate or a normal is not a finite number.
     """
     return join_mirror(read_meshes(depsgraph, [obj], mirror=True), obj)
+
+
+def read_mirrors(depsgraph: bpy.types.Depsgraph, mirrors: list) -> tuple[dict[bpy.types.Object, MirrorSurface], list]:
+    """As `read_mirror`, of each of some mirrors but those that have no faces, and sentences on these.
+
+    Raises
+    ------
+    ReflectionError
+        Where none has faces, `NothingSeen`, or one cannot be read.
+    """
+    surfaces, faceless = {}, []
+    for obj in mirrors:
+        try:
+            surfaces[obj] = read_mirror(depsgraph, obj)
+        except NothingSeen as error:
+            faceless.append(error)
+    if not surfaces:
+        raise faceless[0]
+    return surfaces, list(map(str, faceless))
 
 
 def join_mirror(placed: list[Placed], obj: bpy.types.Object) -> MirrorSurface:
@@ -118,7 +138,7 @@ def join_mirror(placed: list[Placed], obj: bpy.types.Object) -> MirrorSurface:
         if is_part(obj):
             raise ReflectionError(f"The mirror '{obj.name}' is a part of the metaball '{basis_of(obj).name}': choose "
                                   "that instead.")
-        raise ReflectionError(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
+        raise NothingSeen(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
     positions, triangles, _, faces, material, materials = _join(placed, 1)
     reflects = np.array([is_mirror(entry) for entry in materials])[material]
     kept = np.flatnonzero(reflects) if reflects.any() else np.arange(len(triangles))

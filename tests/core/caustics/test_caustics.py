@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Lamp, ReflectionError, Settings, TriangleMesh, View, caustics
+from core import Lamp, NothingInView, ReflectionError, Settings, TriangleMesh, View, caustics
 from core.cameras import MirrorMap
 from core.caustics.corners import light_at
 from tests.oracles.ray_hits import first_hits, plane_hits
@@ -287,6 +287,8 @@ def test_what_cannot_be_is_told_in_one_sentence():
     mirror, floor = upright(0.0, 1.5, 0.5), level(0.0, 0.0, 0.0, 9.0)
     with pytest.raises(ReflectionError, match="throws none"):
         caustics(Lamp((1.0, 0.0, 3.0)), mirror, level(0.0, 0.0, 9.0, 1.0))
+    with pytest.raises(NothingInView, match="no face with an area"):
+        caustics(Lamp((0.0, 0.0, 4.0)), TriangleMesh(np.ones((3, 3)), np.array([[0, 1, 2]])), floor)
     with pytest.raises(ReflectionError, match="lies on the mirror"):
         caustics(Lamp((0.0, 0.1, 1.5)), mirror, floor)
     with pytest.raises(ReflectionError, match="must be a Lamp"):
