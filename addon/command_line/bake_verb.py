@@ -68,6 +68,7 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
     _check(options)
     thrown = options.what == "CAUSTICS"
     folder = os.path.abspath(options.output) if options.output else chosen_folder(FOLDER)
+    path = _player_path(folder, options)
     scene = context.scene
     cameras = tuple(camera_of(scene, name) for name in dict.fromkeys(options.camera))
     layers = [layer_of(scene, name) for name in dict.fromkeys(options.view_layer)] or [context.view_layer]
@@ -102,9 +103,6 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
             told += remarks
             if len(layers) > 1:
                 show_in_layer(scene, layer, objects)
-        stem = os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "scene"
-        path = os.path.join(folder, f"{stem} {options.what.lower()}.blend")
-        check_place(path)
         save_blend(path)
         told.append(f"Saved: '{path}'")
     print(*told, summary(plans, elsewhere + len(done), time.perf_counter() - started), sep="\n", flush=True)
@@ -119,6 +117,15 @@ def _check(options: argparse.Namespace) -> None:
         raise ReflectionError("Light that mirrors throw is baked for one view layer at a time: name one.")
     if options.jobs < 1:
         raise ReflectionError("Frames are baked by one process at least: raise --jobs.")
+
+
+def _player_path(folder: str, options: argparse.Namespace) -> str:
+    """The file that plays the frames, which can be saved there as far as can be told before."""
+    stem = os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "scene"
+    path = os.path.join(folder, f"{stem} {options.what.lower()}.blend")
+    if os.path.isdir(folder) and not options.frames_only:
+        check_place(path)
+    return path
 
 
 def _made_side_by_side(scene: bpy.types.Scene, folder: str, options: argparse.Namespace) -> int:

@@ -7,7 +7,7 @@ from contextlib import suppress
 import bpy
 
 from ...core import ReflectionError
-from .scratch import clear_leftovers, temporary_blend
+from .scratch import clear_leftovers, temporary_blend, why_unwritable
 from .staged import keep, replaceable
 from .whole import is_whole
 
@@ -29,6 +29,8 @@ def check_place(path: str) -> None:
         raise ReflectionError(f"'{path}' cannot be saved, because there is no folder '{folder}': make it first.")
     if os.path.exists(path) and not os.access(path, os.W_OK):
         raise ReflectionError(f"'{path}' is protected from writing: name another file.")
+    if why := why_unwritable(folder):
+        raise ReflectionError(f"'{path}' cannot be written ({why}): name another file.")
 
 
 def save_blend(path: str) -> None:

@@ -51,6 +51,15 @@ def scratch_folder(where: str | None = None) -> Iterator[str]:
         shutil.rmtree(path, ignore_errors=True)
 
 
+def why_unwritable(folder: str) -> str:
+    """Why nothing can be written into a folder, in the system's words; empty where something can."""
+    try:
+        os.rmdir(tempfile.mkdtemp(prefix=own_prefix(), dir=folder))
+    except OSError as error:
+        return error.strerror or str(error)
+    return ""
+
+
 def scratch_place() -> str:
     """The system's place for temporary files."""
     try:

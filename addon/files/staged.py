@@ -9,7 +9,25 @@ from itertools import count
 
 from ...core import ReflectionError
 from ..faults import AllOrNothing
-from .scratch import scratch_folder
+from .scratch import scratch_folder, why_unwritable
+
+
+def check_folder(folder: str) -> None:
+    """Whether files can be written into the absolute `folder`, or it can be made, as far as can be told before.
+
+    Raises
+    ------
+    ReflectionError
+        Where they cannot.
+    """
+    above = folder
+    while not os.path.lexists(above):
+        above = os.path.dirname(above)
+    why = why_unwritable(above)
+    if why and above == folder:
+        raise ReflectionError(f"The folder '{folder}' cannot be written ({why}): choose another one.")
+    if why:
+        raise ReflectionError(f"The folder '{folder}' cannot be made ({why}): choose another one.")
 
 
 @contextmanager

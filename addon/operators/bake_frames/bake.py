@@ -11,7 +11,7 @@ import bpy
 
 from .... import core
 from ...faults import AllOrNothing, Steps, part, still_there
-from ...files import staged
+from ...files import check_folder, staged
 from ...frames import (
     FrameRecord,
     Sequence,
@@ -130,6 +130,8 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
     takes = plan.takes
     share = 1.0 / (len(takes) * len(plan.frames))
     found = [found_frames(context, plan, take, baked) for take in takes]
+    if any(record is None for known in found for record in known.values()):
+        check_folder(plan.folder)
     with set_aside(context, mirrors, baked.role):
         for (_, camera), known in zip(takes, found):
             yield from part(compared(context, plan, camera, (mirrors, diffuse), known, remark), 0.0, 0.0)

@@ -71,6 +71,7 @@ def test_the_command_line_tells_of_a_full_disk(saved_scene, output):
 @pytest.mark.parametrize(("output", "words"), [("", "is a folder"), ("none/there.blend", "there is no folder"),
                                                ("file/there.blend", "there is no folder"),
                                                ("locked.blend", "protected"), ("pipe.blend", "no file"),
+                                               ("/proc/there.blend", "cannot be written (No such"),
                                                ("shut/x.blend", "cannot be written")])
 def test_a_place_that_cannot_be_is_one_sentence(saved_scene, room, capsys, monkeypatch, output, words):
     folder = saved_scene.parent
