@@ -133,8 +133,10 @@ def _replace(new: str, target: str, spare: str, whole: AllOrNothing) -> None:
     """`new` takes the place of `target`; the file or link that was there goes to `spare` until `whole` is done."""
     if not replaceable(target):
         raise FileExistsError(errno.EEXIST, "it is a folder or a device", target)
-    if os.path.lexists(target):
+    # another process may remove it at any moment
+    with suppress(FileNotFoundError):
         keep(target, spare)
+    if os.path.lexists(spare):
         whole.undo(os.replace, spare, target)
     else:
         whole.undo(_forget, os.unlink, target)

@@ -41,14 +41,16 @@ class ResultRecord:
 
 @dataclass(frozen=True)
 class FrameRecord:
-    """One frame: what it was made with, its results by the names of their mirrors, its picture of light or "", and what
-    it was made from, as freshness tells it; empty in frames of earlier versions."""
+    """One frame: what it was made with, its results by the names of their mirrors, its picture of light or "", what it
+    was made from, as freshness tells it, and how many faces of light lie over each other; empty and 0 in frames of
+    earlier versions."""
 
     frame: int
     made_with: dict
     results: dict
     image: str
     made_from: dict = field(default_factory=dict)
+    layers: int = 0
 
     @property
     def files(self) -> list[str]:
@@ -100,7 +102,8 @@ def read_record(path: str) -> FrameRecord | None:
                                              bool(entry["lit"]))
                    for mirror, entry in known["results"].items()}
         record = FrameRecord(int(known["frame"]), dict(known["made_with"]), results, str(known["image"]),
-                             {str(name): str(text) for name, text in known.get("made_from", {}).items()})
+                             {str(name): str(text) for name, text in known.get("made_from", {}).items()},
+                             int(known.get("layers", 0)))
     except (OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
     # names of files, not ways to other places

@@ -26,8 +26,6 @@ class Sequence:
         Where each mirror's reflection lies, by the mirror's name.
     camera : str
         The name of its camera; empty where it is right for every camera, as markers choose them.
-    layers : int
-        How many faces of light lie over each other in those frames that were made just now.
     stretch : float
         How long a frame lasts on animation curves, where its scene stretches time.
     """
@@ -37,8 +35,12 @@ class Sequence:
     name: str
     placements: dict
     camera: str = ""
-    layers: int = 0
     stretch: float = 1.0
+
+    @property
+    def layers(self) -> int:
+        """How many faces of light lie over each other in any frame, whoever has made it."""
+        return max(record.layers for record in self.records)
 
     @property
     def empty(self) -> set[str]:

@@ -148,7 +148,7 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
     render = context.scene.render
     stretch = render.frame_map_old / render.frame_map_new
     return [Sequence(plan.folder, [known[frame] for frame in plan.frames], name, placements,
-                     camera.name if camera else "", baked.layers, stretch)
+                     camera.name if camera else "", stretch)
             for (name, camera), known in zip(takes, found)]
 
 
@@ -183,7 +183,7 @@ def _frame(context: bpy.types.Context, plan: Plan, take: tuple,
             # from here on the frame is not done until it has a record again
             with suppress(FileNotFoundError):
                 os.unlink(place)
-        record = FrameRecord(frame, baked.made_with(context, plan, camera), made, image, made_from)
+        record = FrameRecord(frame, baked.made_with(context, plan, camera), made, image, made_from, baked.layers)
         with staged(plan.folder) as scratch:
             write_record(os.path.join(scratch, os.path.basename(place)), record)
         baked.clear(context, results)

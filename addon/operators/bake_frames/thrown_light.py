@@ -32,7 +32,7 @@ class ThrownLight:
     receivers : dict
         Materials of what is lit in the open frame, by result.
     layers : int
-        The most that lie over each other in a frame.
+        How many faces lie over each other in the open frame.
     """
 
     pairs: dict
@@ -81,13 +81,14 @@ class ThrownLight:
     def frame(self, context: bpy.types.Context, plan: Plan, results: list) -> Steps[None]:
         """Generate the light of the open frame, adding to `results`; none where nothing is lit."""
         lamps = [lamp for lamp in plan.lamps if lights_renders(lamp)]
+        self.receivers, self.layers = {}, 0
         try:
             chosen = visible(context, self._mirrors, self.diffuse)
             if lamps:
                 asked = Asked(self.places, of_each(plan.settings), False)
                 thrown = yield from throwing(context, chosen, lamps, asked)
                 results += thrown.objects
-                self.receivers, self.layers = thrown.receivers, max(self.layers, thrown.layers)
+                self.receivers, self.layers = thrown.receivers, thrown.layers
                 context.view_layer.update()
         except (NothingSeen, NothingThrown):
             return

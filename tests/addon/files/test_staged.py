@@ -178,3 +178,19 @@ def test_a_benchmark_takes_its_place_at_the_end(saved_scene, room, tmp_path, mon
     assert not folder.exists()
     assert room("addon.command_line").run([*line, str(folder)]) == 0
     assert faults.RESULTS < set(faults.contents(folder))
+
+
+def test_what_another_process_removes_at_that_moment_is_no_error(room, tmp_path, monkeypatch):
+    """As the record of a frame that two make at once."""
+    place, target = room("addon.files.staged"), tmp_path / "frames" / "record"
+
+    def removed(path: str, spare: str) -> None:
+        os.unlink(path)
+        keep(path, spare)
+    keep = place.keep
+    with place.staged(str(target.parent)) as scratch:
+        Path(scratch, "record").write_text("first")
+    monkeypatch.setattr(place, "keep", removed)
+    with place.staged(str(target.parent)) as scratch:
+        Path(scratch, "record").write_text("second")
+    assert target.read_text() == "second" and faults.contents(tmp_path) == {"frames/record": b"second"}
