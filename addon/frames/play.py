@@ -29,6 +29,8 @@ class Player:
     materials : list of (name, library)
         Of the object's slots.
     light : bpy.types.Material or None
+    unlit_apart : bool
+        Whether there are frames that show `materials`, from slots of their own, beside those that show light.
     """
 
     mirror: bpy.types.Object
@@ -37,6 +39,7 @@ class Player:
     nodes: bpy.types.NodeTree
     materials: list
     light: bpy.types.Material | None
+    unlit_apart: bool
 
 
 def player_of(sequence: Sequence, mirror: bpy.types.Object, light: bpy.types.Material | None,
@@ -52,10 +55,13 @@ def player_of(sequence: Sequence, mirror: bpy.types.Object, light: bpy.types.Mat
     """
     known = [record.results[key or mirror.name] for record in sequence.records]
     materials = sorted({entry for result in known for entry in result.materials})
-    nodes = unpacking_nodes(sorted({entry for result in known for entry in result.attributes}), materials)
+    attributes = sorted({entry for result in known for entry in result.attributes})
+    lit = light is not None and any(result.lit for result in known)
+    apart = lit and not all(result.lit or result.is_empty for result in known)
+    nodes = unpacking_nodes(attributes, materials, apart)
     whole.undo(_remove, nodes)
     cache = _cache(sequence, [result.file for result in known], whole)
-    return Player(mirror, sequence, cache, nodes, materials, light if any(result.lit for result in known) else None)
+    return Player(mirror, sequence, cache, nodes, materials, light if lit else None, apart)
 
 
 def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOrNothing) -> bpy.types.Object:
@@ -66,7 +72,8 @@ def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOr
     show_own_materials(obj)
     whole.after(forget_previews)
     record = obj.reflection_mesh
-    show_frames(obj, player, [material_of(*entry) for entry in player.materials or [("", "")]], whole)
+    own = [material_of(*entry) for entry in player.materials or [("", "")]]
+    show_frames(obj, player, own * (2 if player.unlit_apart else 1), whole)
     record.materials.clear()
     for material in obj.data.materials:
         # else those of the frames, which are in another order, count as the user's when it is generated again
@@ -81,7 +88,7 @@ def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOr
     if earlier is not None:
         whole.after(forget_light, earlier)
     if player.light is not None:
-        for slot in obj.material_slots:
+        for slot in obj.material_slots[:len(own)]:
             slot.link, slot.material = "OBJECT", player.light
     # without one it plays what markers choose, and is right for every camera
     record.camera = context.scene.objects.get(player.sequence.camera) if player.sequence.camera else None

@@ -3,14 +3,14 @@ from __future__ import annotations
 
 import bpy
 
-from ..writing import Builder
+from ..writing import UV_MAP, Builder
 from .packed_mesh import MATERIAL, colour_names
 from .write_frame import material_key
 
 NAME = "Reflection Frames"
 
 
-def unpacking_nodes(attributes: list, materials: list) -> bpy.types.NodeTree:
+def unpacking_nodes(attributes: list, materials: list, unlit_apart: bool = False) -> bpy.types.NodeTree:
     """A node group that gives a mesh its attributes by their names, and its faces the materials of an object's slots.
 
     Parameters
@@ -19,6 +19,8 @@ def unpacking_nodes(attributes: list, materials: list) -> bpy.types.NodeTree:
         As they were packed.
     materials : list of (name, library)
         Those of the slots, in their order.
+    unlit_apart : bool
+        Whether frames that show no light have slots of their own, as many, behind those.
     """
     tree = bpy.data.node_groups.new(NAME, "GeometryNodeTree")
     tree.is_modifier = True
@@ -28,6 +30,8 @@ def unpacking_nodes(attributes: list, materials: list) -> bpy.types.NodeTree:
     geometry = unpack.builder.add("NodeGroupInput").outputs[0]
     for index, entry in enumerate(materials):
         geometry = unpack.with_material(geometry, index, material_key(*entry))
+    for lit_by in [colour_names(*entry)[0] for entry in attributes if entry[0] == UV_MAP][:unlit_apart]:
+        geometry = unpack.unlit_behind(geometry, lit_by, max(len(materials), 1))
     for attribute in attributes:
         geometry = unpack.stored(geometry, *attribute)
     for colour in [MATERIAL] + [colour for attribute in attributes for colour in colour_names(*attribute)]:
@@ -55,6 +59,20 @@ class _Unpack:
         self.builder.join(geometry, node.inputs["Geometry"])
         self.builder.join(chosen, node.inputs["Selection"])
         node.inputs["Material Index"].default_value = index
+        return node.outputs["Geometry"]
+
+    def unlit_behind(self, geometry: bpy.types.NodeSocket, lit_by: str, count: int) -> bpy.types.NodeSocket:
+        """All faces of a frame without the colour `lit_by` show the slots that are `count` behind theirs."""
+        lit = self.builder.read(lit_by, "FLOAT_COLOR").node.outputs["Exists"]
+        unlit, further = (self.builder.add(kind, operation=operation) for kind, operation in (
+            ("FunctionNodeBooleanMath", "NOT"), ("ShaderNodeMath", "ADD")))
+        self.builder.join(lit, unlit.inputs[0])
+        self.builder.join(self.builder.add("GeometryNodeInputMaterialIndex").outputs[0], further.inputs[0])
+        further.inputs[1].default_value = count
+        node = self.builder.add("GeometryNodeSetMaterialIndex")
+        for output, name in ((geometry, "Geometry"), (unlit.outputs[0], "Selection"),
+                             (self._rounded(further.outputs[0]), "Material Index")):
+            self.builder.join(output, node.inputs[name])
         return node.outputs["Geometry"]
 
     def _both(self, one: bpy.types.NodeSocket, other: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
