@@ -73,35 +73,36 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         own = [replace(one, hidden_faces=True) for one in own]
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     yield from _trees(stage, kinds)
-    prepared, refused, unseen, remarks, share = [], [], 0, hidden + faceless, (1.0 - READING) / len(surfaces)
+    prepared, refused, unseen, lacks, share = [], [], [], [], (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
         steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index])
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
             if own[index].placement == "VIRTUAL":
-                remarks += window_shortcomings(context, mirror, view, result, chosen.mirrors)
+                lacks += window_shortcomings(context, mirror, view, result, chosen.mirrors)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
-            unseen += isinstance(error, core.NothingInView)
+            unseen += refused[-1:] * isinstance(error, core.NothingInView)
             continue
         if not len(result.positions):
             refused.append(f"{mirror.name}: The camera sees none of the reflected objects in this mirror; move the "
                            "camera, the mirror or the objects.")
-            unseen += 1
+            unseen += refused[-1:]
             continue
-        remarks += shortcomings(mirror.name, result)
+        lacks += shortcomings(mirror.name, result)
         written = partial(_written, result, scene, surface, view, lines)
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")
         prepared.append(Reflection(mirror, context.scene.camera, sources, result, arrays, view.resolution,
                                    own[index].placement, manners.attributes))
     if not prepared:
-        raise (NothingSeen if unseen == len(refused) else core.ReflectionError)(refused[0])
+        raise (NothingSeen if unseen == refused else core.ReflectionError)(refused[0])
     kept.within(max(one.maximum_memory for one in own))
     yield 1.0, "Writing"
     outcome = write_results(context, prepared, view, scene, preview, manners)
     _record(outcome, origins, time.perf_counter() - started)
-    return replace(outcome, remarks=remarks + outcome.remarks + refused,
+    return replace(outcome, remarks=hidden + faceless + lacks + outcome.remarks + refused,
+                   lacks=lacks + [sentence for sentence in refused if sentence not in unseen],
                    read=(view, dict(zip(chosen.mirrors, surfaces)), scene))
 
 

@@ -1,7 +1,7 @@
 """All results of a generation, written at once or not at all, and what there is to tell of them."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import bpy
 
@@ -60,6 +60,8 @@ class Outcome:
         Sentences on what else is good to know.
     copies : list of bpy.types.Object
         Of results, which the user made and which were updated with them.
+    lacks : list of str
+        Those of the sentences that say what a mirror lacks, be it all of its result, though something is seen in it.
     read : tuple
         From what: the view, the surface of each mirror, the diffuse scene.
     """
@@ -69,6 +71,7 @@ class Outcome:
     unlit: list
     news: list
     copies: list
+    lacks: list = field(default_factory=list)
     read: tuple = ()
 
     def summary(self, seconds: float) -> str:

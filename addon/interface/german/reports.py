@@ -88,6 +88,7 @@ KEPT = {
         "einen anderen Ordner, damit alle gleich sind.",
     "Empty in every baked frame, since hidden, out of sight or with nothing to show: {}.":
         "Leer in jedem gebackenen Einzelbild, da ausgeblendet, außer Sicht oder mit nichts zu zeigen: {}.",
+    "In {}: {}": "{}: {}",
     "frame {}": "Einzelbild {}",
     "frames {}": "Einzelbilder {}",
     "frames {} and {} more": "Einzelbilder {} und {} weitere",

@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import combinations
 
 import bpy
@@ -34,6 +34,7 @@ from .plan import (
     Plan,
     compared,
     found_frames,
+    lacking,
     open_frame,
     visible_or_none,
 )
@@ -50,10 +51,13 @@ class Reflections:
     Attributes
     ----------
     mirrors, diffuse : list of bpy.types.Object
+    lacks : dict
+        What mirrors lack, in sentences, by frames that were made.
     """
 
     mirrors: list
     diffuse: list
+    lacks: dict = field(default_factory=dict)
 
     role, layers = "REFLECTION", 0
 
@@ -78,7 +82,8 @@ class Reflections:
 
     def frame(self, context: bpy.types.Context, plan: Plan, results: list) -> Steps[None]:
         """Generate and light the open frame, adding to `results` as soon as they are there."""
-        return _results(context, plan, visible_or_none(context, self.mirrors, self.diffuse), results)
+        lacks = self.lacks.setdefault(context.scene.frame_current, [])
+        return _results(context, plan, visible_or_none(context, self.mirrors, self.diffuse), results, lacks)
 
     def by_key(self, results: list) -> dict:
         return {obj.reflection_mesh.mirror.name: obj for obj in results}
@@ -101,7 +106,7 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
     tell : callable
         Is given the record of each frame that is done.
     remark : callable
-        Is given a sentence on frames that are kept although the scene has changed since.
+        Is given a sentence on frames that are kept although the scene has changed since, and on what others lack.
 
     Returns
     -------
@@ -144,6 +149,8 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
                     steps = _frame(context, plan, (name, camera), baked)
                     known[frame] = yield from part(steps, start, share, f"Frame {frame}")
                     tell(known[frame])
+    for sentence in lacking(baked.lacks):
+        remark(sentence)
     placements = {mirror.name: of_each(plan.settings)(mirror).placement for mirror in mirrors}
     render = context.scene.render
     stretch = render.frame_map_old / render.frame_map_new
@@ -190,8 +197,9 @@ def _frame(context: bpy.types.Context, plan: Plan, take: tuple,
     return record
 
 
-def _results(context: bpy.types.Context, plan: Plan, chosen, results: list) -> Steps[None]:
-    """Generate and light the open frame, adding to `results` as soon as they are there; none where nothing is seen."""
+def _results(context: bpy.types.Context, plan: Plan, chosen, results: list, lacks: list) -> Steps[None]:
+    """Generate and light the open frame, adding to `results` as soon as they are there, and to `lacks` what is said to
+    be missing; none where nothing is seen."""
     if chosen is None:
         return
     try:
@@ -199,6 +207,7 @@ def _results(context: bpy.types.Context, plan: Plan, chosen, results: list) -> S
     except NothingSeen:
         return
     results += [obj for obj, _ in outcome.results]
+    lacks += outcome.lacks
     context.view_layer.update()
     if plan.samples:
         yield from part(lighting(context, results, plan.samples, "PICTURE", lamps_apart=False), 0.5, 0.5)

@@ -1,6 +1,7 @@
 """What is to be baked, which of its frames are there already, and whether these show the scene as it is."""
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 
@@ -14,6 +15,7 @@ from ...reading import NothingSeen, Participants, candidates, render_size, visib
 from ...settings import SAMPLES, SettingsOfMirrors, Wanted, of_each
 from ..shortcomings import DEPTH_OF_FIELD, STEREO
 
+NUMBER = re.compile(r"[\d.,]+")
 NAMED = 8   # so many frames are named one by one
 
 
@@ -126,6 +128,16 @@ def listed(frames: list[int]) -> str:
         return f"frame {frames[0]}"
     named = ", ".join(map(str, frames[:NAMED]))
     return f"frames {named} and {len(frames) - NAMED} more" if len(frames) > NAMED else f"frames {named}"
+
+
+def lacking(lacks: dict) -> list[str]:
+    """What mirrors lack, sentences by frames, each once with its frames; those that differ in numbers alone as one."""
+    frames: dict = {}
+    for frame, sentences in lacks.items():
+        for sentence in sentences:
+            _, those = frames.setdefault(NUMBER.sub("", sentence), (sentence, []))
+            those.append(frame)
+    return [f"In {listed(sorted({*those}))}: {sentence}" for sentence, those in frames.values()]
 
 
 def visible_or_none(context: bpy.types.Context, mirrors: list, diffuse: list) -> Participants | None:

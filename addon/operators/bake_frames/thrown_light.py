@@ -33,6 +33,8 @@ class ThrownLight:
         Materials of what is lit in the open frame, by result.
     layers : int
         How many faces lie over each other in the open frame.
+    lacks : dict
+        What mirrors lack, in sentences, by frames: nobody tells.
     """
 
     pairs: dict
@@ -40,6 +42,7 @@ class ThrownLight:
     places: dict
     receivers: dict = field(default_factory=dict)
     layers: int = 0
+    lacks: dict = field(default_factory=dict)
 
     role = "CAUSTICS"
 
