@@ -37,6 +37,7 @@ def test_a_sample_is_small_and_complete(name):
     assert not bpy.data.libraries
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SAMPLES)
 def test_a_sample_is_reflected_as_cycles_shows_it(name, tmp_path):
     opened(name)

@@ -50,6 +50,7 @@ def expected(frame: int, name: str, **options) -> dict:
     return wanted
 
 
+@pytest.mark.slow
 def test_the_pool_plays_without_the_extension(room, tmp_path):
     """Its waves move: places, faces, materials and light of each frame are those that are generated there."""
     file, out, frames = SAMPLES / "pool.blend", tmp_path / "out", [1, 9]

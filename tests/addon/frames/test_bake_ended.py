@@ -45,6 +45,7 @@ def test_chunks_in_any_order_give_the_same_files(moving, room, tmp_path):
     assert faults.contents(one) == faults.contents(other)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("end", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
 def test_killed_half_way_the_next_one_goes_on(moving, room, tmp_path, end):
     """Whatever lies in the folder under a frame's name is whole at any moment."""
@@ -95,6 +96,7 @@ def test_a_full_disk_is_one_sentence(moving, room, tmp_path, capsys):
     assert faults.contents(out) == before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("placement", ["LAYERED", "VIRTUAL"])
 def test_stopped_at_any_step_the_file_is_as_it_was(moving, room, tmp_path, placement):
     lit_scene()

@@ -102,6 +102,7 @@ def test_the_template_is_valid():
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.slow
 @needs_openjd
 def test_a_job_of_open_job_description(scene, blender, wanted, tmp_path):
     """One task alone and out of order, one twice, one killed half way, and then the job."""
@@ -145,6 +146,7 @@ def test_a_job_that_fails_says_so(scene, blender, tmp_path):
     assert done.returncode != 0 and "cannot be" in done.stdout
 
 
+@pytest.mark.slow
 @needs_node
 def test_a_job_of_flamenco(scene, blender, wanted, tmp_path):
     """The tasks that the job type makes, out of order, and its lines as the worker reads them."""
@@ -171,6 +173,7 @@ def test_a_job_of_flamenco(scene, blender, wanted, tmp_path):
     assert frames_in(out) == wanted and saved == {"scene reflections.blend"}
 
 
+@pytest.mark.slow
 @needs_openjd
 @needs_node
 def test_jobs_of_light_that_mirrors_throw(scene, blender, room, tmp_path):

@@ -31,6 +31,7 @@ def test_several_processes_make_the_same_files(moving, room, tmp_path, capsys):
     assert Path(bpy.data.filepath) == moving
 
 
+@pytest.mark.slow
 def test_what_is_there_is_kept_or_made_again(moving, room, tmp_path, capsys):
     out = tmp_path / "out"
     common = ("--light", "0", "--frames-only", "--output", out, "--jobs", "2")
@@ -58,6 +59,7 @@ def test_what_a_process_says_is_told_in_its_words(moving, room, tmp_path, capsys
     assert "one process at least" in faults.one_sentence(capsys.readouterr().err)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGINT])
 def test_ended_half_way_no_process_goes_on(moving, room, tmp_path, end):
     wanted, out = tmp_path / "wanted", tmp_path / "out"
@@ -78,6 +80,7 @@ def test_ended_half_way_no_process_goes_on(moving, room, tmp_path, end):
     assert faults.contents(out) == faults.contents(wanted)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("given", [{}, {"tolerance": 1.5, "placement": "SURFACE", "hidden_faces": True}])
 def test_the_button_lets_several_bake_what_one_does(moving, room, tmp_path, given):
     one, two = tmp_path / "one", tmp_path / "two"

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import bpy
 import parts
+import pytest
 from baked_frames import names
 from lamp_scenes import psnr
 from newcomer import room_of
@@ -11,6 +12,7 @@ from played import played
 COUNT, SOME = 24, (1, 13, 24)
 
 
+@pytest.mark.slow
 def test_one_command_and_the_animation_is_cycles(blank, room, tmp_path, capsys):
     """By the extension as its zip installs it; what plays, and is rendered, without it is nearer to what Cycles traces
     than two of Cycles' own renders of as many samples are to each other."""

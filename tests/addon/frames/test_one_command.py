@@ -41,6 +41,7 @@ def animated(blank, tmp_path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_twenty_four_frames_in_one_command(animated, tmp_path):
     """One for each, as `generate` makes them; they play in a Blender without the extension, and Cycles sees no other
     picture than where it traces the mirror."""

@@ -13,6 +13,7 @@ from tests.fuzz.kept import kept_seeds
 SEEDS = range(60)  # `make fuzz` tries others
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", kept_seeds("scenes"))
 def test_kept_seeds(seed):
     assert tried_scene(seed)["problems"] == []

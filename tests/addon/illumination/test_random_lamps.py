@@ -9,11 +9,13 @@ from tests.fuzz.kept import kept_seeds
 SEEDS = range(16)  # `make fuzz` tries others
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", kept_seeds("lamps"))
 def test_kept_seeds(seed):
     assert tried_lamps(seed)["problems"] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_lamps_at_random(seed):
     assert tried_lamps(seed)["problems"] == []

@@ -90,6 +90,7 @@ def test_a_pattern_goes_on_where_triangles_meet(blank, room, shining):
     assert psnr(picture(room), reference) > 36.0
 
 
+@pytest.mark.slow
 def test_halves_of_a_quad_lie_side_by_side(room):
     """Against the corners themselves: where two triangles of a rectangle meet in space, they meet in the picture; what
     is no parallelogram has room of its own."""

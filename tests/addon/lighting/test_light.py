@@ -12,6 +12,7 @@ SOURCES = ("Generated", "Object", "Normal", "UV", "Camera", "Window", "Reflectio
 MIRRORS = ("Tint", "Textured tint", "Rough", "Fresnel", "Layer weight")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("source", "mirror"), [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)])
 def test_a_lit_reflection_is_what_the_mirror_shows(blank, room, source, mirror):
     scene_of(blank, source, mirror)
@@ -171,6 +172,7 @@ def test_results_that_lie_in_their_mirror_or_behind_it_are_lit_in_collections_to
     assert wall.visible_camera == seen
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["Emission", "Principled"])
 def test_what_shines_is_as_bright_up_to_its_outline_and_what_is_beside_as_dark(blank, room, kind):
     """Bulbs of a few pixels, up to thirty times as bright as white, before a wall and the sky: no texel between
@@ -209,6 +211,7 @@ def fire(name: str, kind: str, colour: tuple, strength: float):
     return made
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["Standard", "AgX"])
 def test_lamps_thinner_than_a_pixel_have_their_own_colours(blank, room, view):
     """Tubes of a quarter of a pixel beside one of two pixels, in another colour; what rolls highlights off shows

@@ -178,6 +178,7 @@ def test_textures_of_the_mirror_stay_where_they_are_on_it(blank, room, output):
         result.hide_render = False
 
 
+@pytest.mark.slow
 def test_floors_and_walls_are_denoised(blank, room):
     """Of a floor in a soft shadow, few samples show what many do."""
     wall = scene_of(blank)

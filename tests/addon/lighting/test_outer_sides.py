@@ -42,6 +42,7 @@ def test_the_outside_is_lit(blank, room, kind):
     assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["room", "block"])
 def test_what_is_looked_at_from_within_shows_its_inside(blank, room, kind):
     """Walls around mirror and camera, their normals inward, as rooms have them, or outward."""
