@@ -23,7 +23,7 @@ READY = $(VENV)/.ready
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
-	@echo "make test     style and types, the method's tests, the extension's tests (FAST=1: without the slow ones)"
+	@echo "make test     style and types, the method's tests, the extension's tests (ONLY='not slow', ONLY=slow: a part)"
 	@echo "make test-fast  the quick half of the method's tests, under a minute"
 	@echo "make test-window  keys and buttons pressed in a real window (BLENDER=/path/to/blender, a display): pictures in build/window/"
 	@echo "make fuzz     a search for failures at random, for SECONDS=$(SECONDS), from new seeds or from FIRST=..."
@@ -99,10 +99,10 @@ test-fast: environment
 	$(RUN) -m pytest -q -m "not slow" tests/core
 
 test-core: environment
-	$(RUN) -m pytest -q $(if $(FAST),-m "not slow") tests/core tests/fuzz
+	$(RUN) -m pytest -q $(if $(ONLY),-m "$(ONLY)") tests/core tests/fuzz
 
 test-addon: environment
-	$(RUN) -m pytest -q $(if $(FAST),-m "not slow") tests/addon
+	$(RUN) -m pytest -q $(if $(ONLY),-m "$(ONLY)") tests/addon
 
 # BLENDER may be more than one word: a driver of a virtual screen, and its options
 test-window:

@@ -76,6 +76,7 @@ def test_ctrl_c_is_one_sentence(tmp_path):
         interrupted(process, scene)
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_a_comparison(saved_scene, tmp_path):
     """Within a render Blender swallows what Python raises, and the comparison went on to its end."""
     with faults.running(**faults.command(saved_scene, "compare", "--samples", 4000, "--output", tmp_path / "out",

@@ -40,6 +40,7 @@ def whole() -> dict:
     return found
 
 
+@pytest.mark.slow
 def test_the_mesh_is_as_near_to_cycles_as_its_noise(lit, tmp_path):
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT", eyes=16) == {"FINISHED"}
     report = compared(tmp_path, samples=8, converged=256)

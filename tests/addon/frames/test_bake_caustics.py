@@ -151,6 +151,7 @@ def test_several_lamps_have_a_sequence_each(thrown, room, tmp_path):
                                                                                                    [True, False]]
 
 
+@pytest.mark.slow
 def test_stopped_at_any_step_the_file_is_as_it_was(thrown, room, tmp_path):
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
     place, lamps = room("addon.operators.bake_frames"), (bpy.data.objects["Lamp"],)

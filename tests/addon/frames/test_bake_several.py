@@ -5,6 +5,7 @@ import bpy
 import faults
 import numpy as np
 import parts
+import pytest
 from baked_frames import FRAMES, add_camera, assert_same, bake, expected, names
 from played import generated, played
 
@@ -25,6 +26,7 @@ def test_markers_choose_the_camera(moving, room, tmp_path):
         assert_same(told, frame, "Mirror Reflection", expected(frame))
 
 
+@pytest.mark.slow
 def test_several_cameras_have_a_sequence_each(moving, room, tmp_path):
     scene = bpy.context.scene
     add_camera("Second", (2.0, -6.0, 1.0), (1.5, 0.0, 0.3))

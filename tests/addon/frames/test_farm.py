@@ -102,7 +102,6 @@ def test_the_template_is_valid():
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.slow
 @needs_openjd
 def test_a_job_of_open_job_description(scene, blender, wanted, tmp_path):
     """One task alone and out of order, one twice, one killed half way, and then the job."""

@@ -212,6 +212,7 @@ def test_the_verb_writes_a_file(blank, room, tmp_path):
     assert run(["caustics", "--eyes", "0", "--output", str(path)]) == 1
 
 
+@pytest.mark.slow
 def test_cycles_is_let_follow_all_layers_until_the_light_is_cleared(blank, tmp_path, capfd):
     scene_of(shadow_soft_size=0.1)
     cycles = blank.scene.cycles

@@ -17,6 +17,7 @@ def scene(blank):
     return floor, mirror
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "eyes"), [("panel", 1), ("panel", 48), ("ball", 1), ("ball", 48), ("box", 48)])
 def test_it_is_as_bright_as_the_mesh_behind_a_flat_mirror(scene, tmp_path, kind, eyes):
     """One place is the whole mesh from afar: within a per cent; many are the mesh."""

@@ -22,6 +22,7 @@ def tube_of(context: bpy.types.Context, material: bpy.types.Material) -> None:
     bpy.data.objects["Box"].data.materials[0] = material
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("node", "grouped"), [("Fresnel", False), ("LayerWeight", False), ("Fresnel", True)])
 def test_fresnel_from_within_is_that_of_leaving(blank, room, node, grouped):
     """A colour by how much a surface reflects: from behind, all of it at most angles."""

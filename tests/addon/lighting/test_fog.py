@@ -36,6 +36,7 @@ def in_a_collection(cube: bpy.types.Object) -> None:
     bpy.context.scene.collection.objects.unlink(cube)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["world", "absorbing world", "cube", "cube in a collection", "half open"])
 def test_fog_before_a_mirror_is_seen_once(blank, room, kind):
     mirror = scene_of(blank)

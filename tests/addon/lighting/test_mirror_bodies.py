@@ -36,6 +36,7 @@ def bodies_of(context: bpy.types.Context, room, result: bpy.types.Object):
     return room("addon.baking.mirror_bodies").mirror_bodies(context, [result], room("addon.reading").read_view(context))
 
 
+@pytest.mark.slow
 def test_a_floor_is_as_bright_as_it_is_up_to_the_foot_of_what_stands_on_it(blank, room):
     """Against Cycles: in 8 pixels that show half a texel of the floor there was the dark under the foot."""
     standing(blank)

@@ -69,6 +69,7 @@ def _ball(scene, paint: str) -> bpy.types.Object:
     return ball
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("paint", "faces"), [
     ("tint", "cut"), ("varnish map", "cut"), ("tint by colours", "cut"), ("varnish by colours, the active", "cut"),
     ("tint by normals", "cut"), ("tint by box", "cut"), ("tint by blended box", "cut"),

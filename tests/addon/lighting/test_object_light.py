@@ -140,6 +140,7 @@ def test_a_bake_waits_no_longer_for_the_world_than_its_light_needs(blank, room):
     assert swiftly(world) == world
 
 
+@pytest.mark.slow
 def test_the_sun_of_a_picture_of_the_sky_is_found(blank, room):
     scene_of(blank)
     bpy.data.lights.remove(next(iter(bpy.data.lights)))
@@ -197,6 +198,7 @@ def test_floors_and_walls_are_denoised(blank, room):
     assert psnr(picture(room), reference) > few + 11.0
 
 
+@pytest.mark.slow
 def test_it_is_right_from_elsewhere_too(blank, room):
     wall = scene_of(blank, "UV", "Fresnel")
     result = parts.generate()

@@ -29,6 +29,7 @@ def _what(kind: str) -> bpy.types.Object:
     return ring
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["turned", "two shells", "curve"])
 def test_the_outside_is_lit(blank, room, kind):
     scene_of(blank)

@@ -37,6 +37,7 @@ def light(samples: int = 64) -> None:
 
 
 # a tube has two sides that are seen
+@pytest.mark.slow
 @pytest.mark.parametrize(("source", "mirror"), [("", "Tint"), ("Light path", ""), ("Backfacing", ""),
                                                 ("UV", "Textured tint")])
 def test_a_mirror_shows_it(blank, room, source, mirror):
@@ -55,6 +56,7 @@ def test_a_mirror_shows_it(blank, room, source, mirror):
     assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+@pytest.mark.slow
 def test_what_is_hidden_takes_no_part(blank, room):
     """Neither light nor what it falls on."""
     result = scene_of(blank)
