@@ -17,7 +17,7 @@ from .. import polls
 from ..asked_light import left_out_of
 from ..shortcomings import render_shortcomings
 from .bake import IN_OBJECT_MODE, NO_USD, baking
-from .plan import Plan, blur_remarks, empty_remarks, layer_remarks, plan_of, summary
+from .plan import LACKING, Plan, blur_remarks, empty_remarks, layer_remarks, plan_of, summary
 from .playing import showing
 from .side_by_side import side_by_side, words_of
 
@@ -66,9 +66,10 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
         plan = plan_of(context, chosen_folder(self.filepath), self.frames, wanted, overwrite=self.overwrite,
                        lamps=lamps, eyes=self.eyes, leave_out=self._leave_out)
         written: list = []
+        heard: list = []
         elsewhere, start = 0, 0.0
         if self.jobs > 1:
-            steps = side_by_side(self._words(context, plan, wanted.given), plan.frames, self.jobs)
+            steps = side_by_side(self._words(context, plan, wanted.given), plan.frames, self.jobs, heard.append)
             elsewhere = yield from part(steps, 0.0, start := 0.9)
             # what others have just made is not made again
             plan = replace(plan, overwrite=False)
@@ -79,7 +80,8 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
         left_out = left_out_of(objects) if lamps else None
         if left_out is not None:
             self.leave_out = left_out
-        remarks = kept + hidden + empty_remarks(sequences) + render_shortcomings(context, *candidates(context))
+        remarks = [line for line in heard if line.startswith(LACKING)] + kept + hidden + empty_remarks(sequences)
+        remarks += render_shortcomings(context, *candidates(context))
         remarks += blur_remarks(context.scene, plan.cameras, bool(lamps))
         remarks += layer_remarks(context.scene, [context.view_layer])
         tell_done(self, [summary([plan], elsewhere + len(written), time.perf_counter() - started)], remarks)

@@ -17,6 +17,7 @@ from ..shortcomings import DEPTH_OF_FIELD, STEREO
 
 NUMBER = re.compile(r"[\d.,]+")
 NAMED = 8   # so many frames are named one by one
+LACKING = "In frame"  # how sentences begin on what mirrors lack
 
 
 @dataclass(frozen=True)
@@ -131,7 +132,8 @@ def listed(frames: list[int]) -> str:
 
 
 def lacking(lacks: dict) -> list[str]:
-    """What mirrors lack, sentences by frames, each once with its frames; those that differ in numbers alone as one."""
+    """What mirrors lack, sentences by frames, each once with its frames, which `LACKING` begins; those that differ in
+    numbers alone as one."""
     frames: dict = {}
     for frame, sentences in lacks.items():
         for sentence in sentences:

@@ -20,17 +20,20 @@ import bpy
 from ....core import ReflectionError
 from ...faults import STATUS, Steps
 from ...files import save_blend, scratch_folder
+from .plan import LACKING
 
 STAGE = re.compile(r"\s*(\d+) %  ([^:]*)")
 SUMMARY = re.compile(r"(\d+) of \d+ frame")
+PASSED_ON = ("Saved: '", LACKING)  # how lines begin that are for whoever lets them bake
 PATIENCE = 5.0      # seconds that a process has for ending by itself
 LISTENING = 0.05    # seconds between two looks at whether Ctrl-C or ESC was pressed
 
 
 def side_by_side(words: list[str], frames: list[int], jobs: int,
-                 saved: Callable[[str], None] = lambda line: None) -> Steps[int]:
+                 heard: Callable[[str], None] = lambda line: None) -> Steps[int]:
     """Bake frames in so many processes, by the `words` of the verb `bake`; yields (fraction, stage), returns how many
-    frames were made. `saved` is given the line on each file that is done.
+    frames were made. `heard` is given the lines on files that
+    are done, and on what mirrors lack.
 
     Raises
     ------
@@ -43,7 +46,7 @@ def side_by_side(words: list[str], frames: list[int], jobs: int,
         path = os.path.join(folder, os.path.basename(bpy.data.filepath) or "scene.blend")
         save_blend(path)
         with _running([_command(path, words, share) for share in shares]) as processes:
-            made = yield from _heard(processes, saved)
+            made = yield from _heard(processes, heard)
     return made
 
 
@@ -95,7 +98,7 @@ def _hears_ctrl_c() -> bool:
     return os.name == "posix" and not bpy.app.binary_path and signal.getsignal(signal.SIGINT) != signal.SIG_IGN
 
 
-def _heard(processes: list[subprocess.Popen], saved: Callable[[str], None]) -> Steps[int]:
+def _heard(processes: list[subprocess.Popen], heard: Callable[[str], None]) -> Steps[int]:
     """Listen to the processes until all have ended well."""
     lines: queue.SimpleQueue = queue.SimpleQueue()
     readers = [threading.Thread(target=_read, args=(process, number, lines), daemon=True)
@@ -112,8 +115,8 @@ def _heard(processes: list[subprocess.Popen], saved: Callable[[str], None]) -> S
                 left -= 1
                 done[number] = 1.0
                 _ended_well(processes[number].wait(), errors[number])
-            elif line.startswith("Saved: '"):
-                saved(line)
+            elif line.startswith(PASSED_ON):
+                heard(line)
             elif line.startswith("Error: "):
                 errors[number] = line.removeprefix("Error: ")
             elif told := STAGE.match(line):

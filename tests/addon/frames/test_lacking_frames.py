@@ -38,3 +38,15 @@ def test_what_stands_before_the_virtual_image_is_told(crossed, room, tmp_path, c
     assert room("addon.operators.bake_frames.plan").lacking(
         {1: ["A: 7 % is gone."], 2: ["A: 12.5 % is gone.", "B: all."]}) == [
             "In frames 1, 2: A: 7 % is gone.", "In frame 2: B: all."]
+
+
+@pytest.mark.slow
+def test_what_other_processes_have_seen_is_told(crossed, room, tmp_path, capfd):
+    given = {"frames": "1-3", "samples": 0, "placement": "VIRTUAL"}
+    operate(tmp_path / "one", **given)
+    said = re.search(r"Warning: In frames 2, 3: (.*)\n", capfd.readouterr().out)[1]
+    operate(tmp_path / "two", jobs=2, **given)
+    assert set(re.findall(r"Warning: (In .*)\n", capfd.readouterr().out)) == {f"In frame {n}: {said}" for n in (2, 3)}
+    assert bake(room, "--light", "0", "--placement", "VIRTUAL", "--frames-only", "--output", tmp_path / "three",
+                "--frames", "1-2", "--jobs", "2") == 0
+    assert f"In frame 2: {said}" in capfd.readouterr().out.splitlines()
