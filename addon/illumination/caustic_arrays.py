@@ -15,7 +15,7 @@ from .light_sources import Eye
 from .mirrors import MirrorPart, Tint, mirror_attributes
 from .receiver_places import PLACES, places_asked
 
-LIFT = 1e-4  # of the size of what is lit: how far the mesh lies before it
+LIFT = 1e-4  # of the size of what is lit, or of the camera's picture there: how far the mesh lies before it
 ROUNDING = 2.0 ** -20  # of a coordinate: by how much single precision may miss, several times over
 DEPTH_STEP = 2.0 ** -22  # of the depth buffer of viewports: what it can tell apart, several times over
 SPREAD = 2.0  # times as far before it: where the layer of the largest number lies
@@ -119,11 +119,19 @@ def _unit(vectors: np.ndarray, other: np.ndarray) -> np.ndarray:
 def _lift(positions: np.ndarray, size: float, farthest: float, camera: bpy.types.Object | None) -> np.ndarray:
     """How far (n,) the mesh is to lie before what it lights: single precision, and from the camera the depth buffer,
     have to tell both apart."""
-    least = np.full(len(positions), LIFT * size + ROUNDING * farthest)
     if camera is None or camera.type != "CAMERA":
-        return least
+        return np.full(len(positions), LIFT * size + ROUNDING * farthest)
     distance = np.linalg.norm(positions - np.array(camera.matrix_world.translation), axis=1)
+    # less than a pixel: what is small on a wide floor would stand in a shell of light
+    least = LIFT * np.minimum(size, _seen_width(camera.data, distance)) + ROUNDING * np.maximum(farthest, distance)
     return np.clip(DEPTH_STEP * distance**2 / camera.data.clip_start, least, np.maximum(MOST_LIFT * size, least))
+
+
+def _seen_width(camera: bpy.types.Camera, distance: np.ndarray) -> np.ndarray | float:
+    """How wide (n,) the camera's picture is at a distance."""
+    if camera.type == "ORTHO":
+        return float(camera.ortho_scale)
+    return distance if camera.type == "PANO" else 2.0 * np.tan(0.5 * camera.angle) * distance
 
 
 def _layers(mirror_position: np.ndarray, parity: np.ndarray, place: np.ndarray) -> np.ndarray:
