@@ -14,7 +14,6 @@ from .light_sources import (
     is_met,
     is_sheared,
     light_of_nodes,
-    lights_renders,
     meant_lamps,
     radiance_of,
     rays_meet,
@@ -40,6 +39,6 @@ __all__ = ["Caustic", "Eye", "MirrorColours", "MirrorPart", "MirrorPlaces", "NoL
            "bring_back_own_caustics", "caustic_arrays", "caustics_object", "chosen_lamps", "eyes_of", "follow_lamp",
            "follow_layers", "forget_added_light", "is_glint", "is_met", "is_sheared", "leave_out",
            "leave_out_own_caustics", "leaves_out", "leaves_out_any", "let_lamps_light_mirrors", "let_through",
-           "light_alone", "light_of_nodes", "lights_renders", "makes_own_caustics", "meant_lamps", "parts_of",
-           "places_kept", "places_on_mirror", "radiance_of", "raises_layers", "rays_meet", "receiving", "results_with",
-           "stains", "textured", "write_caustics"]
+           "light_alone", "light_of_nodes", "makes_own_caustics", "meant_lamps", "parts_of", "places_kept",
+           "places_on_mirror", "radiance_of", "raises_layers", "rays_meet", "receiving", "results_with", "stains",
+           "textured", "write_caustics"]

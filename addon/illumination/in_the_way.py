@@ -5,15 +5,14 @@ import bpy
 import numpy as np
 
 from ... import core
-from ..reading import Participants, is_opaque, materials_of, may_have_faces, read_scene
+from ..reading import Participants, is_opaque, materials_of, may_have_faces, read_scene, seen_in
 
 
 def blocking(context: bpy.types.Context, chosen: Participants) -> list:
     """What else stands in the light's way: all that casts shadows and has parts that no light goes through."""
-    part_takers = {*chosen.mirrors, *chosen.diffuse}
+    part_takers, is_seen = {*chosen.mirrors, *chosen.diffuse}, seen_in(context)
     return [obj for obj in context.view_layer.objects
-            if obj not in part_takers and may_have_faces(obj) and obj.visible_get()
-            and not obj.hide_render and obj.visible_shadow
+            if obj not in part_takers and may_have_faces(obj) and is_seen(obj) and obj.visible_shadow
             and obj.reflection_mesh.role not in {"REFLECTION", "CAUSTICS"}
             and any(map(is_opaque, materials_of(obj) or [None]))]
 

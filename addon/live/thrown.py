@@ -11,10 +11,10 @@ from ...core import ReflectionError, Settings
 from ..faults import Steps, sentence
 from ..frames import plays
 from ..freshness import COARSE, digest_of, lamp_numbers, light_record
-from ..illumination import Tint, blocking, lights_renders, places_kept, results_with
+from ..illumination import Tint, blocking, places_kept, results_with
 from ..operators.asked_light import Asked
 from ..operators.caustics import NothingThrown, throwing
-from ..reading import NothingSeen, Participants, materials_shown, visible
+from ..reading import NothingSeen, Participants, materials_shown, seen_in, visible
 from ..settings import Wanted
 from .pace import Pace
 
@@ -168,14 +168,14 @@ def light_groups(context: bpy.types.Context) -> list[Group]:
         sources = tuple(source.object for source in record.sources if source.object is not None)
         if sources and record.mirror not in sources:
             found.setdefault(sources, {})[record.mirror, record.lamp] = None
-    groups = []
+    groups, is_seen = [], seen_in(context)
     for sources, pairs in found.items():
         try:
             chosen = visible(context, list(dict.fromkeys(mirror for mirror, _ in pairs)), list(sources))
         except NothingSeen:
             chosen = None
         lamps = list(dict.fromkeys(lamp for _, lamp in pairs))
-        groups.append(Group(set(pairs), chosen, [lamp for lamp in lamps if lights_renders(lamp)]))
+        groups.append(Group(set(pairs), chosen, list(filter(is_seen, lamps))))
     return groups
 
 

@@ -12,10 +12,9 @@ from .lamps import (
     is_glint,
     is_met,
     light_of_nodes,
-    lights_renders,
     meant_lamps,
 )
 from .mesh_lamps import EMISSION, radiance_of
 
 __all__ = ["EMISSION", "Eye", "GLINT", "NoLight", "chosen_lamps", "eyes_of", "is_glint", "is_met", "is_sheared",
-           "light_of_nodes", "lights_renders", "meant_lamps", "radiance_of", "rays_meet"]
+           "light_of_nodes", "meant_lamps", "radiance_of", "rays_meet"]

@@ -11,6 +11,7 @@ import numpy as np
 
 from ....core import Lamp, ReflectionError
 from ... import compat
+from ...reading import seen_in
 from ...reading.materials import shown_output
 from .area_lamps import across_area, disc, rays_meet, spread_of
 from .constant_nodes import constant, plain
@@ -36,7 +37,7 @@ def chosen_lamps(context: bpy.types.Context) -> list:
     ReflectionError
         Where there are none.
     """
-    lamps = _meant(context, [obj for obj in context.view_layer.objects if lights_renders(obj)])
+    lamps = _meant(context, list(filter(seen_in(context), context.view_layer.objects)))
     if not lamps:
         raise ReflectionError("There is no lamp: add one (Add > Light) or show it in the viewport and in renders.")
     return lamps
@@ -57,11 +58,6 @@ def meant_lamps(context: bpy.types.Context) -> list:
 def is_glint(obj: bpy.types.Object) -> bool:
     """Whether an object is the image of a lamp in mirrors, not a lamp of its own."""
     return GLINT in obj
-
-
-def lights_renders(lamp: bpy.types.Object) -> bool:
-    """Whether a lamp is seen in the viewport and in renders."""
-    return lamp.visible_get() and not lamp.hide_render
 
 
 def _meant(context: bpy.types.Context, objects: list) -> list:

@@ -8,8 +8,8 @@ import bpy
 from .... import core
 from ...faults import AllOrNothing, Steps, still_there
 from ...frames import Sequence, play_caustics, player_of, told_apart
-from ...illumination import follow_layers, leave_out, lights_renders, places_kept, results_with
-from ...reading import NothingSeen, candidates, materials_shown, visible
+from ...illumination import follow_layers, leave_out, places_kept, results_with
+from ...reading import NothingSeen, candidates, materials_shown, seen_in, visible
 from ...settings import of_each
 from ...writing import set_free, told_of
 from ..asked_light import Asked, keep_own, left_out_before
@@ -83,7 +83,7 @@ class ThrownLight:
 
     def frame(self, context: bpy.types.Context, plan: Plan, results: list) -> Steps[None]:
         """Generate the light of the open frame, adding to `results`; none where nothing is lit."""
-        lamps = [lamp for lamp in plan.lamps if lights_renders(lamp)]
+        lamps = list(filter(seen_in(context), plan.lamps))
         self.receivers, self.layers = {}, 0
         try:
             chosen = visible(context, self._mirrors, self.diffuse)

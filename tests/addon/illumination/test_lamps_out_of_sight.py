@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 import parts
 import pytest
-from caustic_scene import add_lamp, add_mesh_lamp, rendered, scene_of
+from caustic_scene import add_lamp, add_mesh_lamp, inner, light_and_lamp_behind, rendered, scene_of
 
 LARGE = {"POINT": {"shadow_soft_size": 0.3}, "SUN": {"angle": 0.3}, "AREA": {"size": 0.6}}
 HIDDEN = "is hidden from glossy rays"
@@ -59,3 +59,43 @@ def test_a_lamp_that_cycles_samples_by_itself_alone_stays_as_it_is(blank, tmp_pa
     assert own_caustics(mirror, lamp, tmp_path) == 0.0
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
     assert lamp.light_linking.receiver_collection is None and not lamp.children
+
+
+def put_away(obj: bpy.types.Object) -> None:
+    """Put an object into a collection that renders leave out."""
+    store = bpy.data.collections.new("Store")
+    bpy.context.scene.collection.children.link(store)
+    bpy.context.scene.collection.objects.unlink(obj)
+    store.objects.link(obj)
+    store.hide_render = True
+    bpy.context.view_layer.update()
+
+
+def test_a_lamp_whose_collection_is_hidden_in_renders_throws_nothing_as_in_cycles(blank, tmp_path):
+    """Its light was thrown all the same."""
+    floor, mirror, lamp = large_lamp("AREA")
+    other = add_lamp("Other", "POINT", (-0.9, 0.1, 1.8))
+    put_away(lamp)
+    other.hide_render = True
+    assert rendered(tmp_path, 1).max() == 0.0
+    parts.select(floor, lamp, mirror)
+    assert "There is no lamp" in parts.refusal(bpy.ops.reflection_mesh.caustics)
+    other.hide_render = False
+    parts.select(floor, lamp, other, mirror)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    made, = (obj for obj in bpy.data.objects if obj.reflection_mesh.role == "CAUSTICS")
+    assert made.reflection_mesh.lamp == other
+
+
+def test_what_renders_leave_out_by_its_collection_hides_no_light(blank, tmp_path):
+    """A wall that stands before the lamp."""
+    floor, mirror, lamp = scene_of()
+    wall = parts.add("plane", "Wall", size=3.0, location=(-0.5, 0.1, 1.6), rotation=(0.0, 1.2, 0.0))
+    parts.select(floor, lamp, mirror)
+    with pytest.raises(RuntimeError):
+        bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT")
+    put_away(wall)
+    parts.select(floor, lamp, mirror)
+    light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
+    seen = inner(light)
+    assert seen.sum() > 500 and abs(light[seen].sum() / expected[seen].sum() - 1.0) < 2e-3
