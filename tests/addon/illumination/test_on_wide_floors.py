@@ -18,7 +18,8 @@ def test_light_lies_close_to_a_small_ball_on_a_wide_floor(blank, tmp_path, proje
     ball.data.polygons.foreach_set("use_smooth", [True] * len(ball.data.polygons))
     ball.data.materials.append(floor.active_material)
     camera = blank.scene.camera
-    camera.location, camera.data.type, camera.data.ortho_scale, camera.data.angle = (0.1, -0.5, 6.0), projection, 0.4, 0.07
+    camera.location, camera.data.type = (0.1, -0.5, 6.0), projection
+    camera.data.ortho_scale, camera.data.angle = 0.4, 0.07
     parts.select(floor, ball, lamp, mirror)
     light, expected = light_and_lamp_behind(mirror, lamp, tmp_path)
     assert np.ptp(parts.attribute(bpy.data.objects["Mirror Caustics"], "position")[:, 0]) > 100.0
