@@ -41,7 +41,7 @@ def note(name, started):
     return told[name]
 
 
-def resting(limit=60.0):
+def resting(limit=20.0):
     """Wait until Live is at rest."""
     end = time.monotonic() + limit
     yield 0.4

@@ -20,7 +20,7 @@ from tests.fuzz.blender.scenes import select
 SECONDS = 120.0  # of processor time
 WANTED = 38.0    # dB over the mirror's pixels
 NEARLY = 1.5     # dB that Cycles may be nearer to itself, where its noise is more than that
-WORST = 0.01     # of the pixels, which are left out
+WORST = 0.005    # of the pixels, which are left out
 FEW = 60         # pixels: a mirror of which less is seen says nothing
 TOLD = "Light: Picture"  # where a result is told to lack what this has
 
