@@ -9,8 +9,6 @@ import parts
 import pytest
 from lamp_scenes import principled, scene_of
 
-pytestmark = pytest.mark.slow
-
 
 @pytest.fixture(scope="module", autouse=True)
 def rendering():
@@ -59,7 +57,6 @@ def test_a_lit_ball_looks_as_in_cycles(blank, room, kind, shining, least):
     assert -10.0 * np.log10((error**2).mean()) > least
 
 
-@pytest.mark.slow
 def test_caustics_are_as_bright_as_in_cycles(blank, room):
     caustic_scene.scene_of()
     bpy.ops.reflection_mesh.caustics()
