@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..illumination import is_glint
+from ..reading import rendered_in
 from .materials import SIZE, made_of
 
 # of a lamp and of a world, what their light depends on besides nodes
@@ -16,8 +17,8 @@ VALUES = ("type", "color", "energy", "exposure", "temperature", "use_temperature
 
 def lamps_of(context: bpy.types.Context) -> str:
     """A digest of the lamps that a view layer's renders know, where they stand, and of the world."""
-    lamps = [obj for obj in context.view_layer.objects if obj.type == "LIGHT"
-             and not (obj.hide_render or is_glint(obj))]
+    lamps = [obj for obj in filter(rendered_in(context), context.view_layer.objects)
+             if obj.type == "LIGHT" and not is_glint(obj)]
     told = sorted(np.array(lamp.matrix_world, dtype=np.float32).tobytes() + _made_of(lamp.data) for lamp in lamps)
     world = context.scene.world
     return blake2b(b"".join(told) + (b"" if world is None else _made_of(world)), digest_size=SIZE).hexdigest()

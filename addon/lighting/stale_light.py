@@ -5,6 +5,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..illumination import is_glint
+from ..reading import rendered_collections
 from ..registration import Handlers
 from .preview import MARK
 
@@ -49,8 +50,9 @@ def _remember(*_) -> None:
 
 def _taking_part(scene: bpy.types.Scene, own: set) -> frozenset:
     """Numbers of the objects that send light in renders of a scene, or may stop it."""
-    return frozenset(obj.session_uid for obj in scene.objects if not obj.hide_render and obj.type not in UNSEEN
-                     and obj not in own and not is_glint(obj))
+    shown = set().union(*(rendered_collections(layer.layer_collection) for layer in scene.view_layers))
+    return frozenset(obj.session_uid for collection in shown for obj in collection.objects
+                     if not obj.hide_render and obj.type not in UNSEEN and obj not in own and not is_glint(obj))
 
 
 def _own(scene: bpy.types.Scene) -> set:

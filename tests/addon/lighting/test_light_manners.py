@@ -61,6 +61,19 @@ def test_what_emits_in_a_plain_mirror_needs_no_light(blank):
     assert result.reflection_mesh.light_material is not None
 
 
+def into_collection(scene, name, objects):
+    """Move objects of the scene to a collection of their own."""
+    collection = bpy.data.collections.new(name)
+    scene.collection.children.link(collection)
+    for obj in objects:
+        collection.objects.link(obj)
+        scene.collection.objects.unlink(obj)
+
+
+def layer_of(scene, name):
+    return scene.view_layers[0].layer_collection.children[name]
+
+
 @pytest.mark.parametrize(("change", "stale"), [
     (lambda scene: setattr(bpy.data.objects["Box"].location, "x", 0.5), True),
     (lambda scene: setattr(scene.camera.location, "x", 0.5), True),
@@ -69,11 +82,14 @@ def test_what_emits_in_a_plain_mirror_needs_no_light(blank):
     (lambda scene: setattr(shader_of(bpy.data.materials["Source"]).inputs["Roughness"], "default_value", 0.2), True),
     (lambda scene: bpy.data.objects.remove(next(obj for obj in scene.objects if obj.type == "LIGHT")), True),
     (lambda scene: setattr(next(obj for obj in scene.objects if obj.type == "LIGHT"), "hide_render", True), True),
+    (lambda scene: setattr(bpy.data.collections["Lamps"], "hide_render", True), True),
+    (lambda scene: setattr(layer_of(scene, "Lamps"), "exclude", True), True),
     (lambda scene: scene.frame_set(scene.frame_current + 1), False),
     (lambda scene: bpy.data.objects["Box"].select_set(False), False),
 ])
 def test_light_is_stale_when_the_scene_has_changed(blank, change, stale):
     scene_of(blank)
+    into_collection(blank.scene, "Lamps", [obj for obj in blank.scene.objects if obj.type == "LIGHT"])
     result = parts.generate(tolerance=4.0)
     bpy.ops.reflection_mesh.light(samples=1)
     light = result.reflection_mesh.light_material
