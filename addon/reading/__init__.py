@@ -49,5 +49,5 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "join_mirror", "join_scene", "known_results", "lines_drawn", "link_state", "looked_through", "materials_of",
            "materials_shown", "may_have_faces", "moves", "participants", "read_meshes", "read_mirror", "read_mirrors",
            "read_scene", "read_view", "register", "render_size", "rendered_alone", "rendered_collections",
-           "rendered_in", "rendered_otherwise", "results_of", "says_mirror", "seen_in", "unregister", "vectors", "visible",
-           "with_copies", "without_surface"]
+           "rendered_in", "rendered_otherwise", "results_of", "says_mirror", "seen_in", "unregister", "vectors",
+           "visible", "with_copies", "without_surface"]
