@@ -105,6 +105,21 @@ def test_light_is_stale_when_the_scene_has_changed(blank, change, stale):
     assert not result.reflection_mesh.light_stale and len(bpy.data.materials) == 4
 
 
+def test_frames_are_lit_by_no_lamp_that_renders_leave_out(blank, room):
+    """By its own switch or its collection's: either tells as much."""
+    scene_of(blank)
+    lamp = next(obj for obj in blank.scene.objects if obj.type == "LIGHT")
+    into_collection(blank.scene, "Lamps", [lamp])
+    digest = room("addon.freshness.lamps").lamps_of
+    shown = digest(blank)
+    told = []
+    for what in (lamp, bpy.data.collections["Lamps"]):
+        what.hide_render = True
+        told.append(digest(blank))
+        what.hide_render = False
+    assert told[0] == told[1] != shown == digest(blank)
+
+
 def test_light_that_was_kept_shows_the_same(blank, room):
     scene_of(blank, "UV", "Tint")
     result = parts.generate(tolerance=2.0)
