@@ -98,11 +98,12 @@ def refined(cameras: Cameras, task: Task, showing: np.ndarray | None) -> Cameras
     if showing is not None:
         seeing |= showing[cameras.face]
     cameras = cameras.select(seeing)
-    cameras, limited = refine_mirror(cameras, MIRROR_SHARE * task.settings.tolerance, task.reach(cameras),
-                                     task.limits.cameras)
+    most = task.limits.cameras
+    cameras, limited = refine_mirror(cameras, MIRROR_SHARE * task.settings.tolerance, task.reach(cameras), most)
+    bounded = limited and len(cameras) > most
     if task.last:
         cameras = cameras.select(task.met.showing_scene(cameras))
-    task.progress.done("cameras", limited=limited)
+    task.progress.done("cameras", limited=limited, bounded=bounded)
     return cameras
 
 

@@ -26,14 +26,11 @@ from .points import reflected_points
 from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
 from .standing import Standing
-from .support import NothingInView, Progress, Settings, in_steps, keep_freed_memory
+from .support import INSIDE, INSIDE_WHOLE, NothingInView, Progress, Settings, in_steps, keep_freed_memory
 from .trees import PointTree, SceneTree
 from .views import LampView, View
 from .visibility import cut_at_borders, cut_before_eye, lit, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces
-
-INSIDE_WHOLE = 1.1  # of whole faces, which are judged in their middles too
-INSIDE = 4.0 / 3.0  # a quadratic that is zero at a triangle's corners exceeds its values at the edges' middles by this
 
 
 def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
@@ -229,7 +226,7 @@ def _whole_first(cameras: Cameras, uncut: int, task: Task,
         return None, task
     drawn = int(whole.drawn.sum())
     task.progress.done("whole faces", whole=drawn, left=whole.left.sum(), pieces=len(whole.pieces),
-                       hidden=whole.hidden, limited=whole.limited)
+                       hidden=whole.hidden, limited=whole.limited, bounded=whole.limited > 0)
     held = sum(getattr(part, field.name).nbytes for part in (whole.images, whole.pieces) for field in fields(part))
     return whole, replace(task, met=task.met.left_to(whole.scene_pieces()),
                           limits=replace(limits.beside(held), faces=max(limits.faces - drawn, 1)))

@@ -18,13 +18,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import columns, dot, norm, shared_edges, unit
+from ..support import BESIDE_EDGES
 from ..views import LampView
 from .camera_splitting import edge_middles, in_picture, shares_in_picture, split_at
 from .shading_horizon import beyond_horizon
 from .three_ray_cameras import Cameras
 
 LEVELS, DEEPER, FEW = 12, 48, 1024  # how often cameras are split; how often where only few are left to be
-BESIDE = 8.0  # times the tolerance: what rays may stray by beside an edge
 INDEPENDENT = 1e-6  # sine between the motions along two edges: below, as on a fold, nothing can be solved in them
 ROUNDING = 1e-14  # radians: what unit vectors are rounded by must not split a flat mirror
 PARTED = 0.5  # cosine between the rays of a lamp's light at the ends of an edge, behind the first mirror
@@ -113,7 +113,7 @@ class _Edges:
 def _marked(cameras: Cameras, edges: _Edges, edge: np.ndarray, reach: float, tolerance: float) -> np.ndarray:
     """Which edges (e,), `edge` (n, 3) of the cameras, are to be split."""
     marked = _straying(cameras, edges, reach) > tolerance
-    marked |= _straying_beside(cameras, edges, edge, reach) > BESIDE * tolerance
+    marked |= _straying_beside(cameras, edges, edge, reach) > BESIDE_EDGES * tolerance
     marked |= _parted(cameras, edges)
     # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
     asked = np.flatnonzero(marked[edge].any(axis=1))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import dot, edge_lengths, following, split
+from ..geometry import dot, edge_lengths, following, next_corner, split
 from ..support import portions
 from .camera_splitting import split_cameras
 from .three_ray_cameras import Cameras
@@ -46,7 +46,7 @@ def _nearest(corners: np.ndarray, eye: np.ndarray) -> np.ndarray:
     """The places (3, n) of triangles with `corners` (3, n, 3), as [component, triangle, corner], that are nearest to
     the eye."""
     away = corners - eye[:, None, None]
-    sides = corners[:, :, [1, 2, 0]] - corners
+    sides = following(corners, axis=2) - corners
     share = np.clip(-dot(away, sides) / np.maximum(dot(sides, sides), 1e-300), 0.0, 1.0)
     on_sides = away + share * sides
     distance = dot(on_sides, on_sides)
@@ -85,7 +85,7 @@ def _cut(cameras: Cameras) -> Cameras:
     if not len(row):
         return cameras
     corners, face = cameras.corners[near], cameras.face[near[row]]
-    start, end = cameras.places[:, corners[row, side]], cameras.places[:, corners[row, (side + 1) % 3]]
+    start, end = cameras.places[:, corners[row, side]], cameras.places[:, corners[row, next_corner(side)]]
     low, high = np.where(beyond[row, side], end, start), np.where(beyond[row, side], start, end)
     for _ in range(STEPS):
         middle = 0.5 * (low + high)

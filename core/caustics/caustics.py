@@ -133,7 +133,9 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
             continue
         breathe()
         faces = _faces(ray_map, seen, chosen, receivers, lamp)
-        faces = refined(ray_map, faces, receivers, lamp, (LEAST * whole, FINEST * reach), settings.maximum_faces)
+        faces, bounded = refined(ray_map, faces, receivers, lamp, (LEAST * whole, FINEST * reach),
+                                 settings.maximum_faces)
+        seen.counts["bounded"] = seen.counts.get("bounded", 0) | bounded
         places = np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2)
         flux = flux_of(view, places) * mean_weight(ray_map, faces.face, faces.light, lamp)
         lit.append((faces, flux, seen, number, receivers))

@@ -83,12 +83,12 @@ class LitFaces:
 
 
 def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, lamp: Lamp, least: tuple[float, float],
-            most: int) -> LitFaces:
+            most: int) -> tuple[LitFaces, bool]:
     """The faces in parts; for none that carries less than the `least` flux, or on sides of less than the least length,
-    and not in more than `most`."""
+    and not in more than `most`. And whether that ended it."""
     with np.errstate(divide="ignore", invalid="ignore"):  # what has no area is not lit
         within = SceneFrames.of(receivers, np.arange(len(receivers.triangles)))
-    new = np.ones(len(faces), dtype=bool)
+    new, bounded = np.ones(len(faces), dtype=bool), False
     for _ in range(LEVELS):
         breathe()
         _, _, edge = shared_edges(faces.triangles)
@@ -102,7 +102,10 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, la
         more, more_points, more_found = _middles(ray_map, faces, beside, within, lamp)
         chosen[edge[beside][~more_found]] = False
         marked = chosen[edge]
-        if not marked.any() or len(faces) + marked.sum() > most:
+        if not marked.any():
+            break
+        bounded = bool(len(faces) + marked.sum() > most)
+        if bounded:
             break
         asked = np.concatenate((asked, beside))
         middles = Corners.joined([middles, more])
@@ -112,7 +115,7 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, la
         new = marked.any(axis=1)[parent]
     asked = np.flatnonzero(np.isnan(faces.beside).any(axis=1))
     faces.beside[asked] = _beside(faces, asked, *_middles(ray_map, faces, asked, within, lamp))
-    return faces
+    return faces, bounded
 
 
 def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[float, float]) -> np.ndarray:

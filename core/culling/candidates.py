@@ -14,6 +14,7 @@ import numpy as np
 
 from ..cameras import Cameras
 from ..geometry import ColumnArrays, SceneFrames, between, columns, in_order, largest, ranges
+from ..support import INSIDE
 
 
 @dataclass(frozen=True)
@@ -108,4 +109,4 @@ def inherited(camera: np.ndarray, column: np.ndarray, parent: np.ndarray,
 
 
 def _room(bend: np.ndarray) -> np.ndarray:
-    return 4.0 / 3.0 * np.stack([largest(row) for row in np.abs(bend)])
+    return INSIDE * np.stack([largest(row) for row in np.abs(bend)])

@@ -15,6 +15,7 @@ from .subdivision import (
     edge_lengths,
     edge_numbers,
     following,
+    next_corner,
     others,
     parent_side,
     shared_edges,
@@ -42,5 +43,5 @@ from .vectors import (
 __all__ = ["ColumnArrays", "Order", "SceneFrames", "TURNS", "TriangleMesh", "area_normals", "areal", "areas", "between",
            "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas", "edge_lengths",
            "edge_numbers", "falling", "first_of", "following", "groups", "has_area", "in_order", "largest", "meeting",
-           "norm", "ordered", "others", "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest",
-           "solid_angles", "solve", "split", "spread_directions", "unit"]
+           "next_corner", "norm", "ordered", "others", "parent_side", "ranges", "rows", "shared_edges", "shares",
+           "smallest", "solid_angles", "solve", "split", "spread_directions", "unit"]

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .subdivision import next_corner
 from .vectors import cross, dot, unit
 
 
@@ -30,7 +31,7 @@ def _reach(corners: np.ndarray, height: np.ndarray, room: np.ndarray,
     inside = np.abs(height) <= room
     low, high = (pick(np.where(inside, at, none), axis=0) for pick, none in ((np.min, np.inf), (np.max, -np.inf)))
     for k in range(3):
-        start, end, here, there = height[k], height[(k + 1) % 3], at[k], at[(k + 1) % 3]
+        start, end, here, there = height[k], height[next_corner(k)], at[k], at[next_corner(k)]
         for level in (-room, room):
             crossing = (start - level) * (end - level) < 0.0
             spot = here + (there - here) * (level - start) / np.where(crossing, end - start, 1.0)

@@ -21,14 +21,19 @@ _TEMPLATES = {
 }
 
 
-def following(values: np.ndarray) -> np.ndarray:
-    """Of each corner of triangles (n, 3, ...) what the next corner has."""
-    return np.roll(values, -1, axis=1)
+def following(values: np.ndarray, axis: int = 1) -> np.ndarray:
+    """Of each corner of triangles, along an axis of three, what the next corner has."""
+    return np.roll(values, -1, axis=axis)
+
+
+def next_corner(corner: Corner) -> Corner:
+    """The corner of triangles after a `corner`, 0 to 2: the other end of the side that it begins."""
+    return (corner + 1) % 3
 
 
 def others(corner: Corner) -> tuple[Corner, Corner]:
     """The other two corners of triangles, in turn: the ends of the side opposite to a `corner`, 0 to 2."""
-    return (corner + 1) % 3, (corner + 2) % 3
+    return next_corner(corner), (corner + 2) % 3
 
 
 def edge_numbers(one: np.ndarray, other: np.ndarray, count: int) -> np.ndarray:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..support import LARGEST, numbers, portions, whole_numbers
 from .adjacency import corners_beyond
+from .subdivision import next_corner
 from .vectors import cross, largest, norm, rows
 
 _UNIT_LENGTH = 2.0 ** -50
@@ -156,7 +157,7 @@ def area_normals(corners: np.ndarray) -> np.ndarray:
     Of two edges that meet, rounded as they are, the product depends on the corner they meet at. It is the lowest one by
     x, y, z here, whichever the triangle begins with.
     """
-    edge = np.stack([corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)])
+    edge = np.stack([corners[:, next_corner(k)] - corners[:, k] for k in range(3)])
     # the sign of the first difference tells which of two corners is the lower one
     way = [np.where(x != 0.0, x, np.where(y != 0.0, y, z)) for x, y, z in edge]
     first = (way[0] >= 0.0) & (way[2] <= 0.0)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import groups, shared_edges
+from ..geometry import groups, next_corner, shared_edges
 from ..support import breathe
 
 
@@ -25,7 +25,7 @@ class Borders:
         first = first[np.bincount(edge.ravel(), minlength=len(first)) == 1]
         breathe()
         face, side = np.divmod(first, 3)
-        start, end = triangles.ravel()[first], triangles[face, (side + 1) % 3]
+        start, end = triangles.ravel()[first], triangles[face, next_corner(side)]
         known = np.isfinite(pixels[start]).all(axis=1) & np.isfinite(pixels[end]).all(axis=1)
         return cls(face[known], side[known], start[known], end[known])
 

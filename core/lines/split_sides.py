@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..geometry import dot, doubled_areas, edge_lengths, in_order, ranges
+from ..geometry import dot, doubled_areas, edge_lengths, in_order, next_corner, ranges
 from ..result import ReflectionMesh
 from .borders import Borders
 from .joined_places import SAME, of_faces
@@ -77,7 +77,7 @@ def _on_sides(mesh: ReflectionMesh, surfaces: Surfaces, among: np.ndarray) -> tu
 def _weights(mesh: ReflectionMesh, parent: np.ndarray, side: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Barycentric coordinates (k, 3, 3) of the corners of parts of faces, in the source triangles of these; their first
     two corners lie on a side."""
-    start, end = mesh.triangles[parent, side], mesh.triangles[parent, (side + 1) % 3]
+    start, end = mesh.triangles[parent, side], mesh.triangles[parent, next_corner(side)]
     own = mesh.source_weights[parent[:, None], (side[:, None] + np.arange(3)) % 3]
     origin = mesh.reflected_position[start].T
     way = mesh.reflected_position[end].T - origin

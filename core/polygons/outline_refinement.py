@@ -13,12 +13,12 @@ import numpy as np
 from ..cameras import Cameras, beyond_horizon, split_cameras
 from ..culling import Candidates, SceneAndMirrors, inherited
 from ..geometry import columns, distinct, doubled_areas, edge_lengths
+from ..support import ENDING_SHARE
 from .covering import Overlaps
 
 LEVELS = 10
 SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
 CROWD = 24  # outlines of mirrors that a camera may hold: all that it sees is cut along those that run through it
-ENDING = 0.4  # of the tolerance: what outlines of mirrors may miss, at which all ends that lies behind
 
 
 def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, met: SceneAndMirrors,
@@ -43,7 +43,7 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
         # of each pair so far, the camera's number now, -1 where it has been split
         camera, column = np.append(camera, candidates.camera), np.append(column, candidates.column)
         mirror = met.are_mirrors(candidates)
-        bent, long = _bent_edges(candidates, tolerance * np.where(mirror, ENDING, 1.0))
+        bent, long = _bent_edges(candidates, tolerance * np.where(mirror, ENDING_SHARE, 1.0))
         split = (bent | _crowded(candidates, mirror)[:, None]) & long
         if level == LEVELS or not split.any() or (camera >= 0).sum() > maximum:
             break

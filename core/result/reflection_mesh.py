@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..geometry import following
 from ..support import breathe
 from .discs import Discs
 
@@ -39,8 +40,8 @@ class ReflectionMesh:
     counts : dict
         How much of each part the scene needed, plain integers: cameras, nodes visited, pairs, roots, `joined` polygons
         that hold their whole triangle and `cut` ones, edges that a bound on depth or count left too long (`limited`),
-        whether it was the bound on count (`bounded`), cameras that are too small to be cut (`open`), those in which so
-        much lies over one another that rays show it as finely (`dense`) or more coarsely than was asked for
+        in how many steps it was the bound on count (`bounded`), cameras that are too small to be cut (`open`), those in
+        which so much lies over one another that rays show it as finely (`dense`) or more coarsely than was asked for
         (`crowded`), all of which are `filled` by cells that `rays` tell what to show, `probes` that see a diffuse
         object and those of them that no face shows (`missed`).
     seconds : dict
@@ -103,7 +104,7 @@ class ReflectionMesh:
         """(m, 3) int8: the side of the source triangle, from corner k to the next, whose image each side of each face
         is a part of; -1 for sides that only cut the image, along a mirror's triangle or what hides it."""
         beside = self.source_weights < ON_SIDE
-        opposite, side = beside & beside[:, [1, 2, 0]], np.full(beside.shape[:2], -1, dtype=np.int8)
+        opposite, side = beside & following(beside), np.full(beside.shape[:2], -1, dtype=np.int8)
         # side k lies opposite to corner k + 2
         for k in (2, 1, 0):
             side[opposite[:, :, (k + 2) % 3]] = k

@@ -1,7 +1,8 @@
 """What the method is compared with: every rival a room of its own, on the parts of the method that the talk shares.
 
 The method does not know of its rivals: nothing but the tools, the benchmark and the comparisons of `addon` may import
-it.
+it. In come a view, meshes and a value of a method's knob; out comes what it shows at each pixel's centre, and what that
+took.
 """
 from __future__ import annotations
 
@@ -14,11 +15,12 @@ from ..views import View
 from .billboards import billboarded
 from .clustering import clustered
 from .environment import boxed, mapped
-from .forward import parallel, points, refined, unrefined
+from .forward import drawn_mesh, parallel, points, refined, unrefined
 from .morphing import morphed
+from .pixel_blocks import cast_by_blocks
 from .primary_hits import PrimaryHits, eye_depths, primary_hits
 from .ray_tracing import traced
-from .rival_picture import ITSELF, NOTHING, RivalPicture
+from .rival_picture import ITSELF, NOTHING, RivalPicture, Work
 
 Knob = TypeVar("Knob", int, float)
 
@@ -57,5 +59,5 @@ METHODS: dict[str, Rival[int] | Rival[float]] = {
     "GENERAL": Rival("General three-ray camera, refined", "tolerance in pixels", (2.0, 1.0, 0.5, 0.25), refined),
 }
 
-__all__ = ["ITSELF", "METHODS", "NOTHING", "PrimaryHits", "Rival", "RivalPicture", "eye_depths",
-           "primary_hits"]
+__all__ = ["ITSELF", "METHODS", "NOTHING", "PrimaryHits", "Rival", "RivalPicture", "Work", "cast_by_blocks",
+           "drawn_mesh", "eye_depths", "morphed", "primary_hits"]

@@ -9,9 +9,7 @@ import numpy as np
 
 from ..geometry import cross, dot
 from . import double_double as long
-from .rounding import UNIT
-
-_LEAST = 2.0 ** -1000
+from .rounding import LEAST, UNIT
 
 
 def differences(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -37,10 +35,10 @@ def scale(still: np.ndarray, moving: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
 def _power_of_two(numbers: np.ndarray) -> np.ndarray:
     """The largest power of two (n,) not above the largest number of each column of (3, 3, n), 1 where that is zero,
-    but at least `_LEAST`, whose inverse is finite."""
+    but at least `LEAST`, whose inverse is finite."""
     largest = np.abs(numbers).max(axis=(0, 1))
     power = (largest.view(np.int64) & 0x7FF0000000000000).view(np.float64)
-    return np.where(largest > 0.0, np.maximum(power, _LEAST), 1.0)
+    return np.where(largest > 0.0, np.maximum(power, LEAST), 1.0)
 
 
 def lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:

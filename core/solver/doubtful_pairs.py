@@ -6,7 +6,7 @@ import numpy as np
 from ..geometry import cross, dot
 from . import cubic
 from .monotone_roots import monotone_roots
-from .rounding import UNIT
+from .rounding import LEAST, UNIT
 
 _HIDDEN = 2.0 ** 20
 """A coefficient this many times its bound owes none of its size to loose bounds."""
@@ -19,9 +19,6 @@ _FURTHEST = 0.5
 
 _ROUGH = 2.0 ** -30
 """A simple root that is off by more than this part of itself is worth twice the digits."""
-
-_LEAST = 2.0 ** -1000
-"""Smaller coefficients may have lost digits, of lengths of the order of 1."""
 
 
 def doubtful_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
@@ -43,9 +40,9 @@ def doubtful_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
     def sharpen(pairs):
         cubics[:, pairs], long_bounds = cubic.long_coefficients(
             vertices[pairs], rays[pairs], points[pairs], length[pairs], speed[pairs])
-        bounds[:, pairs] = np.maximum(long_bounds, _LEAST)
+        bounds[:, pairs] = np.maximum(long_bounds, LEAST)
 
-    np.maximum(bounds, _LEAST, out=bounds)
+    np.maximum(bounds, LEAST, out=bounds)
     drowned = _drowned(np.abs(cubics), bounds)
     if drowned.any():
         sharpen(np.flatnonzero(drowned))

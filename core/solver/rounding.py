@@ -6,6 +6,9 @@ import numpy as np
 UNIT = 2.0 ** -53
 """Unit roundoff of float64."""
 
+LEAST = 2.0 ** -1000
+"""Smaller coefficients may have lost digits, of lengths of the order of 1."""
+
 
 def horner(c: np.ndarray, x: np.ndarray) -> np.ndarray:
     """c[0] + c[1] x + c[2] x^2 + ... by Horner's rule."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, columns, cross, ordered, rows, unit
+from ..geometry import TriangleMesh, columns, cross, following, ordered, rows, unit
 from .cones import Cones
 from .magnification import Magnification
 from .node_tree import along_curve
@@ -116,7 +116,7 @@ def _surface(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     if not len(mesh.triangles):
         return np.flatnonzero(np.isfinite(mesh.positions).all(axis=1)), normal, reach
     corners = rows(mesh.positions[mesh.triangles])
-    side = np.sqrt(((corners - np.roll(corners, -1, axis=2)) ** 2).sum(axis=0)).max(axis=1)
+    side = np.sqrt(((corners - following(corners, axis=2)) ** 2).sum(axis=0)).max(axis=1)
     area = cross(corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0])
     areal = np.flatnonzero(mesh.areal)
     vertex = mesh.triangles[areal]

@@ -33,6 +33,8 @@ from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
 from .picture_pairs import PAIRS_AT_ONCE
 
 DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden places lie; doubled faces hide nothing
+FLAT = 1e-9  # sine of the angle at which the eye looks along a triangle, or of its own: what hides nothing
+MOST_HIDING = 1 << 18  # pairs of a camera and a triangle that hides a part of it; cameras with the most stay whole
 
 
 @dataclass(frozen=True)
@@ -170,7 +172,7 @@ def _sides(cameras: Cameras, frames: SceneFrames, camera: np.ndarray,
         normal = cross(q - p, ahead) if view.orthographic else cross(p - base, q - base)
         inward = dot(normal, third - base)
         size = np.sqrt(dot(normal, normal) * dot(third - base, third - base))
-        solid &= np.abs(inward) > 1e-9 * size
+        solid &= np.abs(inward) > FLAT * size
         functions.append(np.sign(inward) * dot(normal[:, None], places - base[:, None]))
     _, _, height = frames.coordinates(column, places)
     functions.append(-np.sign(eye_side) * height)

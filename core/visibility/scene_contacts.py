@@ -5,7 +5,8 @@ reflects would come out before what hides it once it slides towards the eye.
 """
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Iterable
+from itertools import chain
 
 import numpy as np
 
@@ -14,12 +15,11 @@ from ..culling import Candidates, inherited
 from ..geometry import TriangleMesh, distinct, largest, meeting, norm, rows, smallest
 from ..result import DEPTH, GAP
 from ..support import crowded, portions
-from .hidden_parts import DEEPER, HiddenParts
+from .hidden_parts import DEEPER, MOST_HIDING, HiddenParts
 from .picture_pairs import PAIRS_AT_ONCE, pairs_in_picture
 
 AGAIN = 4  # pairs that are looked at again after cutting, to one that may be left
 CELLS = 256.0  # across the wider side of the picture, for what lies over what
-MOST_HIDING = 1 << 18  # pairs of a camera and a triangle that hides a part of it; cameras with the most stay whole
 
 
 def drop_behind_contacts(candidates: Candidates, maximum: int,
@@ -42,16 +42,16 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
         How many were cut, and how many were not, or not along all outlines.
     """
     cameras, frames = candidates.cameras, candidates.frames
-    found = _hidden_closely(candidates)
+    found, left = _hidden_closely(candidates)
     if found is None:
-        return candidates, np.zeros(len(cameras), dtype=bool), 0, 0
+        return candidates, np.zeros(len(cameras), dtype=bool), 0, left
     hidden, shown = found
     count = np.bincount(hidden.camera, minlength=len(cameras))
     uncut = crowded(count, picture_areas(cameras), MOST_HIDING)
     hidden = hidden.select(~uncut[hidden.camera])
-    given, (cameras, cut, parent, left) = len(cameras), hidden.cut_off(cameras, shown, hidden.outlines(
+    given, (cameras, cut, parent, entire) = len(cameras), hidden.cut_off(cameras, shown, hidden.outlines(
         cameras.view, frames), maximum)
-    left += int(uncut.sum())
+    left += entire + int(uncut.sum())
     if shown.all() and not len(cut):
         return candidates, np.zeros(given, dtype=bool), 0, left
     whole = shown.copy()
@@ -72,9 +72,9 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
             len(cut) + int((~shown).sum()), left)
 
 
-def _hidden_closely(candidates: Candidates) -> tuple[HiddenParts, np.ndarray] | None:
+def _hidden_closely(candidates: Candidates) -> tuple[tuple[HiddenParts, np.ndarray] | None, int]:
     """What triangles hide from so near that layers would slide through them, and which cameras (n,) one of them does
-    not hide altogether; None where none comes as near."""
+    not hide altogether, None where none comes as near; and of how many cameras that was not asked."""
     cameras, frames, view = candidates.cameras, candidates.frames, candidates.cameras.view
     size = float(np.ptp(cameras.places, axis=1).max(initial=0.0))
     slid = GAP + DEPTH
@@ -83,34 +83,36 @@ def _hidden_closely(candidates: Candidates) -> tuple[HiddenParts, np.ndarray] | 
     near = _near(candidates, room)
     column, row_of = distinct(near.column)
     if not len(column):
-        return None
+        return None, 0
     shown, found = np.ones(len(cameras), dtype=bool), []
-    for camera, row in _lying_over(near, column, row_of):
+    pairs, left = _lying_over(near, column, row_of)
+    for camera, row in pairs:
         hidden = HiddenParts.of(cameras, frames, camera, column[row], DEEPER * size)
         hidden = hidden.select(hidden.nearest(view.orthographic) < slid * (size if view.orthographic else 1.0))
         shown[hidden.camera[hidden.entire]] = False
         found.append(hidden)
     if not found:
-        return None
+        return None, left
     hidden = HiddenParts.joined(found)
-    return hidden.select(shown[hidden.camera]), shown
+    return (hidden.select(shown[hidden.camera]), shown), left
 
 
 def _lying_over(near: Candidates, column: np.ndarray,
-                row_of: np.ndarray) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
+                row_of: np.ndarray) -> tuple[Iterable[tuple[np.ndarray, np.ndarray]], int]:
     """Pairs of a camera and one of the triangles `column` (k,) that may lie over it in the picture, whether it is seen
-    in the camera or not; those that reach behind the eye where they are `near`, in the `row_of` (p,) these."""
+    in the camera or not; those that reach behind the eye where they are `near`, in the `row_of` (p,) these; and of how
+    many cameras only these, since there are too many of the others."""
     cameras, frames, view = near.cameras, near.frames, near.cameras.view
     mesh = TriangleMesh(frames.positions[frames.vertices[:, column]].reshape(-1, 3),
                         np.arange(3 * len(column)).reshape(3, -1).T)
     scale = CELLS / max(view.resolution)
     everywhere = np.ones(tuple(int(side) for side in np.ceil(np.array(view.resolution[::-1]) * scale)), dtype=bool)
-    yield from pairs_in_picture(cameras, mesh, np.full(len(column), -1), everywhere, scale) or ()
+    pictured = pairs_in_picture(cameras, mesh, np.full(len(column), -1), everywhere, scale)
     behind, others = ((view.depths(places.T) <= 0.0)[corners].any(axis=1) for places, corners in (
         (cameras.places, cameras.corners), (mesh.positions.T, mesh.triangles)))
     pairs = np.unique((near.camera * len(column) + row_of)[behind[near.camera] | others[row_of]])
-    if len(pairs):
-        yield pairs // len(column), pairs % len(column)
+    reaching = [np.divmod(pairs, len(column))] if len(pairs) else []
+    return (reaching, len(np.unique(near.camera))) if pictured is None else (chain(pictured, reaching), 0)
 
 
 def _near(candidates: Candidates, room: np.ndarray) -> Candidates:

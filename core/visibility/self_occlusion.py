@@ -12,12 +12,11 @@ from ..geometry import SceneFrames, TriangleMesh, cross, norm
 from ..support import crowded
 from ..views import LampView
 from .eye_plane import triangles_before_eye
-from .hidden_parts import DEEPER, HiddenParts
+from .hidden_parts import DEEPER, MOST_HIDING, HiddenParts
 from .mirror_visibility import DepthGrid
 from .picture_pairs import pairs_in_picture
 
 MOST_PIECES = 1 << 18  # as many as cameras are cut into altogether
-MOST_HIDING = 1 << 18  # pairs of a camera and a triangle that hides a part of it; cameras with the most stay whole
 EDGE = 1e-3  # of what doubled faces may lie apart: as much lies in both planes where a shade meets the mirror in a line
 LEVEL = 0.01  # sine of the angle between planes below which faces may be doubled
 MOST_WORK = 1 << 23  # lines of cameras, each once for every triangle that hides a part of its camera

@@ -10,19 +10,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import distinct, doubled_areas, edge_numbers
+from ..geometry import distinct, doubled_areas, edge_numbers, next_corner
 from ..patches import Patch
-from ..support import breathe
+from ..support import DOUBT_SHARE, WHOLE_OUTLINE_SHARE, breathe
 from .images import Images
 from .pieces import Pieces, whole
 from .sinking import Sinking, sides
 
 LEVELS = 10
 DICED = 48.0  # pixels: longer edges of triangles over the border are split
-OUTLINE = 0.25  # of the tolerance: what outlines may stray, which are seen at both their sides, and in one line
 DEEP = 6.0  # pixels: shorter edges that sink too deep are left to cameras
 SHORTEST = 0.25  # pixels: an edge that is not longer cannot stray by what anybody sees
-DOUBT = 0.5  # of the tolerance: what straying is guessed to be from which on the middle is looked for
 
 
 @dataclass(frozen=True)
@@ -70,7 +68,7 @@ class Division:
             if not len(pieces):
                 continue
             side, face = np.nonzero(asked)
-            one, other = pieces.nodes[side, face], pieces.nodes[(side + 1) % 3, face]
+            one, other = pieces.nodes[side, face], pieces.nodes[next_corner(side), face]
             count = len(images)
             keys, edge = distinct(edge_numbers(one, other, count))
             over = np.zeros(len(keys), dtype=bool)
@@ -111,7 +109,7 @@ class Division:
         bent = np.zeros(len(chosen))
         for a, b in sides(corners):
             bent = np.maximum(bent, self._seems(images, a, b)[0])
-        asked = bent > DOUBT * self.tolerance
+        asked = bent > DOUBT_SHARE * self.tolerance
         chosen, corners = chosen[asked], corners[:, asked]
         depth = np.stack([self.depths(images, corner) for corner in corners])
         drawn = (images.pixel[:, corners] * depth).sum(axis=1) / depth.sum(axis=0)
@@ -136,17 +134,18 @@ class Division:
         found, spots = images.found[pieces.nodes], images.pixel[:, pieces.nodes]
         some, asked = found[0] | found[1] | found[2], np.empty(found.shape, dtype=bool)
         for k in range(3):
-            there = (k + 1) % 3
+            there = next_corner(k)
             both = found[k] & found[there]
             away = np.maximum(*np.abs(spots[:, k] - spots[:, there]))
-            asked[k] = (both & (away > 2.0 * OUTLINE * self.tolerance)) | (some & (found[k] != found[there]))
+            long = away > 2.0 * WHOLE_OUTLINE_SHARE * self.tolerance
+            asked[k] = (both & long) | (some & (found[k] != found[there]))
         return asked & ~pieces.done
 
     def _judged(self, images: Images, a: np.ndarray, b: np.ndarray, over: np.ndarray,
                 outline: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, Images]:
         """Which edges (e,) from a to b are to be split; whose middles have no image; what those stray by that stay,
         over which lengths; images of the middles of those that are split."""
-        tolerance = np.where(outline, OUTLINE, 1.0) * self.tolerance
+        tolerance = np.where(outline, WHOLE_OUTLINE_SHARE, 1.0) * self.tolerance
         a, b = np.where(images.found[a], (a, b), (b, a))
         both = images.found[b]
         straying, chord, moved, share = self._seems(images, a, b)
@@ -154,7 +153,7 @@ class Division:
         length = np.hypot(*np.where(both, chord, moved))
         diced = over & (length > DICED)
         sunk = both & (length > DEEP) & self.sinking.too_deep(images, a, b)
-        asked = np.flatnonzero(diced | sunk | (both & (length > SHORTEST) & (straying > DOUBT * tolerance)))
+        asked = np.flatnonzero(diced | sunk | (both & (length > SHORTEST) & (straying > DOUBT_SHARE * tolerance)))
         middles = images.between(self.patch, a[asked], b[asked])
         halfway = images.pixel[:, a[asked]] + share[asked] * chord[:, asked]
         found = middles.found & both[asked]

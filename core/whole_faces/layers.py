@@ -7,12 +7,12 @@ import numpy as np
 
 from ..geometry import distinct, rows
 from ..result import DEPTH, GAP
+from ..support import INSIDE
 from ..views import Covered
 from .images import Images
 from .picture_samples import Grid, least_around
 from .sinking import Sinking
 
-INSIDE = 4.0 / 3.0  # what the inside of a triangle sinks by, to the most that its edges do
 APART = 1e-6  # of the nearness: what lies closer before a face does not hide it
 
 

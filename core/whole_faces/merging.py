@@ -16,12 +16,11 @@ import numpy as np
 
 from ..geometry import TriangleMesh, areal, columns, cross, dot, doubled_areas, groups, norm, rows
 from ..patches import Descent, Patch, Walk
-from ..support import breathe, portions
+from ..support import TOGETHER_AT_OUTLINES, breathe, portions
 from ..trees import SceneTree
 from .images import Images
 
 AT_ONCE = 16384  # triangles: what their arrays take fits the cache
-OUTLINE = 1 / 3  # of the size of what is drawn together: that of what an outline runs through
 LEFT = 0.6  # of a surface's area: where less is left something is lost, and not only smoothed
 
 
@@ -55,7 +54,7 @@ class Merged:
         own = np.arange(len(standing))
         if (standing == own).all():
             return cls(images, mesh.triangles, np.flatnonzero(mesh.areal))
-        descent.fall_apart(_on_outline(tree, images, standing), OUTLINE * least)
+        descent.fall_apart(_on_outline(tree, images, standing), TOGETHER_AT_OUTLINES * least)
         descent.fall_apart(_lost(mesh, _in_one_place(mesh, descent.standing)), 0.0)
         alone = _in_one_place(mesh, descent.standing)
         new = np.flatnonzero((alone == own) & (standing != own))

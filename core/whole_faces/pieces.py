@@ -8,7 +8,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import ColumnArrays, columns, cross, dot, doubled_areas, largest, norm, parent_side, rows, split
+from ..geometry import (
+    ColumnArrays,
+    columns,
+    cross,
+    dot,
+    doubled_areas,
+    following,
+    largest,
+    next_corner,
+    norm,
+    parent_side,
+    rows,
+    split,
+)
 from ..patches import Patch
 from ..support import portions
 from ..views import box
@@ -45,7 +58,7 @@ class Pieces(ColumnArrays):
         """Pieces split at the nodes `middle` (3, f) of their edges, -1 for none."""
         parent, local = split((middle >= 0).T)
         side, local = rows(parent_side(local)), rows(local)
-        unsplit = (local < 3) & (np.roll(local, -1, axis=0) < 3) & (side < 3)
+        unsplit = (local < 3) & (following(local, axis=0) < 3) & (side < 3)
         own = np.minimum(side, 2)
         return Pieces(np.concatenate((self.nodes, middle))[local, parent], self.source[parent],
                       unsplit & self.lost[own, parent], unsplit & self.done[own, parent])
@@ -63,7 +76,7 @@ def turned_away(images: Images, pieces: Pieces, outward: np.ndarray) -> np.ndarr
         places = [columns(images.place, node) for node in nodes]
         normal = cross(b - a, c - a)
         # between three places the mirror bulges by less than they are apart
-        bulge = largest(np.stack([norm(places[k] - places[(k + 1) % 3]) for k in range(3)]))
+        bulge = largest(np.stack([norm(places[k] - places[next_corner(k)]) for k in range(3)]))
         away = np.ones(len(some), dtype=bool)
         for node, place in zip(nodes, places):
             away &= columns(images.found, node) & (dot(normal, place - a) < -bulge * norm(normal))

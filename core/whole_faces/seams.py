@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import SceneFrames, between, edge_numbers, following, groups, others, ranges
+from ..geometry import SceneFrames, between, edge_numbers, following, groups, next_corner, others, ranges
 from ..polygons import Faces, Nodes
 from .images import Images
 from .whole import WholeFaces
@@ -87,7 +87,7 @@ def _on_edges(frames: SceneFrames, nodes: Nodes, faces: Faces, seam: np.ndarray,
     """The nodes of the cameras' faces that lie on edges of the `seam`: the edge, the node, and its share of the way
     along it."""
     face, side = np.nonzero(faces.on_scene_edge)
-    ends = np.stack((faces.nodes[face, side], faces.nodes[face, (side + 1) % 3]))
+    ends = np.stack((faces.nodes[face, side], faces.nodes[face, next_corner(side)]))
     column, row = faces.column[face], np.arange(len(face))
     weights = [frames.weights(column, nodes.point[:, end]) for end in ends]
     off = np.maximum(*np.abs(weights))

@@ -9,7 +9,7 @@ from ..cameras import Cameras, picture_areas
 from ..culling import SceneAndMirrors, ScenePieces
 from ..geometry import TriangleMesh, norm, rows
 from ..patches import Patch, speck
-from ..support import FACE_SHARE, Settings, breathe
+from ..support import FACE_SHARE, TOGETHER, Settings, breathe
 from ..trees import Cones, SceneTree
 from ..views import LampView
 from .contacts import contacts
@@ -23,7 +23,6 @@ from .sinking import Sinking
 
 LEAST_TRIANGLES, LEAST_PATCH = 8000, 32  # of the scene, and of the mirror: fewer are cut sooner than looked at twice
 LEAST_SHARE = 0.25  # of what is seen of the mirror: a smaller patch is not worth it
-TOGETHER = 2.0  # times the tolerance: the size of what is drawn together, no more of it than that from its middle
 PROBES = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (1 / 3, 1 / 3))
 WIDER = 1.25  # than the rays of a triangle at its probes: those between them
 

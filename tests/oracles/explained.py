@@ -1,7 +1,7 @@
 """`core.project` held against the exact oracle: which disagreements there are, and whether rounding explains them.
 
 With u = 2^-53 and P(t) = (|p| + t|r|) (|e1| + t|d1|) (|e2| + t|d2|), of which no coefficient of the cubic f exceeds its
-own, the stated errors come to these, all from `core.cubic` and `core.projection`:
+own, the stated errors come to these, all from `core.solver.cubic` and `core.solver.projection`:
 
 * A coefficient is off by 12 u of P's. One that this could hide counts as zero, then it is off by up to 24 u; Horner's
   rule adds 6 u: f is known to 30 u P. (Hence 18 u P where no coefficient is dropped.)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core import Lamp, Settings, TriangleMesh, reflect
+from core import Lamp, Settings, TriangleMesh, caustics, reflect
 from core.caustics.corners import light_at, mean_weight
 from core.caustics.energy import balanced, flux_of, on_faces, shown_area
 from core.caustics.refinement import refined
@@ -27,7 +27,7 @@ def faces_of(lamp: Lamp, mirror: TriangleMesh, receiver: TriangleMesh):
     faces = room._faces(ray_map, seen, np.arange(len(seen.triangles)), receiver, lamp)
     whole = flux_of(view, seen.mirror_position[seen.triangles]).sum()
     reach = np.ptp(seen.reflected_position, axis=0).max()
-    faces = refined(ray_map, faces, receiver, lamp, (room.LEAST * whole, room.FINEST * reach), 10**6)
+    faces, _ = refined(ray_map, faces, receiver, lamp, (room.LEAST * whole, room.FINEST * reach), 10**6)
     flux = flux_of(view, np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2))
     return faces, flux * mean_weight(ray_map, faces.face, faces.light, lamp), ray_map
 
@@ -106,3 +106,14 @@ def test_light_is_known_where_the_mirror_stands_on_what_it_lights():
     faces, _, _ = faces_of(Lamp.shining((0.2, 1.0, -0.8)), mirror, level(0.0, 0.0, 0.0, 4.0))
     at_foot = np.abs(faces.light.place[2]) < 1e-12
     assert at_foot.sum() > 2 * count and faces.light.arrived[at_foot].all()
+
+
+def test_light_that_would_take_more_faces_than_there_may_be_says_so():
+    """What the mirror shows has room; its light, finer than that, stays as coarse as it is, and whole."""
+    free, bounded = (caustics(LAMPS[0], ring(48), level(0.0, 0.0, 0.0, 4.0), Settings(maximum_faces=most))
+                     for most in (10**6, 25_000))
+    assert bounded.counts["limited"] == free.counts["limited"] and bounded.counts["faces"] == free.counts["faces"]
+    assert len(free.triangles) > 25_000 > bounded.counts["faces"]
+    assert (free.counts["bounded"], bounded.counts["bounded"]) == (0, 1)
+    assert len(bounded.triangles) <= 25_000
+    assert abs(bounded.flux.sum() / free.flux.sum() - 1.0) < 1e-6

@@ -53,8 +53,18 @@ CROWD = shapes.combine(*(shapes.icosphere((x, -1.5, z), 0.15, 4) for x in (-0.6,
 SMALL = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (192, 192), field_of_view=0.5)
 RAYS = {"maximum_memory": 1e-4}  # holds hardly a candidate, and leaves everything to rays
 ALL = {"hidden_faces": True}  # so that no ray shows what would be cut
+TILES = shapes.combine(shapes.sheet(lambda u, v: (
+    np.stack((u, v, 0.0 * u), axis=1), np.tile((0.0, 0.0, 1.0), (len(u), 1))), 24, 24, (-3.0, 3.0), (-3.0, 3.0)))
 VIEW = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (256, 256), field_of_view=0.5)
 LOW = View.looking_at((0.0, -2.0, 1.6), (0.0, 2.0, 0.4), (256, 256), field_of_view=0.9)
+
+
+def posters() -> TriangleMesh:
+    """Upright sheets of many triangles, which stand in the floor."""
+    def upright(x, y):
+        return lambda u, v: (np.stack((x + u, y + 0.0 * u, v), axis=1), np.tile((0.0, -1.0, 0.0), (len(u), 1)))
+    return shapes.combine(*(shapes.sheet(upright(x, y), 24, 72, (-0.2, 0.2), (-0.3, 0.8))
+                            for x in (-0.8, 0.0, 0.8) for y in (-0.8, 0.6)))
 
 
 @dataclass(frozen=True)
@@ -113,9 +123,9 @@ PARTS = {
     "mirrors before the scene": Part(BOUNCE, "cut_behind_mirrors", lambda met, polygons: (polygons, 0, 0),
                                      (VIEW, BALLS, ROOM), "spill", 10.0, settings=ALL),
     "neighbours that only touch": Part(BOUNCE, "plainly_seen", lambda met, candidates: np.ones(
-        len(candidates), dtype=bool), "torus", "candidates", 1.05, settings=ALL),
+        len(candidates), dtype=bool), "torus", "candidates", 1.08, settings=ALL),
     "what mirrors hide from whole cameras": Part(Overlaps, "in_sight", lambda self, last: self.candidates, "torus",
-                                                 "candidates", 1.05, settings=ALL),
+                                                 "candidates", 1.3, settings=ALL),
     "the eye's plane": Part(REFLECTION, "cut_before_eye", lambda cameras: cameras, (LOW, WIDE_FLOOR, ROOM), "faces"),
     "filling by rays": Part(Crowds, "filled", lambda self, candidates: Filled(
         candidates, np.zeros((0, 3), dtype=np.int64), 0, 0, False), "sphere", "uncovered", 10.0, settings=RAYS),
@@ -125,6 +135,10 @@ PARTS = {
         cells, np.arange(len(cells))), (SMALL, BALLS, ROOM), "maximum", settings=RAYS),
     "what hides what rays show": Part(SceneAndMirrors, "hidden_within", lambda self, origin, ray, reach: np.zeros(
         len(reach), dtype=bool), (VIEW, FLOOR, BOXES), "uncovered", above=0.1, settings=RAYS),
+    "whole faces": Part(REFLECTION, "whole_faces", lambda *_: None, "dense sphere", "projections"),
+    "contacts of whole faces": Part(core.whole_faces.whole, "contacts", lambda patch, tree: (
+        np.zeros(0, dtype=np.int64), np.zeros(len(patch), dtype=bool)), (VIEW, TILES, posters()), "uncovered",
+                                    above=0.05),
     "sinking faces": Part(Sinking, "too_deep", lambda self, images, a, b: np.zeros(len(a), dtype=bool),
                           "dense sphere_ortho", "uncovered", 10.0),
     "bodies that turn away": Part(ClosedBodies, "outward_from", lambda self, view: np.zeros(len(self.outward)),
@@ -135,7 +149,7 @@ PARTS = {
                                                settings={"tolerance": 2.0}),
     "layers that are close": Part(Layers, "hidden_and_close", only_hidden, "dense sphere", "uncovered", 5.0),
     "the middles of whole faces": Part(Division, "strays_inside", lambda self, images, nodes: np.zeros(
-        nodes.shape[1], dtype=bool), "knots", "p99", 1.05),
+        nodes.shape[1], dtype=bool), "knots", "p99", 1.1),
     "seams": Part(seams, "_on_edges", lambda *_: (np.zeros(0, dtype=np.int64),) * 2 + (np.zeros(0),), "dense sphere",
                   "uncovered", 5.0),
     "cameras that are full": Part(Crowds, "bound", lambda self, cameras: Bound(
