@@ -81,8 +81,10 @@ class ObjectLevels:
         found = np.full((side, side, 4), UNTOUCHED, dtype=np.float32)
         own = slice(row, row + len(baked)), slice(column, column + baked.shape[1])
         found[own] = with_its_rim(baked, colours) if self.wide else baked
+        breathe()
         if shown is not None:
             found = _as_shown(found, shown)
+            breathe()
         known = found[..., 3] != UNTOUCHED
         if coarser is not None:
             rest = ~self.needed[level][back]
@@ -156,6 +158,9 @@ def _as_shown(picture: np.ndarray, shown: np.ndarray) -> np.ndarray:
     whole = known & (shown == 1.0)
     part = known & ~whole & (shown >= MOST_SHOWN)
     # where a denoiser has brought light to the dark, there may be too much in what is left
-    told = np.minimum(picture / np.maximum(shown, MOST_SHOWN)[..., None], spread(picture, whole))
+    inner = spread(picture, whole)
+    breathe()
+    told = np.minimum(picture / np.maximum(shown, MOST_SHOWN)[..., None], inner)
+    breathe()
     told[known & ~whole & ~part] = UNTOUCHED
     return np.where(whole[..., None] | ~known[..., None], picture, told)

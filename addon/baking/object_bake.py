@@ -8,21 +8,21 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, View, breathe, in_steps
-from ..faults import Steps, Undivided, part
+from ..faults import Steps, part
 from ..reading import DiffuseScene, is_opaque, materials_of
 from ..reading.meshes import read_meshes
-from .bake_scene import bake_scene
 from .levels import FINER, fine_where_seen, levels_of
 from .mirror_bodies import MirrorBodies, mirror_bodies
 from .seen_sources import SeenSources, has_rim, outer_sides, seen_sources, triangles_by_source
 from .shown_texels import shown_texels
-from .stand_ins import new_meshes, stand_ins
+from .stage import BakeScene, bake_scene, is_deformed, new_meshes, stand_ins, undeformed_positions
 from .texels import arranged, is_glossy, packed
 from .thrown import thrown_light
-from .undeformed import is_deformed, undeformed_positions
 
 LARGEST = 4096  # texels along a side of all maps together
+LIGHT, COLOURS = 0.7, 0.15  # of the work of a picture; colours are baked twice at most
 FEWER = 0.5     # of the samples are enough where a picture is denoised
+LINES = 512     # of the map, which are put together in one step
 PREPARING = "Copying the scene"
 MEASURING = "Measuring what is seen"
 LESS = 0.7   # texels along a line, where there are too many, from one try to the next
@@ -34,8 +34,8 @@ class ObjectLight:
 
     Attributes
     ----------
-    texels : (size, size, 4) float32
-        Linear light, and how opaque what sends it is.
+    texels : (height, width, 4) float32
+        Linear light, and how opaque what sends it is; no more of the square than is used.
     uv : (m, 3, 2) float32
         Where in it the corners of triangles lie, sheet by sheet.
     sheets : list of (int, bool)
@@ -76,14 +76,21 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
     bodies = yield from part(in_steps(partial(mirror_bodies, context, results, view)), 0.0, 0.0, MEASURING)
     pictures, colours = yield from _pictures(context, scene, (seen, bodies), levels,
                                              {sheet: sheet in lit for sheet in asked}, samples)
-    texels = np.zeros((side, side, 4), dtype=np.float32)
+    # with a texel beside the outermost, which mixes with it
+    used = np.minimum(np.ceil(side * uv.max(axis=(0, 1))).astype(np.int64) + 1, side)
+    texels = np.zeros((*used[::-1], 4), dtype=np.float32)
     for (number, back), (column, row) in zip(sheets, at.tolist(), strict=True):
         place = slice(row, row + atlases[number].size), slice(column, column + atlases[number].size)
-        texels[place][..., :3] = pictures[number, back][..., :3]
-        texels[place][..., 3] = pictures[number, None][..., 0] if open_[number] else 1.0
-        if (number, back) in lit:
-            texels[place][..., :3] += colours[number, back][..., :3] * thrown[place]
-    return ObjectLight(texels, uv, sheets, _dull(scene, seen))
+        for first in range(0, len(texels[place]), LINES):
+            yield 1.0, PREPARING
+            own = texels[place][first:first + LINES]
+            within = slice(first, first + len(own)), slice(own.shape[1])
+            own[..., :3] = pictures[number, back][within][..., :3]
+            own[..., 3] = pictures[number, None][within][..., 0] if open_[number] else 1.0
+            if (number, back) in lit:
+                own[..., :3] += colours[number, back][within][..., :3] * thrown[place][within]
+    yield 1.0, PREPARING
+    return ObjectLight(texels, uv * (side / used).astype(np.float32), sheets, _dull(scene, seen))
 
 
 def _dull(scene: DiffuseScene, seen: SeenSources) -> tuple:
@@ -138,18 +145,17 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, how: tuple[SeenSo
         with bake_scene(context, seen.view, scene.sources, list(zip(stands, meshes, strict=True)), opacity=opacity,
                         backs=turned) as stage:
             for number in chosen:
-                yield done / whole, Undivided(f"Cycles bakes the light on '{scene.sources[number].name}'")
                 own = levels[number]
                 denoised = own.wide and not opacity
                 # as many samples for each pixel, not for each texel
-                share = (FEWER if denoised else 1.0) / FINER ** 2
-                width, height = own.window(level, back)[1].tolist()
-                few = max(round(samples * share), 1)
-                picture = stage.bake(number, (width, height), seen.seen_from[number], few, denoised)
-                colours = stage.colours(number, (width, height), few) if denoised else None
+                few = max(round(samples * (FEWER if denoised else 1.0) / FINER ** 2), 1)
+                size = tuple(own.window(level, back)[1].tolist())
+                picture, colours, own_colours = yield from part(
+                    _baked(stage, number, size, seen.seen_from[number], few, (denoised, asked[number, back])),
+                    done / whole, own.texels(level, None) / whole,
+                    f"Cycles bakes the light on '{scene.sources[number].name}'")
                 made = [(found, picture, colours)]
-                if asked[number, back]:
-                    own_colours = stage.matte(number, (width, height), few)
+                if own_colours is not None:
                     made.append((matte, own_colours, own_colours))
                 shown = None if opacity else (yield from part(
                     in_steps(partial(shown_texels, bodies, *own.baked_parts(level, back, corners[number]),
@@ -160,6 +166,20 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, how: tuple[SeenSo
                         done / whole, 0.0, PREPARING)
                 done += own.texels(level, None)
     return found, matte
+
+
+def _baked(stage: BakeScene, number: int, size: tuple[int, int], seen_from: np.ndarray, samples: int,
+           how: tuple[bool, bool]) -> Steps[tuple]:
+    """The light on an object, `how`: whether denoised, with the colours that it has then, and whether with those of
+    what is matte; None where they are not asked for."""
+    denoised, matte = how
+    light = yield from part(stage.bake(number, size, seen_from, samples, denoised), 0.0, LIGHT)
+    colours = own_colours = None
+    if denoised:
+        colours = yield from part(stage.colours(number, size, samples), LIGHT, COLOURS)
+    if matte:
+        own_colours = yield from part(stage.matte(number, size, samples), LIGHT + COLOURS, COLOURS)
+    return light, colours, own_colours
 
 
 def _undeformed(scene: bpy.types.Scene, sources: list) -> Steps[dict]:

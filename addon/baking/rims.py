@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...core import breathe
 from .. import compat
 from ..rendering import continued, grown, sum_around
 from .texels import UNTOUCHED
@@ -22,10 +23,13 @@ def spread(picture: np.ndarray, known: np.ndarray) -> np.ndarray:
     others as the mean of what is known."""
     values = np.where(known[..., None], picture, 0.0)
     for _ in range(RINGS):
+        breathe()
         weight = sum_around(known.astype(np.float32))
         ring = ~known & (weight > 0.0)
-        values[ring] = (sum_around(values) / np.maximum(weight, 1.0)[..., None])[ring]
+        breathe()
+        values[ring] = sum_around(values)[ring] / weight[ring, None]
         known = known | ring
+    breathe()
     values[~known] = values[known].mean(axis=0) if known.any() else 0.0
     return values
 
@@ -39,12 +43,19 @@ def with_its_rim(baked: np.ndarray, colours: np.ndarray | None) -> np.ndarray:
     rim = known & ~solid & grown(solid, RINGS)
     if colours is None:
         # hardly anything is darker than it was baked: within may be the shadow of what touches
-        told = np.clip(spread(baked, solid), baked / BRIGHTENED, BLACKENED * baked)
+        inner = spread(baked, solid)
+        breathe()
+        told = np.clip(inner, baked / BRIGHTENED, BLACKENED * baked)
+        breathe()
         return _with_its_corners(np.where(rim[..., None], told, baked), known, solid)
     # the light itself has no pattern, but for gloss
     colours = np.maximum(colours, DARK)
-    told = np.clip(spread(baked / colours, solid) * colours, baked, DARKENED * baked)
+    inner = spread(baked / colours, solid)
+    breathe()
+    told = np.clip(inner * colours, baked, DARKENED * baked)
+    breathe()
     lit = _with_its_corners(np.where(rim[..., None], told, baked) / colours, known, solid) * colours
+    breathe()
     # what is not baked is told by its exact number
     return np.where(known[..., None], lit, baked)
 
@@ -56,7 +67,9 @@ def _with_its_corners(light: np.ndarray, known: np.ndarray, solid: np.ndarray) -
         return light
     corner = known & grown(solid & (_share_around(known) < CORNERED), RINGS)
     told, reached = continued(light, known & ~corner, corner, AROUND)
+    breathe()
     told = np.clip(told, light / WRONG, WRONG * light)
+    breathe()
     return np.where((corner & reached)[..., None], told, light)
 
 
@@ -65,6 +78,7 @@ def _share_around(known: np.ndarray) -> np.ndarray:
     side = 2 * AROUND + 1
     share = np.pad(known, AROUND).astype(np.float32)
     for axis in (0, 1):
+        breathe()
         summed = np.insert(share.cumsum(axis=axis), 0, 0.0, axis=axis)
         share = np.take(summed, range(side, summed.shape[axis]), axis) - np.take(
             summed, range(summed.shape[axis] - side), axis)

@@ -6,9 +6,10 @@ import time
 import bpy
 from bpy.app.translations import pgettext_iface
 
+from .between_events import steps_taken
 from .interrupts import interrupt_held
 from .status_bar import StatusBar
-from .steps import Steps, Undivided
+from .steps import Beside, Steps, Undivided
 from .told import tell
 from .unforeseen import sentence
 
@@ -30,7 +31,7 @@ class SteppedOperator:
 
     def execute(self, context: bpy.types.Context) -> set:
         self._running = self.steps(context)
-        with interrupt_held() as heard:
+        with interrupt_held() as heard, steps_taken(apart=False):
             while (outcome := self._step()) is None and not heard:
                 pass
             self._running.close()
@@ -45,7 +46,7 @@ class SteppedOperator:
         """Take the first step; the others follow in the window of the context."""
         self._running = self.steps(context)
         # wrong input is told at once, before anything of the window changes
-        outcome = self._step()
+        outcome = self._step_apart()
         if outcome is not None:
             return outcome
         manager = context.window_manager
@@ -65,9 +66,9 @@ class SteppedOperator:
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         enough = time.perf_counter() + BUDGET
-        outcome = self._step()
-        while outcome is None and time.perf_counter() < enough and not self._undivided:
-            outcome = self._step()
+        outcome = self._step_apart()
+        while outcome is None and time.perf_counter() < enough and not self._stands_alone:
+            outcome = self._step_apart()
         if outcome is not None:
             self._tidy(context)
             return outcome
@@ -84,9 +85,19 @@ class SteppedOperator:
             self._tidy(context)
 
     @property
+    def _stands_alone(self) -> bool:
+        """Whether the step that comes next is to be shown before, or has nothing to do before the next event."""
+        return isinstance(self._progress[1], Undivided | Beside)
+
+    @property
     def _undivided(self) -> bool:
-        """Whether the step that comes next cannot be divided, so that it has to be shown before."""
+        """Whether the step that comes next cannot be divided."""
         return isinstance(self._progress[1], Undivided)
+
+    def _step_apart(self) -> set | None:
+        """One step, between events of the window."""
+        with steps_taken(apart=True):
+            return self._step()
 
     def _step(self) -> set | None:
         """One step: what the operator returns where that was the last, or None."""

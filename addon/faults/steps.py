@@ -4,6 +4,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from typing import TypeVar
 
+from .between_events import steps_taken
 from .interrupts import interrupt_held
 
 Result = TypeVar("Result")
@@ -12,6 +13,10 @@ Steps = Generator[tuple[float, str], None, Result]
 
 class Undivided(str):
     """The stage of a step that cannot be divided, however long it takes: whoever shows stages shows it before."""
+
+
+class Beside(str):
+    """The stage of work that goes on beside: there is nothing to do but to look, now and then, whether it has ended."""
 
 
 def part(steps: Steps, start: float, share: float, name: str = "") -> Steps:
@@ -38,7 +43,7 @@ def part(steps: Steps, start: float, share: float, name: str = "") -> Steps:
 def finished(steps: Generator, tell: Callable | None = None) -> object:
     """Run steps to their end, telling what each of them yields; returns what they return. Ctrl-C ends them after a
     step."""
-    with interrupt_held() as heard:
+    with interrupt_held() as heard, steps_taken(apart=False):
         try:
             while not heard:
                 told = next(steps)

@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..rendering import rendered, with_cycles
+from ..rendering import Renders, rendering, with_cycles
 
 SAMPLING = ("samples", "use_adaptive_sampling", "adaptive_threshold", "adaptive_min_samples", "use_denoising",
             "denoiser")
@@ -35,16 +35,16 @@ def prepare(scene: bpy.types.Scene, depth: int) -> None:
     cycles.glossy_bounces = depth
 
 
-def render_codes(scene: bpy.types.Scene) -> np.ndarray:
+def render_codes(scene: bpy.types.Scene) -> Renders[np.ndarray]:
     """What each pixel's centre shows, (height, width, 3) float32 from the lowest row up: one sample, no filter."""
     cycles = scene.cycles
     cycles.samples, cycles.pixel_filter_type, cycles.filter_width = 1, "BOX", 0.01
     cycles.film_exposure = 1.0
-    return rendered(scene)[..., :3]
+    return (yield from rendering(scene))[..., :3]
 
 
 def render_picture(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene,
-                   other_noise: bool = False) -> np.ndarray:
+                   other_noise: bool = False) -> Renders[np.ndarray]:
     """The picture in linear light, (height, width, 3) float32 from the lowest row up.
 
     With 0 samples, sampling, denoising, clamping, filter and bounces are those of the scene `user`.
@@ -57,7 +57,7 @@ def render_picture(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene,
     seed = cycles.seed
     cycles.seed = seed + other_noise
     try:
-        return rendered(scene)[..., :3]
+        return (yield from rendering(scene))[..., :3]
     finally:
         cycles.seed = seed
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..metrics import ITSELF, NOTHING, CodedPicture
 from ..reading import is_mirror
+from ..rendering import Renders
 from . import cycles_codes, cycles_render
 from .cycles_codes import CodedMaterials
 from .cycles_scene import CopiedScene
@@ -35,18 +36,18 @@ class CodedTruth:
             copy.visible_camera = True
         show(copied.results, False)
 
-    def mirror(self) -> tuple[np.ndarray, np.ndarray]:
+    def mirror(self) -> Renders[tuple[np.ndarray, np.ndarray]]:
         """Pixels (height, width) in which the eye sees a mirror, and those of them where Cycles bends the normal."""
         dress(self._copied.diffuse, self._black)
         self._dress_mirrors(self._facing)
-        facing = cycles_render.render_codes(self._copied.scene)
+        facing = yield from cycles_render.render_codes(self._copied.scene)
         seen = facing[..., 2] > 0.5
         return seen, seen & (facing[..., 0] - 2.0 < np.minimum(0.9 * (facing[..., 1] - 2.0), 0.01))
 
-    def reflected(self, seen: np.ndarray, unrounded: bool = False) -> Generator[str, None, CodedPicture]:
+    def reflected(self, seen: np.ndarray, unrounded: bool = False) -> Generator[str | None, None, CodedPicture]:
         """What the mirror shows in the pixels `seen`; `unrounded` hands Cycles normals that it does not round.
 
-        Yields the name of each of its two renders before it.
+        Yields the name of each of its two renders before it, and nothing while Blender renders beside.
         """
         if unrounded and self._unrounded is None:
             cycles_codes.carry_normals(self._copied)
@@ -54,10 +55,11 @@ class CodedTruth:
         self._dress_mirrors(self._unrounded if unrounded else self._mirror)
         dress(self._copied.diffuse, self._identity)
         yield "the faces in the mirror with exact normals" if unrounded else "the faces in the mirror"
-        identity = cycles_render.render_codes(self._copied.scene)
+        identity = yield from cycles_render.render_codes(self._copied.scene)
         dress(self._copied.diffuse, self._position)
         yield "the positions in the mirror with exact normals" if unrounded else "the positions in the mirror"
-        return decode(identity, cycles_render.render_codes(self._copied.scene), self._codes.origin, seen, face_start=0)
+        position = yield from cycles_render.render_codes(self._copied.scene)
+        return decode(identity, position, self._codes.origin, seen, face_start=0)
 
     def end(self) -> None:
         """Mirrors are seen by the camera as they were; diffuse objects and mirrors are black."""

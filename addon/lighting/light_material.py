@@ -2,12 +2,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import bpy
 import numpy as np
 
+from ... import core
 from .. import compat
-from ..faults import AllOrNothing, Steps, remove_new
+from ..faults import AllOrNothing, Steps, part, remove_new
+from ..files import open_exr
 from ..writing import UV_MAP, show_unblurred
 from .picture_layout import SHINING
 
@@ -17,7 +20,18 @@ WRITING = "Writing"
 def new_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.types.Image]:
     """An image of linear light (height, width, 3), or with an opacity of its own (height, width, 4), packed into the
     file; a step before each of Blender's calls that take long."""
-    return (yield from _packed(name, texels, whole, float_buffer=True, is_data=True))
+    packed = yield from part(core.in_steps(partial(open_exr, texels)), 0.0, 0.0, WRITING)
+    image = bpy.data.images.new(name, 1, 1, alpha=texels.shape[2] == 4, float_buffer=True, is_data=True)
+    whole.undo(remove_new, image)
+    # light is not darker where less of it is seen
+    image.alpha_mode = "CHANNEL_PACKED"
+    image.pack(data=packed, data_len=len(packed))
+    image.source = "FILE"
+    yield 0.0, WRITING
+    # it is read now, not where the window is drawn
+    image.update()
+    yield 0.0, WRITING
+    return image
 
 
 def new_export_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.types.Image]:
@@ -26,20 +40,12 @@ def new_export_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Step
     light = np.clip(texels, 0.0, 1.0)
     # IEC 61966-2-1
     shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 0.0031308)**(1.0 / 2.4) - 0.055)
-    return (yield from _packed(name, shown, whole))
-
-
-def _packed(name: str, values: np.ndarray, whole: AllOrNothing, **options) -> Steps[bpy.types.Image]:
     yield 0.0, WRITING
-    height, width, channels = values.shape
-    if channels == 4:
-        rgba = np.ascontiguousarray(values, dtype=np.float32)
-    else:
-        rgba = np.ones((height, width, 4), dtype=np.float32)
-        rgba[..., :channels] = values
-    image = bpy.data.images.new(name, width, height, alpha=channels == 4, **options)
+    height, width, channels = shown.shape
+    rgba = np.ones((height, width, 4), dtype=np.float32)
+    rgba[..., :channels] = shown
+    image = bpy.data.images.new(name, width, height, alpha=channels == 4)
     whole.undo(remove_new, image)
-    # light is not darker where less of it is seen
     image.alpha_mode = "CHANNEL_PACKED"
     yield 0.0, WRITING
     image.pixels.foreach_set(rgba.ravel())

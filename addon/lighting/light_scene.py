@@ -14,13 +14,14 @@ from ..faults import still_there
 from ..reading import is_opaque, materials_of
 from ..reading.materials import is_exact
 from ..rendering import (
+    Renders,
     copied_scene,
     crop_to,
     denoise,
     look_through,
     only_the_picture,
     put_swift_world,
-    rendered,
+    rendering,
     sharp_camera,
     show_mirrors,
 )
@@ -48,7 +49,7 @@ class LightScene:
     alone: bool
     exact: bool
 
-    def light(self, samples: int) -> np.ndarray:
+    def light(self, samples: int) -> Renders[np.ndarray]:
         """What the mirrors show in the window, (height, width, 4) float32 in linear light from the lowest row up; where
         they are alone, with how much of each pixel they cover, else with nothing in the fourth place."""
         self.scene.cycles.samples = samples
@@ -57,9 +58,9 @@ class LightScene:
         self.scene.render.film_transparent = self.alone
         # for the other render, if there is one: what is kept for none outlives the scene
         self.scene.render.use_persistent_data = True
-        return rendered(self.scene)
+        return (yield from rendering(self.scene))
 
-    def coverage(self) -> tuple[np.ndarray, np.ndarray]:
+    def coverage(self) -> Renders[tuple[np.ndarray, np.ndarray]]:
         """How much of each pixel the results cover, and those of their faces that show what shines, both (height,
         width) float32, by the picture's own filter: nothing where something stands before them. What mirrors are not
         alone in has to be asked."""
@@ -93,7 +94,7 @@ class LightScene:
             cycles.use_adaptive_sampling = True
             cycles.adaptive_min_samples, cycles.adaptive_threshold = INNER_SAMPLES, UNEVEN
             scene.render.film_transparent, scene.render.use_persistent_data = True, False
-            seen = rendered(scene)
+            seen = yield from rendering(scene)
             return seen[..., 3], seen[..., 0]
         finally:
             for obj in still_there(unseen):

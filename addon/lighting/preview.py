@@ -12,8 +12,8 @@ from ..baking import write_mirror_layers, write_mirror_normals
 from ..faults import AllOrNothing
 from ..lamps import ShownLamp, lamp_light, lamps_before
 from ..mirror_part import MATERIAL, WHITE, LaterMirrors, Share, by_material, opacity_of
-from ..reading.materials import one_output, surface_shader
-from ..writing.kept_changes import PREVIEW as MARK
+from ..reading.materials import asked_attributes, one_output, surface_shader
+from ..writing import PREVIEW as MARK
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
 
 GREY = (0.8, 0.8, 0.8, 1.0)  # of what has no material
@@ -35,19 +35,22 @@ def show_previews(results: Iterable[bpy.types.Object], scene: bpy.types.Scene, v
     for result in results:
         lamps, later = lamps_before(result, shown), LaterMirrors.of(result, scene.objects)
         shares, faces = Share.of(result.reflection_mesh.mirror), len(result.data.polygons) > 0
-        if any(share.kind != "ALL" for share in shares) and not (faces and write_mirror_normals(result.data, view)):
+        if any(share.goes_by_place for share in shares) and not (faces and write_mirror_normals(result.data, view)):
             shares = tuple(Share(share.tint) for share in shares)
-        if len(shares) > 1 and faces:
-            write_mirror_layers(result, view, {MATERIAL})
+        mirror = result.reflection_mesh.mirror if any(share.textured for share in shares) else None
+        asked: set = {MATERIAL} if len(shares) > 1 else set()
         # a slot that has a material of its own has it from the user, and so what stands in place of what was made
         for slot in [slot for slot, made in zip(result.material_slots, result.reflection_mesh.materials)
                      if slot.link == "DATA" and slot.material == made.material]:
-            key = slot.material, shares, later, tuple(map(id, lamps))
+            key = slot.material, shares, later, tuple(map(id, lamps)), mirror
             if key not in made:
-                made[key] = _preview(slot.material, shares, later, lamps)
+                made[key] = _preview(slot.material, (shares, mirror), later, lamps)
                 whole.undo(bpy.data.materials.remove, made[key])
+            asked |= asked_attributes([made[key]]) if mirror is not None else set()
             slot.link = "OBJECT"
             slot.material = made[key]
+        if asked and faces:
+            write_mirror_layers(result, view, asked)
 
 
 def forget_previews() -> None:
@@ -56,8 +59,10 @@ def forget_previews() -> None:
                            if MARK in material and not material.users and material.library is None])
 
 
-def _preview(source: bpy.types.Material | None, shares: tuple[Share, ...], later: LaterMirrors,
-             lamps: tuple[ShownLamp, ...]) -> bpy.types.Material:
+def _preview(source: bpy.types.Material | None, mirrors: tuple[tuple[Share, ...], bpy.types.Object | None],
+             later: LaterMirrors, lamps: tuple[ShownLamp, ...]) -> bpy.types.Material:
+    """What shows a source's material in the shares of a mirror, which is given where they are textured."""
+    shares, mirror = mirrors
     if source is not None and compat.uses_nodes(source):
         material = source.copy()
         tree = material.node_tree
@@ -70,7 +75,7 @@ def _preview(source: bpy.types.Material | None, shares: tuple[Share, ...], later
     material[MARK] = True
     plain = GREY if source is None else tuple(source.diffuse_color)
     build = _Builder(tree, plain)
-    tint = by_material(build, [share.tint for share in shares], partial(build.blended, "MIX"))
+    tint = by_material(build, [share.tint_in(build, mirror) for share in shares], partial(build.blended, "MIX"))
     build.tint = later.leave(build, tint)
     if source is None or not compat.uses_nodes(source):
         shader = build.add("ShaderNodeBsdfDiffuse")

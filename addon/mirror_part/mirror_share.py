@@ -7,11 +7,14 @@ import bpy
 
 from .. import compat
 from ..reading.materials import is_mirror, reflecting_materials, surface_shader
+from ..writing.nodes.copied_nodes import copied
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
+from .mirror_coordinates import MirrorCoordinates
 
 NORMAL = "mirror_normal"
 """The attribute with the unit normal of the mirror at each point."""
 GLOSSY = {"BSDF_GLOSSY", "BSDF_METALLIC"}
+REFLECTING = GLOSSY | {"BSDF_PRINCIPLED"}
 WHITE = (1.0, 1.0, 1.0, 1.0)
 GROUNDS = {"BSDF_DIFFUSE": "Color", "BSDF_PRINCIPLED": "Base Color"}
 BLACK = (0.0, 0.0, 0.0, 1.0)  # of grounds whose colour is not one
@@ -24,7 +27,7 @@ class Share:
     Attributes
     ----------
     tint : tuple of float
-        Its colour; white where it has none, or one that changes over it.
+        Its colour; white where it has none.
     kind : {'ALL', 'FRESNEL', 'FACING', 'EVEN'}
         What tells how much it reflects: by Fresnel's equations of an index of refraction, by a layer weight, or evenly.
     value : float
@@ -33,6 +36,8 @@ class Share:
         Whether that tells what is not reflected.
     ground : tuple of float
         The colour of the rest.
+    textured : bpy.types.Material or None
+        Whose nodes tell the colour, where it changes over the mirror.
     """
 
     tint: tuple = WHITE
@@ -40,6 +45,7 @@ class Share:
     value: float = 1.0
     turned: bool = False
     ground: tuple = BLACK
+    textured: bpy.types.Material | None = None
 
     @classmethod
     def of(cls, mirror: bpy.types.Object | None) -> tuple[Share, ...]:
@@ -53,20 +59,20 @@ class Share:
         if shader is None:
             return cls()
         if shader.type == "MIX_SHADER":
-            return cls._mixed(shader)
+            return cls._mixed(material, shader)
         if shader.type == "BSDF_PRINCIPLED" and not is_mirror(material):
             index = shader.inputs["IOR"]
             return cls() if index.is_linked else cls(kind="FRESNEL", value=index.default_value, ground=_ground(shader))
-        return cls(_tint(shader))
+        return cls(**_tint(material, shader))
 
     @classmethod
-    def _mixed(cls, shader: bpy.types.Node) -> Share:
+    def _mixed(cls, material: bpy.types.Material, shader: bpy.types.Node) -> Share:
         first, second = (node_behind(socket) for socket in shader.inputs[1:3])
         glossy = [node is not None and node.type in GLOSSY for node in (first, second)]
         if glossy[0] == glossy[1]:
             return cls()
         gloss, ground = (first, second) if glossy[0] else (second, first)
-        told = {"tint": _tint(gloss), "turned": glossy[0], "ground": _ground(ground)}
+        told = {**_tint(material, gloss), "turned": glossy[0], "ground": _ground(ground)}
         factor = shader.inputs[0]
         if not factor.is_linked:
             return cls(kind="EVEN", value=factor.default_value, **told)
@@ -78,6 +84,24 @@ class Share:
             return cls(kind="FACING", value=value.default_value, **told)
         index = value.default_value if weight.type == "FRESNEL" else 1.0 / max(1.0 - value.default_value, 1e-5)
         return cls(kind="FRESNEL", value=index, **told)
+
+    @property
+    def goes_by_place(self) -> bool:
+        """Whether it is not the same all over the mirror."""
+        return self.kind != "ALL" or self.textured is not None
+
+    def tint_in(self, build: ShaderBuilder, mirror: bpy.types.Object):
+        """Its colour, for nodes on what lies on `mirror`: one that changes over it is told by copies of its own nodes,
+        by the mirror's coordinates."""
+        if self.textured is None:
+            return self.tint
+        shader = surface_shader(self.textured.node_tree)
+        if shader.type == "MIX_SHADER":
+            shader = next(node for node in map(node_behind, shader.inputs[1:3]) if node and node.type in GLOSSY)
+        link = _colour(shader).links[0]
+        made = copied(_feeding(link.from_node), build.tree)
+        MirrorCoordinates(build, mirror).take_over(list(made.values()))
+        return made[link.from_node].outputs[list(link.from_node.outputs).index(link.from_socket)]
 
     def of_the_whole(self, build: ShaderBuilder, reflected: bpy.types.NodeSocket, opacity) -> bpy.types.NodeSocket:
         """What the mirror shows, a surface, of what it reflects, beside the colour of the rest of it; both are open
@@ -125,9 +149,30 @@ def _weight(build: ShaderBuilder, kind: str, value: float) -> bpy.types.NodeSock
     return weight.outputs["Facing" if kind == "FACING" else 0]
 
 
-def _tint(gloss: bpy.types.Node) -> tuple:
-    tint = gloss.inputs.get("Color") or gloss.inputs.get("Base Color")
-    return WHITE if tint is None or tint.is_linked else tuple(tint.default_value)
+def _colour(gloss: bpy.types.Node) -> bpy.types.NodeSocket | None:
+    return gloss.inputs.get("Color") or gloss.inputs.get("Base Color")
+
+
+def _tint(material: bpy.types.Material, gloss: bpy.types.Node) -> dict:
+    """The colour of what is glossy in a material, as arguments."""
+    tint = _colour(gloss)
+    if tint is None:
+        return {}
+    if not tint.is_linked:
+        return {"tint": tuple(tint.default_value)}
+    # in a group it is told by what the group is given
+    return {"textured": material} if gloss.type in REFLECTING and gloss.id_data == material.node_tree else {}
+
+
+def _feeding(node: bpy.types.Node) -> list[bpy.types.Node]:
+    """A node and all that feed it."""
+    found, open_ = {}, [node]
+    while open_:
+        node = open_.pop()
+        if node not in found:
+            found[node] = None
+            open_ += [link.from_node for socket in node.inputs for link in socket.links]
+    return list(found)
 
 
 def _ground(shader: bpy.types.Node | None) -> tuple:

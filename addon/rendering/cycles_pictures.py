@@ -2,15 +2,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import contextmanager
+from typing import TypeVar
 
 import bpy
 import numpy as np
 
 from ...core import ReflectionError
+from ..faults import Beside, Steps, Undivided, between_events, finished
 from ..files import has_room, is_whole, scratch_folder, scratch_is_full
 from ..reading import render_size
+
+Found = TypeVar("Found")
+Renders = Generator[None, None, Found]
+"""What renders: it yields while Blender renders beside, and nothing where it renders in one call."""
 
 SLOT = "Reflection Comparison"
 INSIDE = 0.5  # pixels from a border of a part: Blender rounds down, and would where rounding left a pixel's side below
@@ -56,6 +62,30 @@ def crop_to(render: bpy.types.RenderSettings, low: Sequence[int], high: Sequence
 
 
 def rendered(scene: bpy.types.Scene) -> np.ndarray:
+    """As `rendering`, in one call."""
+    return finished(rendering(scene))
+
+
+def shown_while(renders: Renders[Found], fraction: float, stage: str) -> Steps[Found]:
+    """What renders as steps, of which the first comes before it; returns what `renders` returns."""
+    told = render_stage(stage)
+    yield fraction, told
+    try:
+        while True:
+            next(renders)
+            yield fraction, told
+    except StopIteration as stop:
+        return stop.value
+    finally:
+        renders.close()
+
+
+def render_stage(stage: str) -> Beside | Undivided:
+    """The stage of a render that comes next."""
+    return Beside(stage) if between_events() else Undivided(stage)
+
+
+def rendering(scene: bpy.types.Scene) -> Renders[np.ndarray]:
     """The picture of a temporary scene, (height, width, 4) float32 in linear light from the lowest row up.
 
     Raises
@@ -67,7 +97,7 @@ def rendered(scene: bpy.types.Scene) -> np.ndarray:
     with scratch_folder() as folder, _slot_of_its_own():
         path = os.path.join(folder, "render.exr")
         scene.render.filepath = path
-        _write_still(scene)
+        yield from _writing_still(scene)
         if os.path.exists(path):
             if not is_whole(path):
                 raise scratch_is_full()
@@ -92,8 +122,24 @@ def _largest(scene: bpy.types.Scene) -> int:
     return width * height * 4 * 4 + 20 * height + 10_000
 
 
-def _write_still(scene: bpy.types.Scene) -> None:
+def _writing_still(scene: bpy.types.Scene) -> Renders[None]:
     """Render to the scene's path; where that is cancelled there is no file."""
+    if not between_events():
+        _write_still(scene)
+        return
+    preferences = bpy.context.preferences
+    shown, changed = preferences.view.render_display_type, preferences.is_dirty
+    # no window opens for a picture that is not the user's
+    preferences.view.render_display_type = "NONE"
+    try:
+        bpy.ops.render.render("INVOKE_DEFAULT", write_still=True, scene=scene.name)
+    finally:
+        preferences.view.render_display_type, preferences.is_dirty = shown, changed
+    while bpy.app.is_job_running("RENDER"):
+        yield
+
+
+def _write_still(scene: bpy.types.Scene) -> None:
     bpy.ops.render.render(write_still=True, scene=scene.name)
 
 

@@ -8,6 +8,8 @@ import bpy
 
 from .cycles_pictures import with_cycles
 
+MOST_SEED = 2**31  # before which Blender's numbers end
+
 
 @contextmanager
 def copied_scene(context: bpy.types.Context, name: str) -> Iterator[tuple[bpy.types.Scene, ExitStack]]:
@@ -28,7 +30,7 @@ def copied_scene(context: bpy.types.Context, name: str) -> Iterator[tuple[bpy.ty
         _forget_layer_settings(scene.view_layers[0])
         # else what it animates is set again as it is rendered
         scene.animation_data_clear()
-        scene.cycles.seed = scene.cycles.seed + 1
+        scene.cycles.seed = (scene.cycles.seed + 1) % MOST_SEED
         yield scene, back
 
 

@@ -39,15 +39,15 @@ def _nodes(holder: bpy.types.Material | bpy.types.ShaderNodeTree | None) -> list
 
 
 @contextmanager
-def moved(objects: list, step: np.ndarray) -> Iterator[None]:
-    """Let what is baked of `objects` lie a `step` (2,) beside its place in the picture."""
+def framed(objects: list, low: np.ndarray, size: np.ndarray) -> Iterator[None]:
+    """Let the part of the picture of `objects` that begins at `low` (2,) and is of a `size` (2,), in parts of the
+    whole, be all that is baked of it."""
     kept = []
     for obj in objects:
         uv = np.empty((len(obj.data.loops), 2), dtype=np.float32)
         layer = obj.data.uv_layers[UV_MAP].uv
         layer.foreach_get("vector", uv.reshape(-1))
-        # what a texel shows more to the right lies there when all is moved to the left
-        layer.foreach_set("vector", (uv - step).astype(np.float32).reshape(-1))
+        layer.foreach_set("vector", ((uv - low) / size).astype(np.float32).reshape(-1))
         kept.append((obj, uv))
     try:
         yield

@@ -11,7 +11,7 @@ from mathutils import Matrix
 from ... import compat
 from ...faults import still_there
 from ...illumination import light_alone
-from ...rendering import copied_scene, crop_to, look_through, rendered
+from ...rendering import Renders, copied_scene, crop_to, look_through, rendering
 from ...writing import MeshArrays, write_mesh
 
 NAME = "Thrown Light"
@@ -20,13 +20,13 @@ LAYERS = 1024   # that may lie over each other: the most that Cycles follows
 
 
 def drawn_flat(context: bpy.types.Context, laid: list[MeshArrays], low: np.ndarray, high: np.ndarray,
-               side: int) -> np.ndarray:
+               side: int) -> Renders[np.ndarray]:
     """The picture, (height, width, 4) linear light and what of each texel is covered, of meshes that lie in a square,
     0 to 1, each less than one above the one before; of `side` texels along the square those from `low` to `high`,
     column and row. Materials that add light show that alone, all else is black."""
     with _stage(context, laid) as scene:
         _look_at(scene, low, high, side)
-        return rendered(scene)
+        return (yield from rendering(scene))
 
 
 @contextmanager

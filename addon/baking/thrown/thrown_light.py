@@ -5,9 +5,9 @@ import bpy
 import numpy as np
 
 from ....core import breathe
-from ...faults import Steps, Undivided
+from ...faults import Steps
 from ...reading import DiffuseScene, seen_in
-from ...rendering import sum_around
+from ...rendering import shown_while, sum_around
 from ...writing import FIELDS, Attribute, MeshArrays
 from ..object_map import rows_of
 from ..seen_sources import corner_vertices, fronts_seen, triangles_in, weights_of
@@ -55,8 +55,7 @@ def thrown_light(context: bpy.types.Context, scene: DiffuseScene, sheets: list, 
     row = np.unique(np.concatenate(reached))
     low = np.clip(np.floor(side * uv[row].min(axis=(0, 1))).astype(np.int64) - RINGS, 0, side - 1)
     high = np.clip(np.ceil(side * uv[row].max(axis=(0, 1))).astype(np.int64) + RINGS, low + 1, side)
-    yield 0.0, Undivided(DRAWING)
-    picture = drawn_flat(context, [_ground(uv), *laid], low, high, side)
+    picture = yield from shown_while(drawn_flat(context, [_ground(uv), *laid], low, high, side), 0.0, DRAWING)
     light = np.zeros((side, side, 3), dtype=np.float32)
     light[low[1]:high[1], low[0]:high[0]] = _beyond(picture[..., :3], picture[..., 3:])
     starts = np.cumsum([0] + [np.count_nonzero(scene.source_object == number) for number, _ in sheets])

@@ -6,6 +6,7 @@ from .area_lamps import is_sheared, rays_meet
 from .eye import Eye
 from .lamps import (
     GLINT,
+    NO_LAMP,
     NoLight,
     chosen_lamps,
     eyes_of,
@@ -14,7 +15,7 @@ from .lamps import (
     light_of_nodes,
     meant_lamps,
 )
-from .mesh_lamps import EMISSION, radiance_of
+from .mesh_lamps import EMISSION, is_mesh_lamp, radiance_of
 
-__all__ = ["EMISSION", "Eye", "GLINT", "NoLight", "chosen_lamps", "eyes_of", "is_glint", "is_met", "is_sheared",
-           "light_of_nodes", "meant_lamps", "radiance_of", "rays_meet"]
+__all__ = ["EMISSION", "Eye", "GLINT", "NO_LAMP", "NoLight", "chosen_lamps", "eyes_of", "is_glint", "is_mesh_lamp",
+           "is_met", "is_sheared", "light_of_nodes", "meant_lamps", "radiance_of", "rays_meet"]

@@ -18,6 +18,7 @@ from .constant_nodes import constant, plain
 from .eye import Eye, across
 from .mesh_lamps import eyes_of_mesh, is_mesh_lamp
 
+NO_LAMP = "There is no lamp: add one (Add > Light) or show it in the viewport and in renders."
 FLAT = 1e-9  # volume that unit axes span: with less they lie in a plane
 
 
@@ -39,7 +40,7 @@ def chosen_lamps(context: bpy.types.Context) -> list:
     """
     lamps = _meant(context, list(filter(seen_in(context), context.view_layer.objects)))
     if not lamps:
-        raise ReflectionError("There is no lamp: add one (Add > Light) or show it in the viewport and in renders.")
+        raise ReflectionError(NO_LAMP)
     return lamps
 
 

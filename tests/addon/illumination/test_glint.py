@@ -83,10 +83,10 @@ def test_it_goes_where_the_lamp_goes_and_has_its_nodes(blank, tmp_path):
 
 def thrown_as_by_live(room) -> None:
     """Makes light anew, and neither leaves anything more out nor brings it back."""
-    context, light = bpy.context, room("addon.operators.asked_light")
+    context, light = bpy.context, room("addon.operators.caustics")
     asked = light.Asked(1, room("addon.settings").Wanted(context.scene), False)
     lamps = room("addon.illumination").chosen_lamps(context)
-    for _ in room("addon.operators.caustics").throwing(context, room("addon.reading").choose(context), lamps, asked):
+    for _ in light.throwing(context, room("addon.reading").choose(context), lamps, asked):
         pass
 
 

@@ -33,11 +33,11 @@ def ball_scene(context: bpy.types.Context, **floor) -> bpy.types.Object:
 
 def baked_texels(monkeypatch, room) -> list:
     """How many texels each bake writes, from now on."""
-    counted, scene = [], room("addon.baking.bake_scene")
+    counted, scene = [], room("addon.baking.stage.bakes")
     bake = scene.BakeScene.bake
 
     def counts(self, *arguments, **named):
-        values = bake(self, *arguments, **named)
+        values = yield from bake(self, *arguments, **named)
         counted.append(int((values[..., 3] != scene.UNTOUCHED).sum()))
         return values
     monkeypatch.setattr(scene.BakeScene, "bake", counts)

@@ -70,7 +70,7 @@ def test_fog_has_its_own_materials_back_after_an_error(blank, room, monkeypatch)
     def fails(*arguments):
         assert slot.material != cube.data.materials[0]
         raise room("core").ReflectionError("It failed: try again.")
-    monkeypatch.setattr(room("addon.lighting.light_scene"), "rendered", fails)
+    monkeypatch.setattr(room("addon.lighting.light_scene"), "rendering", fails)
     with pytest.raises(RuntimeError, match="It failed: try again."):
         bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
     assert lit_state() == before

@@ -15,13 +15,13 @@ def test_light_is_one_render_of_the_mirrors_window(blank, room, monkeypatch, mir
     scene_of(blank, "UV", mirror)
     result = parts.generate()
     place, asked = room("addon.lighting.light_scene"), []
-    work = place.rendered
+    work = place.rendering
 
     def counted(scene):
-        picture = work(scene)
+        picture = yield from work(scene)
         asked.append((picture.shape[:2], scene.cycles.samples, scene.cycles.max_bounces))
         return picture
-    monkeypatch.setattr(place, "rendered", counted)
+    monkeypatch.setattr(place, "rendering", counted)
     bpy.ops.reflection_mesh.light(samples=7)
     view = room("addon.reading").read_view(blank)
     seen = view.pixels(np.array([result.reflection_mesh.mirror.matrix_world @ vertex.co
@@ -38,12 +38,12 @@ def test_light_waits_no_longer_for_the_world_than_its_light_needs(blank, room, m
     world = shine(blank.scene)
     parts.generate()
     place, asked = room("addon.lighting.light_scene"), []
-    work = place.rendered
+    work = place.rendering
 
     def counted(scene):
         asked.append(scene.world and (scene.world.cycles.sampling_method, scene.world.cycles.sample_map_resolution))
-        return work(scene)
-    monkeypatch.setattr(place, "rendered", counted)
+        return (yield from work(scene))
+    monkeypatch.setattr(place, "rendering", counted)
     bpy.ops.reflection_mesh.light(samples=1)
     # what results cover has no sky
     assert asked == [("MANUAL", 512), None]
@@ -66,7 +66,7 @@ def test_what_a_result_covers_is_told_finely_where_it_ends(blank, room):
             if finest:
                 patched.setattr(place, "COVERAGE_SAMPLES", 1024)
                 patched.setattr(place, "INNER_SAMPLES", 1024)
-            found.append(scene.coverage()[0])
+            found.append(room("addon.faults").finished(scene.coverage())[0])
     few, exact = found
     ends = (exact > 0.0) & (exact < 1.0)
     assert ends.sum() > 100 and np.abs(few - exact).max() < 0.1

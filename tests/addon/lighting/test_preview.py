@@ -89,6 +89,47 @@ def test_a_mirror_shows_as_much_of_what_shines_as_it_reflects(blank, room, kind,
     assert np.quantile(inside, 0.9) < 0.03
 
 
+@pytest.mark.parametrize("coordinates", ["Object", "UV", ""])
+@pytest.mark.parametrize("mixed", ["", "Diffuse", "Principled"])
+def test_a_tint_that_changes_over_the_mirror_is_shown_where_it_is(blank, room, coordinates, mixed):
+    """Checkers on the whole mirror, or on the half of it that an even mix reflects: as Cycles shows them."""
+    wall = scene_of(blank, "", "Tint")
+    tree = wall.data.materials[0].node_tree
+    shader = shader_of(wall.data.materials[0])
+    if mixed:
+        tree.nodes.clear()
+        shader, mix = tree.nodes.new("ShaderNodeBsdfGlossy"), tree.nodes.new("ShaderNodeMixShader")
+        ground, output = tree.nodes.new(f"ShaderNodeBsdf{mixed}"), tree.nodes.new("ShaderNodeOutputMaterial")
+        shader.inputs["Roughness"].default_value, ground.inputs[0].default_value = 0.0, (0.0, 0.0, 0.0, 1.0)
+        if mixed == "Principled":
+            ground.inputs["Specular IOR Level"].default_value = 0.0
+        for source, socket in ((ground, mix.inputs[1]), (shader, mix.inputs[2]), (mix, output.inputs["Surface"])):
+            tree.links.new(source.outputs[0], socket)
+    checks, reroute = tree.nodes.new("ShaderNodeTexChecker"), tree.nodes.new("NodeReroute")
+    checks.inputs["Scale"].default_value = 3.0
+    for socket, colour in zip(checks.inputs[1:3], (TINT, (0.2, 0.9, 0.6))):
+        socket.default_value = (*colour, 1.0)
+    tree.links.new(checks.outputs["Color"], reroute.inputs[0])
+    tree.links.new(reroute.outputs[0], (shader.inputs.get("Base Color") or shader.inputs["Color"]))
+    if coordinates:
+        tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs[coordinates], checks.inputs["Vector"])
+    card = parts.add("plane", "Card", size=30.0, location=(0.0, -8.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
+    card.data.materials.append(parts.material("Card"))
+    bpy.data.objects["Box"].hide_render = bpy.data.objects["Floor"].hide_render = True
+    wall.reflection_mesh.role = "MIRROR"
+    parts.select(card, wall)
+    blank.view_layer.update()
+    reference = picture(room)
+    parts.generate(preview=True)
+    found = picture(room)
+    assert len(previews()) == 1
+    off = np.abs(found - reference).max(axis=2)
+    seen = reference[..., 1] > 0.1
+    assert seen.mean() > 0.1 and np.ptp(reference[seen], axis=0).min() > 0.15
+    # along the sides of checks a pixel's samples fall otherwise
+    assert np.quantile(off[seen], 0.8) < 0.02
+
+
 @pytest.mark.parametrize("lit", [False, True])
 def test_mirrors_in_mirrors_take_their_share(blank, room, lit):
     """A gold and a blue mirror that meet in a corner, by two mirrors: as Cycles shows them."""

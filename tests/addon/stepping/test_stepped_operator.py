@@ -27,12 +27,14 @@ class Window:
 
     def progress_begin(self, low, high):
         assert (low, high) == (0, 100)
+        self.at_cursor = [0.0]
 
     def progress_update(self, value):
-        assert 0.0 <= value <= 100.0
+        assert self.at_cursor[-1] <= value <= 100.0
+        self.at_cursor.append(value)
 
     def progress_end(self):
-        pass
+        self.at_cursor.append(None)
 
     def modal_handler_add(self, operator):
         self.notes.append("modal")
@@ -128,6 +130,8 @@ def test_what_cannot_be_divided_is_shown_before_it_begins(place):
     assert "after two" in notes and "after whole" not in notes
     assert job.modal(window, MOVED) == {"RUNNING_MODAL"} and notes[-1].startswith("shown 50 %, whole")
     assert job.modal(window, TIMER) == {"FINISHED"}
+    # per cent, and nothing afterwards
+    assert window.at_cursor[1:3] == [0.0, 50.0] and window.at_cursor[-1] is None
     assert notes[-3:] == ["cleaned up", "no timer", "nothing shown"]
 
 

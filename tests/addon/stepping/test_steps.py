@@ -156,7 +156,7 @@ def least(steps) -> float:
     return min(tries)
 
 
-@pytest.mark.parametrize("name", ["sphere", "water", "bowl", "mirrors", "room", "pond"])
+@pytest.mark.parametrize("name", ["sphere", "water", "bowl", "mirrors", "room", "pond", "suzanne"])
 def test_no_step_keeps_the_window_waiting(room, name):
     """Half a second is the most."""
     assert longest_of(name, lambda: started(room)) < 0.5
@@ -183,7 +183,8 @@ def test_no_step_of_finding_many_pieces_keeps_the_window_waiting(room):
 @pytest.mark.parametrize("name", ["sphere", "pool", "suzanne"])
 def test_no_step_of_caustics_keeps_the_window_waiting(room, name):
     module, settings, choose = room("addon.operators.caustics"), room("core").Settings(), room("addon.reading").choose
-    assert longest_of(name, lambda: module.throwing(bpy.context, choose(bpy.context), module.chosen_lamps(bpy.context),
+    lamps = room("addon.illumination").chosen_lamps
+    assert longest_of(name, lambda: module.throwing(bpy.context, choose(bpy.context), lamps(bpy.context),
                                                     module.Asked(1, lambda mirror: settings, True))) < 0.5
 
 

@@ -5,8 +5,8 @@ from contextlib import ExitStack
 
 import bpy
 
-from ..faults import still_there
-from ..reading import link_state
+from ...faults import still_there
+from ...reading import link_state
 
 LINKS = ("receiver_collection", "blocker_collection")
 

@@ -7,12 +7,13 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ...core.geometry import first_of
-from ..faults import Steps, still_there
-from ..reading.meshes import LocalMesh, Placed
-from ..writing import UV_MAP, write_mesh
-from ..writing.arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
-from .texels import Division, divided
+from ....core.geometry import first_of
+from ... import compat
+from ...faults import Steps, still_there
+from ...reading.meshes import LocalMesh, Placed
+from ...writing import UV_MAP, write_mesh
+from ...writing.arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
+from ..texels import Division, divided
 from .true_answers import RANDOM
 from .undeformed import keep_undeformed
 
@@ -119,7 +120,7 @@ def new_meshes(stands: list[StandIn]) -> Steps[list]:
             made.append(mesh)
             # takes as long as all before it
             yield (number + 0.5) / len(stands), ""
-            mesh.normals_split_custom_set(normals)
+            compat.split_normals(mesh, normals)
     except BaseException:
         bpy.data.batch_remove(still_there(made))
         raise

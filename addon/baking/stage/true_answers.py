@@ -4,10 +4,10 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core import View
-from ..reading.materials import all_nodes
-from ..writing import UV_MAP
-from ..writing.nodes.shader_builder import ShaderBuilder
+from ....core import View
+from ...reading.materials import all_nodes
+from ...writing import UV_MAP
+from ...writing.nodes.shader_builder import ShaderBuilder
 
 RANDOM = f"{UV_MAP} Random"
 """Property of stand-ins for instances, whose number goes by no name: one more than that, 0 where it is missing."""

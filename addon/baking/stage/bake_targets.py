@@ -3,10 +3,10 @@ from __future__ import annotations
 
 import bpy
 
-from ...core import View
-from .. import compat
-from ..mirror_part import as_mirrors_see, hide_own_light, show_opacity, turn_over, without_openings
-from ..writing import UV_MAP
+from ....core import View
+from ... import compat
+from ...mirror_part import as_mirrors_see, hide_own_light, show_opacity, turn_over, without_openings
+from ...writing import UV_MAP
 from .true_answers import answer_truly, own_groups
 
 
