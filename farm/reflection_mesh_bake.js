@@ -24,6 +24,10 @@ const JOB_TYPE = {
           description: "Samples per pixel of the light, 0 for none; those of the file where empty" },
         { key: "tolerance", type: "string", default: "",
           description: "Allowed displacement of the reflection, in pixels; that of the file where empty" },
+        { key: "view_layer", type: "string", default: "",
+          description: "Name of the view layer; the file's own where empty" },
+        { key: "camera", type: "string", default: "",
+          description: "Name of the camera; the scene's, which its markers may change, where empty" },
         { key: "output_folder", type: "string", subtype: "dir_path", required: true,
           description: "Where the frames go, the same for all workers" },
 
@@ -47,7 +51,9 @@ function compileJob(job) {
 }
 
 function bakeTask(name, settings, frames, options) {
-    const task = author.Task(name, "blender");
+    const task = author.Task(name, "blender"), names = [];
+    if (settings.view_layer) names.push("--view-layer", settings.view_layer);
+    if (settings.camera) names.push("--camera", settings.camera);
     task.addCommand(author.Command("blender-render", {
         exe: "{blender}",
         exeArgs: "{blenderArgs}",
@@ -61,7 +67,7 @@ function bakeTask(name, settings, frames, options) {
                "--frames", frames,
                "--light", `${settings.samples}`,
                "--tolerance", `${settings.tolerance}`,
-               "--output", settings.output_folder].concat(options),
+               "--output", settings.output_folder].concat(names, options),
     }));
     return task;
 }

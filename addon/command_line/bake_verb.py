@@ -15,21 +15,21 @@ from ..illumination import meant_lamps
 from ..operators.bake_frames import (
     FOLDER,
     WHAT,
-    baking,
+    Plan,
+    baking_layers,
     blur_remarks,
     chosen_frames,
     empty_remarks,
     layer_remarks,
     plan_of,
-    showing,
+    show_layers,
     side_by_side,
     summary,
 )
 from ..operators.shortcomings import render_shortcomings
 from ..reading import candidates
 from ..settings import Wanted
-from ..writing import show_in_layer
-from .options import add_own, given, text, whole_number
+from .options import Names, add_own, given, text, whole_number
 from .place import camera_of, forget_chance, layer_of
 from .progress import announced
 
@@ -40,14 +40,14 @@ def add_bake(parser: argparse.ArgumentParser) -> None:
     """The options of the verb, but for settings and place."""
     parser.add_argument("--frames", "--frame", type=text, metavar="LIST",
                         help="as 1-24, or 1-100:2 with a step, or 3,5-10 (else the scene's range)")
-    parser.add_argument("--camera", type=text, nargs="+", default=[], metavar="NAME",
+    parser.add_argument("--camera", action=Names, nargs="+", default=[], metavar="NAME",
                         help="the cameras, each with a sequence of its own (else the scene's, by its markers)")
     parser.add_argument("--what", choices=[item[0] for item in WHAT], default="REFLECTIONS",
                         help="reflections, or the light of lamps that mirrors throw")
     parser.add_argument("--eyes", type=whole_number, metavar="N",
                         help="places on each lamp that its caustics come from (else as they were generated)")
     add_own(parser)
-    parser.add_argument("--view-layer", type=text, nargs="+", default=[], metavar="NAME",
+    parser.add_argument("--view-layer", action=Names, nargs="+", default=[], metavar="NAME",
                         help="the view layers, each with a sequence of its own, that the others do not show (else the "
                         "file's own)")
     parser.add_argument("--light", type=whole_number, metavar="N",
@@ -80,31 +80,24 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
         done.append(record)
         # as Blender tells of pictures: workers of Flamenco read it
         print(*(f"Saved: '{os.path.join(folder, file)}'" for file in record.files), sep="\n", flush=True)
-    plans, sequences = [], []
     elsewhere = _made_side_by_side(scene, folder, options) if options.jobs > 1 else 0
-    # what others have just made is not made again
-    overwrite = options.overwrite and options.jobs == 1
-    for layer in layers:
-        with context.temp_override(scene=scene, view_layer=layer):
-            forget_chance(context)
-            plan = plan_of(context, folder, options.frames or "", wanted, cameras=cameras, overwrite=overwrite,
-                           layer=layer.name if len(layers) > 1 else "", eyes=options.eyes or 0,
-                           lamps=tuple(meant_lamps(context)) if thrown else (), leave_out=options.leave_out)
-            sequences.append(announced(baking(context, plan, tell, remarks.append), options.progress))
-            plans.append(plan)
+
+    def planned(layer: str) -> Plan:
+        forget_chance(context)
+        # what others have just made is not made again
+        return plan_of(context, folder, options.frames or "", wanted, cameras=cameras, layer=layer,
+                       overwrite=options.overwrite and options.jobs == 1, eyes=options.eyes or 0,
+                       lamps=tuple(meant_lamps(context)) if thrown else (), leave_out=options.leave_out)
+    made = announced(baking_layers(context, layers, planned, tell, remarks.append), options.progress)
     told = remarks + render_shortcomings(context, *candidates(context)) + blur_remarks(scene, cameras, thrown)
     told += layer_remarks(scene, layers)
     if not options.frames_only:
         # of a farm's chunk others have more frames
-        told += empty_remarks(list(chain.from_iterable(sequences)))
-        for layer, plan, shown in zip(layers, plans, sequences):
-            with context.temp_override(scene=scene, view_layer=layer):
-                objects, remarks = showing(context, plan, shown)
-            told += remarks
-            if len(layers) > 1:
-                show_in_layer(scene, layer, objects)
+        told += empty_remarks(list(chain.from_iterable(baked.sequences for baked in made)))
+        told += show_layers(context, made)[1]
         save_blend(path)
         told.append(f"Saved: '{path}'")
+    plans = [baked.plan for baked in made]
     print(*told, summary(plans, elsewhere + len(done), time.perf_counter() - started), sep="\n", flush=True)
 
 
@@ -113,8 +106,6 @@ def _check(options: argparse.Namespace) -> None:
         raise ReflectionError("Light takes no less than 0 samples: raise --light.")
     if options.eyes is not None and options.eyes < 1:
         raise ReflectionError("Light comes from one place of each lamp at least: raise --eyes.")
-    if options.what == "CAUSTICS" and len(set(options.view_layer)) > 1:
-        raise ReflectionError("Light that mirrors throw is baked for one view layer at a time: name one.")
     if options.jobs < 1:
         raise ReflectionError("Frames are baked by one process at least: raise --jobs.")
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import argparse
 
-from ..settings import LIGHTS, METHODS, PLACEMENTS, SETTINGS
+from ..settings import LIGHTS, METHODS, PLACEMENTS, SETTINGS, WRITTEN_SETTINGS
 
 
 def number(text: str) -> float | None:
@@ -22,6 +22,18 @@ def text(given: str) -> str:
     if not given.strip():
         raise argparse.ArgumentTypeError("it is given without a value: write one, or leave the option out")
     return given
+
+
+class Names(argparse.Action):
+    """Names, none of them empty, but for templates of Open Job Description, which give options always: an empty one is
+    none. That progress is told to one has to be said before."""
+
+    def __call__(self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values,
+                 option_string: str | None = None) -> None:
+        told = [name for name in values if name.strip()]
+        if len(told) < len(values) and namespace.progress != "OPENJD":
+            parser.error(f"argument {option_string}: it is given without a value: write one, or leave the option out")
+        setattr(namespace, self.dest, told)
 
 
 def add_settings(parser: argparse.ArgumentParser, of_farms: bool = False) -> None:
@@ -52,5 +64,5 @@ def add_own(parser: argparse.ArgumentParser) -> None:
 
 def given(options: argparse.Namespace, **more) -> dict:
     """The settings that were given, by their names; `more` are those whose options are called otherwise."""
-    values = {name: getattr(options, name, None) for name in SETTINGS} | more
+    values = {name: getattr(options, name, None) for name in SETTINGS + WRITTEN_SETTINGS} | more
     return {name: value for name, value in values.items() if value is not None}

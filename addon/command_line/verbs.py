@@ -13,8 +13,7 @@ from ... import core
 from ..faults import STATUS, sentence
 from ..files import check_place, save_blend
 from ..illumination import chosen_lamps
-from ..operators.asked_light import asked_again, remember
-from ..operators.caustics import throwing
+from ..operators.caustics import asked_again, remember, throwing
 from ..operators.clear import chosen_results
 from ..operators.generate import generation
 from ..operators.light import lighting_groups
@@ -24,7 +23,7 @@ from ..operators.mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mappi
 from ..operators.print_sheet import DPI, check_print, printing
 from ..operators.shortcomings import other_meshes, scene_shortcomings
 from ..reading import Participants, choose, with_copies
-from ..settings import Wanted
+from ..settings import ATTRIBUTES, Wanted
 from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
 from .compare_verb import add_compare
@@ -65,6 +64,7 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
     generate = verbs.add_parser("generate", help="generate the reflections and save the file")
     add_settings(generate)
+    generate.add_argument("--attributes", choices=[item[0] for item in ATTRIBUTES], help="what points and faces know")
     _add_participants(generate)
     generate.add_argument("--light", type=int, nargs="?", const=FILES, default=0, metavar="N",
                           help="light them too, with N samples per pixel (else the file's)")

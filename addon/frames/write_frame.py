@@ -4,6 +4,7 @@ from __future__ import annotations
 import os
 import zlib
 from dataclasses import dataclass
+from pathlib import Path
 
 import bpy
 import numpy as np
@@ -77,17 +78,10 @@ def write_image(material: bpy.types.Material, path: str) -> None:
         Where the file cannot be written whole.
     """
     shown = next(node.image for node in material.node_tree.nodes if node.type == "TEX_IMAGE")
-    pixels = np.empty(shown.size[0] * shown.size[1] * shown.channels, dtype=np.float32)
-    shown.pixels.foreach_get(pixels)
-    image = bpy.data.images.new(NAME, *shown.size, float_buffer=True, is_data=True)
     try:
-        image.pixels.foreach_set(pixels)
-        image.filepath_raw, image.file_format = path, "OPEN_EXR"
-        image.save()
-    except RuntimeError as error:
+        Path(path).write_bytes(shown.packed_file.data)
+    except OSError as error:
         raise _unwritten(path) from error
-    finally:
-        bpy.data.images.remove(image)
     if not is_whole(path):
         raise _unwritten(path)
 

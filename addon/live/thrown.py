@@ -12,8 +12,7 @@ from ..faults import Steps, sentence
 from ..frames import plays
 from ..freshness import COARSE, digest_of, lamp_numbers, light_record
 from ..illumination import Tint, blocking, places_kept, results_with
-from ..operators.asked_light import Asked
-from ..operators.caustics import NothingThrown, throwing
+from ..operators.caustics import Asked, NothingThrown, throwing
 from ..reading import NothingSeen, Participants, materials_shown, seen_in, visible
 from ..settings import Wanted
 from .pace import Pace

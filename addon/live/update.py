@@ -27,7 +27,8 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_camera)
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_camera,
+                            polls.has_what_is_kept_right(NOTHING_STALE))
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
         self._pressed = True

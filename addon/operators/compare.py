@@ -9,6 +9,7 @@ import numpy as np
 from ...core import ReflectionError, Settings, in_steps
 from .. import compat
 from ..comparison import (
+    LIGHT_PICTURES,
     REFLECTION_PICTURES,
     Renders,
     load_pictures,
@@ -17,7 +18,6 @@ from ..comparison import (
     show_picture,
     write_report,
 )
-from ..comparison.light_page import FILES as LIGHT_PICTURES
 from ..faults import AllOrNothing, BrowsingOperator, Steps, part, still_there, tell
 from ..files import chosen_folder, staged
 from ..judge import copied_scene
@@ -44,7 +44,7 @@ def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
     and what is shown at each pixel's centre, and once in the scene's own materials and lights; results that show light
     are, with their mirrors, in the file's own pictures.
 
-    Yields (fraction, stage), before each render an `Undivided` one; closed at any step it leaves no trace.
+    Yields (fraction, stage), of renders as `rendering.shown_while`; closed at any step it leaves no trace.
 
     Parameters
     ----------

@@ -9,9 +9,18 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, TriangleMesh, View, breathe, draw, in_steps
-from ..comparison.light_of_results import Lit, Surroundings, against_rays
-from ..comparison.light_page import MESH, OWN, runs_of, write_light_report
-from ..comparison.light_pictures import LightPictures, Shot, render_light
+from ..comparison import (
+    MESH,
+    OWN,
+    LightPictures,
+    Lit,
+    Shot,
+    Surroundings,
+    against_rays,
+    render_light,
+    runs_of,
+    write_light_report,
+)
 from ..faults import Steps, one_or_more, part
 from ..files import staged
 from ..illumination import blockers_of, blocking
@@ -58,7 +67,7 @@ def caustics_in(context: bpy.types.Context) -> list:
 def light_comparison(context: bpy.types.Context, folder: str, effort: Effort) -> Steps[dict]:
     """Judge the scene's caustics against Cycles' own and against rays, and write pictures and numbers.
 
-    Yields (fraction, stage), before each render an `Undivided` one; closed at any step it leaves no trace.
+    Yields (fraction, stage), of renders as `rendering.shown_while`; closed at any step it leaves no trace.
 
     Returns
     -------

@@ -10,7 +10,6 @@ import bpy
 from ... import core
 from ..faults import SteppedOperator, Steps, part, tell_done
 from ..freshness import origin_of, record_of, settings_of
-from ..properties import ATTRIBUTES
 from ..reading import (
     DiffuseScene,
     MirrorSurface,
@@ -23,11 +22,20 @@ from ..reading import (
     looked_through,
     read_view,
 )
-from ..settings import SettingsOfMirrors, SettingsOptions, UsesSettings, of_each
+from ..settings import (
+    SETTINGS,
+    WRITTEN_SETTINGS,
+    SettingsOfMirrors,
+    SettingsOptions,
+    UsesSettings,
+    attributes_of,
+    of_each,
+    option,
+)
 from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, point_arrays
 from . import polls
-from .shortcomings import left_out, scene_shortcomings, shortcomings, window_shortcomings
+from .shortcomings import Refused, left_out, scene_shortcomings, shortcomings, window_shortcomings
 from .write_results import Manners, Outcome, write_results
 
 # share of the work that reading takes, before the mirrors are reflected one by one
@@ -94,9 +102,9 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")
         prepared.append(Reflection(mirror, context.scene.camera, sources, result, arrays, view.resolution,
-                                   own[index].placement, manners.attributes))
+                                   own[index].placement, attributes_of(settings, mirror, context.scene)))
     if not prepared:
-        raise (NothingSeen if unseen == refused else core.ReflectionError)(refused[0])
+        raise NothingSeen(refused[0]) if unseen == refused else Refused(refused)
     kept.within(max(one.maximum_memory for one in own))
     yield 1.0, "Writing"
     outcome = write_results(context, prepared, view, scene, preview, manners)
@@ -149,13 +157,12 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
     bl_idname = "reflection_mesh.generate"
     bl_label = "Generate Reflection"
     bl_options = {"REGISTER", "UNDO"}
+    uses = SETTINGS + WRITTEN_SETTINGS
 
     preview: bpy.props.BoolProperty(name="Preview", default=False, options={"SKIP_SAVE"},
                                     description="Until it is lit, show the colours of what is reflected in the "
                                     "mirror's tint, untouched by lamps: on where the operator is invoked")
-    attributes: bpy.props.EnumProperty(name="Attributes", items=ATTRIBUTES, default="ALL", options={"SKIP_SAVE"},
-                                       description="What the points and faces of the result know; as it was, where "
-                                       "this is not given")
+    attributes: option("attributes")
     collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
                                     description="A new result goes into the collection Reflections, instead of those "
                                     "of its mirror: on where the operator is invoked")
@@ -177,8 +184,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
         chosen, wanted = choose(context), self.wanted(context)
-        attributes = self.attributes if self.properties.is_property_set("attributes") else None
-        outcome = yield from generation(context, chosen, wanted, self.preview, Manners(attributes, self.collect))
+        outcome = yield from generation(context, chosen, wanted, self.preview, Manners(self.collect))
         self.show_used(wanted, chosen.mirrors)
         lacks = scene_shortcomings(context, chosen, wanted)
         # the view layer knows new objects only from its next update on

@@ -34,7 +34,7 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, 
     In the picture, Cycles renders the mirrors as they are, once, and each result shows that where the camera sees it;
     on the objects, Cycles bakes these, and each result shows them by what its mirror is.
 
-    Yields (fraction, stage), before each render an `Undivided` one; closed at any step it leaves no trace.
+    Yields (fraction, stage), of renders as `rendering.shown_while`; closed at any step it leaves no trace.
 
     Parameters
     ----------

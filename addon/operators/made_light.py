@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core import ReflectionError, View
 from ..baking import KeptMap, baked, can_be_baked, kept_map
-from ..faults import AllOrNothing, Steps, Undivided, part
+from ..faults import AllOrNothing, Steps, part
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
     Window,
@@ -29,6 +29,7 @@ from ..lighting import (
 from ..mirror_part import LaterMirrors, Surroundings, new_object_material
 from ..reading import is_opaque, read_scene, seen_in, vectors
 from ..reading.materials import reflecting_materials
+from ..rendering import shown_while
 from ..writing import place_of
 
 NAME = "Reflection Light"
@@ -41,10 +42,8 @@ def light_in_picture(context: bpy.types.Context, lit: list, view: View, samples:
     if window is None:
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
     with light_scene(context, lit, window) as scene:
-        yield 0.02, Undivided("Cycles renders the light")
-        light = scene.light(samples)
-        yield 0.9, Undivided("Cycles renders what reflections cover")
-        coverage, shining = scene.coverage()
+        light = yield from shown_while(scene.light(samples), 0.02, "Cycles renders the light")
+        coverage, shining = yield from shown_while(scene.coverage(), 0.9, "Cycles renders what reflections cover")
     # what was clear for a while counts as changed only now
     context.view_layer.update()
     cycles = context.scene.cycles

@@ -180,7 +180,8 @@ class REFLECTION_MESH_OT_mirror_uvs(UsesSettings, SteppedOperator, bpy.types.Ope
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
+        return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror,
+                            polls.has_reflected, polls.has_camera)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()

@@ -8,11 +8,22 @@ from collections.abc import Callable
 from itertools import islice
 
 import bpy
-from bpy.app.translations import pgettext_tip
 
-from ..illumination import is_glint, leaves_out_any, raises_layers
-from ..reading import NO_CAMERA, NO_MIRROR, RESULTS, can_take_part, has_linked_results, is_mirror, says_mirror
+from ..anamorphosis import why_no_sheet
+from ..faults import translated
+from ..illumination import NO_LAMP, is_glint, is_mesh_lamp, leaves_out_any, raises_layers
+from ..reading import (
+    NO_CAMERA,
+    NO_MIRROR,
+    RESULTS,
+    can_take_part,
+    has_linked_results,
+    is_mirror,
+    nothing_to_reflect,
+    says_mirror,
+)
 
+NO_SHEET = "No sheet: make the object that carries the mirror UVs the active one."
 LINKED_SCENE = "The scene is linked from another file: open that file, or choose a scene of this one."
 LOOKED_AT = 8           # selected objects
 LOOKED_THROUGH = 500    # objects: to look for roles in more takes longer than a redraw may
@@ -25,7 +36,7 @@ def passes(cls, context: bpy.types.Context, *obstacles: Obstacle) -> bool:
         return False
     sentence = next(filter(None, (obstacle(context) for obstacle in obstacles)), "")
     if sentence:
-        cls.poll_message_set(pgettext_tip(sentence))
+        cls.poll_message_set(translated(sentence))
     return not sentence
 
 
@@ -64,6 +75,16 @@ def has_mirror(context: bpy.types.Context) -> str:
     return "" if _any(chosen or objects, lambda obj: says_mirror(obj, mirrors)) else NO_MIRROR
 
 
+def has_reflected(context: bpy.types.Context) -> str:
+    """Not a mirror alone is selected where no role or result says what it shows."""
+    objects = context.view_layer.objects
+    selected = list(islice(objects.selected, 2))
+    if len(selected) != 1 or not can_take_part(selected[0]) or not says_mirror(selected[0]) or _any(
+            objects, lambda obj: obj.reflection_mesh.role in {"DIFFUSE", *RESULTS}):
+        return ""
+    return nothing_to_reflect(selected[0])
+
+
 def has_mirror_or_caustics(context: bpy.types.Context) -> str:
     """As `has_mirror`, or the scene has the light of mirrors."""
     return has_mirror(context) and ("" if _any(context.view_layer.objects, lambda obj: (
@@ -97,9 +118,29 @@ def has_what_clears(sentence: str, linked: str) -> Obstacle:
     return obstacle
 
 
-def has_active(sentence: str) -> Obstacle:
-    """Tells `sentence` where no object is active."""
-    return lambda context: "" if context.view_layer.objects.active is not None else sentence
+def has_lamp(context: bpy.types.Context) -> str:
+    """The view layer has a lamp, or what is selected or has thrown light may be one."""
+    objects = context.view_layer.objects
+    active, selected = objects.active, list(islice(objects.selected, LOOKED_AT + 1))
+    if len(selected) > LOOKED_AT or any(map(is_mesh_lamp, selected)) or (
+            active is not None and active.reflection_mesh.role == "CAUSTICS"):
+        return ""
+    return "" if _any(objects, lambda obj: obj.type == "LIGHT") else NO_LAMP
+
+
+def has_sheet(context: bpy.types.Context) -> str:
+    """The active object carries the map of a mirror."""
+    active = context.view_layer.objects.active
+    return NO_SHEET if active is None else why_no_sheet(active)
+
+
+def has_what_is_kept_right(sentence: str) -> Obstacle:
+    """Tells `sentence` in a window where the scene has neither reflections nor light of mirrors; scripts in the
+    background may update to be sure."""
+    def obstacle(context: bpy.types.Context) -> str:
+        return "" if bpy.app.background or _any(context.scene.objects, lambda obj: (
+            obj.reflection_mesh.role in RESULTS)) else sentence
+    return obstacle
 
 
 def _any(objects, asked: Callable) -> bool:

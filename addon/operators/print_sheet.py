@@ -12,7 +12,6 @@ from ..faults import AllOrNothing, BrowsingOperator, Steps, part, tell
 from ..files import check_place, staged
 from . import polls
 
-NO_SHEET = "No sheet: make the object that carries the mirror UVs the active one."
 KINDS = (".png", ".svg")
 DPI, FEWEST, MOST = 150.0, 10.0, 2400.0
 
@@ -33,7 +32,7 @@ def printing(context: bpy.types.Context, obj: bpy.types.Object | None, path: str
     """
     yield 0.0, "Reading the sheet"
     if obj is None:
-        raise ReflectionError(NO_SHEET)
+        raise ReflectionError(polls.NO_SHEET)
     check_print(path, dpi)
     sheet = flat_sheet(obj, context.scene.unit_settings.scale_length)
     width, height = print_size(sheet, dpi)
@@ -84,7 +83,7 @@ class REFLECTION_MESH_OT_print_sheet(BrowsingOperator, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return polls.passes(cls, context, polls.has_active(NO_SHEET))
+        return polls.passes(cls, context, polls.has_sheet)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         if self.filepath.startswith("//") and not bpy.data.filepath:

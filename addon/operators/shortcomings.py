@@ -21,6 +21,7 @@ from ..writing import what_is_in_the_way
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
 PARTLY_HIDDEN, HIDDEN = 0.01, 0.5
 MISSING = 3.0  # per cent of what the mirror shows
+MANY = 200_000  # faces: of fewer nobody waits for long
 MISSED = 3  # probes: fewer may lie on an outline
 DEPTH_OF_FIELD = ("Depth of field: the camera focuses on the mirror and not on what it shows; choose the placement "
                   "Virtual for flat mirrors, or blur after the render.")
@@ -30,6 +31,17 @@ STEREO = ("Stereoscopy: a reflection is right for one eye, and both show the sam
           "for flat mirrors, or render each eye by a camera that has its own.")
 CUTS = ("Markers change the camera: choose Render > Lock Interface, so that a render of the animation in this window "
         "shows each camera its own reflection.")
+
+
+class Refused(ReflectionError):
+    """Something stands against all that was asked for, as things are at the moment; its message is the first of the
+    `sentences` that tell what."""
+
+    def __init__(self, sentences: list[str]) -> None:
+        super().__init__(sentences[0])
+        self.sentences = sentences
+
+
 # what is said where the result counts one of it, or more
 SENTENCES = {
     "crowded": (
@@ -69,9 +81,22 @@ def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
     if counts.get("missed", 0) >= MISSED and result.missing_share > MISSING:
         told.append(f"About {result.missing_share:.0f} % of what the mirror shows is missing: give it a clean mesh, or "
                     "move the camera.")
-    told += [one_or_more(counts[what], *said, points=len(result.positions)) for what, said in SENTENCES.items()
-             if counts.get(what)]
-    return [f"{name}: {sentence}" for sentence in told]
+    return [f"{name}: {sentence}" for sentence in told + bounds_hit(counts, len(result.positions))]
+
+
+def better_of_points(name: str, result: ReflectionMesh) -> list[str]:
+    """A sentence where the reflection in the mirror `name` has more faces than the mirror has pixels, and could be made
+    of points."""
+    few = len(result.triangles) < max(MANY, result.counts.get("mirror_pixels", 0))
+    if few or result.bounces.max() > 1:
+        return []
+    return [f"{name}: What it shows is finer than its pixels; with Made Of > Points it takes about a third of the "
+            "time."]
+
+
+def bounds_hit(counts: dict, points: int = 0) -> list[str]:
+    """Sentences on the bounds that were hit, as counts tell them, of what has so many `points`."""
+    return [one_or_more(counts[what], *said, points=points) for what, said in SENTENCES.items() if counts.get(what)]
 
 
 def left_out(context: bpy.types.Context, objects: list) -> list[str]:

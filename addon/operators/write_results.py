@@ -21,6 +21,7 @@ from ..writing import (
     told_of,
     write_object,
 )
+from .shortcomings import better_of_points
 
 WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
 
@@ -31,15 +32,12 @@ class Manners:
 
     Attributes
     ----------
-    attributes : {'ALL', 'SHOWN'} or None
-        What their points and faces know; None keeps it as each result has it.
     collect : bool
         New ones go into the scene's collection of results, instead of beside their mirrors.
     preview_unlit : bool
         Those that lose their light show a preview, instead of materials on which lamps fall.
     """
 
-    attributes: str | None = None
     collect: bool = False
     preview_unlit: bool = False
 
@@ -113,7 +111,8 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
             gather(context, [obj for obj, _ in results if obj not in there], whole)
         whole.after(forget_previews)
         whole.after(show_for_camera, context.scene)
-    return Outcome(results, remarks, unlit, _told(entries), [entry.obj for entry in entries if entry.copy])
+    news = _told(entries) + [hint for made in prepared for hint in better_of_points(made.mirror.name, made.result)]
+    return Outcome(results, remarks, unlit, news, [entry.obj for entry in entries if entry.copy])
 
 
 def _told(written: list) -> list[str]:

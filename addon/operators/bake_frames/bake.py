@@ -30,6 +30,7 @@ from ...settings import of_each
 from ..clear import clear
 from ..generate import generation
 from ..light import lighting
+from ..shortcomings import Refused
 from .plan import (
     Plan,
     compared,
@@ -205,6 +206,9 @@ def _results(context: bpy.types.Context, plan: Plan, chosen, results: list, lack
     try:
         outcome = yield from part(generation(context, chosen, plan.settings), 0.0, 0.5 if plan.samples else 1.0)
     except NothingSeen:
+        return
+    except Refused as refused:
+        lacks += refused.sentences
         return
     results += [obj for obj, _ in outcome.results]
     lacks += outcome.lacks

@@ -2,10 +2,10 @@
 from __future__ import annotations
 
 import time
-from dataclasses import replace
 
 import bpy
 
+from ....core import ReflectionError
 from ... import compat
 from ...faults import BrowsingOperator, Steps, part, tell_done
 from ...files import chosen_folder
@@ -14,16 +14,22 @@ from ...illumination import meant_lamps
 from ...reading import candidates
 from ...settings import SETTINGS, SettingsOptions, UsesSettings, option
 from .. import polls
-from ..asked_light import left_out_of
+from ..caustics import left_out_of
 from ..shortcomings import render_shortcomings
-from .bake import IN_OBJECT_MODE, NO_USD, baking
-from .plan import LACKING, Plan, blur_remarks, empty_remarks, layer_remarks, plan_of, summary
-from .playing import showing
+from .bake import IN_OBJECT_MODE, NO_USD
+from .plan import LACKING, Plan, blur_remarks, chosen_frames, empty_remarks, layer_remarks, plan_of, summary
 from .side_by_side import side_by_side, words_of
+from .view_layers import baking_layers, show_layers
 
 FOLDER = "//reflection frames"
 WHAT = (("REFLECTIONS", "Reflections", "What the mirrors show to the camera"),
         ("CAUSTICS", "Caustics", "The light of lamps that the mirrors throw"))
+
+CAMERAS = (("SCENE", "Scene's", "The scene's camera, which its markers may change"),
+           ("SELECTED", "Selected", "A sequence for each of the selected cameras"))
+LAYERS = (("ACTIVE", "This One", "What the view layer sees that is looked at now"),
+          ("RENDERED", "All Rendered", "A sequence for each view layer that is rendered, which the others do not show"))
+NO_CAMERAS = "No camera is selected: select the cameras, or bake what the scene's own one sees."
 
 
 class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, bpy.types.Operator):
@@ -48,6 +54,10 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
                                        subtype="FILE_PATH", options=compat.RELATIVE_PATH)
     frames: bpy.props.StringProperty(name="Frames", default="", options={"SKIP_SAVE"},
                                      description="As 1-24, or 1-100:2 with a step; the scene's range where empty")
+    cameras: bpy.props.EnumProperty(name="Cameras", items=CAMERAS, default="SCENE", options={"SKIP_SAVE"},
+                                    description="For which cameras reflections are baked")
+    layers: bpy.props.EnumProperty(name="View Layers", items=LAYERS, default="ACTIVE", options={"SKIP_SAVE"},
+                                   description="In which view layers reflections are baked")
     samples: option("light_samples", min=0, description="Light paths for each pixel of the mirrors; 0: no light")
     overwrite: bpy.props.BoolProperty(name="Overwrite", default=False, options={"SKIP_SAVE"},
                                       description="Make again the frames that are there already")
@@ -61,35 +71,48 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        wanted = self.wanted(context)
-        lamps = tuple(meant_lamps(context)) if self.what == "CAUSTICS" else ()
-        plan = plan_of(context, chosen_folder(self.filepath), self.frames, wanted, overwrite=self.overwrite,
-                       lamps=lamps, eyes=self.eyes, leave_out=self._leave_out)
-        written: list = []
-        heard: list = []
+        wanted, folder, layers, cameras = self.wanted(context), chosen_folder(self.filepath), *self._taken(context)
+        frames, written, heard, kept = chosen_frames(context.scene, self.frames), [], [], []
         elsewhere, start = 0, 0.0
         if self.jobs > 1:
-            steps = side_by_side(self._words(context, plan, wanted.given), plan.frames, self.jobs, heard.append)
-            elsewhere = yield from part(steps, 0.0, start := 0.9)
+            words = self._words(context, folder, wanted.given, (layers, cameras))
+            elsewhere = yield from part(side_by_side(words, frames, self.jobs, heard.append), 0.0, start := 0.9)
+
+        def planned(layer: str) -> Plan:
             # what others have just made is not made again
-            plan = replace(plan, overwrite=False)
-        kept: list = []
-        sequences = yield from part(baking(context, plan, written.append, kept.append), start, 1.0 - start)
-        objects, hidden = showing(context, plan, sequences)
+            return plan_of(context, folder, self.frames, wanted, cameras=cameras, layer=layer, eyes=self.eyes,
+                           overwrite=self.overwrite and self.jobs == 1, leave_out=self._leave_out,
+                           lamps=tuple(meant_lamps(context)) if self.what == "CAUSTICS" else ())
+        steps = baking_layers(context, layers, planned, written.append, kept.append)
+        made = yield from part(steps, start, 1.0 - start)
+        objects, hidden = show_layers(context, made)
         self.show_used(wanted, candidates(context)[0])
-        left_out = left_out_of(objects) if lamps else None
+        left_out = left_out_of(objects) if self.what == "CAUSTICS" else None
         if left_out is not None:
             self.leave_out = left_out
-        remarks = [line for line in heard if line.startswith(LACKING)] + kept + hidden + empty_remarks(sequences)
+        remarks = [line for line in heard if line.startswith(LACKING)] + kept + hidden
+        remarks += empty_remarks([sequence for baked in made for sequence in baked.sequences])
         remarks += render_shortcomings(context, *candidates(context))
-        remarks += blur_remarks(context.scene, plan.cameras, bool(lamps))
-        remarks += layer_remarks(context.scene, [context.view_layer])
-        tell_done(self, [summary([plan], elsewhere + len(written), time.perf_counter() - started)], remarks)
+        remarks += blur_remarks(context.scene, cameras, self.what == "CAUSTICS")
+        remarks += layer_remarks(context.scene, layers)
+        tell_done(self, [summary([baked.plan for baked in made], elsewhere + len(written),
+                                 time.perf_counter() - started)], remarks)
 
-    def _words(self, context: bpy.types.Context, plan: Plan, given: dict) -> list[str]:
+    def _taken(self, context: bpy.types.Context) -> tuple[list, tuple]:
+        """The view layers and the cameras that have sequences of their own, none of these for the scene's."""
+        layers = [layer for layer in context.scene.view_layers if layer.use] if self.layers == "RENDERED" else []
+        if self.cameras == "SCENE":
+            return layers or [context.view_layer], ()
+        cameras = tuple(obj for obj in context.view_layer.objects.selected if obj.type == "CAMERA")
+        if not cameras:
+            raise ReflectionError(NO_CAMERAS)
+        return layers or [context.view_layer], cameras
+
+    def _words(self, context: bpy.types.Context, folder: str, given: dict, taken: tuple[list, tuple]) -> list[str]:
         """What the other processes are told."""
-        words = ["bake", "--what", self.what, "--output", plan.folder, *words_of(given)]
-        words += ["--scene", context.scene.name, "--view-layer", context.view_layer.name]
+        words = ["bake", "--what", self.what, "--output", folder, *words_of(given), "--scene", context.scene.name]
+        for flag, items in zip(("--view-layer", "--camera"), taken, strict=True):
+            words += [flag, *(item.name for item in items)] if items else []
         words += ["--eyes", str(self.eyes)] if self.eyes else []
         return words + ["--overwrite"] * self.overwrite
 

@@ -191,8 +191,8 @@ def layer_remarks(scene: bpy.types.Scene, layers: list) -> list[str]:
     others = [layer.name for layer in scene.view_layers if layer.use and layer.name not in names]
     if len(names) > 1 or not others:
         return []
-    return [f"The frames show what the view layer '{layers[0].name}' sees, and '{others[0]}' shows them too: let the "
-            "command line bake several by --view-layer, for a sequence each."]
+    return [f"The frames show what the view layer '{layers[0].name}' sees, and '{others[0]}' shows them too: bake "
+            "all view layers that are rendered, for a sequence each."]
 
 
 def summary(plans: list[Plan], made: int, seconds: float) -> str:

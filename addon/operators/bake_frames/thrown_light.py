@@ -12,9 +12,9 @@ from ...illumination import follow_layers, leave_out, places_kept, results_with
 from ...reading import NothingSeen, candidates, materials_shown, seen_in, visible
 from ...settings import of_each
 from ...writing import set_free, told_of
-from ..asked_light import Asked, keep_own, left_out_before
-from ..caustics import NothingThrown, name_of, throwing
+from ..caustics import Asked, NothingThrown, keep_own, left_out_before, name_of, throwing
 from ..clear import remove_caustics
+from ..shortcomings import Refused
 from .plan import Plan
 
 
@@ -34,7 +34,7 @@ class ThrownLight:
     layers : int
         How many faces lie over each other in the open frame.
     lacks : dict
-        What mirrors lack, in sentences, by frames: nobody tells.
+        What the light lacks, in sentences, by frames.
     """
 
     pairs: dict
@@ -84,6 +84,7 @@ class ThrownLight:
     def frame(self, context: bpy.types.Context, plan: Plan, results: list) -> Steps[None]:
         """Generate the light of the open frame, adding to `results`; none where nothing is lit."""
         lamps = list(filter(seen_in(context), plan.lamps))
+        lacks = self.lacks.setdefault(context.scene.frame_current, [])
         self.receivers, self.layers = {}, 0
         try:
             chosen = visible(context, self._mirrors, self.diffuse)
@@ -91,10 +92,13 @@ class ThrownLight:
                 asked = Asked(self.places, of_each(plan.settings), False)
                 thrown = yield from throwing(context, chosen, lamps, asked)
                 results += thrown.objects
+                lacks += thrown.lacks
                 self.receivers, self.layers = thrown.receivers, thrown.layers
                 context.view_layer.update()
         except (NothingSeen, NothingThrown):
             return
+        except Refused as refused:
+            lacks += refused.sentences
 
     def by_key(self, results: list) -> dict:
         of_pair = {(obj.reflection_mesh.mirror, obj.reflection_mesh.lamp): obj for obj in results}

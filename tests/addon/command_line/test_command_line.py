@@ -117,6 +117,21 @@ def test_all_settings_reach_the_core(saved, room, tmp_path, capsys, monkeypatch,
     assert capsys.readouterr().err == f"Error: {expected}.\n"
 
 
+@pytest.mark.parametrize("verb", ["generate", "light", "caustics", "compare", "mirror-uvs", "benchmark"])
+def test_every_verb_works_at_the_frame_and_by_the_camera_it_is_told(saved, room, tmp_path, capsys, monkeypatch, verb):
+    second = bpy.data.objects.new("Second", bpy.data.cameras.new("Second"))
+    bpy.context.scene.collection.objects.link(second)
+    bpy.ops.wm.save_mainfile()
+
+    def told(context):
+        raise room("core").ReflectionError(f"{context.scene.name}, {context.scene.camera.name}, frame "
+                                           f"{context.scene.frame_current}, {context.view_layer.name}.")
+    monkeypatch.setattr(room("addon.command_line.place"), "forget_chance", told)
+    assert room("addon.command_line").run([verb, "--scene", "Scene", "--camera", "Second", "--frame", "7",
+                                           "--view-layer", "ViewLayer", "--output", str(tmp_path / "x.blend")]) == 1
+    assert capsys.readouterr().err.endswith("Scene, Second, frame 7, ViewLayer.\n")
+
+
 def test_nothing_to_save_to(blank, room, capsys):
     assert room("addon.command_line").run(["generate"]) == 1
     assert "no file to save to" in capsys.readouterr().err

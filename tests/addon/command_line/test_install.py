@@ -55,7 +55,7 @@ def run_builder(*arguments: str) -> subprocess.CompletedProcess:
 def test_the_zip_carries_only_what_runs(extension_archive):
     names = zipfile.ZipFile(extension_archive).namelist()
     assert {"blender_manifest.toml", "__init__.py", "addon/__init__.py", "core/__init__.py"} <= set(names)
-    others = [name for name in names if not (name.startswith(("addon/", "core/"))
+    others = [name for name in names if not (name.startswith(("addon/", "core/", "manual/"))
                                              or name in {"blender_manifest.toml", "__init__.py", "LICENSE"})]
     assert others == []
     assert all(name.endswith((".py", "/")) for name in names if name.startswith(("addon/", "core/")))

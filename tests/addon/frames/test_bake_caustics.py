@@ -159,7 +159,8 @@ def test_stopped_at_any_step_the_file_is_as_it_was(thrown, room, tmp_path):
 
     def steps(folder: str):
         wanted = room("addon.settings").Wanted(bpy.context.scene)
-        return place.baking(bpy.context, place.plan_of(bpy.context, str(tmp_path / folder), "1-2", wanted, lamps=lamps))
+        plan = place.plan_of(bpy.context, str(tmp_path / folder), "1-2", wanted, lamps=lamps)
+        return room("addon.operators.bake_frames.bake").baking(bpy.context, plan)
 
     def check(stage: str) -> None:
         assert parts.state() == before, stage

@@ -6,7 +6,7 @@ import faults
 import numpy as np
 import parts
 import pytest
-from baked_frames import FRAMES, add_camera, assert_same, bake, expected, names
+from baked_frames import FRAMES, add_camera, assert_same, bake, expected, names, operate
 from played import generated, played
 
 
@@ -108,6 +108,27 @@ def test_several_view_layers_have_a_sequence_each(moving, room, tmp_path, capsys
     assert "'All' shows them too" in capsys.readouterr().out
 
 
+def test_the_operator_bakes_cameras_and_view_layers_too(moving, tmp_path):
+    """As the command line does; what is open stays as it was."""
+    scene, second = bpy.context.scene, add_camera("Second", (2.0, -6.0, 1.0), (1.5, 0.0, 0.3))
+    scene.view_layers[0].name = "All"
+    scene.view_layers.new("One")
+    scene.view_layers.new("Never").use = False
+    out, layer = tmp_path / "out", bpy.context.view_layer
+    parts.select()
+    assert "No camera is selected" in parts.refusal(bpy.ops.reflection_mesh.bake, filepath=str(out),
+                                                    cameras="SELECTED")
+    parts.select(scene.camera, second)
+    operate(out, frames="2", samples=0, cameras="SELECTED", layers="RENDERED")
+    assert bpy.context.view_layer == layer
+    made = {obj.name: obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
+    assert set(made) == {f"Mirror Reflection {one} {camera}"
+                         for one in ("All", "One") for camera in ("Camera", "Second")}
+    assert {name for name, obj in made.items() if obj.name in scene.view_layers["One"].objects} == {
+        name for name in made if " One " in name}
+    assert len({name for name in names(out) if name.endswith(".usdc")}) == 4
+
+
 def made_in(layer: bpy.types.ViewLayer) -> bpy.types.Object:
     """What Generate makes of the open frame in a view layer, beside what plays there."""
     playing = [obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"]
@@ -149,13 +170,19 @@ def test_scene_view_layer_camera_and_frame_of_a_verb(moving, room, tmp_path, cap
     scene, result = bpy.data.scenes["Copy"], bpy.data.objects["Mirror Reflection"]
     assert (scene.camera.name, scene.frame_current, bpy.data.scenes["Scene"].camera.name) == ("Second", 3, "Camera")
     assert {source.object.name for source in result.reflection_mesh.sources} == {"Box", "Box a"}
-    for verb in ("generate", "light", "caustics", "compare", "bake", "benchmark"):
+    for verb in ("generate", "light", "caustics", "compare", "bake", "mirror-uvs", "benchmark"):
         for option, words in (("--scene", "no scene 'None'"), ("--view-layer", "no view layer 'None'"),
                               ("--camera", "no camera 'None'")):
             capsys.readouterr()
             assert run([verb, option, "None", "--output", str(tmp_path / "none.blend")]) == 1
             assert words in faults.one_sentence(capsys.readouterr().err)
     assert run(["bake", "--camera", "Box"]) == 1 and "is no camera" in capsys.readouterr().err
+
+
+def test_one_frame_by_the_option_that_other_verbs_have(moving, room, tmp_path):
+    folder = tmp_path / "frames"
+    assert room("addon.command_line").run(["bake", "--frame", "3", "--frames-only", "--output", str(folder)]) == 0
+    assert [path.name for path in sorted(folder.glob("*.usdc"))] == ["Mirror_Reflection.0003.usdc"]
 
 
 def test_names_that_would_be_one_in_files_are_told_apart(moving, room, tmp_path):

@@ -128,6 +128,23 @@ def test_a_job_of_open_job_description(scene, blender, wanted, tmp_path):
 
 
 @needs_openjd
+def test_a_job_for_a_camera_and_a_view_layer(scene, blender, room, tmp_path):
+    """As the command line bakes by their names."""
+    camera = bpy.data.objects["Camera"].copy()
+    camera.name, camera.location.x = "Second", camera.location.x + 0.5
+    bpy.context.scene.collection.objects.link(camera)
+    bpy.context.scene.view_layers.new("Other")
+    bpy.ops.wm.save_mainfile()
+    wanted, out = tmp_path / "wanted", tmp_path / "frames"
+    assert room("addon.command_line").run(["bake", "--frames", "1", "--light", "0", "--output", str(wanted), "--camera",
+                                           "Second", "--view-layer", "Other", "--frames-only"]) == 0
+    done = subprocess.run(**openjd(scene, blender, out, "-p", "Camera=Second", "-p", "ViewLayer=Other", "-p",
+                                   "Samples=0", "--step", "Bake", "--tasks", json.dumps([{"Frame": "1"}])), check=False)
+    assert done.returncode == 0, done.stdout[-3000:]
+    assert frames_in(out) == faults.contents(wanted)
+
+
+@needs_openjd
 @pytest.mark.parametrize("name", ["Other", "Scene"])
 def test_a_job_of_a_scene_that_is_not_the_files_own(scene, blender, room, tmp_path, name):
     """The other scene has no mirror, and a job for it fails; that of the first, which is not the open one, is done."""
@@ -148,16 +165,24 @@ def test_a_job_that_fails_says_so(scene, blender, tmp_path):
 @pytest.mark.slow
 @needs_node
 def test_a_job_of_flamenco(scene, blender, wanted, tmp_path):
-    """The tasks that the job type makes, out of order, and its lines as the worker reads them."""
+    """The tasks that the job type makes, out of order, one twice and one killed half way, and its lines as the worker
+    reads them."""
     out = tmp_path / "frames"
     settings = {"frames": "1-5", "chunk_size": 2, "samples": "", "tolerance": "2", "output_folder": str(out),
-                "blendfile": str(scene), "scene": "Scene", "what": "REFLECTIONS", "eyes": ""}
+                "blendfile": str(scene), "scene": "Scene", "view_layer": "", "camera": "", "what": "REFLECTIONS",
+                "eyes": ""}
     script = MANAGER % ((FARM / "reflection_mesh_bake.js").read_text(), json.dumps(settings))
     told = json.loads(subprocess.run([NODE, "-e", script], capture_output=True, text=True, check=True).stdout)
     assert {setting["key"] for setting in told["settings"]} == set(settings)
     tasks = {task["name"]: task for task in told["tasks"]}
     assert list(tasks) == ["bake-1-2", "bake-3-4", "bake-5-5", "play"]
     assert tasks["play"]["after"] == ["bake-1-2", "bake-3-4", "bake-5-5"]
+    killed = tasks["bake-3-4"]["commands"][0]["parameters"]
+    with faults.running(args=[str(blender), "-b", killed["blendfile"], *killed["args"]], stdout=subprocess.PIPE,
+                        stderr=subprocess.STDOUT, text=True, start_new_session=True) as process:
+        assert any(re.match("Saved: '.*0003.usdc'", line) for line in process.stdout)
+        os.killpg(process.pid, signal.SIGKILL)
+    assert 0 < len(frames_in(out)) < len(wanted)
     for name in ("bake-5-5", "bake-1-2", "bake-1-2", "bake-3-4", "play"):
         command, = tasks[name]["commands"]
         asked = command["parameters"]
@@ -189,7 +214,8 @@ def test_jobs_of_light_that_mirrors_throw(scene, blender, room, tmp_path):
                                    "--step", "Play", "--run-dependencies"), check=False)
     assert done.returncode == 0, done.stdout[-3000:]
     settings = {"frames": "1-3", "chunk_size": 2, "samples": "", "tolerance": "", "output_folder": str(outs[1]),
-                "blendfile": str(scene), "scene": "Scene", "what": "CAUSTICS", "eyes": "2"}
+                "blendfile": str(scene), "scene": "Scene", "view_layer": "", "camera": "", "what": "CAUSTICS",
+                "eyes": "2"}
     script = MANAGER % ((FARM / "reflection_mesh_bake.js").read_text(), json.dumps(settings))
     for task in json.loads(subprocess.run([NODE, "-e", script], capture_output=True, text=True,
                                           check=True).stdout)["tasks"]:

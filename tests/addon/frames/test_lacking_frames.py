@@ -40,6 +40,23 @@ def test_what_stands_before_the_virtual_image_is_told(crossed, room, tmp_path, c
             "In frames 1, 2: A: 7 % is gone.", "In frame 2: B: all."]
 
 
+def test_a_frame_in_which_the_mirror_can_be_no_window_does_not_end_the_others(crossed, tmp_path, capfd):
+    """It is empty, and told as Generate tells it."""
+    crossed.scale = (30.0, 1.0, 30.0)
+    bpy.context.scene.frame_set(3)
+    refused = parts.refusal(placement="VIRTUAL")
+    assert "'Post' stands before the virtual image" in refused
+    capfd.readouterr()
+    operate(tmp_path / "out", frames="1-4", samples=0, placement="VIRTUAL")
+    assert re.findall(r"Warning: (In .*)\n", capfd.readouterr().out) == [f"In frames 2, 3: {refused}"]
+    shown = []
+    for frame in (1, 2, 3, 4):
+        bpy.context.scene.frame_set(frame)
+        result = bpy.data.objects["Mirror Reflection"].evaluated_get(bpy.context.evaluated_depsgraph_get())
+        shown.append(len(result.data.polygons) > 0)
+    assert shown == [True, False, False, True]
+
+
 @pytest.mark.slow
 def test_what_other_processes_have_seen_is_told(crossed, room, tmp_path, capfd):
     given = {"frames": "1-3", "samples": 0, "placement": "VIRTUAL"}

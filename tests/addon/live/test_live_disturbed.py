@@ -162,6 +162,24 @@ def test_undo_and_redo_bring_the_right_results(scene, clock):
         assert shape(objects["Ball Reflection"]) == generated(objects["Leaf"], objects["Ball"])
 
 
+@pytest.mark.parametrize("way", ["new results", "following"])
+def test_opening_a_file_in_the_middle_ends_it(scene, clock, room, monkeypatch, tmp_path, way):
+    """While new results are made, or vertices are on their way; the file that is opened is as it was saved."""
+    path, before = str(tmp_path / "scene.blend"), shape(scene.result)
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    if way == "new results":
+        coarse_work_begun(scene, clock, room, monkeypatch)
+    else:
+        monkeypatch.setattr(room("core.support.stepping"), "INTERVAL", -1.0)
+        monkeypatch.setattr(room("core.following"), "AT_ONCE", 4)
+        scene.camera.location.x += 0.1
+        assert clock.run() == ["working"] and clock.updater.following.is_under_way
+    bpy.ops.wm.open_mainfile(filepath=path)
+    switch = room("addon.live.switch")
+    assert not bpy.context.window_manager.reflection_mesh_live.on and switch.updater is None
+    assert switch._tick() is None and shape(bpy.data.objects["Ball Reflection"]) == before
+
+
 def test_removing_the_extension_in_the_middle_ends_it(scene, room, clock):
     scene.camera.location.x += 0.1
     clock.updater.following.tracks = []

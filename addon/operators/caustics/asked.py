@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..illumination import bring_back_own_caustics, places_kept, results_with
-from ..reading import Participants
-from ..settings import SettingsOfMirrors
+from ...illumination import bring_back_own_caustics, places_kept, results_with
+from ...reading import Participants
+from ...settings import SettingsOfMirrors
 
 
 @dataclass(frozen=True)

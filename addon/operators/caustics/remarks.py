@@ -1,12 +1,17 @@
 """What light that mirrors throw lacks, in sentences for the user."""
 from __future__ import annotations
 
+from collections import Counter
+from functools import reduce
+from operator import or_
+
 import bpy
 import numpy as np
 
-from ...core import TriangleMesh
-from ..illumination import Caustic, is_sheared, let_through, light_of_nodes
-from ..reading import DiffuseScene, MirrorSurface
+from ....core import CausticMesh, TriangleMesh
+from ...illumination import Caustic, is_sheared, let_through, light_of_nodes
+from ...reading import DiffuseScene, MirrorSurface
+from ..shortcomings import MISSED, MISSING, bounds_hit
 
 COARSE = 15.0  # degrees between smooth normals and facets: at 23 a fifth of Cycles' light is missing, at 12 a thirtieth
 
@@ -36,6 +41,19 @@ def remarks_on_taking(scene: DiffuseScene, surfaces: dict[bpy.types.Object, Mirr
             *(f"The mirror '{mirror.name}' is coarse and shaded smooth: Cycles bends its normals, and throws more "
               "light than is here; give it more faces, or shade it flat." for mirror, surface in surfaces.items()
               if _bends(surface.mesh) > COARSE)]
+
+
+def shortcomings_of_light(name: str, lit: list[CausticMesh]) -> list[str]:
+    """Sentences on the light `name`: the bounds that its parts in `lit`, of one place on the lamp each, have hit, and
+    what their probes have missed."""
+    probes, missed = (sum(mesh.counts.get(what, 0) for mesh in lit) for what in ("probes", "missed"))
+    share, told = 100.0 * missed / max(probes, 1), []
+    if missed >= MISSED and share > MISSING:
+        told.append(f"About {share:.0f} % of the light that the mirror throws is missing: give the mirror a clean "
+                    "mesh, or move the lamp.")
+    # each place sees about the same parts of the mirror
+    most: Counter = reduce(or_, (Counter(mesh.counts) for mesh in lit))
+    return [f"{name}: {sentence}" for sentence in told + bounds_hit(most)]
 
 
 def _bends(mesh: TriangleMesh) -> float:
