@@ -8,16 +8,20 @@ import os
 import subprocess
 import sys
 import tempfile
+import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from .manual_pages import manual_pages
+
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = "bl_ext.user_default.reflection_mesh"
+MANUAL = "manual"  # the folder of its pages
 
 
 def build(folder: Path) -> Path:
-    """Build the zip into `folder` and return its path.
+    """Build the zip, with the manual's pages, into `folder` and return its path.
 
     Raises
     ------
@@ -35,7 +39,11 @@ def build(folder: Path) -> Path:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"The extension cannot be built: {done.stdout}{done.stderr}")
-    return next(folder.glob("reflection_mesh-*.zip"))
+    made = next(folder.glob("reflection_mesh-*.zip"))
+    with zipfile.ZipFile(made, "a", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in manual_pages(ROOT / "docs").items():
+            archive.writestr(f"{MANUAL}/{name}", content)
+    return made
 
 
 def use_throw_away_preferences(folder: Path) -> None:

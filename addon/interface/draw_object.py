@@ -4,11 +4,12 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_iface
 
-from ...core.result.reflection_mesh import filled_share
+from ...core.result import filled_share
 from ..frames import plays
 from ..lighting import light_lines
 from ..reading import is_gone, render_size
 from ..writing import mesh_bytes, records, size_text
+from .menus import REFLECTION_MESH_MT_role
 
 NAMED = 2   # so many sources are all named; of more the first
 
@@ -23,7 +24,16 @@ def draw_object(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
         _draw_light(layout, obj)
     else:
         layout.label(text=obj.name, icon="OBJECT_DATA", translate=False)
-        layout.prop(obj.reflection_mesh, "role")
+        _draw_role(layout, obj.reflection_mesh)
+
+
+def _draw_role(layout: bpy.types.UILayout, record: bpy.types.PropertyGroup) -> None:
+    role = record.bl_rna.properties["role"].enum_items[record.role]
+    split = layout.split(factor=0.4)
+    name = split.row()
+    name.alignment = "RIGHT"
+    name.label(text="Role")
+    split.menu(REFLECTION_MESH_MT_role.__name__, text=role.name)
 
 
 def draw_figures(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:

@@ -1,20 +1,27 @@
 """What *Online Manual* opens for the operators and settings of this extension."""
 from __future__ import annotations
 
+from pathlib import Path
+
 import bpy
 
-# where the manual lies; the manifest names the same place as the extension's website
-MANUAL = "https://extensions.blender.org/add-ons/reflection-mesh/"
+# the zip carries the manual's pages; who installs the sources themselves has the extension's website, which the
+# manifest names too
+CARRIED = Path(__file__).resolve().parents[2] / "manual" / "manual.html"
+WEBSITE = "https://extensions.blender.org/add-ons/reflection-mesh/"
 PAGES = (
     ("bpy.ops.reflection_mesh.*", "#operators"),
     ("bpy.types.reflectionscene.*", "#settings"),
-    ("bpy.types.reflectionobject.*", "#roles"),
+    ("bpy.types.reflectionlive.*", "#operators"),
+    ("bpy.types.reflectionobject.role", "#roles"),
+    # of a mirror's own
+    ("bpy.types.reflectionobject.*", "#settings"),
 )
 
 
 def pages() -> tuple[str, tuple]:
     """The address of the manual, and what of it tells of which names."""
-    return MANUAL, PAGES
+    return CARRIED.as_uri() if CARRIED.is_file() else WEBSITE, PAGES
 
 
 def register() -> None:

@@ -1,9 +1,11 @@
-"""The menu Object > Reflection Mesh of the 3D viewport, by which F3 finds every operator too."""
+"""The menu Object > Reflection Mesh of the 3D viewport, by which F3 finds every operator too, and that of roles."""
 from __future__ import annotations
 
 import bpy
 
 from .draw_work import TOOLS, WORK
+
+CHOSEN = ("AUTO", "MIRROR", "DIFFUSE", "IGNORE")  # roles that users give; those of results come with the making
 
 
 class VIEW3D_MT_reflection_mesh(bpy.types.Menu):
@@ -24,16 +26,32 @@ class VIEW3D_MT_reflection_mesh(bpy.types.Menu):
             layout.operator(name, icon=icon)
 
 
+class REFLECTION_MESH_MT_role(bpy.types.Menu):
+    """What this object is in reflections"""
+
+    bl_label = "Role"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        active = context.view_layer.objects.active
+        for role in CHOSEN if active is not None else ():
+            self.layout.prop_enum(active.reflection_mesh, "role", role)
+
+
 def _draw_entry(self, context: bpy.types.Context) -> None:
     self.layout.separator()
     self.layout.menu(VIEW3D_MT_reflection_mesh.__name__, icon="MOD_MIRROR")
 
 
+CLASSES = (VIEW3D_MT_reflection_mesh, REFLECTION_MESH_MT_role)
+
+
 def register() -> None:
-    bpy.utils.register_class(VIEW3D_MT_reflection_mesh)
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
     bpy.types.VIEW3D_MT_object.append(_draw_entry)
 
 
 def unregister() -> None:
     bpy.types.VIEW3D_MT_object.remove(_draw_entry)
-    bpy.utils.unregister_class(VIEW3D_MT_reflection_mesh)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -10,7 +10,7 @@ import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
 
-from ..settings import LIGHT_SETTINGS, SETTINGS
+from ..settings import LIGHT_SETTINGS, SETTINGS, WRITTEN_SETTINGS
 
 FOLDER = "reflection_mesh"
 
@@ -39,7 +39,8 @@ class REFLECTION_MESH_OT_preset_add(AddPresetBase, bpy.types.Operator):
         "mirror = active.reflection_mesh.mirror if made else active",
         "settings = (mirror if mirror and mirror.reflection_mesh.own_settings else bpy.context.scene).reflection_mesh"]
     # Memory belongs to the machine
-    preset_values = [f"settings.{name}" for name in SETTINGS + LIGHT_SETTINGS if name != "memory"]
+    preset_values = [f"settings.{name}" for name in SETTINGS + LIGHT_SETTINGS + WRITTEN_SETTINGS
+                     if name != "memory"]
 
 
 CLASSES = (REFLECTION_MESH_PT_presets, REFLECTION_MESH_OT_preset_add)

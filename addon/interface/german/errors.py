@@ -124,6 +124,8 @@ LIGHT = {
         "auf Objekten: beleuchte sie im Bild.",
     "There is no lamp: add one (Add > Light) or show it in the viewport and in renders.":
         "Es gibt keine Lampe: füge eine hinzu (Hinzufügen > Licht), oder zeige sie in der Ansicht und im Render.",
+    "No camera is selected: select the cameras, or bake what the scene's own one sees.":
+        "Keine Kamera ist ausgewählt: wähle die Kameras aus, oder backe, was die der Szene sieht.",
     "The lamp '{}' has a scale of zero or a position that is no number: clear its transform.":
         "Die Lampe '{}' hat eine Skalierung von null oder einen Ort, der keine Zahl ist: setze ihre Transformation "
         "zurück.",
@@ -214,6 +216,8 @@ PRINTS = {
     "paper, or set its unit scale.":
         "Das Blatt ist {} m groß, {} Millionen Pixel bei {} Punkten pro Zoll: verringere sie, bringe die Szene auf "
         "die Größe des Papiers, oder stelle ihre Einheiten um.",
+    "Light that mirrors throw is baked for one view layer at a time: choose one.":
+        "Licht, das Spiegel werfen, wird für eine Ansichtsebene auf einmal gebacken: wähle eine.",
     "Mirror UVs are those of one mirror, and here are {}: select one of them with the objects that it shows.":
         "Spiegel-UVs sind die eines Spiegels, und hier sind {}: wähle einen davon mit den Objekten aus, die er "
         "zeigt.",

@@ -106,10 +106,12 @@ KEPT = {
     "the colours of materials have changed": "die Farben von Materialien haben sich geändert",
     "mirrors have been shown or hidden": "Spiegel wurden ein- oder ausgeblendet",
     "the lamps or the world have changed": "die Lampen oder die Welt haben sich geändert",
-    "The frames show what the view layer '{}' sees, and '{}' shows them too: let the command line bake several by "
-    "--view-layer, for a sequence each.":
-        "Die Einzelbilder zeigen, was die Ansichtsebene '{}' sieht, und '{}' zeigt sie auch: die Befehlszeile backt "
-        "mit --view-layer mehrere, jede für sich.",
+    "{}: What it shows is finer than its pixels; with Made Of > Points it takes about a third of the time.":
+        "{}: Was er zeigt, ist feiner als seine Pixel; mit Besteht aus > Punkte dauert es etwa ein Drittel so lange.",
+    "The frames show what the view layer '{}' sees, and '{}' shows them too: bake all view layers that are "
+    "rendered, for a sequence each.":
+        "Die Einzelbilder zeigen, was die Ansichtsebene '{}' sieht, und '{}' zeigt sie auch: backe alle "
+        "Ansichtsebenen, die gerendert werden, jede für sich.",
 }
 LACKS = {
     "No reflection has hair, point clouds or volumes, as '{}' has: make meshes of them, or leave the mirror to Cycles.":
@@ -198,6 +200,8 @@ LACKS = {
         "Zwischen den Ecken von '{}' ist das Bild bis zu {} px daneben: unterteile es, oder wähle Eine Kopie.",
     "About {} % of what the mirror shows is missing: give it a clean mesh, or move the camera.":
         "Etwa {} % von dem, was der Spiegel zeigt, fehlt: gib ihm ein sauberes Netz, oder bewege die Kamera.",
+    "About {} % of the light that the mirror throws is missing: give the mirror a clean mesh, or move the lamp.":
+        "Etwa {} % des Lichts, das der Spiegel wirft, fehlt: gib ihm ein sauberes Netz, oder bewege die Lampe.",
     "{}: this mirror is linked and cannot be hidden, so that it stands before the virtual image; override it, or "
     "choose the placement Layered.":
         "{}: dieser Spiegel ist verknüpft und lässt sich nicht ausblenden, so dass er vor dem virtuellen Bild "

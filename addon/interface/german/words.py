@@ -10,8 +10,7 @@ OPERATORS = {
     "operator is invoked": "Zeigt, bis sie beleuchtet ist, die Farben des Gespiegelten in der Tönung des Spiegels, "
         "von Lampen unberührt: an, wenn der Operator aufgerufen wird",
     "Attributes": "Attribute",
-    "What the points and faces of the result know; as it was, where this is not given":
-        "Was Punkte und Flächen des Ergebnisses wissen; wie es war, wo nichts angegeben ist",
+    "What the points and faces of a reflection know": "Was Punkte und Flächen einer Spiegelung wissen",
     "All": "Alles",
     "Where each point lies on the mirror and on what it shows, how long its path is, which face it shows: for light on "
     "objects, comparisons and shaders": "Wo jeder Punkt auf dem Spiegel und auf dem Gezeigten liegt, wie lang sein Weg "
@@ -38,6 +37,19 @@ OPERATORS = {
     "Compute the light of lamps that the mirrors throw on the reflected objects, as meshes that add it to them":
         "Berechnet das Licht der Lampen, das die Spiegel auf die Objekte werfen, als Netze, die es ihnen hinzufügen",
     "What": "Was",
+    "Cameras": "Kameras",
+    "For which cameras reflections are baked": "Für welche Kameras Spiegelungen gebacken werden",
+    "Scene's": "Die der Szene",
+    "The scene's camera, which its markers may change": "Die Kamera der Szene, die Markierungen wechseln können",
+    "Selected": "Ausgewählte",
+    "A sequence for each of the selected cameras": "Eine Bildfolge für jede ausgewählte Kamera",
+    "View Layers": "Ansichtsebenen",
+    "In which view layers reflections are baked": "In welchen Ansichtsebenen Spiegelungen gebacken werden",
+    "This One": "Diese",
+    "What the view layer sees that is looked at now": "Was die Ansichtsebene sieht, die gerade offen ist",
+    "All Rendered": "Alle gerenderten",
+    "A sequence for each view layer that is rendered, which the others do not show":
+        "Eine Bildfolge für jede Ansichtsebene, die gerendert wird; die anderen zeigen sie nicht",
     "What is written of each frame": "Was von jedem Einzelbild geschrieben wird",
     "Reflections": "Spiegelungen",
     "What the mirrors show to the camera": "Was die Spiegel der Kamera zeigen",
@@ -169,8 +181,9 @@ SETTINGS = {
     "Light": "Licht",
     "Where the light is kept": "Wo das Licht aufgehoben wird",
     "Automatic": "Automatisch",
-    "On the objects where the camera or a mirror is animated, else in the picture":
-        "Auf den Objekten, wo die Kamera oder ein Spiegel animiert ist, sonst im Bild",
+    "On the objects where the camera or a mirror is animated and few objects are reflected, else in the picture":
+        "Auf den Objekten, wo die Kamera oder ein Spiegel animiert ist und wenige Objekte gespiegelt werden, sonst im "
+        "Bild",
     "As the mirrors show it from here: everything that Cycles knows, for this view alone":
         "Wie die Spiegel es von hier zeigen: alles, was Cycles kann, nur für diesen Blick",
     "Objects": "Objekte",

@@ -8,8 +8,12 @@ import pytest
 from tests.window.polls import polls_of_the_extension
 
 MODES = {"MESH": ("OBJECT", "EDIT", "SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT"),
-         "CURVE": ("OBJECT", "EDIT"), "ARMATURE": ("OBJECT", "EDIT", "POSE"), "LATTICE": ("OBJECT", "EDIT"),
-         "EMPTY": ("OBJECT",)}
+         "CURVE": ("OBJECT", "EDIT"), "FONT": ("OBJECT", "EDIT"), "SURFACE": ("OBJECT", "EDIT"),
+         "META": ("OBJECT", "EDIT"), "ARMATURE": ("OBJECT", "EDIT", "POSE"), "LATTICE": ("OBJECT", "EDIT"),
+         "EMPTY": ("OBJECT",), "CURVES": ("OBJECT", "EDIT", "SCULPT_CURVES"), "PARTICLES": ("OBJECT", "PARTICLE_EDIT"),
+         "GREASE PENCIL": ("OBJECT", *(("EDIT", "SCULPT_GREASE_PENCIL", "PAINT_GREASE_PENCIL", "WEIGHT_GREASE_PENCIL")
+                                       if bpy.app.version >= (4, 3, 0) else
+                                       ("EDIT_GPENCIL", "SCULPT_GPENCIL", "PAINT_GPENCIL", "WEIGHT_GPENCIL")))}
 LEAST = 12  # classes that have one
 
 
@@ -18,6 +22,24 @@ def active_of(kind: str) -> None:
         parts.add("cube", "Active")
     elif kind == "CURVE":
         bpy.ops.curve.primitive_bezier_circle_add()
+    elif kind == "FONT":
+        bpy.ops.object.text_add()
+    elif kind == "SURFACE":
+        bpy.ops.surface.primitive_nurbs_surface_sphere_add()
+    elif kind == "META":
+        bpy.ops.object.metaball_add()
+    elif kind == "CURVES":
+        parts.add("cube", "Skin")
+        bpy.ops.object.curves_empty_hair_add()
+    elif kind == "PARTICLES":
+        head = parts.add("cube", "Head")
+        head.modifiers.new("Hair", "PARTICLE_SYSTEM")
+        head.particle_systems[0].settings.type = "HAIR"
+        head.particle_systems[0].settings.count = 10
+        bpy.context.view_layer.update()
+    elif kind == "GREASE PENCIL":
+        add = bpy.ops.object.grease_pencil_add if bpy.app.version >= (4, 3, 0) else bpy.ops.object.gpencil_add
+        add(type="STROKE")
     else:
         bpy.ops.object.add(type=kind)
         if kind == "ARMATURE":

@@ -10,7 +10,8 @@ import pytest
 from tools.extension_zip import PACKAGE
 
 OTHERS = {"tolerance": 2.0, "placement": "SURFACE", "method": "PARALLEL", "depth": 3, "memory": 4.0,
-          "hidden_faces": True, "light_samples": 7, "light_kind": "PICTURE"}
+          "hidden_faces": True, "light_samples": 7, "light_kind": "PICTURE",
+          "attributes": "SHOWN"}
 
 
 @pytest.fixture
@@ -51,7 +52,7 @@ def held(holder) -> dict:
 
 
 def core_settings(room, values: dict):
-    known = {name: value for name, value in values.items() if not name.startswith("light")}
+    known = {name: value for name, value in values.items() if not name.startswith("light") and name != "attributes"}
     return room("core").Settings(maximum_memory=known.pop("memory"), **known)
 
 
@@ -173,7 +174,8 @@ def test_the_panel_after_a_run_shows_what_was_used_and_changes_that_alone(pair, 
     operator.tolerance = 0.75
     wanted = operator.wanted(pair)
     operator.show_used(wanted, [left, right])
-    assert operator.values == {**{name: OTHERS[name] for name in room("addon.settings").SETTINGS}, "tolerance": 0.75}
+    assert operator.values == {**{name: OTHERS[name] for name in room("addon.settings").SETTINGS}, "tolerance": 0.75,
+                               "attributes": OTHERS["attributes"]}
     # run again without a change, and with one
     assert operator.wanted(pair).given == {"tolerance": 0.75}
     operator.method = "GENERAL"

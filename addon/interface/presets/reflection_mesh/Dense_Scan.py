@@ -12,3 +12,4 @@ settings.depth = 1
 settings.hidden_faces = False
 settings.light_samples = 64
 settings.light_kind = "PICTURE"
+settings.attributes = "ALL"

@@ -12,3 +12,4 @@ settings.depth = 1
 settings.hidden_faces = False
 settings.light_samples = 16
 settings.light_kind = "AUTO"
+settings.attributes = "ALL"

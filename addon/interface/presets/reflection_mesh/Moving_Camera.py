@@ -12,3 +12,4 @@ settings.depth = 1
 settings.hidden_faces = False
 settings.light_samples = 128
 settings.light_kind = "OBJECTS"
+settings.attributes = "ALL"

@@ -1,0 +1,84 @@
+"""The way to the manual, and its pages as the extension carries them."""
+from __future__ import annotations
+
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import urldefrag, urlsplit
+from urllib.request import url2pathname
+
+import bpy
+import pytest
+
+from tools.manual_pages import anchor
+
+
+class Page(HTMLParser):
+    """What a page names, and where it leads."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.named, self.led, self.shown = set(), [], []
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag: str, attrs: list) -> None:
+        given = dict(attrs)
+        self.named.add(given.get("id"))
+        self.led += [given["href"]] if tag == "a" else []
+        self.shown += [given["src"]] if tag == "img" else []
+
+
+@pytest.fixture
+def manual(room) -> Path:
+    """Where the installed extension has its manual."""
+    address, _ = room("addon.interface.manual").pages()
+    assert address.startswith("file:")
+    return Path(url2pathname(urlsplit(address).path))
+
+
+def test_it_tells_of_operators_settings_and_roles(manual, room):
+    page, (_, names) = Page(manual), room("addon.interface.manual").pages()
+    assert names and {place.removeprefix("#") for _, place in names} <= page.named
+
+
+@pytest.mark.parametrize(("name", "place"), [
+    *((f"bpy.ops.reflection_mesh.{name}", "operators") for name in ("generate", "light", "bake", "print_sheet")),
+    ("bpy.types.ReflectionScene.tolerance", "settings"), ("bpy.types.ReflectionObject.tolerance", "settings"),
+    ("bpy.types.ReflectionObject.role", "roles"), ("bpy.types.ReflectionLive.eye", "operators")])
+def test_blender_finds_it(manual, name, place):
+    """By the names that buttons and settings have where Blender looks for its own manual."""
+    found = bpy.types.WM_OT_doc_view_manual._lookup_rna_url(name, verbose=False)
+    assert found == f"{manual.as_uri()}#{place}"
+
+
+def test_every_link_leads_to_what_the_extension_carries(manual):
+    pages = {path.name: Page(path) for path in manual.parent.glob("*.html")}
+    assert len(pages) > 10
+    for name, page in pages.items():
+        for address, place in map(urldefrag, page.led):
+            if not urlsplit(address).scheme:
+                target = pages[address or name]
+                assert not place or place in target.named, (name, address, place)
+        assert all((manual.parent / path).is_file() for path in page.shown)
+    pictures = {path.name for path in (manual.parent / "pictures").iterdir()}
+    assert pictures == {Path(path).name for page in pages.values() for path in page.shown}
+
+
+def test_nothing_is_left_of_the_way_it_is_written(manual):
+    for path in manual.parent.glob("*.html"):
+        text = re.sub(r"<(style|pre|code)>.*?</\1>", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+        assert not re.search(r"\]\(|\*\*|^#|^\|", text, flags=re.MULTILINE), path.name
+
+
+def test_without_its_pages_there_is_the_website(room, monkeypatch, tmp_path):
+    place = room("addon.interface.manual")
+    manifest = Path(place.__file__).parents[2] / "blender_manifest.toml"
+    monkeypatch.setattr(place, "CARRIED", tmp_path / "manual.html")
+    address, _ = place.pages()
+    assert f'website = "{address}"' in manifest.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("heading", "name"), [("What else they ask for", "what-else-they-ask-for"),
+                                               ("The window: `VIRTUAL`", "the-window-virtual")])
+def test_headings_are_called_as_where_documents_are_read_else(heading, name):
+    assert anchor(heading) == name

@@ -1,0 +1,120 @@
+"""Panels and the menu: what the user sees of roles, settings and results."""
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import bpy
+import interface_words
+import numpy as np
+import parts
+import pytest
+from drawn_panels import Layout, drawn, pair
+
+OPERATORS = ("generate", "light", "caustics", "bake", "clear", "live", "update", "compare", "mirror_uvs", "print_sheet")
+
+
+@pytest.fixture
+def scene(blank) -> bpy.types.Scene:
+    return pair(blank)
+
+
+@pytest.mark.parametrize("space", ["VIEW_3D", "PROPERTIES"])
+def test_a_mirror_shows_its_role_and_the_settings_that_hold(scene, room, space):
+    mirror = bpy.data.objects["Mirror"]
+    layout = drawn(room, space)
+    assert layout.menus == ["REFLECTION_MESH_MT_role"]
+    assert layout.properties["tolerance"] == scene.reflection_mesh
+    settings = set(room("addon.settings.holders").ALL)
+    assert settings | {"own_settings", "eye"} == set(layout.properties)
+    mirror.reflection_mesh.own_settings = True
+    layout = drawn(room, space)
+    assert {layout.properties[name] for name in settings} == {mirror.reflection_mesh}
+    mirror.reflection_mesh.role = "DIFFUSE"
+    assert "own_settings" not in drawn(room, space).properties
+
+
+def test_users_give_no_role_that_only_results_have(scene, room):
+    """An object that somebody calls a reflection would be cleared as one."""
+    layout, mirror = Layout(), bpy.data.objects["Mirror"].reflection_mesh
+    room("addon.interface.menus").REFLECTION_MESH_MT_role.draw(SimpleNamespace(layout=layout), bpy.context)
+    assert layout.values == [(mirror, role) for role in ("AUTO", "MIRROR", "DIFFUSE", "IGNORE")]
+
+
+def told(room, obj) -> str:
+    writing = room("addon.writing")
+    return writing.size_text(writing.mesh_bytes(obj.data))
+
+
+@pytest.mark.parametrize("space", ["VIEW_3D", "PROPERTIES"])
+def test_a_result_tells_of_itself_in_plain_words(scene, room, space):
+    result = parts.generate()
+    mirror = bpy.data.objects["Mirror"].reflection_mesh
+    mirror.own_settings = True
+    layout = drawn(room, space)
+    assert layout.labels[:3] == ["Mirror Reflection", "Reflection in 'Mirror'", "Shows 'Box'"]
+    assert layout.labels[3] == f"{len(result.data.polygons)} faces, {told(room, result)}"
+    # the settings are those of its mirror, figures come last
+    assert layout.properties["tolerance"] == mirror
+    assert layout.labels[-4:][0] == "Made for 64 x 48 px" and "filled by rays" in layout.labels[-1]
+    assert not any("another size" in line for line in layout.labels)
+    scene.render.resolution_x = 80
+    assert "The render has another size now:" in drawn(room, space).labels
+    for number in range(2):
+        result.reflection_mesh.sources.add().object = parts.add("plane", f"More {number}")
+    bpy.context.view_layer.objects.active = result
+    assert "Shows 'Box' and 2 more" in drawn(room, space).labels
+    bpy.data.objects.remove(bpy.data.objects["Mirror"])
+    assert "Reflection in a mirror that is gone" in drawn(room, space).labels
+
+
+def test_the_size_is_that_in_a_file(blank, room, tmp_path):
+    grid = parts.add("grid", "Grid", x_subdivisions=150, y_subdivisions=150).data
+    rng = np.random.default_rng(3)
+    for kind, field, width in (("FLOAT_VECTOR", "vector", 3), ("FLOAT", "value", 1), ("FLOAT_COLOR", "color", 4)):
+        entry = grid.attributes.new(kind, kind, "POINT")
+        entry.data.foreach_set(field, rng.uniform(size=width * len(entry.data)).astype(np.float32))
+    sizes = []
+    for mesh in (grid, bpy.data.meshes.new("Empty")):
+        path = tmp_path / f"{mesh.name}.blend"
+        bpy.data.libraries.write(str(path), {mesh}, compress=False)
+        sizes.append(path.stat().st_size)
+    assert room("addon.writing").mesh_bytes(grid) == pytest.approx(sizes[0] - sizes[1], rel=0.01)
+
+
+def test_nothing_and_other_things_are_drawn_too(blank, room):
+    bpy.context.view_layer.objects.active = None
+    layout = drawn(room, "VIEW_3D")
+    assert layout.labels == ["Select a mirror and what it shall show"]
+    assert layout.properties["tolerance"] == blank.scene.reflection_mesh
+    bpy.context.view_layer.objects.active = bpy.data.objects["Camera"]
+    assert drawn(room, "VIEW_3D").menus == ["REFLECTION_MESH_MT_role"]
+    assert not drawn(room, "PROPERTIES").properties
+    bpy.context.view_layer.objects.active = None
+    assert not drawn(room, "PROPERTIES").properties
+    poll = room("addon.interface.panels").REFLECTION_MESH_PT_object.poll
+    assert not poll(SimpleNamespace()) and not poll(SimpleNamespace(view_layer=None))
+
+
+def test_every_operator_is_in_the_menu(room):
+    """By which F3 finds it."""
+    layout, entry = Layout(), Layout()
+    menus = room("addon.interface.menus")
+    menus._draw_entry(SimpleNamespace(layout=entry), bpy.context)
+    assert entry.menus == ["VIEW3D_MT_reflection_mesh"]
+    menus.VIEW3D_MT_reflection_mesh.draw(SimpleNamespace(layout=layout), bpy.context)
+    assert layout.operator_context == "INVOKE_REGION_WIN"
+    own = {cls.bl_idname for cls in interface_words.classes() if issubclass(cls, bpy.types.Operator)}
+    assert set(layout.buttons) == {f"reflection_mesh.{one}" for one in OPERATORS}
+    assert set(layout.buttons) == own - {"reflection_mesh.preset_add"}
+
+
+def test_all_that_can_be_pressed_or_set_says_what_it_does(scene):
+    assert interface_words.without_a_tip() == []
+
+
+def test_numbers_have_their_units(scene, room):
+    """Where Blender has the unit it writes it; where it has none, the name does."""
+    for holder in (scene.reflection_mesh, bpy.data.objects["Mirror"].reflection_mesh,
+                   bpy.ops.reflection_mesh.generate.get_rna_type()):
+        known = getattr(holder, "bl_rna", holder).properties
+        assert known["tolerance"].subtype == "PIXEL" and known["memory"].name.endswith("(GB)")
