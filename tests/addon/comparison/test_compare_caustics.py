@@ -99,14 +99,14 @@ def test_the_file_stays_as_it_was_wherever_it_is_stopped(lit, room, tmp_path):
 
 def test_an_error_between_two_renders_leaves_the_file_as_it_was(lit, room, monkeypatch, tmp_path):
     pictures, before, count = room("addon.comparison.light_pictures"), whole(), []
-    rendered = pictures.rendered
+    rendering = pictures.rendering
 
     def failing(scene):
         count.append(scene)
         if len(count) == 9:
             raise room("core").ReflectionError("It went wrong.")
-        return rendered(scene)
-    monkeypatch.setattr(pictures, "rendered", failing)
+        return rendering(scene)
+    monkeypatch.setattr(pictures, "rendering", failing)
     assert "went wrong" in parts.refusal(bpy.ops.reflection_mesh.compare, filepath=str(tmp_path / "out"), samples=1,
                                          converged=8, rays=1000)
     assert len(count) == 9 and whole() == before and not (tmp_path / "out").exists()

@@ -1,6 +1,8 @@
 """A newcomer's first minute: an own scene, lit, textured and animated, the mirror clicked, two buttons pressed."""
 from __future__ import annotations
 
+import time
+
 import bpy
 import parts
 from lamp_scenes import picture, psnr
@@ -12,11 +14,16 @@ def test_the_mirror_clicked_and_two_buttons(blank, room):
     mirror = room_of(blank, 20)
     parts.select(mirror)
     reference, other = picture(room), picture(room, seed=7)
+    started = time.process_time()
     assert bpy.ops.reflection_mesh.generate("INVOKE_DEFAULT") == {"FINISHED"}
     result = bpy.context.view_layer.objects.active
     assert result.name == "Metal Reflection" and len(result.reflection_mesh.sources) == 22
+    seconds = time.process_time() - started
     before = psnr(picture(room), reference)
+    started = time.process_time()
     assert bpy.ops.reflection_mesh.light("INVOKE_DEFAULT") == {"FINISHED"}
+    # of all processors together, whatever else they do
+    assert seconds + time.process_time() - started < 60.0
     # nothing was baked object by object
     assert result.reflection_mesh.light_map is None
     lit, noise = psnr(picture(room), reference), psnr(other, reference)

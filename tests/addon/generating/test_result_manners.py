@@ -173,7 +173,9 @@ def test_only_what_is_seen(scene, method):
     assert names - set(result.data.attributes.keys()) == unseen >= {"mirror_position", "source_face"}
     for name in whole.keys() - unseen:
         assert [round(value, 6) for value in parts.attribute(result, name).ravel().tolist()] == whole[name]
-    # it stays so until something else is asked for
+    # the file's setting is that of every way in
+    assert "path_length" in parts.generate(method=method).data.attributes
+    bpy.context.scene.reflection_mesh.attributes = "SHOWN"
     parts.generate(method=method)
     assert "path_length" not in result.data.attributes
     # what a material reads by name is seen, and a picture without coordinates lies by the active map
@@ -194,6 +196,7 @@ def test_normals_are_seen_where_lamps_shine(scene):
     mirror, cube = scene
     result = parts.generate(attributes="SHOWN")
     shaded = "custom_normal" in result.data.attributes
+    bpy.context.scene.reflection_mesh.attributes = "SHOWN"
     cube.data.materials[0] = glowing = parts.material("Glowing")
     parts.generate()
     assert "custom_normal" not in result.data.attributes and shaded == (bpy.app.version >= (4, 5, 0))

@@ -3,6 +3,7 @@ import re
 from types import SimpleNamespace
 
 import bpy
+import numpy as np
 import parts
 import pytest
 
@@ -28,6 +29,15 @@ def test_sentences_differ_and_a_good_result_has_none(told):
     assert len({one for count in COUNTS for one in told(**{count: 1})}) == len(COUNTS)
     assert told(**dict.fromkeys(COUNTS, 0), missed=0) == []
     assert told(missed=2) == [] and "About 12 %" in told(missed=3)[0]
+
+
+def test_scenes_finer_than_pixels_get_a_hint_at_points(room):
+    def hint(faces, bounces=1):
+        result = SimpleNamespace(triangles=range(faces), counts={"mirror_pixels": 250_000}, bounces=np.array([bounces]))
+        return room("addon.operators.shortcomings").better_of_points("Lake", result)
+    assert ["Made Of > Points" in sentence for sentence in hint(300_000)] == [True]
+    # points, which have no faces, show one bounce
+    assert not hint(240_000) and not hint(300_000, bounces=2) and not hint(0)
 
 
 @pytest.mark.parametrize("placement", ["LAYERED", "VIRTUAL"])

@@ -8,7 +8,7 @@ import bpy
 
 from tools.extension_zip import PACKAGE
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 KINDS = (bpy.types.Operator, bpy.types.Panel, bpy.types.Menu)
 # of the records that files hold, what panels draw
 DRAWN = {"ReflectionScene", "ReflectionObject", "ReflectionLive"}
@@ -62,6 +62,21 @@ def words(drawn: set) -> set[str]:
             if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") in SENTENCES:
                 found.add(ast.literal_eval(node.value))
     return found - {""}
+
+
+def without_a_tip() -> list[str]:
+    """Operators, and what they ask for, that say nothing where the mouse rests on them; a choice does in its items."""
+    found = []
+    for cls in (cls for cls in classes() if issubclass(cls, bpy.types.Operator) or cls.__name__ in DRAWN):
+        rna = cls.bl_rna
+        if issubclass(cls, bpy.types.Operator):
+            rna = getattr(bpy.ops.reflection_mesh, cls.bl_idname.rpartition(".")[2]).get_rna_type()
+            found += [] if rna.description else [cls.bl_idname]
+        own = {name for base in cls.__mro__ if base.__module__.startswith(PACKAGE)
+               for name in base.__dict__.get("__annotations__", {})}
+        found += [f"{cls.__name__}.{name}" for name in own if not rna.properties[name].is_hidden
+                  and not rna.properties[name].description]
+    return found
 
 
 def _drawn_literals(tree: ast.AST, functions: set) -> set[str]:

@@ -60,7 +60,7 @@ def _stage_of(node: ast.AST) -> list[ast.AST]:
     if not isinstance(node, ast.Call):
         return []
     name = getattr(node.func, "attr", getattr(node.func, "id", ""))
-    last = {"next": 2, "tell": 2, "part": 4, "taken": 3, "_named": 2}.get(name)
+    last = {"next": 2, "tell": 2, "part": 4, "taken": 3, "_named": 2, "shown_while": 3, "render_stage": 1}.get(name)
     return [node.args[-1]] if last == len(node.args) else []
 
 

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from threading import Timer
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 NO_LIMIT = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
 # Python has switched the signal off that would end the process
 LIMITED = ("import resource, runpy, sys; limit = int(sys.argv[1]); del sys.argv[:2]; "
