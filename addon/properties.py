@@ -27,11 +27,6 @@ ROLES = (
 )
 OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
 
-ATTRIBUTES = (
-    ("ALL", "All", "Where each point lies on the mirror and on what it shows, how long its path is, which face it "
-     "shows: for light on objects, comparisons and shaders"),
-    ("SHOWN", "Shown", "Only what is seen: positions, materials, and what these read: about a third smaller"),
-)
 
 
 def _begin_own(self, context: bpy.types.Context) -> None:
@@ -85,8 +80,6 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
                                          "its own space")
     materials: CollectionProperty(name="Materials", type=ReflectionMaterial,
                                   description="The materials of its mesh when it was generated")
-    attributes: EnumProperty(name="Attributes", description="What its points and faces know", items=ATTRIBUTES,
-                             default="ALL")
     estimated_error: FloatProperty(name="Estimated Error", description="99th percentile of the displacement, in pixels")
     seconds: FloatProperty(name="Seconds", description="Time that it took to generate, this mirror's share")
     counts: StringProperty(name="Counts", description="How much of each part of the method was needed, as JSON")

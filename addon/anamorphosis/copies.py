@@ -8,6 +8,7 @@ from dataclasses import replace
 import bpy
 from mathutils import Matrix
 
+from .. import compat
 from ..faults import AllOrNothing, Steps, keep_data, keep_object
 from ..writing import MeshArrays, new_beside, write_mesh
 from .sheet_arrays import Sheet
@@ -61,7 +62,7 @@ def write_copy(context: bpy.types.Context, sheet: Sheet, paper: bpy.types.Materi
     render_map = _render_map(obj.data, sheet)
     write_mesh(obj.data, sheet.arrays if paper is None else _on_paper(sheet.arrays, paper))
     yield 0.5, ""
-    obj.data.normals_split_custom_set(sheet.normals.reshape(-1, 3))
+    compat.set_corner_normals(obj.data, sheet.normals)
     if render_map:
         obj.data.uv_layers[render_map].active_render = True
     if paper is not None:

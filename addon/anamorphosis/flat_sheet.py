@@ -33,6 +33,13 @@ class FlatSheet:
     size: np.ndarray
 
 
+def why_no_sheet(obj: bpy.types.Object) -> str:
+    """A sentence where an object carries no map of a mirror; empty where it does."""
+    if obj.type == "MESH" and UV_MAP in obj.data.uv_layers and SEEN in obj.data.attributes:
+        return ""
+    return f"'{obj.name}' has no UV map '{UV_MAP}': press Write Mirror UVs first."
+
+
 def flat_sheet(obj: bpy.types.Object, metres: float) -> FlatSheet:
     """The sheet that `obj` is, which carries the map of a mirror; its own Y axis is up, and a unit has `metres`.
 
@@ -41,9 +48,10 @@ def flat_sheet(obj: bpy.types.Object, metres: float) -> FlatSheet:
     ReflectionError
         Where it carries none, is not flat, or has no area.
     """
-    mesh = obj.data if obj.type == "MESH" else None
-    if mesh is None or UV_MAP not in mesh.uv_layers or SEEN not in mesh.attributes:
-        raise ReflectionError(f"'{obj.name}' has no UV map '{UV_MAP}': press Write Mirror UVs first.")
+    without = why_no_sheet(obj)
+    if without:
+        raise ReflectionError(without)
+    mesh = obj.data
     mesh.calc_loop_triangles()
     count = len(mesh.loop_triangles)
     loops, polygon = np.empty((count, 3), dtype=np.int32), np.empty(count, dtype=np.int32)

@@ -9,9 +9,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ...core import TriangleMesh, View
-from ...core.rivals import ITSELF, PrimaryHits, Rival, RivalPicture
-from ...core.rivals.pixel_blocks import cast_by_blocks
-from ...core.rivals.rival_picture import Work
+from ...core.rivals import ITSELF, PrimaryHits, Rival, RivalPicture, Work, cast_by_blocks
 from ...core.rivals.tracing import plane_distance
 
 TOUCHING = 1e-5  # of a mesh's size: single precision cannot tell a nearer hit from the surface the ray starts on

@@ -8,8 +8,7 @@ import bpy
 import numpy as np
 
 from ...core import Settings, reflect
-from ...core.rivals import PrimaryHits, primary_hits
-from ...core.rivals.forward import drawn_mesh
+from ...core.rivals import PrimaryHits, drawn_mesh, primary_hits
 from ..comparison import comparison_pictures, render_pictures
 from ..faults import finished
 from ..judge import CodedMaterials, CopiedScene, copied_scene, dress, reflecting

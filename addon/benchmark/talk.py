@@ -3,8 +3,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from ...core.rivals import METHODS, primary_hits
-from ...core.rivals.morphing import morphed
+from ...core.rivals import METHODS, morphed, primary_hits
 from ...core.rivals.scenes import talk_setting
 from ..report import Cost
 

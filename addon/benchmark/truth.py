@@ -101,7 +101,7 @@ def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -
         # in units of the longer side, or as the sensor's fit has it: within a pixel or so, which is all that matters
         camera.shift_x, camera.shift_y = start + shift / max(lattice)
         view = case.view if not truths else _view(context, scene, case, lattice)
-        seen, bent = coded.mirror()
+        seen, bent = finished(coded.mirror())
         truth = finished(coded.reflected(seen, unrounded=bool(compat.packs_normals())))
         pictures = pictures or (seen, bent, truth)
         truths.append(_truth(case, view, seen, bent, truth))

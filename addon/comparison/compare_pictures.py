@@ -10,7 +10,7 @@ import numpy as np
 
 from ...core import ReflectionError
 from .. import compat
-from ..faults import Steps, Undivided
+from ..faults import Steps
 from ..judge import (
     CodedMaterials,
     CodedTruth,
@@ -24,6 +24,7 @@ from ..judge import (
     show,
 )
 from ..metrics import CodedPicture
+from ..rendering import render_stage
 from ..writing import records
 from .pictures import Pictures, render_lit, render_pictures
 
@@ -60,16 +61,22 @@ def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: 
     count = RENDERS + 2 * compat.packs_normals() + lit(results)
     renders = _renders(context, copied, diffuse, results, samples)
     try:
+        what = next(renders)
         for number in itertools.count():
-            what = next(renders)
-            yield number / count, Undivided(f"Cycles renders {what}, {number + 1} of {count}")
+            told = number / count, render_stage(f"Cycles renders {what}, {number + 1} of {count}")
+            yield told
+            # nothing more is said of one that goes on beside
+            while (what := next(renders)) is None:
+                yield told
     except StopIteration as stop:
         return stop.value
+    finally:
+        renders.close()
 
 
 def _renders(context: bpy.types.Context, copied: CopiedScene, diffuse: list, results: list,
-             samples: int) -> Generator[str, None, Renders]:
-    """As `render_comparison`; yields the name of each render before it."""
+             samples: int) -> Generator[str | None, None, Renders]:
+    """As `render_comparison`; yields as `render_pictures`."""
     depth = min(max((records.counts(result).get("depth", 1) for result in results), default=1) or 1, DEEPEST)
     cycles_render.prepare(copied.scene, depth)
     _code_results(copied, results, diffuse, polygons(context, diffuse))
@@ -120,20 +127,21 @@ def _face_numbers(mesh: bpy.types.Mesh, name: str, result: bpy.types.Object) -> 
     return values
 
 
-def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> Generator[str, None, tuple]:
+def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> Generator[str | None, None, tuple]:
     """The first five of `Renders`."""
     truth = CodedTruth(copied, codes, depth)
     yield "the outline of the mirror"
-    seen, bent = truth.mirror()
+    seen, bent = yield from truth.mirror()
     reflected = yield from truth.reflected(seen)
     exact = (yield from truth.reflected(seen, unrounded=True)) if compat.packs_normals() else None
     truth.end()
     show(copied.results, True)
     dress(copied.results, codes.attribute("reflection_code"))
     yield "the faces of the mesh"
-    identity = cycles_render.render_codes(copied.scene)
+    identity = yield from cycles_render.render_codes(copied.scene)
     dress(copied.results, codes.attribute_position("reflected_position"))
     yield "the positions on the mesh"
-    shown = decode(identity, cycles_render.render_codes(copied.scene), codes.origin, True, face_start=1)
+    position = yield from cycles_render.render_codes(copied.scene)
+    shown = decode(identity, position, codes.origin, True, face_start=1)
     return seen, bent, reflected, shown, exact
 

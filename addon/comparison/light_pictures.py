@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from ..faults import Steps, Undivided
+from ..faults import Steps
 from ..illumination import is_met, leaves_out, let_lamps_light_mirrors
-from ..rendering import copied_scene, only_the_picture, rendered
+from ..rendering import MOST_SEED, copied_scene, only_the_picture, rendering, shown_while
 
 CHUNK = 64  # samples of one render of the reference: so often ESC is heard
 NAME = "Reflection Comparison"
@@ -99,11 +99,11 @@ class _Shots:
         self.scene, self.seed, self.count, self.number = scene, seed, count, 0
 
     def taken(self, samples: int, seed: int, what: str) -> Steps[Shot]:
-        yield self.number / self.count, Undivided(f"Cycles renders {what}, {self.number + 1} of {self.count}")
+        done, stage = self.number / self.count, f"Cycles renders {what}, {self.number + 1} of {self.count}"
         self.number += 1
-        self.scene.cycles.samples, self.scene.cycles.seed = samples, self.seed + seed
+        self.scene.cycles.samples, self.scene.cycles.seed = samples, (self.seed + seed) % MOST_SEED
         started = time.perf_counter()
-        picture = rendered(self.scene)[..., :3]
+        picture = (yield from shown_while(rendering(self.scene), done, stage))[..., :3]
         return Shot(samples, picture, time.perf_counter() - started)
 
 

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from ..judge import CopiedScene, render_picture, show, take_settings
-from ..rendering import copied_scene, look_through, only_the_picture, sharp_camera, show_mirrors
+from ..rendering import Renders, copied_scene, look_through, only_the_picture, sharp_camera, show_mirrors
 
 NAME = "Reflection Comparison"
 
@@ -35,9 +35,9 @@ class Pictures:
     again: np.ndarray | None = None
 
 
-def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) -> Generator[str, None, Pictures]:
+def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) -> Generator[str | None, None, Pictures]:
     """Render both pictures of a copied scene, in which a mirror with a mesh before it reflects the world alone; yields
-    the name of each before it."""
+    the name of each before it, and nothing while Blender renders beside."""
     scene = copied.scene
     copied.light_up(user.world)
     visible = [(copy, copy.visible_camera, copy.visible_glossy) for copy in copied.everything]
@@ -45,20 +45,20 @@ def render_pictures(copied: CopiedScene, user: bpy.types.Scene, samples: int) ->
         copy.visible_camera = True
     show(copied.results, False)
     yield "the picture with the mirror"
-    reference, first = _timed(scene, samples, user)
+    reference, first = yield from _timed(scene, samples, user)
     for copy, camera, glossy in visible:
         copy.visible_camera, copy.visible_glossy = camera, glossy
     for copy, _ in copied.diffuse:
         copy.visible_glossy = False
     show(copied.results, True)
     yield "the picture with the mesh"
-    result, second = _timed(scene, samples, user)
+    result, second = yield from _timed(scene, samples, user)
     return Pictures(reference, result, {"reference": first, "result": second})
 
 
-def render_lit(context: bpy.types.Context, results: list, samples: int) -> Generator[str, None, Pictures]:
+def render_lit(context: bpy.types.Context, results: list, samples: int) -> Generator[str | None, None, Pictures]:
     """Render the file with its mirrors, once more with other noise, and as it is, with the meshes `results` that show
-    light; yields the name of each before it, and leaves the file as it was wherever it is closed.
+    light; yields as `render_pictures`, and leaves the file as it was wherever it is closed.
 
     No copy of an object is lit as that object is: *Object Info > Random* goes by its name, Generated coordinates by its
     shape before modifiers, and what links it with lamps, its hair and its fog are its own.
@@ -76,16 +76,16 @@ def render_lit(context: bpy.types.Context, results: list, samples: int) -> Gener
         with ExitStack() as without:
             show_mirrors(results, without)
             yield "the picture with the mirror"
-            reference, first = _timed(scene, samples, user)
+            reference, first = yield from _timed(scene, samples, user)
             yield "the picture with the mirror once more"
-            again = render_picture(scene, samples, user, other_noise=True)
+            again = yield from render_picture(scene, samples, user, other_noise=True)
         yield "the picture with the mesh"
-        result, second = _timed(scene, samples, user)
+        result, second = yield from _timed(scene, samples, user)
     return Pictures(reference, result, {"reference": first, "result": second}, again)
 
 
-def _timed(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> tuple[np.ndarray, float]:
+def _timed(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> Renders[tuple[np.ndarray, float]]:
     """A picture, and the seconds that it took."""
     started = time.perf_counter()
-    picture = render_picture(scene, samples, user)
+    picture = yield from render_picture(scene, samples, user)
     return picture, time.perf_counter() - started

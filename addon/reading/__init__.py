@@ -34,6 +34,7 @@ from .roles import (
     choose,
     in_viewports,
     may_have_faces,
+    nothing_to_reflect,
     participants,
     rendered_collections,
     rendered_in,
@@ -47,7 +48,7 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "every_result_of", "fog_of", "forget_known", "has_fog", "has_linked_results", "in_background_set",
            "in_viewports", "is_clear", "is_fog", "is_gone", "is_mirror", "is_opaque", "is_part", "is_rendered",
            "join_mirror", "join_scene", "known_results", "lines_drawn", "link_state", "looked_through", "materials_of",
-           "materials_shown", "may_have_faces", "moves", "participants", "read_meshes", "read_mirror", "read_mirrors",
-           "read_scene", "read_view", "register", "render_size", "rendered_alone", "rendered_collections",
-           "rendered_in", "rendered_otherwise", "results_of", "says_mirror", "seen_in", "unregister", "vectors",
-           "visible", "with_copies", "without_surface"]
+           "materials_shown", "may_have_faces", "moves", "nothing_to_reflect", "participants", "read_meshes",
+           "read_mirror", "read_mirrors", "read_scene", "read_view", "register", "render_size", "rendered_alone",
+           "rendered_collections", "rendered_in", "rendered_otherwise", "results_of", "says_mirror", "seen_in",
+           "unregister", "vectors", "visible", "with_copies", "without_surface"]

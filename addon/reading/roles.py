@@ -158,9 +158,14 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
             raise NothingSeen(_why_unseen(diffuse[0], there, (
                 f"The reflected object '{diffuse[0].name}' is hidden: show it in the viewport, in renders and to "
                 "glossy rays.")))
-        raise ReflectionError(f"Nothing to reflect in '{seen.mirrors[0].name}': select the objects to reflect together "
-                              "with it, or set their role to Reflected in the Reflection tab.")
+        raise ReflectionError(nothing_to_reflect(seen.mirrors[0]))
     return seen
+
+
+def nothing_to_reflect(mirror: bpy.types.Object) -> str:
+    """What is said where a mirror is chosen and nothing that it is to show."""
+    return (f"Nothing to reflect in '{mirror.name}': select the objects to reflect together with it, or set their role "
+            "to Reflected in the Reflection tab.")
 
 
 def _why_unseen(obj: bpy.types.Object, there: set, hidden: str) -> str:

@@ -1,9 +1,9 @@
 """Settings: declared once, held by the scene and by mirrors that have their own, given to operators and verbs."""
-from .choices import LIGHTS, METHODS, PLACEMENTS
-from .declared import LIGHT_SETTINGS, SAMPLES, SETTINGS, option
+from .choices import ATTRIBUTES, LIGHTS, METHODS, PLACEMENTS
+from .declared import LIGHT_SETTINGS, SAMPLES, SETTINGS, WRITTEN_SETTINGS, option
 from .holders import SettingsOfMirror, SettingsOfScene, SettingsOptions, holder_of, make_own, mirror_of
-from .wanted import SettingsOfMirrors, UsesSettings, Wanted, of_each
+from .wanted import SettingsOfMirrors, UsesSettings, Wanted, attributes_of, of_each
 
-__all__ = ["LIGHTS", "LIGHT_SETTINGS", "METHODS", "PLACEMENTS", "SAMPLES", "SETTINGS", "SettingsOfMirror",
-           "SettingsOfMirrors", "SettingsOfScene", "SettingsOptions", "UsesSettings", "Wanted", "holder_of",
-           "make_own", "mirror_of", "of_each", "option"]
+__all__ = ["ATTRIBUTES", "LIGHTS", "LIGHT_SETTINGS", "METHODS", "PLACEMENTS", "SAMPLES", "SETTINGS",
+           "SettingsOfMirror", "SettingsOfMirrors", "SettingsOfScene", "SettingsOptions", "UsesSettings",
+           "WRITTEN_SETTINGS", "Wanted", "attributes_of", "holder_of", "make_own", "mirror_of", "of_each", "option"]

@@ -15,8 +15,14 @@ METHODS = (
     ("POINTS", "Points", "A small disc for each point that the mirror shows: for dense scans, with triangles smaller "
      "than a pixel", 2),
 )
+ATTRIBUTES = (
+    ("ALL", "All", "Where each point lies on the mirror and on what it shows, how long its path is, which face it "
+     "shows: for light on objects, comparisons and shaders", 0),
+    ("SHOWN", "Shown", "Only what is seen: positions, materials, and what these read: about a third smaller", 1),
+)
 LIGHTS = (
-    ("AUTO", "Automatic", "On the objects where the camera or a mirror is animated, else in the picture", 0),
+    ("AUTO", "Automatic", "On the objects where the camera or a mirror is animated and few objects are reflected, else "
+     "in the picture", 0),
     ("PICTURE", "Picture", "As the mirrors show it from here: everything that Cycles knows, for this view alone", 1),
     ("OBJECTS", "Objects", "Baked once and kept with the reflected objects, so that camera and mirrors may move; gloss "
      "stays as it is seen from here", 2),

@@ -3,12 +3,14 @@ from __future__ import annotations
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from .choices import LIGHTS, METHODS, PLACEMENTS
+from .choices import ATTRIBUTES, LIGHTS, METHODS, PLACEMENTS
 
 SAMPLES = 64    # of light, per pixel
 # what a reflection is made by, and how it is lit
 SETTINGS = ("tolerance", "placement", "method", "depth", "memory", "hidden_faces")
 LIGHT_SETTINGS = ("light_samples", "light_kind")
+# what is written of it; a result remembers what it has
+WRITTEN_SETTINGS = ("attributes",)
 
 
 def declared(names: tuple[str, ...], **more) -> dict:
@@ -36,7 +38,7 @@ def option(setting: str, /, **more):
 
 KINDS = {"tolerance": FloatProperty, "placement": EnumProperty, "method": EnumProperty, "depth": IntProperty,
          "memory": FloatProperty, "hidden_faces": BoolProperty, "light_samples": IntProperty,
-         "light_kind": EnumProperty}
+         "light_kind": EnumProperty, "attributes": EnumProperty}
 VALUES = {
     "tolerance": {"name": "Tolerance", "default": 0.5, "min": 0.01, "soft_max": 8.0, "max": 1000.0, "precision": 2,
                   "subtype": "PIXEL",
@@ -57,4 +59,6 @@ VALUES = {
                       "description": "Light paths for each pixel of the mirrors, which are denoised; more is cleaner "
                       "and slower"},
     "light_kind": {"name": "Light", "items": LIGHTS, "default": "AUTO", "description": "Where the light is kept"},
+    "attributes": {"name": "Attributes", "items": ATTRIBUTES, "default": "ALL",
+                   "description": "What the points and faces of a reflection know"},
 }

@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import bpy
 
-from .declared import LIGHT_SETTINGS, SETTINGS, declared
+from .declared import LIGHT_SETTINGS, SETTINGS, WRITTEN_SETTINGS, declared
 
-ALL = SETTINGS + LIGHT_SETTINGS
+ALL = SETTINGS + LIGHT_SETTINGS + WRITTEN_SETTINGS
 
 
 class SettingsOptions:

@@ -61,6 +61,12 @@ class Wanted:
         return [(group, *chosen) for chosen, group in groups.items()]
 
 
+def attributes_of(settings: Settings | SettingsOfMirrors, mirror: bpy.types.Object, scene: bpy.types.Scene) -> str:
+    """What the points and faces of a mirror's reflection are to know."""
+    return settings.value(mirror, "attributes") if isinstance(settings, Wanted) else \
+        holder_of(mirror, scene).attributes
+
+
 def of_each(settings: Settings | SettingsOfMirrors) -> SettingsOfMirrors:
     """Settings that are the same for all mirrors as those of each."""
     return settings if callable(settings) else lambda mirror: settings

@@ -16,7 +16,7 @@ from .arrays import (
 from .beside import link_beside
 from .cameras import as_shown, show_for_camera
 from .joined_parts import set_free, told_of
-from .kept_changes import place_of, put_back_materials
+from .kept_changes import PREVIEW, place_of, put_back_materials
 from .landmarks import applied_to, forget_landmarks
 from .nodes import Builder, disc_nodes, forget_nodes, forget_unblurred, hide_discs, show_unblurred, unblurred_in
 from .records import LONGEST as LONGEST_RECORD
@@ -35,10 +35,10 @@ from .write_object import (
     write_object,
 )
 
-__all__ = ["Attribute", "Builder", "Edges", "FIELDS", "LONGEST_RECORD", "MOST_UV_MAPS", "MeshArrays", "RAYS",
-           "Reflection", "UV_MAP", "Written", "applied_to", "as_shown", "close_abandoned_windows", "disc_nodes",
-           "forget_collection", "forget_landmarks", "forget_mesh", "forget_nodes", "forget_unblurred", "gather",
-           "hide_discs", "light_layer", "link_beside", "mesh_arrays", "mesh_bytes", "new_beside", "new_object",
-           "place_of", "point_arrays", "put_back_materials", "result_name", "set_free", "set_window", "show_for_camera",
-           "show_in_layer", "show_own_materials", "show_unblurred", "shown_layers", "size_text", "unblurred_in",
-           "told_of", "vertices_written", "what_is_in_the_way", "write_mesh", "write_object"]
+__all__ = ["Attribute", "Builder", "Edges", "FIELDS", "LONGEST_RECORD", "MOST_UV_MAPS", "MeshArrays", "PREVIEW",
+           "RAYS", "Reflection", "UV_MAP", "Written", "applied_to", "as_shown", "close_abandoned_windows",
+           "disc_nodes", "forget_collection", "forget_landmarks", "forget_mesh", "forget_nodes", "forget_unblurred",
+           "gather", "hide_discs", "light_layer", "link_beside", "mesh_arrays", "mesh_bytes", "new_beside",
+           "new_object", "place_of", "point_arrays", "put_back_materials", "result_name", "set_free", "set_window",
+           "show_for_camera", "show_in_layer", "show_own_materials", "show_unblurred", "shown_layers", "size_text",
+           "told_of", "unblurred_in", "vertices_written", "what_is_in_the_way", "write_mesh", "write_object"]

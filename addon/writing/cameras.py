@@ -12,7 +12,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..faults import still_there
-from ..reading.results import camera_of
+from ..reading import camera_of
 from ..registration import Handlers
 from .windows import close_window, open_window
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ..faults import AllOrNothing
-from ..reading.roles import rendered_collections
+from ..reading import rendered_collections
 
 NAME = "Reflections"
 LAYER = "reflection_mesh_layer"  # custom property of the collections that one view layer alone shows

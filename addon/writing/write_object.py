@@ -8,7 +8,7 @@ import bpy
 
 from ...core import ReflectionMesh
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object, still_there
-from ..reading.results import every_result_of, results_of
+from ..reading import every_result_of, results_of
 from .arrays import MeshArrays
 from .beside import link_beside
 from .cameras import bring_back
@@ -39,8 +39,8 @@ class Reflection:
         Of the picture that it was made for.
     placement : str
         Where it lies; VIRTUAL makes a window of the mirror.
-    attributes : {'ALL', 'SHOWN'} or None
-        What of the arrays is written; None: what the result had before.
+    attributes : {'ALL', 'SHOWN'}
+        What of the arrays is written.
     """
 
     mirror: bpy.types.Object
@@ -50,7 +50,7 @@ class Reflection:
     arrays: MeshArrays
     resolution: tuple[int, int]
     placement: str
-    attributes: str | None = None
+    attributes: str = "ALL"
 
 
 @dataclass(frozen=True)
@@ -170,8 +170,7 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     record.mirror = made.mirror
     record.camera = made.camera
     bring_back(obj)
-    if made.attributes is not None:
-        record.attributes = made.attributes
+    record.attributes = made.attributes
     record.sources.clear()
     for source in made.sources:
         record.sources.add().object = source
