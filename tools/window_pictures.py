@@ -9,7 +9,9 @@ leaves in docs/pictures
 - `blender.jpg`: the sphere, its reflection active, in the sidebar and in Object properties;
 - `settings.jpg`: the sidebar with a mirror, with its reflection, and in German, with settings of the mirror's own;
 - `ways_in.jpg`: the menu, F3, and progress in the status bar;
-- `stale.jpg`: what the sidebar says of a reflection that is stale, and while Live is on.
+- `stale.jpg`: what the sidebar says of a reflection that is stale, and while Live is on;
+- `choices.jpg`: the roles, the presets, and the settings with *Limits* unfolded;
+- `after_run.jpg`: the panels that F9 opens after Generate and after Light.
 """
 import importlib
 import subprocess
@@ -149,6 +151,53 @@ def stale():
     joined("stale", [sidebar(screen, name, 420) for name in ("stale", "live")])
 
 
+def choices():
+    panel = bpy.types.REFLECTION_MESH_PT_limits
+    bpy.utils.unregister_class(panel)
+    panel.bl_options = set()
+    bpy.utils.register_class(panel)
+    screen = yield from opened("room")
+    generate(screen)
+    yield from hands.settled("unfolded")
+    screen.point(screen.area.x + 120, screen.area.y + 420)
+    yield 0.5
+    for name, kind in (("roles", "MT_role"), ("presets", "PT_presets")):
+        with screen.context():
+            if kind.startswith("MT"):
+                bpy.ops.wm.call_menu(name=f"REFLECTION_MESH_{kind}")
+            else:
+                bpy.ops.wm.call_panel(name=f"REFLECTION_MESH_{kind}")
+        # before the tip comes that would cover it
+        yield 0.5
+        hands.shot(name)
+        screen.press("ESC")
+        yield 0.5
+    side = screen.region("UI")
+    joined("choices", [part("roles", 6, 345, 200, 130), part("presets", 6, 370, 236, 168),
+                       part("unfolded", side.x, 430, side.width, 328)])
+
+
+def after_run():
+    screen = yield from opened("room")
+    alone(MIRROR)
+    screen.point(**screen.centre)
+    for name, words, made in (("generated", "generate reflection", bpy.data.objects),
+                              ("lit", "light reflection", bpy.data.images)):
+        yield from screen.search(words)
+        screen.press("RET")
+        yield from hands.waiting(lambda made=made: not screen.window.modal_operators and any(
+            "Reflection" in one.name for one in made), name, 180.0)
+        screen.point(**screen.centre)
+        yield 0.5
+        screen.press("F9")
+        yield 1.0
+        screen.move(x=5, y=-5)
+        yield from hands.settled(name)
+        screen.press("ESC")
+        yield 0.5
+    joined("after_run", [part("generated", 646, 410, 338, 290), part("lit", 646, 410, 338, 126)])
+
+
 def sidebar(screen: hands.Screen, name: str, height: int = PANELS) -> list[str]:
     region = screen.region("UI")
     return part(name, region.x, screen.window.height - region.y - region.height, region.width, height)
@@ -170,5 +219,6 @@ def joined(name: str, parts: list[list[str]], below: list[str] | None = None) ->
     subprocess.run([*command, "-quality", "90", str(FOLDER / f"{name}.jpg")], check=True)
 
 
-PICTURES = {"blender": whole_window, "settings": settings, "ways_in": ways_in, "stale": stale}
+PICTURES = {"blender": whole_window, "settings": settings, "ways_in": ways_in, "stale": stale,
+            "choices": choices, "after_run": after_run}
 hands.run(steps)

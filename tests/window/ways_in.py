@@ -8,19 +8,23 @@ thrown away (BLENDER_USER_RESOURCES), opens the room, and
 1. opens the sidebar by N, chooses the tab, and clicks *Generate Reflection*;
 2. undoes it by Ctrl-Z and does it again by Shift-Ctrl-Z;
 3. starts another one, finer, and presses ESC half way;
-4. finds *Light Reflection* by F3, and *Clear Reflections*;
+4. finds *Light Reflection* by F3, which Cycles renders beside the window, or bakes on the objects in bands, and *Clear
+   Reflections*;
 5. opens the last operator's panel by F9;
 6. bakes frames, found by F3, into a folder chosen in the file browser, ends that by ESC, and goes on with the same keys
    (where Blender was built without USD, after the grey button has said so, with a stand-in for its writing alone);
-7. shows the panel in Object properties, and the menu;
+7. generates by the button in Object properties, switches Live on and off by its button while the camera moves, and
+   generates by the menu's letter;
 8. asks every operator and panel of the extension whether it can run, in every editor and in every mode.
 
 Pictures go to the folder WINDOW_SHOTS, build/window where that is not set.
 """
 import importlib
+import re
 import struct
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -30,7 +34,9 @@ from hands import ROOT, Screen, built_zip, run, settled, shot, turned_to_tab, wa
 from polls import polls_of_the_extension
 
 GENERATE = 106  # pixels below the upper end of the sidebar, at the resolution scale of 1
+LIVE = 216      # the same of Live, where a mirror is active
 PANEL = 266  # the panel in Object properties, above the window's lower end
+PANEL_GENERATE = 176  # its first button
 FRAMES = 4  # that are baked
 MODES = ("EDIT", "SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "OBJECT")
 
@@ -101,8 +107,12 @@ def baked(screen: Screen):
     yield from bake_into(screen, folder, "8_bake")
     yield from waiting(done, "a frame", 120.0)
     shot("9_baking")
-    screen.press("ESC")
-    yield from waiting(lambda: not screen.window.modal_operators, "the end of baking after ESC", 60.0)
+
+    def ended() -> bool:
+        # while Cycles renders a key that nobody pressed does not end it
+        screen.press("ESC")
+        return not screen.window.modal_operators
+    yield from waiting(ended, "the end of baking after ESC", 60.0)
     kept = done()
     assert 0 < kept < FRAMES, f"ESC came after {kept} frames."
     assert not any(obj.reflection_mesh.role == "REFLECTION" for obj in scene.objects), "ESC has left something."
@@ -185,11 +195,24 @@ def fingerprint(result: bpy.types.Object) -> tuple:
     return result.name, len(result.data.polygons), len(result.data.vertices), result.reflection_mesh.seconds
 
 
+def own_to_the_user() -> tuple:
+    preferences = bpy.context.preferences
+    return preferences.is_dirty, preferences.view.render_display_type, len(bpy.context.window_manager.windows)
+
+
 def light_and_clear(screen: Screen):
+    before = own_to_the_user()
     yield from screen.search("light reflection")
     shot("5_search")
     screen.press("RET")
-    yield from waiting(lambda: results()[0].reflection_mesh.light_material is not None, "light", 120.0)
+    beside: list = []
+
+    def lit() -> bool:
+        beside.append(bpy.app.is_job_running("RENDER"))
+        return results()[0].reflection_mesh.light_material is not None
+    yield from waiting(lit, "light", 120.0)
+    assert any(beside), "The window waited for Cycles."
+    assert own_to_the_user() == before, "Rendering has opened a window, or changed the preferences."
     yield from settled("6_lit")
     screen.point(**screen.centre)
     yield 0.5
@@ -200,18 +223,54 @@ def light_and_clear(screen: Screen):
     yield from settled("7_last_operator")
     screen.press("ESC")
     yield 1.0
+    yield from light_on_objects(screen)
     yield from screen.search("clear reflections")
     screen.press("RET")
     yield from waiting(lambda: not results(), "no reflection after clearing")
     assert not any("Reflection" in image.name for image in bpy.data.images)
 
 
-def elsewhere(screen: Screen):
-    """Object properties, and the menu."""
-    # the result alone was selected, and is gone
+def light_on_objects(screen: Screen):
+    """Baked in bands: the window goes on between them, and ESC is heard."""
+    settings = bpy.context.scene.reflection_mesh
+    settings.light_kind, settings.light_samples = "OBJECTS", 4
+    # drawn in software, each look at materials would take longer than a band
+    screen.area.spaces.active.shading.type = "SOLID"
+    for stopped in (True, False):
+        ticks: list = []
+
+        def lit(ticks=ticks) -> bool:
+            ticks.append(time.monotonic())
+            return results()[0].reflection_mesh.light_map is not None
+        yield from screen.search("light reflection")
+        screen.press("RET")
+        if stopped:
+            yield 6.0
+            screen.press("ESC")
+            yield from waiting(lambda: not screen.window.modal_operators, "the end of light after ESC", 20.0)
+            assert results()[0].reflection_mesh.light_map is None
+            continue
+        yield from waiting(lit, "light on the objects", 300.0)
+        gaps = sorted(after - before for before, after in zip(ticks, ticks[1:]))
+        print(f"light on objects: {ticks[-1] - ticks[0]:.0f} s, longest without the window {gaps[-1]:.2f} s, "
+              f"half of all under {gaps[len(gaps) // 2]:.2f} s")
+        # of half a minute before, when each object was baked in one
+        assert len(gaps) > 20 and gaps[len(gaps) // 2] < 1.0
+    yield from settled("7b_lit_on_objects")
+    settings.light_kind = "AUTO"
+
+
+def ball_active() -> None:
+    """All selected, and the mirror active."""
     for obj in bpy.context.view_layer.objects:
-        obj.select_set(obj.type == "MESH")
+        obj.select_set(obj.type == "MESH" and obj.reflection_mesh.role != "REFLECTION")
     bpy.context.view_layer.objects.active = bpy.data.objects["Golden Ball"]
+
+
+def elsewhere(screen: Screen):
+    """Buttons in Object properties and the menu, and Live by its button."""
+    # the result alone was selected, and is gone
+    ball_active()
     editor = next(area for area in screen.window.screen.areas if area.type == "PROPERTIES")
     editor.spaces.active.context = "OBJECT"
     yield 1.0
@@ -223,29 +282,71 @@ def elsewhere(screen: Screen):
     yield from screen.click(full.x + 80, PANEL)
     yield 1.5
     yield from settled("12_object_properties")
+    yield from screen.click(full.x + full.width // 2, PANEL_GENERATE)
+    yield from waiting(results, "a reflection by the button in Object properties")
     with bpy.context.temp_override(window=screen.window, area=screen.window.screen.areas[0]):
         bpy.ops.screen.back_to_previous()
     yield 1.5
+    yield from live_by_its_button(screen)
+    ball_active()
+    before = made_at()
     with screen.context():
         bpy.ops.wm.call_menu(name="VIEW3D_MT_reflection_mesh" if hasattr(bpy.types, "VIEW3D_MT_reflection_mesh")
                              else "REFLECTION_MESH_MT_menu")
     yield 1.0
     yield from settled("13_menu")
-    screen.press("ESC")
+    # the letter that is underlined
+    screen.press("G")
+    yield from waiting(lambda: not screen.window.modal_operators and made_at() != before, "the menu's Generate")
+    with screen.context():
+        bpy.ops.reflection_mesh.clear()
+    ball_active()
     yield 0.5
+
+
+def made_at() -> tuple:
+    """What a new result changes."""
+    return (results()[0].data.session_uid, len(results()[0].data.vertices), results()[0].reflection_mesh.seconds)
+
+
+def live_by_its_button(screen: Screen):
+    """On, a moving camera that the reflection follows, and off."""
+    live, scene = bpy.context.window_manager.reflection_mesh_live, bpy.context.scene
+    ball_active()
+    yield 1.0
+    yield from click(screen, LIVE)
+    yield from waiting(lambda: live.on, "Live, by its button", 10.0)
+
+    def shape() -> tuple:
+        return tuple(results()[0].data.vertices[0].co)
+    yield 3.0
+    before = shape()
+    scene.camera.location.x += 0.2
+    yield from waiting(lambda: shape() != before, "a reflection that follows the camera", 30.0)
+    yield from settled("14_live_by_its_button")
+    yield from click(screen, LIVE)
+    yield from waiting(lambda: not live.on, "the end of Live, by its button", 10.0)
+
+
+def editors_of(area: bpy.types.Area) -> list[str]:
+    """Every kind of editor, those that share a type told apart, as Blender lists them where it refuses a name."""
+    try:
+        area.ui_type = "NONE SUCH"
+    except TypeError as error:
+        found = re.findall(r"'(\w+)'", str(error).partition(" not found in ")[2])
+    assert {"VIEW_3D", "UV", "IMAGE_EDITOR", "ShaderNodeTree", "GeometryNodeTree", "DOPESHEET"} <= set(found), found
+    return found
 
 
 def everywhere(screen: Screen):
     """Every poll of an operator or a panel, in every editor and in every mode: none may fail."""
     polls = polls_of_the_extension()
-    editors = [item.identifier for item in bpy.types.Area.bl_rna.properties["type"].enum_items
-               if item.identifier != "EMPTY"]
-    told = {}
+    told, editors = {}, editors_of(screen.area)
     for mode in MODES:
         with screen.context():
             bpy.ops.object.mode_set(mode=mode)
         for editor in editors:
-            screen.area.type = editor
+            screen.area.ui_type = editor
             with bpy.context.temp_override(window=screen.window, area=screen.area):
                 for name, cls in polls.items():
                     told[mode, editor, name] = cls.poll(bpy.context)

@@ -35,6 +35,7 @@ REFLECTIONS = (
     ("live", ("generate",), {}),
     ("clear", ("generate",), {}))
 SHEET = (("print_sheet", ("mirror_uvs",), {"picture": "Compass", "dpi": 600.0}),)   # where one lies flat
+ENDINGS = {"print_sheet": ".png"}  # of the files that operators write; others write into a folder
 CAUSTICS = (
     ("caustics", (), {}),
     ("compare", ("caustics",), {"samples": 1, "what": "CAUSTICS", "converged": 8}),
@@ -97,8 +98,11 @@ def measured(sample: str, job: tuple, steps: Steps, scratch: Path) -> tuple[str,
     bpy.ops.wm.open_mainfile(filepath=str(path))
     for operator in before:
         getattr(bpy.ops.reflection_mesh, operator)("EXEC_DEFAULT")
+    if name == "print_sheet":
+        bpy.context.view_layer.objects.active = next(obj for obj in bpy.context.scene.objects if obj.type == "MESH"
+                                                     and "Mirror UV" in obj.data.uv_layers)
     if name in ("compare", "bake", "print_sheet"):
-        options = {**options, "filepath": str(scratch / f"{Path(sample).stem} {name}")}
+        options = {**options, "filepath": str(scratch / f"{Path(sample).stem} {name}{ENDINGS.get(name, '')}")}
     steps.taken.clear()
     begun = time.perf_counter()
     try:
