@@ -1,7 +1,6 @@
 """Bakes of the light on objects, in a temporary scene of theirs: in one, or in bands between which a window goes on."""
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -18,10 +17,12 @@ from ...reading.materials import glows
 from ...rendering import MOST_SEED, denoise
 from ...writing import UV_MAP
 from ..texels import UNTOUCHED, framed, has_pattern, mean_of_what_is_known
-from .bands import Bands
+from .bands import Bands, covered_in_rows
 from .guided_scene import PASSES, guided_scene
+from .tiles import Tile, in_tiles
 
 OWN = 0.9    # of the work of a picture, before its own light
+NOISY = 0.9  # of the work in bands, before it is denoised
 SEEDS = 7919  # from a row to the next
 
 
@@ -37,7 +38,7 @@ class BakeScene:
     targets: dict
     switches: list
     clamped: float | None
-    bands: dict = field(default_factory=lambda: defaultdict(Bands))
+    bands: dict = field(default_factory=dict)
 
     def bake(self, owner: int, size: tuple[int, int], seen_from: np.ndarray, samples: int,
              denoised: bool = False) -> Steps[np.ndarray]:
@@ -117,10 +118,9 @@ class BakeScene:
             return values
         with self._targets(objects, size) as image:
             if between_events():
-                yield from self._in_bands(image, values, objects, **what)
+                yield from part(self._in_bands(image, values, objects, **what), 0.0, NOISY if denoised else 1.0)
                 if denoised:
-                    yield 1.0, Undivided("")
-                    self._denoise(image, values, objects)
+                    yield from part(self._denoise(image, values, objects), NOISY, 1.0 - NOISY)
                 return values
             yield 0.0, Undivided("")
             if denoised:
@@ -132,33 +132,48 @@ class BakeScene:
                 self.scene.cycles.use_denoising = False
         return values
 
+    def _bands(self, name: str, kind: str | None) -> Bands:
+        """What tells how much of an object is baked at a time, where that kind of light is."""
+        if (name, kind) not in self.bands:
+            self.bands[name, kind] = Bands(min((others.samples for others in self.bands.values()), default=0.0))
+        return self.bands[name, kind]
+
     def _in_bands(self, image: bpy.types.Image, values: np.ndarray, objects: list, **what) -> Steps[None]:
         """The same in bands of the picture, (height, width, 4), without denoising."""
         height, width = values.shape[:2]
-        cycles, bands, row = self.scene.cycles, self.bands[objects[0].name, what.get("type")], 0
+        cycles, bands, row = self.scene.cycles, self._bands(objects[0].name, what.get("type")), 0
+        samples = covered_in_rows(objects, (width, height)) * cycles.samples
         seed, ended = cycles.seed, perf_counter()
         try:
             while row < height:
-                yield row / height, ""
-                wanted = bands.rows(width * cycles.samples, height)
-                rows = min(wanted, height - row)
+                yield samples[:row].sum() / samples.sum(), ""
+                end = row + bands.rows(samples, row)
                 # the same seed would give each band the same noise
                 cycles.seed = (seed + SEEDS * row) % MOST_SEED
                 began = perf_counter()
-                with framed(objects, np.array((0.0, row / height)), np.array((1.0, rows / height))):
-                    self._bake_into(image, values[row:row + rows], objects, self.scene, **what)
+                with framed(objects, np.array((0.0, row / height)), np.array((1.0, (end - row) / height))):
+                    self._bake_into(image, values[row:end], objects, self.scene, **what)
                 between, ended = began - ended, perf_counter()
                 # a short one, as the last, tells little of the others
-                if rows == wanted:
-                    bands.took(ended - began, rows * width * cycles.samples, between)
-                row += rows
+                if end < height:
+                    bands.took(ended - began, samples[row:end].sum(), between)
+                row = end
         finally:
             cycles.seed = seed
 
-    def _denoise(self, image: bpy.types.Image, values: np.ndarray, objects: list) -> None:
-        """Denoise light that was baked, as Cycles does where it bakes it in one."""
-        with new_image(values) as shone, guided_scene(self.scene, objects, self.switches, shone) as scene:
-            self._bake_into(image, values, objects, scene, pass_filter=PASSES)
+    def _denoise(self, image: bpy.types.Image, values: np.ndarray, objects: list) -> Steps[None]:
+        """Denoise light that was baked, as Cycles does where it bakes it in one, in tiles."""
+        height, width = values.shape[:2]
+
+        def denoised(tile: Tile) -> np.ndarray:
+            noisy, low = values[tile], np.array((tile[1].start / width, tile[0].start / height))
+            found = np.empty_like(noisy)
+            with new_image(noisy) as shone, guided_scene(self.scene, objects, self.switches, shone) as scene, framed(
+                    objects, low, np.array(noisy.shape[1::-1]) / (width, height)):
+                self._bake_into(image, found, objects, scene, pass_filter=PASSES)
+            return found
+        for share in in_tiles(values, denoised):
+            yield share, ""
 
     @contextmanager
     def _targets(self, objects: list, size: tuple[int, int]) -> Iterator[bpy.types.Image]:

@@ -3,46 +3,75 @@ from __future__ import annotations
 
 import math
 
-LONG = 0.3     # seconds that a band takes, where what goes before its first sample lets it
+import numpy as np
+
+from ...writing import UV_MAP
+
+LONG = 0.25    # seconds that a band takes, where what goes before its first sample lets it
 BEFORE = 2.0   # times what goes before it that a band takes at least: in bands all takes about twice as long at most
 FEW = 5000     # samples of an object's first band, and twice as many of its second: together they tell what goes
 SECOND = 2.0   # before the first sample, and how long each takes
+SOME = 0.2     # of what bands of others have, an object's first band: it may be slower to shade
 FASTER = 2.0   # times the samples of the bands before, at most: others may be slower to shade
 LEAST = 1e-3   # seconds that samples take
 MOST = 300     # bands of a picture, however long they take
+EMPTY = 0.02   # of what a texel takes, where nothing is baked into it
+
+
+def covered_in_rows(objects: list, size: tuple[int, int]) -> np.ndarray:
+    """How many texels of each row (height,) of a picture of a `size`, width and height, `objects` of triangles are
+    baked into, about; those that they are not count a little too."""
+    width, height = size
+    covered = np.zeros(height + 1)
+    for obj in objects:
+        uv = np.empty((len(obj.data.loops), 2), dtype=np.float32)
+        obj.data.uv_layers[UV_MAP].uv.foreach_get("vector", uv.reshape(-1))
+        corners = uv.reshape(-1, 3, 2) * np.array(size)
+        (x, y), (other_x, other_y) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+        first = np.clip(np.floor(corners[..., 1].min(axis=1)), 0, height - 1).astype(int)
+        end = np.clip(np.ceil(corners[..., 1].max(axis=1)), first + 1, height).astype(int)
+        of_each = 0.5 * np.abs(x * other_y - y * other_x) / (end - first)
+        covered += np.bincount(first, of_each, height + 1) - np.bincount(end, of_each, height + 1)
+    return np.maximum(np.cumsum(covered)[:height], 0.0) + EMPTY * width
 
 
 class Bands:
     """How much is baked at a time, which the bands before tell."""
 
-    def __init__(self) -> None:
-        self._samples = float(FEW)
+    def __init__(self, of_others: float = 0.0) -> None:
+        """They begin with a part of the samples that bands `of_others` have by now."""
+        self.samples = max(SOME * of_others, FEW)
         self._shortest = math.inf
         # number of bands, and sums over them of samples and seconds, and of what their straight line is fitted by
-        self._sums = [0.0] * 5
+        self._sums = [0.0] * 6
 
-    def rows(self, samples_of_a_row: int, height: int) -> int:
-        """How many rows the next band has of a picture of `height` rows."""
-        return max(int(self._samples / samples_of_a_row), math.ceil(height / MOST))
+    def rows(self, samples: np.ndarray, row: int) -> int:
+        """How many rows the next band has, from a `row` on, of a picture with so many `samples` in its rows (h,)."""
+        reached = np.cumsum(samples[row:])
+        return max(int(np.searchsorted(reached, max(self.samples, samples.sum() / MOST), side="right")), 1)
 
-    def took(self, seconds: float, samples: int, between: float = 0.0) -> None:
+    def took(self, seconds: float, samples: float, between: float = 0.0) -> None:
         """What the last band took, and the window before it: one that takes long to draw waits no longer for bands."""
         self._shortest = min(self._shortest, seconds)
-        for number, value in enumerate((1.0, samples, seconds, samples * samples, samples * seconds)):
-            self._sums[number] += value
+        told = (1.0, samples, seconds, samples * samples, samples * seconds, seconds * seconds)
+        self._sums = [so_far + value for so_far, value in zip(self._sums, told, strict=True)]
         if self._sums[0] == 1.0:
-            self._samples = max(SECOND * samples, FEW)
+            self.samples = max(SECOND * samples, FEW)
             return
         before = self._before()
         each = max(seconds - before, LEAST) / samples
         asked = max(LONG, BEFORE * before, between) - before
-        self._samples = min(asked / each, FASTER * max(samples, self._samples))
+        self.samples = min(asked / each, FASTER * max(samples, self.samples))
 
     def _before(self) -> float:
-        """What goes before the first sample of a band: where the line through all so far begins."""
-        count, samples, seconds, squares, products = self._sums
-        spread = count * squares - samples * samples
+        """What goes before the first sample of a band: where the line through all so far begins, as flat as it may well
+        be: where times vary, ever smaller bands would tell ever less of it."""
+        count, samples, seconds, squares, products, of_seconds = self._sums
+        spread = squares - samples * samples / count
         if spread <= 0.0:
             return 0.0
-        slope = max((count * products - samples * seconds) / spread, 0.0)
-        return min(max((seconds - slope * samples) / count, 0.0), self._shortest)
+        slope = (products - samples * seconds / count) / spread
+        left = of_seconds - seconds * seconds / count - slope * slope * spread
+        doubt = math.sqrt(max(left, 0.0) / (max(count - 2.0, 1.0) * spread))
+        flat = max(slope - doubt, 0.0)
+        return min(max((seconds - flat * samples) / count, 0.0), self._shortest)
