@@ -32,6 +32,7 @@ def test_compare_tells_how_lit_pictures_differ(lit, tmp_path, source, mirror):
     assert "where Cycles equals itself to" in (tmp_path / "report.html").read_text()
 
 
+@pytest.mark.slow
 def test_the_pictures_are_those_that_the_file_shows(lit, room):
     """With the sampling of the scene, against renders of the file: what they differ by is noise."""
     result = lit("Random", "Tint")

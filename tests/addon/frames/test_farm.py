@@ -103,6 +103,7 @@ def test_the_template_is_valid():
 
 
 @needs_openjd
+@pytest.mark.slow
 def test_a_job_of_open_job_description(scene, blender, wanted, tmp_path):
     """One task alone and out of order, one twice, one killed half way, and then the job."""
     out = tmp_path / "frames"

@@ -44,6 +44,7 @@ def baked_texels(monkeypatch, room) -> list:
     return counted
 
 
+@pytest.mark.slow
 def test_what_is_seen_from_afar_is_baked_coarsely(blank, room, monkeypatch):
     """Of a floor under a ball, most of which the ball shows small."""
     ball_scene(blank)
@@ -55,6 +56,7 @@ def test_what_is_seen_from_afar_is_baked_coarsely(blank, room, monkeypatch):
     assert len(counted) == 3 and sum(counted) < 0.35 * texels
 
 
+@pytest.mark.slow
 def test_of_small_triangles_those_are_baked_finely_that_are_seen_so(blank, room, monkeypatch):
     """Of a head before a hollow mirror, which shows a part of it, and that large: all of it was, for nine minutes."""
     wall = scene_of(blank)
@@ -97,6 +99,7 @@ def test_what_looks_away_from_all_mirrors_is_not_baked(blank, room, monkeypatch)
     assert 0.5 * moving < still < 0.9 * moving
 
 
+@pytest.mark.slow
 def test_gloss_is_seen_as_a_ball_shows_it(blank, room):
     ball_scene(blank, Roughness=0.3)
     reference, other = picture(room), picture(room, seed=7)
@@ -121,6 +124,7 @@ def test_where_gloss_is_as_from_elsewhere_that_is_said(blank, room, monkeypatch,
     assert lighting.light_lines(result) == ["Lit."]
 
 
+@pytest.mark.slow
 def test_metal_close_to_a_curved_mirror_is_not_black(blank, room, monkeypatch):
     """Not even where no one place sees it as the mirror does."""
     ball_scene(blank, Metallic=1.0, Roughness=0.4)
@@ -150,6 +154,7 @@ def test_what_two_mirrors_show_is_seen_from_where_the_one_sees_it_that_shows_mos
     assert seen.one_eye.all()
 
 
+@pytest.mark.slow
 def test_light_takes_the_bounces_that_are_left(blank, room):
     """The mirror is one of them: where no more are followed, what it shows has no light of its surroundings."""
     scene_of(blank)

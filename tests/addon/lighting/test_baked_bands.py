@@ -33,8 +33,8 @@ def in_small_bands(monkeypatch, room) -> list:
     return made
 
 
-@pytest.mark.parametrize("kind", ["UV", "shines", *(pytest.param(kind, marks=pytest.mark.slow)
-                                                   for kind in ("Gloss", "Alpha"))])
+@pytest.mark.parametrize("kind", ["shines", *(pytest.param(kind, marks=pytest.mark.slow)
+                                             for kind in ("UV", "Gloss", "Alpha"))])
 def test_it_is_what_the_mirror_shows(blank, room, monkeypatch, kind):
     """Also what shines by itself, which is added to the light on it after that is denoised."""
     scene_of(blank, "" if kind == "shines" else kind).reflection_mesh.role = "MIRROR"

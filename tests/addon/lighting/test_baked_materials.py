@@ -41,12 +41,14 @@ def test_fresnel_from_within_is_that_of_leaving(blank, room, node, grouped):
     assert is_as_the_mirror_shows(room)
 
 
+@pytest.mark.slow
 def test_glass_from_within_bends_light_as_where_it_leaves(blank, room):
     """A sheet of glass, seen from behind, which bends what comes through it the other way."""
     tube_of(blank, principled("Glass", (0.3, 1.0, 0.5), **{"Transmission Weight": 1.0, "Roughness": 0.0, "IOR": 1.8}))
     assert is_as_the_mirror_shows(room)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("grouped", [False, True])
 def test_what_shines_lights_itself(blank, room, grouped):
     """A tube whose walls are lit by nothing but each other."""
@@ -61,6 +63,7 @@ def test_what_shines_lights_itself(blank, room, grouped):
     assert is_as_the_mirror_shows(room)
 
 
+@pytest.mark.slow
 def test_gloss_is_not_left_out_where_no_one_place_sees_it_as_the_mirror_does(blank, room):
     """Of a dark floor under a bright sky, on which two balls rest that are one mirror."""
     scene_of(blank)

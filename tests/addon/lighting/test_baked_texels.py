@@ -56,7 +56,7 @@ def texels_across(result: bpy.types.Object) -> float:
     return float(np.sort(sides, axis=1)[0, 1] * image_of(result).size[0])
 
 
-@pytest.mark.parametrize("output", ["X", "Y"])
+@pytest.mark.parametrize("output", ["X", pytest.param("Y", marks=pytest.mark.slow)])
 def test_all_that_lies_in_a_texel_counts_the_same(blank, output):
     """Of stripes one of which goes to a texel, half of them dark, every texel tells a half, wherever they begin."""
     made, number = striped(output)
@@ -124,6 +124,7 @@ def test_halves_of_a_quad_lie_side_by_side(room):
             among[inside] = number
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("patterned", [False, True])
 def test_no_diagonal_is_seen_on_a_wall_of_two_triangles(blank, room, patterned):
     """A wall with a lamp close to it, against Cycles: where its two triangles meet it is as bright as there."""

@@ -10,8 +10,8 @@ from lamp_scenes import link, picture, principled, psnr, scene_of
 SOURCES = ("Generated", "Object", "Normal", "UV", "Camera", "Window", "Reflection", "Bump", "Normal map", "Random",
            "Instances", "View distance", "Attribute", "Gloss", "Glass", "Alpha", "Backfacing", "Light path")
 MIRRORS = ("Tint", "Textured tint", "Rough", "Fresnel", "Layer weight")
-# a texture, gloss, alpha and a mirror's own part; of others one Blender tells as much as three
-QUICK = {("UV", ""), ("Gloss", ""), ("Alpha", ""), ("UV", "Fresnel")}
+# gloss, and a texture in a mirror that has a part of its own; of others one Blender tells as much as three
+QUICK = {("Gloss", ""), ("UV", "Fresnel")}
 KINDS = [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)]
 
 

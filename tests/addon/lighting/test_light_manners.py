@@ -7,7 +7,9 @@ import pytest
 from lamp_scenes import SIZE, leaves_no_trace, lit_state, picture, plain_scene, psnr, scene_of, shader_of
 
 
-@pytest.mark.parametrize(("placement", "opaque"), [("LAYERED", True), ("VIRTUAL", True), ("LAYERED", False)])
+@pytest.mark.parametrize(("placement", "opaque"), [
+    pytest.param("LAYERED", True, marks=pytest.mark.slow), ("VIRTUAL", True),
+    pytest.param("LAYERED", False, marks=pytest.mark.slow)])
 def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaque):
     scene_of(blank, "UV", "" if opaque else "Half open")
     result = parts.generate(placement=placement)

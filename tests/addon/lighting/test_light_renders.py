@@ -75,7 +75,8 @@ def test_what_a_result_covers_is_told_finely_where_it_ends(blank, room):
 
 
 @pytest.mark.parametrize(("mirror", "samples", "first"), [
-    ("Tint", 64, False), ("Fresnel", 64, False), ("Tint", 16, True), ("Rough", 64, True)])
+    ("Tint", 16, True), *(pytest.param(*case, marks=pytest.mark.slow) for case in (
+        ("Tint", 64, False), ("Fresnel", 64, False), ("Rough", 64, True)))])
 def test_albedo_and_normals_are_denoised_first_where_that_helps(blank, room, monkeypatch, mirror, samples, first):
     """It takes twice as long as all else that the denoiser does, and what sharp mirrors show is hardly changed."""
     scene_of(blank, "UV", mirror)

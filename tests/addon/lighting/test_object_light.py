@@ -12,8 +12,8 @@ from lamp_scenes import link, picture, principled, psnr, scene_of, shine
 SOURCES = ("Generated", "Object", "Normal", "UV", "Camera", "Window", "Reflection", "Bump", "Normal map", "Random",
            "Instances", "View distance", "Attribute", "Gloss", "Alpha", "Backfacing", "Light path")
 MIRRORS = ("Tint", "Textured tint", "Fresnel", "Layer weight", "Half open", "Pane")
-# a texture, an attribute, gloss, alpha and two kinds of mirrors; of others one Blender tells as much as three
-QUICK = {("UV", ""), ("Attribute", ""), ("Gloss", ""), ("Alpha", ""), ("UV", "Fresnel"), ("UV", "Half open")}
+# an attribute, alpha, and a texture in a mirror of two shaders; of others one Blender tells as much as three
+QUICK = {("Attribute", ""), ("Alpha", ""), ("UV", "Half open")}
 KINDS = [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)]
 
 
@@ -34,7 +34,8 @@ def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
     assert lit > before + 6.0
 
 
-@pytest.mark.parametrize("by", ["modifier", "shape key", "armature"])
+@pytest.mark.parametrize("by", [
+    "modifier", *(pytest.param(by, marks=pytest.mark.slow) for by in ("shape key", "armature"))])
 def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflected(blank, room, by):
     """A box that is bent, with a pattern that lies on it as before."""
     scene_of(blank, "Generated")
@@ -71,6 +72,7 @@ def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflect
     assert (set(bpy.data.shape_keys), set(bpy.data.scenes)) == kept
 
 
+@pytest.mark.slow
 def test_what_catches_shadows_is_what_mirrors_show_of_it(blank, room):
     scene_of(blank)
     bpy.data.objects["Floor"].is_shadow_catcher = True
@@ -81,8 +83,8 @@ def test_what_catches_shadows_is_what_mirrors_show_of_it(blank, room):
 
 
 @pytest.mark.parametrize(("link", "name", "state"), [
-    ("receiver_collection", "Floor", "INCLUDE"), ("receiver_collection", "Floor", "EXCLUDE"),
-    ("blocker_collection", "Box", "EXCLUDE")])
+    ("receiver_collection", "Floor", "INCLUDE"), *(pytest.param(*case, marks=pytest.mark.slow) for case in (
+        ("receiver_collection", "Floor", "EXCLUDE"), ("blocker_collection", "Box", "EXCLUDE")))])
 def test_lamps_light_what_they_are_linked_to(blank, room, link, name, state):
     """What is told of lies in a collection within the one that the lamp is linked to."""
     scene_of(blank)
@@ -103,6 +105,7 @@ def test_lamps_light_what_they_are_linked_to(blank, room, link, name, state):
     assert not linked.objects and list(inner.objects) == [bpy.data.objects[name]]
 
 
+@pytest.mark.slow
 def test_it_is_exposed_once(blank, room):
     scene_of(blank)
     blank.scene.cycles.film_exposure = 0.4
@@ -112,6 +115,7 @@ def test_it_is_exposed_once(blank, room):
     assert psnr(picture(room), reference) > 38.0
 
 
+@pytest.mark.slow
 def test_a_lamp_s_body_is_as_bright_as_the_mirror_shows_it(blank, room):
     """Cycles clamps what lamps light at ten, seen in a mirror, and what shines itself not before the second one."""
     scene_of(blank)
@@ -156,7 +160,8 @@ def test_the_sun_of_a_picture_of_the_sky_is_found(blank, room):
     assert set(bpy.data.worlds) == {world} and blank.scene.world == world
 
 
-@pytest.mark.parametrize("output", ["UV", "Object", "UV map"])
+@pytest.mark.parametrize("output", [
+    "UV", *(pytest.param(output, marks=pytest.mark.slow) for output in ("Object", "UV map"))])
 def test_textures_of_the_mirror_stay_where_they_are_on_it(blank, room, output):
     """Also when it is moved; what is reflected is one colour."""
     wall = scene_of(blank, "", "Textured tint")

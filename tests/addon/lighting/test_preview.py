@@ -57,7 +57,8 @@ def test_a_flat_mirror_shows_how_what_is_round_is_round(blank, room):
     assert radius > 15.0 and np.abs(red[rows, columns][inner] / expected - 1.0).max() < 0.1
 
 
-@pytest.mark.parametrize("kind", ["Fresnel", "Layer weight", "Water"])
+@pytest.mark.parametrize("kind", [
+    "Fresnel", *(pytest.param(kind, marks=pytest.mark.slow) for kind in ("Layer weight", "Water"))])
 @pytest.mark.parametrize("turned", [False, True])
 def test_a_mirror_shows_as_much_of_what_shines_as_it_reflects(blank, room, kind, turned):
     """By the true angle, also where the backs of what is reflected are seen."""
@@ -90,7 +91,8 @@ def test_a_mirror_shows_as_much_of_what_shines_as_it_reflects(blank, room, kind,
 
 
 @pytest.mark.parametrize("coordinates", ["Object", "UV", ""])
-@pytest.mark.parametrize("mixed", ["", "Diffuse", "Principled"])
+@pytest.mark.parametrize("mixed", ["Principled", *(pytest.param(kind, marks=pytest.mark.slow)
+                                                   for kind in ("", "Diffuse"))])
 def test_a_tint_that_changes_over_the_mirror_is_shown_where_it_is(blank, room, coordinates, mixed):
     """Checkers on the whole mirror, or on the half of it that an even mix reflects: as Cycles shows them."""
     wall = scene_of(blank, "", "Tint")

@@ -15,12 +15,14 @@ def test_kept_seeds(seed):
     assert tried_lit(seed)["problems"] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_lit_scenes_at_random(seed):
     tried = tried_lit(seed)
     assert tried["problems"] == [] and not tried["refusal"], tried["name"]
 
 
+@pytest.mark.slow
 def test_what_is_wrong_is_found(monkeypatch):
     """After lighting the file is meddled with: the light is half of what it was, and something is left over."""
     called = lit_trial.scene_trial._called

@@ -43,7 +43,9 @@ def _ball(kind: str) -> bpy.types.Object:
     return ball
 
 
-@pytest.mark.parametrize(("kind", "faces"), [("metals", "cut"), ("metals", "whole"), ("varnish and glass", "cut")])
+@pytest.mark.parametrize(("kind", "faces"), [
+    ("metals", "whole"), *(pytest.param(kind, "cut", marks=pytest.mark.slow)
+                           for kind in ("metals", "varnish and glass"))])
 def test_light_on_objects_is_reflected_by_each(blank, room, monkeypatch, kind, faces):
     scene_of(blank)
     _ball(kind)

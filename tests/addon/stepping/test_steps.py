@@ -156,7 +156,8 @@ def least(steps) -> float:
     return min(tries)
 
 
-@pytest.mark.parametrize("name", ["sphere", "water", "bowl", "mirrors", "room", "pond", "suzanne"])
+@pytest.mark.parametrize("name", [
+    "sphere", "water", "bowl", "mirrors", "room", "pond", pytest.param("suzanne", marks=pytest.mark.slow)])
 def test_no_step_keeps_the_window_waiting(room, name):
     """Half a second is the most."""
     assert longest_of(name, lambda: started(room)) < 0.5
@@ -169,6 +170,7 @@ def test_no_step_of_cutting_along_a_caustic_keeps_the_window_waiting(room):
                                                      settings(placement="SURFACE"))) < 0.5
 
 
+@pytest.mark.slow
 def test_no_step_of_finding_many_pieces_keeps_the_window_waiting(room):
     """A million of them, as a mirror of many bends shows them."""
     core, reading = room("core"), room("addon.reading")
@@ -180,7 +182,7 @@ def test_no_step_of_finding_many_pieces_keeps_the_window_waiting(room):
     assert least(lambda: core.in_steps(lambda: core.picture_pieces(view, mesh, 1e-4))) < 0.5
 
 
-@pytest.mark.parametrize("name", ["sphere", "pool", "suzanne"])
+@pytest.mark.parametrize("name", ["sphere", "pool", pytest.param("suzanne", marks=pytest.mark.slow)])
 def test_no_step_of_caustics_keeps_the_window_waiting(room, name):
     module, settings, choose = room("addon.operators.caustics"), room("core").Settings(), room("addon.reading").choose
     lamps = room("addon.illumination").chosen_lamps

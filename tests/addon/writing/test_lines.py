@@ -286,8 +286,8 @@ def rendered(tmp_path) -> np.ndarray:
 
 
 @pytest.mark.parametrize("kind, depth, placement", [
-    ("wall", 1, "LAYERED"), ("wall", 1, "VIRTUAL"), ("ball", 1, "LAYERED"), ("wall", 2, "LAYERED"),
-    ("wall", 2, "VIRTUAL")])
+    ("wall", 1, "LAYERED"), ("wall", 2, "VIRTUAL"), *(pytest.param(*case, marks=pytest.mark.slow) for case in (
+        ("wall", 1, "VIRTUAL"), ("ball", 1, "LAYERED"), ("wall", 2, "LAYERED")))])
 def test_fronts_and_backs_are_those_that_cycles_sees_in_the_mirror(blank, tmp_path, kind, depth, placement):
     """An open tube, turned inside out by a negative scale."""
     blank.scene.render.resolution_x, blank.scene.render.resolution_y = 512, 384
