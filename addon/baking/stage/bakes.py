@@ -146,7 +146,7 @@ class BakeScene:
         seed, ended = cycles.seed, perf_counter()
         try:
             while row < height:
-                yield samples[:row].sum() / samples.sum(), ""
+                yield samples[:row].sum() / samples.sum(), Undivided("") if bands.are_long else ""
                 end = row + bands.rows(samples, row)
                 # the same seed would give each band the same noise
                 cycles.seed = (seed + SEEDS * row) % MOST_SEED

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...writing import UV_MAP
 
+WAITED = 0.5   # seconds that nobody minds to wait
 LONG = 0.25    # seconds that a band takes, where what goes before its first sample lets it
 BEFORE = 2.0   # times what goes before it that a band takes at least: in bands all takes about twice as long at most
 FEW = 5000     # samples of an object's first band, and twice as many of its second: together they tell what goes
@@ -42,6 +43,7 @@ class Bands:
         """They begin with a part of the samples that bands `of_others` have by now."""
         self.samples = max(SOME * of_others, FEW)
         self._shortest = math.inf
+        self._asked = 0.0
         # number of bands, and sums over them of samples and seconds, and of what their straight line is fitted by
         self._sums = [0.0] * 6
 
@@ -60,8 +62,13 @@ class Bands:
             return
         before = self._before()
         each = max(seconds - before, LEAST) / samples
-        asked = max(LONG, BEFORE * before, between) - before
-        self.samples = min(asked / each, FASTER * max(samples, self.samples))
+        self._asked = max(LONG, BEFORE * before, between)
+        self.samples = min((self._asked - before) / each, FASTER * max(samples, self.samples))
+
+    @property
+    def are_long(self) -> bool:
+        """Whether the next band keeps a window waiting, whatever it has."""
+        return self._asked > WAITED
 
     def _before(self) -> float:
         """What goes before the first sample of a band: where the line through all so far begins, as flat as it may well

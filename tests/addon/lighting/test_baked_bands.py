@@ -135,6 +135,7 @@ def test_bands_are_as_long_as_a_window_waits(room, before, speed, noise, empty):
         assert row == rows and np.sum(taken) < (2.2 if noise == 0.0 else 4.0) * whole + 12.0 * before
         if noise == 0.0:
             assert max(taken) < max(0.5, 2.1 * before, whole / 100)
+            assert bands.are_long == (before > 0.25)
 
 
 def test_bands_are_no_shorter_than_what_a_window_takes_to_draw(room):
@@ -146,7 +147,7 @@ def test_bands_are_no_shorter_than_what_a_window_takes_to_draw(room):
         taken = before + samples[row:end].sum() / speed
         bands.took(taken, samples[row:end].sum(), between)
         row = end
-    assert 0.9 * between < taken < 1.1 * between
+    assert 0.9 * between < taken < 1.1 * between and bands.are_long
 
 
 def test_rows_tell_what_is_baked_into_them(blank, room):
