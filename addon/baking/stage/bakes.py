@@ -17,7 +17,7 @@ from ...reading.materials import glows
 from ...rendering import MOST_SEED, denoise
 from ...writing import UV_MAP
 from ..texels import UNTOUCHED, framed, has_pattern, mean_of_what_is_known
-from .bands import Bands, covered_in_rows
+from .bands import Bands, samples_in_rows
 from .guided_scene import PASSES, guided_scene
 from .tiles import Tile, in_tiles
 
@@ -107,6 +107,7 @@ class BakeScene:
                                                   1.0 / len(places))))
         finally:
             scene.cycles.seed = seed
+        yield 1.0, ""
         return mean_of_what_is_known(found)
 
     def _baked(self, objects: list, size: tuple[int, int], denoised: bool, **what) -> Steps[np.ndarray]:
@@ -142,7 +143,7 @@ class BakeScene:
         """The same in bands of the picture, (height, width, 4), without denoising."""
         height, width = values.shape[:2]
         cycles, bands, row = self.scene.cycles, self._bands(objects[0].name, what.get("type")), 0
-        samples = covered_in_rows(objects, (width, height)) * cycles.samples
+        samples = samples_in_rows(objects, (width, height), cycles.samples)
         seed, ended = cycles.seed, perf_counter()
         try:
             while row < height:

@@ -16,12 +16,12 @@ SOME = 0.2     # of what bands of others have, an object's first band: it may be
 FASTER = 2.0   # times the samples of the bands before, at most: others may be slower to shade
 LEAST = 1e-3   # seconds that samples take
 MOST = 300     # bands of a picture, however long they take
-EMPTY = 0.02   # of what a texel takes, where nothing is baked into it
+EMPTY = 0.04   # of what a sample takes, a texel that nothing is baked into
 
 
-def covered_in_rows(objects: list, size: tuple[int, int]) -> np.ndarray:
-    """How many texels of each row (height,) of a picture of a `size`, width and height, `objects` of triangles are
-    baked into, about; those that they are not count a little too."""
+def samples_in_rows(objects: list, size: tuple[int, int], of_a_texel: int) -> np.ndarray:
+    """How many samples the rows (height,) take of a picture of a `size`, width and height, into which `objects` of
+    triangles are baked: about so many as their texels have, and a little for those that nothing is baked into."""
     width, height = size
     covered = np.zeros(height + 1)
     for obj in objects:
@@ -33,7 +33,7 @@ def covered_in_rows(objects: list, size: tuple[int, int]) -> np.ndarray:
         end = np.clip(np.ceil(corners[..., 1].max(axis=1)), first + 1, height).astype(int)
         of_each = 0.5 * np.abs(x * other_y - y * other_x) / (end - first)
         covered += np.bincount(first, of_each, height + 1) - np.bincount(end, of_each, height + 1)
-    return np.maximum(np.cumsum(covered)[:height], 0.0) + EMPTY * width
+    return of_a_texel * np.maximum(np.cumsum(covered)[:height], 0.0) + EMPTY * width
 
 
 class Bands:

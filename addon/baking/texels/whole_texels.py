@@ -58,7 +58,12 @@ def framed(objects: list, low: np.ndarray, size: np.ndarray) -> Iterator[None]:
 
 def mean_of_what_is_known(pictures: list) -> np.ndarray:
     """The mean of pictures (height, width, 4), texel by texel, of those that know it."""
-    known = np.stack([picture[..., 3] != UNTOUCHED for picture in pictures])[..., None]
-    count = known.sum(axis=0)
-    summed = np.where(known, pictures, 0.0).sum(axis=0)
-    return np.where(count > 0, summed / np.maximum(count, 1), UNTOUCHED).astype(np.float32)
+    mean = pictures[0].copy()
+    count = (mean[..., 3] != UNTOUCHED).astype(np.float32)
+    for picture in pictures[1:]:
+        known = picture[..., 3] != UNTOUCHED
+        count += known
+        first, more = known & (count == 1.0), known & (count > 1.0)
+        mean[first] = picture[first]
+        mean[more] += (picture[more] - mean[more]) / count[more, None]
+    return mean
