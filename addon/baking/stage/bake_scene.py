@@ -32,6 +32,7 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
         else:
             put_swift_world(scene, back)
         look_through(scene, bpy.data.objects.new(UV_MAP, bpy.data.cameras.new(UV_MAP)), back)
+        _without_results(scene)
         for source in sources:
             back.callback(setattr, source, "hide_render", source.hide_render)
             source.hide_render = True
@@ -52,6 +53,25 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
         # Cycles clamps a lamp's body one bounce later than what lamps light
         own, of_all = context.scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_direct
         yield BakeScene(scene, objects, targets, switches, None if opacity or own == of_all else own)
+
+
+def _without_results(scene: bpy.types.Scene) -> None:
+    """Let no reflection be in a temporary scene, as far as that changes nothing of the user's: only the camera would
+    see it, and Cycles takes up its picture of light for each band, be it hidden or not."""
+    for obj in [obj for obj in scene.collection.objects if _is_result(obj)]:
+        scene.collection.objects.unlink(obj)
+    layers = [scene.view_layers[0].layer_collection]
+    while layers:
+        layer = layers.pop()
+        held = layer.collection.all_objects
+        if held and all(_is_result(obj) for obj in held):
+            layer.exclude = True
+        else:
+            layers.extend(layer.children)
+
+
+def _is_result(obj: bpy.types.Object) -> bool:
+    return obj.reflection_mesh.role == "REFLECTION"
 
 
 def _prepare(scene: bpy.types.Scene) -> None:

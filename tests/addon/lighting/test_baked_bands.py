@@ -65,6 +65,34 @@ def test_bands_are_denoised_in_tiles(blank, room, monkeypatch):
     assert baked and not any(isinstance(stage, room("addon.faults").Undivided) for stage in baked)
 
 
+@pytest.mark.parametrize("apart", [False, True])
+def test_what_is_lit_already_takes_no_part(blank, room, monkeypatch, apart):
+    """Cycles would take up the picture of its light for each band: a relit bathroom took twice as long as at first."""
+    scene_of(blank, "UV").reflection_mesh.role = "MIRROR"
+    result, scenes = parts.generate(), []
+    if apart:
+        place = bpy.data.collections.new("Reflections")
+        blank.scene.collection.children.link(place)
+        for other in list(result.users_collection):
+            other.objects.unlink(result)
+        place.objects.link(result)
+    bake = room("addon.baking.stage.bakes").BakeScene._bake_into
+
+    def noted(self, image, values, objects, scene, **what):
+        # as Blender does before it bakes
+        scene.view_layers[0].update()
+        scenes.append({obj.original for obj in scene.view_layers[0].objects})
+        bake(self, image, values, objects, scene, **what)
+    monkeypatch.setattr(room("addon.baking.stage.bakes").BakeScene, "_bake_into", noted)
+    layers = [layer.exclude for layer in blank.view_layer.layer_collection.children]
+    for _ in range(2):
+        light_between_events(blank, room, 1)
+        assert scenes and not any(result in shown for shown in scenes)
+    assert any(bpy.data.objects["Mirror"] in shown for shown in scenes)
+    assert result.reflection_mesh.light_material and result in set(blank.view_layer.objects)
+    assert [layer.exclude for layer in blank.view_layer.layer_collection.children] == layers
+
+
 @pytest.mark.parametrize("size", [(1, 1), (1, 700), (33, 321), (320, 320), (321, 320), (700, 1000)])
 def test_tiles_cover_a_picture(room, size):
     tiles = room("addon.baking.stage.tiles")
