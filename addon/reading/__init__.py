@@ -25,7 +25,16 @@ from .not_reflected import has_fog, in_background_set, rendered_alone, without_s
 from .nothing_seen import NothingSeen
 from .read_view import NO_CAMERA, read_view, render_size
 from .rendered_otherwise import rendered_otherwise
-from .results import RESULTS, camera_of, every_result_of, has_linked_results, is_gone, results_of, with_copies
+from .results import (
+    RESULTS,
+    camera_of,
+    every_result_of,
+    has_linked_results,
+    is_gone,
+    is_result,
+    results_of,
+    with_copies,
+)
 from .roles import (
     NO_MIRROR,
     Participants,
@@ -47,8 +56,8 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "Placed", "RESULTS", "all_nodes", "camera_of", "can_take_part", "candidates", "choose", "drawn_meshes",
            "every_result_of", "fog_of", "forget_known", "has_fog", "has_linked_results", "in_background_set",
            "in_viewports", "is_clear", "is_fog", "is_gone", "is_mirror", "is_opaque", "is_part", "is_rendered",
-           "join_mirror", "join_scene", "known_results", "lines_drawn", "link_state", "looked_through", "materials_of",
-           "materials_shown", "may_have_faces", "moves", "nothing_to_reflect", "participants", "read_meshes",
-           "read_mirror", "read_mirrors", "read_scene", "read_view", "register", "render_size", "rendered_alone",
-           "rendered_collections", "rendered_in", "rendered_otherwise", "results_of", "says_mirror", "seen_in",
-           "unregister", "vectors", "visible", "with_copies", "without_surface"]
+           "is_result", "join_mirror", "join_scene", "known_results", "lines_drawn", "link_state", "looked_through",
+           "materials_of", "materials_shown", "may_have_faces", "moves", "nothing_to_reflect", "participants",
+           "read_meshes", "read_mirror", "read_mirrors", "read_scene", "read_view", "register", "render_size",
+           "rendered_alone", "rendered_collections", "rendered_in", "rendered_otherwise", "results_of", "says_mirror",
+           "seen_in", "unregister", "vectors", "visible", "with_copies", "without_surface"]

@@ -8,6 +8,7 @@ import bpy
 
 from ....core import View
 from ...faults import still_there
+from ...reading import is_result
 from ...rendering import copied_scene, look_through, put_swift_world
 from ...writing import UV_MAP
 from .bake_targets import new_target
@@ -58,20 +59,16 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
 def _without_results(scene: bpy.types.Scene) -> None:
     """Let no reflection be in a temporary scene, as far as that changes nothing of the user's: only the camera would
     see it, and Cycles takes up its picture of light for each band, be it hidden or not."""
-    for obj in [obj for obj in scene.collection.objects if _is_result(obj)]:
+    for obj in [obj for obj in scene.collection.objects if is_result(obj)]:
         scene.collection.objects.unlink(obj)
     layers = [scene.view_layers[0].layer_collection]
     while layers:
         layer = layers.pop()
         held = layer.collection.all_objects
-        if held and all(_is_result(obj) for obj in held):
+        if held and all(is_result(obj) for obj in held):
             layer.exclude = True
         else:
             layers.extend(layer.children)
-
-
-def _is_result(obj: bpy.types.Object) -> bool:
-    return obj.reflection_mesh.role == "REFLECTION"
 
 
 def _prepare(scene: bpy.types.Scene) -> None:
