@@ -21,6 +21,7 @@ FEW = 4  # looks after which most have arrived
 ARRIVED = 1e-7  # of a mirror triangle: the step after which the next is rounding
 NEARLY = 1e-5  # the same, where the next is about the square of this
 LONGEST = 1.5  # mirror triangles: no step goes further
+FUTILE = 8.0  # times its last step that a point lies beyond the border, or that step all of a look: it stays so
 INSIDE = 1e-6  # of a triangle: rounding
 
 
@@ -77,8 +78,8 @@ class _Walk:
 
     def _look(self, active: np.ndarray) -> np.ndarray:
         patch, member, uv, before = self.patch, self.member, self.uv, self.before
-        on, far, moved = newton(patch, member[active], columns(uv, active), self.s[active],
-                                columns(self.points, active), self.steps)
+        start = columns(uv, active)
+        on, far, moved = newton(patch, member[active], start, self.s[active], columns(self.points, active), self.steps)
         uv[:, active], self.s[active] = on, far
         inside = least_weight(on) >= -INSIDE
         done = inside & (moved < self.arrived)
@@ -87,18 +88,22 @@ class _Walk:
         active, moved, inside = active[rest], moved[rest], inside[rest]
         u, v = columns(on, rest)
         weights = np.stack((1.0 - u - v, u, v))
-        beyond = patch.across[member[active], weights.argmin(axis=0)]
+        lowest = weights.argmin(axis=0)
+        beyond = patch.across[member[active], lowest]
         # left by either of two triangles to the other, or to none: it is not there yet, or nowhere
         back = ~inside & ((beyond == before[active]) | (beyond < 0))
         before[active[back]] = -1
         walking = ~inside & ~back
+        went = np.abs(columns(on - start, rest)).max(axis=0)
+        nowhere = (beyond < 0) & (FUTILE * moved < -weights[lowest, np.arange(len(rest))])
+        nowhere |= np.minimum(moved, LONGEST) > FUTILE * went
         i = active[walking]
         if len(i):
             drawn = np.maximum(weights[:, walking], 0.0)
             place = patch.places(member[i], drawn[1:] / drawn.sum(axis=0))
             before[i], member[i] = member[i], beyond[walking]
             uv[:, i] = patch.coordinates(member[i], place)
-        return active[walking | (moved >= self.arrived)]
+        return active[walking | (moved >= self.arrived) & ~nowhere]
 
 
 def newton(patch: Patch, member, uv, s, points, steps: int = STEPS) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
