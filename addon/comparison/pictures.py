@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ..judge import CopiedScene, render_picture, show, take_settings
+from ..reading import is_result
 from ..rendering import Renders, copied_scene, look_through, only_the_picture, sharp_camera, show_mirrors
 
 NAME = "Reflection Comparison"
@@ -71,7 +72,7 @@ def render_lit(context: bpy.types.Context, results: list, samples: int) -> Gener
         scene.cycles.time_limit = 0.0
         take_settings(scene, user)
         look_through(scene, sharp_camera(user.camera), back)
-        show_mirrors([obj for obj in user.objects if obj.reflection_mesh.role == "REFLECTION" and obj not in results],
+        show_mirrors([obj for obj in user.objects if is_result(obj) and obj not in results],
                      back)
         with ExitStack() as without:
             show_mirrors(results, without)

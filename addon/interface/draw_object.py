@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_iface
 from ...core.result import filled_share
 from ..frames import plays
 from ..lighting import light_lines
-from ..reading import is_gone, render_size
+from ..reading import is_gone, is_result, render_size
 from ..writing import mesh_bytes, records, size_text
 from .menus import REFLECTION_MESH_MT_role
 
@@ -18,7 +18,7 @@ def draw_object(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
     """The role of an object, or what there is to know of a reflection."""
     if obj is None:
         layout.label(text="Select a mirror and what it shall show", icon="INFO")
-    elif obj.reflection_mesh.role == "REFLECTION":
+    elif is_result(obj):
         _draw_result(layout, context, obj)
     elif obj.reflection_mesh.role == "CAUSTICS":
         _draw_light(layout, obj)

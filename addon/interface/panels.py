@@ -7,7 +7,7 @@ from __future__ import annotations
 import bpy
 
 from ..frames import plays
-from ..reading import can_take_part
+from ..reading import can_take_part, is_result
 from .draw_live import draw_live
 from .draw_object import draw_figures, draw_object
 from .draw_settings import draw_limits, draw_settings, possible_mirror
@@ -62,7 +62,7 @@ class _Figures:
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         obj = active(context)
-        return obj is not None and obj.reflection_mesh.role == "REFLECTION" and not plays(obj)
+        return obj is not None and is_result(obj) and not plays(obj)
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_figures(self.layout, active(context))

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..faults import still_there
-from ..reading import is_rendered
+from ..reading import is_rendered, is_result
 
 RAYS = ("camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow")
 
@@ -86,7 +86,7 @@ def _copy_objects(context: bpy.types.Context, copied: CopiedScene, mirrors: list
                ((copied.mirrors, mirrors), (copied.diffuse, diffuse), (copied.results, results))
                for index, obj in enumerate(objects)}
     seen = _rendered(context)
-    old_results = {obj for obj in context.view_layer.objects if obj.reflection_mesh.role == "REFLECTION"} - set(results)
+    old_results = {obj for obj in context.view_layer.objects if is_result(obj)} - set(results)
     meshes: dict = {}
     for instance in depsgraph.object_instances:
         evaluated = instance.object

@@ -5,7 +5,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..illumination import is_glint
-from ..reading import rendered_collections
+from ..reading import is_result, rendered_collections
 from ..registration import Handlers
 from .preview import MARK
 
@@ -57,7 +57,7 @@ def _taking_part(scene: bpy.types.Scene, own: set) -> frozenset:
 
 def _own(scene: bpy.types.Scene) -> set:
     """Reflections, and what makes them; caustics are light that mirrors show."""
-    results = {obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
+    results = {obj for obj in scene.objects if is_result(obj)}
     materials = {obj.reflection_mesh.light_material for obj in results} - {None}
     # previews come and go
     materials |= {slot.material for obj in results for slot in obj.material_slots if slot.material is not None

@@ -5,7 +5,7 @@ import bpy
 
 from ...core import ReflectionError
 from ..frames import plays
-from ..reading import Participants, is_gone, known_results, results_of, visible
+from ..reading import Participants, is_gone, is_result, known_results, results_of, visible
 
 
 def kept_results(context: bpy.types.Context) -> list:
@@ -28,7 +28,7 @@ def abandoned_light(context: bpy.types.Context) -> list:
 
 
 def _made_here(known: list) -> list:
-    return [obj for obj in known if obj.reflection_mesh.role == "REFLECTION" and obj.type == "MESH" and not plays(obj)]
+    return [obj for obj in known if is_result(obj) and obj.type == "MESH" and not plays(obj)]
 
 
 def kept_light(context: bpy.types.Context) -> list:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from ..reading import is_result
 from ..writing.nodes.shader_builder import ShaderBuilder
 from .mirror_share import WHITE, Share
 
@@ -34,7 +35,7 @@ class LaterMirrors:
         most, mirror = _most_bounces(result), result.reflection_mesh.mirror
         if most < 2:
             return cls()
-        mirrors = {obj.reflection_mesh.mirror for obj in objects if obj.reflection_mesh.role == "REFLECTION"} - {None}
+        mirrors = {obj.reflection_mesh.mirror for obj in objects if is_result(obj)} - {None}
         tints = {share.tint for other in mirrors if other != mirror or not _is_flat(other) for share in Share.of(other)}
         return cls(tints.pop(), most) if len(tints) == 1 else cls()
 

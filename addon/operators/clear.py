@@ -7,7 +7,7 @@ from ..faults import AllOrNothing, in_one_sentence, one_or_more, tell
 from ..frames import plays, stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_previews
-from ..reading import has_linked_results
+from ..reading import has_linked_results, is_result
 from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes, set_free
 from . import polls
 
@@ -20,7 +20,7 @@ LINKED_TO_CLEAR = ("The reflections are linked from another file: clear them in 
 def chosen_results(context: bpy.types.Context) -> list:
     """The selected results, or those of selected mirrors; where the selection names none, all of the scene."""
     results = [obj for obj in context.scene.objects
-               if obj.reflection_mesh.role == "REFLECTION" and obj.library is None]
+               if is_result(obj) and obj.library is None]
     selected = set(context.selected_objects)
     named = [obj for obj in results if obj in selected or obj.reflection_mesh.mirror in selected]
     return named or results

@@ -19,6 +19,7 @@ from ..reading import (
     can_take_part,
     has_linked_results,
     is_mirror,
+    is_result,
     nothing_to_reflect,
     says_mirror,
 )
@@ -149,7 +150,7 @@ def _any(objects, asked: Callable) -> bool:
 
 
 def _is_result(obj: bpy.types.Object) -> bool:
-    return obj.reflection_mesh.role == "REFLECTION" and obj.library is None
+    return is_result(obj) and obj.library is None
 
 
 def _is_made_or_window(obj: bpy.types.Object) -> bool:

@@ -10,6 +10,7 @@ from ..reading import (
     camera_of,
     every_result_of,
     in_background_set,
+    is_result,
     known_results,
     rendered_alone,
     rendered_otherwise,
@@ -140,7 +141,7 @@ def render_shortcomings(context: bpy.types.Context, mirrors: list, diffuse: list
 def _has_linked_result(context: bpy.types.Context, mirror: bpy.types.Object) -> bool:
     """Whether a reflection that is linked from another file lies on a mirror, in sight."""
     return any(obj.library is not None and obj.reflection_mesh.mirror == mirror and obj.visible_get()
-               and obj.reflection_mesh.role == "REFLECTION"
+               and is_result(obj)
                for obj in known_results(context.scene, context.view_layer))
 
 

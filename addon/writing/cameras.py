@@ -12,7 +12,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..faults import still_there
-from ..reading import camera_of
+from ..reading import camera_of, is_result
 from ..registration import Handlers
 from .windows import close_window, open_window
 
@@ -25,7 +25,7 @@ def show_for_camera(scene: bpy.types.Scene) -> None:
     if camera is None or scene.reflection_mesh.seen_by == camera or scene.library is not None:
         return
     # those of no camera in particular are right for whichever looks, or were put where they are by someone else
-    results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION" and obj.library is None
+    results = [obj for obj in scene.objects if is_result(obj) and obj.library is None
                and obj.reflection_mesh.mirror is not None and camera_of(obj) is not None]
     own = [obj for obj in results if camera_of(obj) == camera]
     if not own:
@@ -59,7 +59,7 @@ def bring_back(obj: bpy.types.Object) -> None:
 
 def as_shown(scene: bpy.types.Scene) -> Callable[[], None]:
     """What brings back which results a scene shows, and which of their mirrors are windows, as it is now."""
-    results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION" and obj.library is None]
+    results = [obj for obj in scene.objects if is_result(obj) and obj.library is None]
     mirrors = {obj.reflection_mesh.mirror for obj in results} - {None}
     shown = [(obj, tuple(getattr(obj, switch) for switch in SWITCHES), tuple(obj.reflection_mesh.aside))
              for obj in results]
@@ -87,7 +87,7 @@ def forget_deleted(scene: bpy.types.Scene) -> None:
     gone = {camera for camera in looking if not camera.users_scene}
     if not gone or scene.library is not None:
         return
-    known = {obj.reflection_mesh.camera for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"}
+    known = {obj.reflection_mesh.camera for obj in scene.objects if is_result(obj)}
     for marker in markers:
         if marker.camera in gone & known:
             marker.camera = None

@@ -12,6 +12,7 @@ from bpy.app.handlers import persistent
 from mathutils import Vector
 
 from ...core import ReflectionMesh, View
+from ..reading import is_result
 from ..registration import Handlers
 
 RAYS = 200          # by which the view through a window is tried
@@ -120,7 +121,7 @@ def close_abandoned_windows() -> None:
         return
     # what is deleted may live on where something still points to it, but in no scene
     shown = {obj.reflection_mesh.mirror for scene in bpy.data.scenes for obj in scene.objects
-             if obj.reflection_mesh.role == "REFLECTION" and _needs_window(obj.reflection_mesh)}
+             if is_result(obj) and _needs_window(obj.reflection_mesh)}
     for obj in hidden:
         if obj not in shown:
             close_window(obj)
