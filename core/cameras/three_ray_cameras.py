@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, connected, following, solid_angles
+from ..geometry import TriangleMesh, borders, connected, following, solid_angles
 from ..views import View
 from .mirror_map import MirrorMap
 from .reflection_map import ReflectionMap
@@ -70,12 +70,12 @@ def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
     plane of an orthographic eye cuts: some of its rays begin inside."""
     areal = np.flatnonzero(mirror.areal)
     triangles = mirror.triangles[areal]
-    visible = not_edge_on(view, mirror)
-    if _closed(triangles):
-        corners = mirror.positions[triangles]
-        if not view.orthographic or (view.depths(corners.reshape(-1, 3)) > 0.0).all():
-            visible[areal] &= _towards(view, corners) * _outwards(view, triangles, corners) > 0.0
-    return np.flatnonzero(visible)
+    corners = mirror.positions[triangles]
+    towards = _towards(view, corners)
+    visible = towards != 0.0
+    if _closed(triangles) and not (view.orthographic and (view.depths(mirror.positions[mirror.used]) <= 0.0).any()):
+        visible &= towards * _outwards(view, mirror.positions, triangles, corners) > 0.0
+    return areal[visible]
 
 
 def not_edge_on(view: View, mesh: TriangleMesh) -> np.ndarray:
@@ -88,15 +88,23 @@ def _towards(view: View, corners: np.ndarray) -> np.ndarray:
     return -np.einsum("ij,ij->i", view.directions(corners[:, 0]), _normals(corners))
 
 
-def _outwards(view: View, triangles: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """(n,): positive where the normals of triangles (n, 3, 3) point out of their closed body, or into it where the eye
-    is in it, as in a room with a ball; else negative."""
+def _outwards(view: View, positions: np.ndarray, triangles: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """(n,): positive where the normals of triangles (n, 3), with the corners (n, 3, 3) among positions (v, 3), point
+    out of their closed body, or into it where the eye is in it, as in a room with a ball; else negative."""
     body = connected(triangles)
     sixfold = np.einsum("ij,ij->i", corners[:, 0] - corners.mean(axis=(0, 1)), _normals(corners))
     volume = np.bincount(body, sixfold)
     if not view.orthographic:
-        around = np.abs(np.bincount(body, solid_angles(view.eye, corners))) > 2.0 * np.pi
-        volume = np.where(around, -volume, volume)
+        owner = np.full(len(positions), -1)
+        owner[triangles] = body[:, None]
+        used = np.flatnonzero(owner >= 0)
+        # none can be round the eye but those in whose box it is
+        near = np.ones(len(volume), dtype=bool)
+        for side in (*(positions[used] > view.eye).T, *(positions[used] < view.eye).T):
+            near &= np.bincount(owner[used], side) > 0.0
+        own = np.flatnonzero(near[body])
+        around = np.bincount(body[own], solid_angles(view.eye, corners[own]), minlength=len(volume))
+        volume = np.where(np.abs(around) > 2.0 * np.pi, -volume, volume)
     return volume[body]
 
 
@@ -108,10 +116,11 @@ def _closed(triangles: np.ndarray) -> bool:
     """Whether each directed edge meets its opposite exactly once."""
     if not len(triangles):
         return False
-    a, b = triangles.ravel(), following(triangles).ravel()
     count = int(triangles.max()) + 1
-    forth, back = np.sort(a * count + b), np.sort(b * count + a)
-    return bool((forth == back).all() and (forth[1:] != forth[:-1]).all())
+    if borders(triangles, count).any():
+        return False
+    edge = np.sort((triangles * count + following(triangles)).ravel())
+    return bool((edge[1:] != edge[:-1]).all())
 
 
 def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.ndarray) -> Cameras:

@@ -20,7 +20,7 @@ def outer_side(mirrors: TriangleMesh, surface: MirrorSurface, beyond: np.ndarray
     else:
         return 0.0
     # a surface that winds about itself is convex everywhere but as a whole
-    corners = rows(mirrors.positions[np.unique(mirrors.triangles)])
+    corners = rows(mirrors.positions[mirrors.used])
     for direction in spread_directions(DIRECTIONS):
         farthest = corners[:, np.argmax(dot(direction, corners))]
         if (side * dot(farthest[:, None] - surface.a, surface.face_normal) > room).any():

@@ -59,7 +59,7 @@ class SceneAndMirrors:
         self.tree, self.mirrors, self.mirror_tree = tree, mirrors, SceneTree.of_ordered(mirrors)
         self.mirror_corners = rows(mirrors.positions[mirrors.triangles])
         self._corners = [rows(mirrors.positions[corner]) for corner in mirrors.triangles.T]
-        self.size = float(np.ptp(mirrors.positions[mirrors.triangles.ravel()], axis=0).max())
+        self.size = float(np.ptp(mirrors.positions[mirrors.used], axis=0).max())
         self.surface = MirrorSurface(mirrors)
         self._beyond = rows(mirrors.opposite_corners)
         self.outward: np.ndarray | None = None

@@ -57,7 +57,7 @@ def missed_probes(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, met: 
 
 def _lattice(view: View, mirror: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
     """The low corner (2,) of the box round the mirror in the picture, and the distance of its probes."""
-    used = mirror.positions[mirror.triangles.ravel()]
+    used = mirror.positions[mirror.used]
     resolution = np.array(view.resolution, dtype=np.float64)
     low, high = np.zeros(2), resolution
     if (view.depths(used) > 0.0).all():

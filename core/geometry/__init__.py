@@ -3,7 +3,7 @@
 In come meshes as they were given; out come meshes in an order that only their places decide, and which triangles lie
 beyond each other's sides.
 """
-from .adjacency import connected, corners_beyond
+from .adjacency import borders, connected, corners_beyond
 from .canonical_order import TURNS, Order, ordered
 from .column_arrays import ColumnArrays
 from .distinct import distinct, first_of, in_order
@@ -41,7 +41,8 @@ from .vectors import (
 )
 
 __all__ = ["ColumnArrays", "Order", "SceneFrames", "TURNS", "TriangleMesh", "area_normals", "areal", "areas", "between",
-           "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas", "edge_lengths",
-           "edge_numbers", "falling", "first_of", "following", "groups", "has_area", "in_order", "largest", "meeting",
-           "next_corner", "norm", "ordered", "others", "parent_side", "ranges", "rows", "shared_edges", "shares",
-           "smallest", "solid_angles", "solve", "split", "spread_directions", "unit"]
+           "borders", "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas",
+           "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area",
+           "in_order", "largest", "meeting", "next_corner", "norm", "ordered", "others", "parent_side",
+           "ranges", "rows", "shared_edges", "shares", "smallest", "solid_angles", "solve", "split",
+           "spread_directions", "unit"]

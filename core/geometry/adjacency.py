@@ -3,22 +3,49 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..support import breathe
+from ..support import breathe, portions
 from .distinct import distinct, in_order
-from .subdivision import following, shared_edges
+from .subdivision import edge_numbers, following, others
+
+AT_ONCE = 16384  # triangles: what their arrays take fits the cache
+SCATTERED = np.uint64(0x9E3779B97F4A7C15)  # 2**64 over the golden ratio: multiples of it lie all over
 
 
 def corners_beyond(triangles: np.ndarray) -> np.ndarray:
     """For each corner of triangles (m, 3) the one beyond the opposite side, an entry of the flattened triangles, or -1
     where there is none, or more than one."""
-    _, _, edge = shared_edges(triangles)
-    # edge k runs from corner k to the next; the side opposite to corner j is edge j + 1
-    edge = following(edge).ravel()
-    order = in_order(edge)
-    one, other = order[np.bincount(edge)[edge[order]] == 2].reshape(-1, 2).T
-    beyond = np.full(len(edge), -1)
+    # each side by the corner opposite to it, from the next one to that before
+    one, other = following(triangles).ravel(), np.roll(triangles, 1, axis=1).ravel()
+    key = edge_numbers(one, other, int(triangles.max(initial=0)) + 1)
+    order = in_order(key)
+    rising = key[order]
+    same = rising[1:] == rising[:-1]
+    twice = same.copy()
+    twice[1:] &= ~same[:-1]
+    twice[:-1] &= ~same[1:]
+    first = np.flatnonzero(twice)
+    one, other = order[first], order[first + 1]
+    beyond = np.full(len(key), -1)
     beyond[one], beyond[other] = other, one
     return beyond.reshape(-1, 3)
+
+
+def borders(triangles: np.ndarray, count: int) -> np.ndarray:
+    """Which of `count` vertices, that triangles (m, 3) name, are such at which the surface ends, or turns its other
+    side."""
+    # 31 bits of each, multiplied twice, since sums of mere multiples are equal wherever those of the indices are; as
+    # floats, which `add.at` adds up ten times as fast as what it has to convert
+    mixed = np.arange(count, dtype=np.uint64) * SCATTERED
+    number = (((mixed ^ (mixed >> np.uint64(32))) * SCATTERED) >> np.uint64(33)).astype(np.float64)
+    # round an inner vertex each neighbour comes once after it and once before it
+    total = np.zeros(count)
+    for part in portions(len(triangles), AT_ONCE):
+        corner = triangles[part].T
+        named = number.take(corner, mode="wrap")
+        for k in range(3):
+            after, before = others(k)
+            np.add.at(total, corner[k], named[after] - named[before])
+    return total != 0.0
 
 
 def connected(triangles: np.ndarray) -> np.ndarray:
@@ -29,8 +56,8 @@ def connected(triangles: np.ndarray) -> np.ndarray:
     (Y. Shiloach, U. Vishkin, "An O(log n) parallel connectivity algorithm", 1982).
     """
     part = np.arange(int(triangles.max(initial=-1)) + 1)
-    first, *others = triangles.T
-    one, other = np.tile(first, len(others)), np.concatenate([first[:0], *others])
+    first, *rest = triangles.T
+    one, other = np.tile(first, len(rest)), np.concatenate([first[:0], *rest])
     while True:
         apart = np.flatnonzero(one != other)
         if not len(apart):

@@ -129,9 +129,19 @@ class TriangleMesh:
         return np.flatnonzero(new)[np.cumsum(new) - 1]
 
     @cached_property
+    def used(self) -> np.ndarray:
+        """The vertices, rising, that triangles name."""
+        named = np.zeros(len(self.positions), dtype=bool)
+        named[self.triangles] = True
+        return np.flatnonzero(named)
+
+    @cached_property
     def place_of(self) -> np.ndarray:
         """The number (n,) of each vertex's place: flat faces may have vertices of their own in one place."""
-        return np.unique(self.positions, axis=0, return_inverse=True)[1].reshape(-1)
+        order = np.lexsort(self.positions.T[::-1])
+        number = np.empty(len(order), dtype=np.int64)
+        number[order] = np.cumsum((np.diff(self.positions[order], axis=0, prepend=np.nan) != 0.0).any(axis=1)) - 1
+        return number
 
     @cached_property
     def beyond(self) -> np.ndarray:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, columns, connected, cross, dot, others, rows, solid_angles
+from ..geometry import TriangleMesh, borders, columns, connected, cross, dot, rows, solid_angles
 from ..support import portions
 from ..views import Covered, View
 from .cones import Cones
@@ -20,7 +20,6 @@ AT_ONCE = 16384  # triangles: what their arrays take fits the cache
 LINES = 1 << 16  # that bodies are looked through along, all together
 FEWEST, MOST = 4, 64  # of them along each side of one body
 TOGETHER = 1e-9  # of a body's size: what lies closer is met at once
-SCATTERED = 2654435761  # odd: sums of few of its multiples are equal by no accident
 STARTS = np.stack(np.meshgrid(*2 * [np.linspace(0.0, 1.0, 3)]), axis=-1).reshape(-1, 2)  # of rays, over the picture
 # right, up and along the lines: askew to whatever people build
 FRAME = np.linalg.qr(np.array([[0.83, -0.46, 0.31], [0.37, 0.71, 0.59], [-0.41, -0.53, 0.74]]))[0]
@@ -57,9 +56,10 @@ class ClosedBodies:
     def of(cls, mesh: TriangleMesh) -> ClosedBodies:
         """Those of a mesh in its canonical order."""
         triangles = mesh.triangles
-        ends = _ends(mesh)[mesh.places]
+        places = mesh.places[triangles]
+        ends = borders(places, len(mesh.positions))[mesh.places]
         border = np.flatnonzero(ends)
-        part = connected(mesh.places[triangles])
+        part = connected(places)
         closed = np.ones(int(part.max(initial=-1)) + 1, dtype=bool)
         closed[part[ends[triangles].any(axis=1)]] = False
         number = np.where(closed, np.cumsum(closed) - 1, -1)
@@ -129,20 +129,6 @@ class Fronts:
         height = dot(normal, columns(cones.centre, cone))
         height -= normal[3]
         return height >= -(1.0 + TOGETHER) * columns(cones.radius, cone)
-
-
-def _ends(mesh: TriangleMesh) -> np.ndarray:
-    """Which vertices (v,), the first in each place, are such at which the surface ends."""
-    number = (np.arange(len(mesh.positions)) * SCATTERED) & 0x7fffffff
-    # round an inner vertex each neighbour comes once after it and once before it
-    total = np.zeros(len(number))
-    for part in portions(len(mesh.triangles), AT_ONCE):
-        corner = columns(mesh.places, mesh.triangles[part].T)
-        named = columns(number, corner)
-        for k in range(3):
-            after, before = others(k)
-            np.add.at(total, corner[k], named[after] - named[before])
-    return total != 0.0
 
 
 def _up_and_volume(spots: np.ndarray, corner: np.ndarray, middle: np.ndarray,
