@@ -89,15 +89,19 @@ class ClosedBodies:
     def outward_from(self, view: View) -> np.ndarray:
         """What `outward` (m,) is of bodies from outside of which the view looks, 0 of all others: what it sees in
         mirrors it sees from outside as well, since on the way there nothing is in between. It looks from where it
-        does not cut off any more what is near: a camera that stands before a room may so look into it."""
+        does not cut off any more what is near: a camera that stands before a room may so look into it; and from the
+        eye, from which on mirrors are met."""
         if not self.low.shape[1]:
             return self.outward
         starts = view.starts(STARTS * view.resolution)
+        if not view.orthographic:
+            starts = np.concatenate((starts, view.eye[None]))
         spots, ahead = FRAME @ starts.T, FRAME @ view.forward
         outside = ((spots.max(axis=1)[:, None] < self.low) | (spots.min(axis=1)[:, None] > self.high)).any(axis=0)
-        # all of them lie in one plane
-        height = ahead @ (0.5 * (self.low + self.high) - spots[:, :1])
-        outside |= np.abs(height) > (1.0 + TOGETHER) * (np.abs(ahead) @ (0.5 * (self.high - self.low)))
+        # those of a picture lie in one plane
+        height = ahead @ (0.5 * (self.low + self.high)) - (ahead @ spots)[:, None]
+        room = (1.0 + TOGETHER) * (np.abs(ahead) @ (0.5 * (self.high - self.low)))
+        outside |= (height > room).all(axis=0) | (height < -room).all(axis=0)
         # where an orthographic view starts it cuts bodies between its points as well
         for body in np.flatnonzero(~outside) if not view.orthographic else ():
             corners = self.mesh.positions[self.mesh.triangles[self.body == body]]

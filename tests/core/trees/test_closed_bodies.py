@@ -79,12 +79,15 @@ def test_only_what_is_looked_at_from_outside_turns_away(eye, outside):
     assert bool(ClosedBodies.of(own).outward_from(view).any()) == outside
 
 
-@pytest.mark.parametrize(("near", "outside"), [(0.1, True), (2.5, False), (9.0, True)])
+@pytest.mark.parametrize(("eye", "near", "outside"), [(-2.5, 0.1, True), (-2.5, 2.5, False), (-2.5, 9.0, True),
+                                                      (-0.2, 0.1, False), (-0.2, 9.0, False)])
 @pytest.mark.parametrize("orthographic", [False, True])
-def test_a_view_looks_from_where_it_cuts_off_no_more(near, outside, orthographic):
-    """Before a room it looks into that where the wall between is nearer than its near clipping plane."""
+def test_a_view_looks_from_where_it_cuts_off_no_more(eye, near, outside, orthographic):
+    """Before a room it looks into that where the wall between is nearer than its near clipping plane; in it, also where
+    all of it is nearer than that: its mirrors are met from the eye on. An orthographic view has no eye."""
+    outside |= orthographic and near == 9.0
     own, _ = ordered(shapes.combine(BALL), shading=False)
-    view = View.looking_at((0.0, -2.5, 0.0), (0.0, 0.0, 0.0), (64, 48), field_of_view=0.1,
+    view = View.looking_at((0.0, eye, 0.0), (0.0, 0.0, 0.0), (64, 48), field_of_view=0.1,
                            orthographic_scale=0.2 * orthographic)
     lens, far = view.projection.copy(), 100.0
     # as OpenGL defines it
