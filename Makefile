@@ -88,6 +88,7 @@ pictures: environment
 	$(RUN) -m tools.pictures.animation
 	$(RUN) -m tools.pictures.parts
 	$(RUN) -m tools.pictures.stained
+	$(RUN) -m tools.pictures.anamorphosis
 
 test: lint test-core test-addon
 
