@@ -89,6 +89,7 @@ pictures: environment
 	$(RUN) -m tools.pictures.parts
 	$(RUN) -m tools.pictures.stained
 	$(RUN) -m tools.pictures.anamorphosis
+	$(RUN) -m tools.pictures.cameras
 
 test: lint test-core test-addon
 
