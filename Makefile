@@ -90,6 +90,7 @@ pictures: environment
 	$(RUN) -m tools.pictures.stained
 	$(RUN) -m tools.pictures.anamorphosis
 	$(RUN) -m tools.pictures.cameras
+	$(RUN) -m tools.pictures.tutorials
 
 test: lint test-core test-addon
 
