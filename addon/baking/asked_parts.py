@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 
 from ...core import View, breathe
+from ...core.geometry import doubled_areas
 from ..reading import DiffuseScene, moves
 from .seen_sources import (
     corner_vertices,
@@ -29,6 +30,15 @@ def asked_densities(results: list, view: View, scene: DiffuseScene, parts: list,
     breathe()
     return {number: division.greatest(own[triangle[owner == number]], weights[owner == number],
                                       density[owner == number]) for number, division in divisions.items()}
+
+
+def pixels_shown(results: list, view: View) -> float:
+    """In how many pixels results are seen, those before others among them."""
+    seen = 0.0
+    for result in results:
+        spots = view.pixels(vectors(result.data, "mirror_position"))[corner_vertices(result.data)]
+        seen += 0.5 * float(np.abs(doubled_areas(spots)).sum())
+    return seen
 
 
 def sides_before_mirrors(results: list, scene: DiffuseScene) -> np.ndarray:

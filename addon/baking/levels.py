@@ -6,12 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import View, breathe
+from ...core.geometry import doubled_areas, edge_lengths
 from ..reading import DiffuseScene
 from .asked_parts import asked_densities, sides_before_mirrors
 from .rims import spread, with_its_rim
 from .texels import UNTOUCHED, Atlas, Division, divided, enlarged, packed, parts_along
 
-COARSER = (4, 2, 1)  # times, of the pictures in which an object is baked that is worth it
+COARSER = 4     # times than the finest the coarsest picture of an object is that is worth more than one
+COARSEST = 1024  # texels along a side that the coarsest has at the most
 WIDE = 32.0     # texels across triangles from which on what lies side by side in a picture does in the scene too
 NEARLY_ALL = 0.7  # of an object's parts: what all coarser pictures together cost less than
 ALMOST_ALL = 0.9  # of an object's surface, whose triangles are so wide where that holds for its picture
@@ -36,12 +38,19 @@ class ObjectLevels:
         Of these parts, level by level.
     needed : list of dict of (bool or None) to (p,) bool
         Which parts are baked, level by level, by whether their backs are asked for; None: either side.
+    whole : list of Atlas
+        Of the triangles, level by level.
     """
 
     wide: bool
     division: Division
     atlases: list[Atlas]
     needed: list[dict]
+    whole: list[Atlas]
+
+    def kept(self, back: bool) -> list[int]:
+        """The levels of which something is kept of a side: one at least."""
+        return [level for level, needed in enumerate(self.needed) if not level or needed[back].any()]
 
     def nowhere(self) -> np.ndarray:
         """Where the parts lie in a picture in which none is baked, (p, 3, 2)."""
@@ -56,29 +65,53 @@ class ObjectLevels:
     def window(self, level: int, back: bool | None) -> tuple[np.ndarray, np.ndarray]:
         """The lowest column and row of the part of a level's picture that is baked, and its width and height: what is
         not in it is not denoised."""
-        spots = self.atlases[level].spots[self.needed[level][back]]
+        return self._around(level, self.needed[level][back])
+
+    def frame(self, level: int, back: bool | None) -> tuple[np.ndarray, np.ndarray]:
+        """The same of what is kept of the picture: of small ones the whole."""
+        if self.whole[-1].size < LARGE:
+            return np.zeros(2, np.int64), np.full(2, self.whole[level].size)
+        low, size = self.window(level, back)
+        return low, np.maximum(size, 1)
+
+    def _around(self, level: int, parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        spots = self.atlases[level].spots[parts]
         if not len(spots):
             return np.zeros(2, np.int64), np.zeros(2, np.int64)
         low = np.maximum(np.floor(spots.min(axis=(0, 1))).astype(np.int64) - BORDER, 0)
         high = np.minimum(np.ceil(spots.max(axis=(0, 1))).astype(np.int64) + BORDER, self.atlases[level].size)
         return low, high - low
 
+    def _within(self, level: int, back: bool | None) -> np.ndarray:
+        """Which parts (p,) reach into what is kept of a level's picture."""
+        low, size = self.frame(level, back)
+        spots = self.atlases[level].spots
+        return ((spots.max(axis=1) >= low) & (spots.min(axis=1) <= low + size)).all(axis=1)
+
+    def in_frame(self, level: int, back: bool | None, parts: np.ndarray) -> np.ndarray:
+        """Corners of parts (p,) in what is kept of a level's picture, (n, 3, 2), in texels."""
+        return self.atlases[level].spots[parts] - self.frame(level, back)[0]
+
     def baked_parts(self, level: int, back: bool | None, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Corners of the parts that are baked, (b, 3, 3) in space, where those of the triangles are (m, 3, 3), and
-        (b, 3, 2) in a level's picture, in texels."""
+        `in_frame`."""
         needed = self.needed[level][back]
-        return self.division.values(corners)[needed], self.atlases[level].spots[needed]
+        return self.division.values(corners)[needed], self.in_frame(level, back, needed)
 
     def texels(self, level: int, back: bool | None) -> float:
         """About how many texels of a level are baked."""
-        return float(self.atlases[level].size**2 * max(self.needed[level][back].mean(), 1e-3))
+        corners = self.atlases[level].spots[self.needed[level][back]]
+        return max(0.5 * float(np.abs(doubled_areas(corners)).sum()), 1.0)
 
-    def picture(self, level: int, back: bool | None, baked: np.ndarray, coarser: np.ndarray | None,
+    def picture(self, back: bool | None, baked: np.ndarray, coarser: list[np.ndarray],
                 colours: np.ndarray | None = None, shown: np.ndarray | None = None) -> np.ndarray:
-        """A level's picture from what was baked of its window, light and `colours` that have a pattern, and the picture
-        before, with all texels known; where less than all of them is `shown` (side, side), by what is."""
-        (column, row), side = self.window(level, back)[0], self.atlases[level].size
-        found = np.full((side, side, 4), UNTOUCHED, dtype=np.float32)
+        """What is kept of the picture of the level after all `coarser` ones, (height, width, 4), from these and from
+        what was baked of its window, light and `colours` that have a pattern, with all texels known; where less than
+        all of them is `shown` (height, width), by what is."""
+        level = len(coarser)
+        low, (width, height) = self.frame(level, back)
+        column, row = self.window(level, back)[0] - low
+        found = np.full((height, width, 4), UNTOUCHED, dtype=np.float32)
         own = slice(row, row + len(baked)), slice(column, column + baked.shape[1])
         found[own] = with_its_rim(baked, colours) if self.wide else baked
         breathe()
@@ -86,10 +119,11 @@ class ObjectLevels:
             found = _as_shown(found, shown)
             breathe()
         known = found[..., 3] != UNTOUCHED
-        if coarser is not None:
-            rest = ~self.needed[level][back]
-            before, own = self.atlases[level - 1], self.atlases[level]
-            enlarged(coarser, found, known, before.spots[rest], own.spots[rest])
+        left = self._within(level, back) & ~self.needed[level][back]
+        for before in reversed(range(level)):
+            rest = left & self.needed[before][back]
+            left &= ~rest
+            enlarged(coarser[before], found, known, self.in_frame(before, back, rest), self.in_frame(level, back, rest))
         return spread(found, known)
 
 
@@ -104,7 +138,7 @@ def fine_where_seen(results: list, view: View, scene: DiffuseScene, parts: list,
     single = {number: divided(np.ones(len(parts[number]), dtype=np.int64)) for number, atlas in maps.items()
               if atlas.size >= LARGE and not is_wide(atlas)}
     for number, asked in asked_densities(results, view, scene, parts, single).items():
-        densities[number] = np.clip(FINER * asked, density[number] / COARSER[0], density[number])
+        densities[number] = np.clip(FINER * asked, density[number] / COARSER, density[number])
     return densities
 
 
@@ -128,7 +162,7 @@ def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, densi
         # where nearly all is to be fine, coarser pictures would only cost
         most = density[number][division.owner]
         in_steps = large[number] and (FINER * asked[number] > 0.5 * most).mean() < NEARLY_ALL
-        levels = COARSER if in_steps else COARSER[-1:]
+        levels = _times(atlases[number].size) if in_steps else [1]
         maps = [atlases[number] if times == 1 else packed(corners[part], density[number] / times)
                 for times in levels]
         front, back = seen[:, part[division.owner]]
@@ -138,22 +172,27 @@ def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, densi
             fine = FINER * asked[number] > most / (2.0 * times)
             needed.append({side: once & fine for side, once in needed[0].items()})
         made[number] = ObjectLevels(wide[number], division, [Atlas(one.size, division.values(one.uv)) for one in maps],
-                                    needed)
+                                    needed, maps)
     return made
+
+
+def _times(size: int) -> list[int]:
+    """How many times coarser than the finest, of a `size` in texels, each picture is of an object that has several."""
+    times = [1]
+    while times[0] < COARSER or size > COARSEST * times[0]:
+        times.insert(0, 2 * times[0])
+    return times
 
 
 def is_wide(atlas: Atlas) -> bool:
     """Whether the triangles of a picture are so large in it that denoising mixes nothing that lies apart."""
-    corners = atlas.spots
-    sides = corners[:, (1, 2, 0)] - corners
-    area = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
-    across = np.linalg.norm(sides, axis=2).min(axis=1)
+    area, across = np.abs(doubled_areas(atlas.spots)), edge_lengths(atlas.spots).min(axis=1)
     return float(area[across >= WIDE].sum()) >= ALMOST_ALL * float(area.sum())
 
 
 def _as_shown(picture: np.ndarray, shown: np.ndarray) -> np.ndarray:
-    """A picture (side, side, 4) whose texels tell of what is `shown` of them (side, side) alone: what is hidden is
-    dark, and those of which it is most are as those beside."""
+    """A picture (height, width, 4) whose texels tell of what is `shown` of them (height, width) alone: what is hidden
+    is dark, and those of which it is most are as those beside."""
     known = picture[..., 3] != UNTOUCHED
     whole = known & (shown == 1.0)
     part = known & ~whole & (shown >= MOST_SHOWN)

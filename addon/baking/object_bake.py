@@ -7,25 +7,24 @@ from functools import partial
 import bpy
 import numpy as np
 
-from ...core import ReflectionError, View, breathe, in_steps
+from ...core import View, breathe, in_steps
 from ..faults import Steps, part
 from ..reading import DiffuseScene, is_opaque, materials_of
 from ..reading.meshes import read_meshes
-from .levels import FINER, fine_where_seen, levels_of
+from .charts import charts_of, laid_out
+from .levels import FINER, fine_where_seen
 from .mirror_bodies import MirrorBodies, mirror_bodies
 from .seen_sources import SeenSources, has_rim, outer_sides, seen_sources, triangles_by_source
 from .shown_texels import shown_texels
 from .stage import BakeScene, bake_scene, is_deformed, new_meshes, stand_ins, undeformed_positions
-from .texels import arranged, is_glossy, packed
+from .texels import is_glossy
 from .thrown import thrown_light
 
-LARGEST = 4096  # texels along a side of all maps together
 LIGHT, COLOURS = 0.7, 0.15  # of the work of a picture; colours are baked twice at most
 FEWER = 0.5     # of the samples are enough where a picture is denoised
 LINES = 512     # of the map, which are put together in one step
 PREPARING = "Copying the scene"
 MEASURING = "Measuring what is seen"
-LESS = 0.7   # texels along a line, where there are too many, from one try to the next
 
 
 @dataclass(frozen=True)
@@ -38,14 +37,18 @@ class ObjectLight:
         Linear light, and how opaque what sends it is; no more of the square than is used.
     uv : (m, 3, 2) float32
         Where in it the corners of triangles lie, sheet by sheet.
+    frames : (m, 2, 2) float32
+        The lowest and the highest place in it that belongs to the sheet of each.
     sheets : list of (int, bool)
-        Which triangles: all of a source in their own order, and whether it is their backs.
+        Which triangles: all of a source in their own order, and whether it is their backs; the same ones several times,
+        from coarse to fine, where what is kept of the finer does not hold all of them.
     dull : tuple of str
         The names of those sources that have gloss, and are not seen as from one place.
     """
 
     texels: np.ndarray
     uv: np.ndarray
+    frames: np.ndarray
     sheets: list
     dull: tuple
 
@@ -61,36 +64,40 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
     """
     yield 0.0, MEASURING
     seen = yield from part(in_steps(partial(seen_sources, results, view, scene)), 0.0, 0.0, MEASURING)
-    parts, open_, sheets = yield from part(in_steps(partial(_sheets, scene, seen)), 0.0, 0.0, MEASURING)
+    parts, open_, sides = yield from part(in_steps(partial(_sides_of, scene, seen)), 0.0, 0.0, MEASURING)
     density = yield from part(in_steps(partial(fine_where_seen, results, view, scene, parts, FINER * seen.density)),
                               0.0, 0.0, MEASURING)
-    atlases, at, side, density = yield from part(in_steps(partial(_packed, scene, parts, sheets, density)), 0.0, 0.0,
-                                                 MEASURING)
-    levels = yield from part(in_steps(partial(levels_of, results, view, scene, parts, density, atlases)), 0.0, 0.0,
-                             MEASURING)
-    uv = np.concatenate([(atlases[number].spots + start) / side for (number, _), start
-                         in zip(sheets, at, strict=True)]).astype(np.float32)
-    thrown, lit = yield from part(thrown_light(context, scene, sheets, uv, side), 0.0, 0.0)
+    levels, charts = yield from part(in_steps(partial(charts_of, results, view, scene, parts, sides, density)),
+                                     0.0, 0.0, MEASURING)
+    used = np.max([chart.at + chart.size for chart in charts], axis=0)
+    uv, frames = laid_out(levels, charts)
+    sheets = [(chart.number, chart.back) for chart in charts]
+    side = int(used.max())
+    thrown, lit = yield from part(thrown_light(context, scene, sheets, (uv / side, frames / side), side), 0.0, 0.0)
     # opacity is the same from both sides
-    asked = sheets + [(number, None) for number, through in enumerate(open_) if through]
+    asked = sides + [(number, None) for number, through in enumerate(open_) if through]
     bodies = yield from part(in_steps(partial(mirror_bodies, context, results, view)), 0.0, 0.0, MEASURING)
     pictures, colours = yield from _pictures(context, scene, (seen, bodies), levels,
                                              {sheet: sheet in lit for sheet in asked}, samples)
-    # with a texel beside the outermost, which mixes with it
-    used = np.minimum(np.ceil(side * uv.max(axis=(0, 1))).astype(np.int64) + 1, side)
     texels = np.zeros((*used[::-1], 4), dtype=np.float32)
-    for (number, back), (column, row) in zip(sheets, at.tolist(), strict=True):
-        place = slice(row, row + atlases[number].size), slice(column, column + atlases[number].size)
-        for first in range(0, len(texels[place]), LINES):
+    for chart in charts:
+        number, back, (column, row), (wide, high) = chart.number, chart.back, chart.at.tolist(), chart.size.tolist()
+        place = slice(row, row + high), slice(column, column + wide)
+        light = pictures[number, back][chart.level]
+        # opacity is kept of all that either side has
+        left, below = np.maximum(chart.low - levels[number].frame(chart.level, None)[0], 0).tolist()
+        for first in range(0, high, LINES):
             yield 1.0, PREPARING
             own = texels[place][first:first + LINES]
-            within = slice(first, first + len(own)), slice(own.shape[1])
-            own[..., :3] = pictures[number, back][within][..., :3]
-            own[..., 3] = pictures[number, None][within][..., 0] if open_[number] else 1.0
+            within = slice(first, first + len(own)), slice(wide)
+            own[..., :3] = light[within][..., :3]
+            own[..., 3] = pictures[number, None][chart.level][below + first:, left:][:len(own), :wide, 0] \
+                if open_[number] else 1.0
             if (number, back) in lit:
-                own[..., :3] += colours[number, back][within][..., :3] * thrown[place][within]
+                own[..., :3] += colours[number, back][chart.level][within][..., :3] * thrown[place][within]
     yield 1.0, PREPARING
-    return ObjectLight(texels, uv * (side / used).astype(np.float32), sheets, _dull(scene, seen))
+    return ObjectLight(texels, (uv / used).astype(np.float32), (frames / used).astype(np.float32), sheets,
+                       _dull(scene, seen))
 
 
 def _dull(scene: DiffuseScene, seen: SeenSources) -> tuple:
@@ -98,7 +105,7 @@ def _dull(scene: DiffuseScene, seen: SeenSources) -> tuple:
                  if not one_eye and any(map(is_glossy, materials_of(source))))
 
 
-def _sheets(scene: DiffuseScene, seen: SeenSources) -> tuple[list, list, list]:
+def _sides_of(scene: DiffuseScene, seen: SeenSources) -> tuple[list, list, list]:
     """The triangles of each source, whether it is open in places, and what is baked: (source, whether its backs)."""
     parts = triangles_by_source(scene)
     breathe()
@@ -159,11 +166,12 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, how: tuple[SeenSo
                     made.append((matte, own_colours, own_colours))
                 shown = None if opacity else (yield from part(
                     in_steps(partial(shown_texels, bodies, *own.baked_parts(level, back, corners[number]),
-                                     own.atlases[level].size, turned)), done / whole, 0.0, PREPARING))
+                                     own.frame(level, back)[1], turned)), done / whole, 0.0, PREPARING))
                 for kept, picture, colours in made:
-                    kept[number, back] = yield from part(
-                        in_steps(partial(own.picture, level, back, picture, kept.get((number, back)), colours, shown)),
-                        done / whole, 0.0, PREPARING)
+                    before = kept.setdefault((number, back), [])
+                    before.append((yield from part(
+                        in_steps(partial(own.picture, back, picture, before, colours, shown)),
+                        done / whole, 0.0, PREPARING)))
                 done += own.texels(level, None)
     return found, matte
 
@@ -191,19 +199,3 @@ def _undeformed(scene: bpy.types.Scene, sources: list) -> Steps[dict]:
         yield 0.0, PREPARING
         found[number] = undeformed_positions(scene, source)
     return found
-
-
-def _packed(scene: DiffuseScene, parts: list, sheets: list, density: list) -> tuple[dict, np.ndarray, int, list]:
-    """The atlas of each source, where each sheet lies in the whole picture, its side, and the density that there was
-    room for."""
-    corners = scene.mesh.positions[scene.mesh.triangles]
-    while True:
-        breathe()
-        atlases = {number: packed(corners[part], density[number]) for number, part in enumerate(parts)}
-        at, side = arranged(np.array([atlases[number].size for number, _ in sheets]))
-        if side <= LARGEST:
-            return atlases, at, side, density
-        if max(one.max() for one in density) * np.ptp(corners) < 1.0:
-            raise ReflectionError("The reflected objects have more triangles than a map of their light has room for: "
-                                  "light the reflection in the picture.")
-        density = [one * LESS for one in density]

@@ -1,6 +1,7 @@
 """Which part of a picture of objects' light each corner of a result shows; kept with the file."""
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 
 import bpy
@@ -15,7 +16,7 @@ from ..writing import light_layer
 from .mirror_layers import write_mirror_layers
 from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, weights_of
 
-WRITING = "Writing"
+WRITING, FRAME = "Writing", "frame"
 
 
 @dataclass(frozen=True)
@@ -34,14 +35,27 @@ class KeptMap:
         self.mesh.attributes["position"].data.foreach_get("vector", points.reshape(-1))
         return points[:, :2].reshape(-1, 3, 2)
 
+    @property
+    def frames(self) -> np.ndarray:
+        """(m, 2, 2) float32: of maps of earlier versions, in which each sheet had a square of its own, the whole."""
+        kept = self.mesh.attributes.get(FRAME)
+        if kept is None:
+            return np.broadcast_to(np.array(((0.0,), (1.0,)), dtype=np.float32), (len(self.mesh.vertices) // 3, 2, 2))
+        ends = np.empty((len(self.mesh.vertices), 2), dtype=np.float32)
+        kept.data.foreach_get("vector", ends.reshape(-1))
+        return ends.reshape(-1, 3, 2)[:, :2]
 
-def kept_map(name: str, uv: np.ndarray) -> bpy.types.Mesh:
+
+def kept_map(name: str, uv: np.ndarray, frames: np.ndarray) -> bpy.types.Mesh:
     """A mesh for `KeptMap`."""
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(3 * len(uv))
     points = np.zeros((3 * len(uv), 3), dtype=np.float32)
     points[:, :2] = uv.reshape(-1, 2)
     mesh.attributes["position"].data.foreach_set("vector", points.reshape(-1))
+    # of a triangle's three points two are enough to tell it
+    ends = frames[:, (0, 1, 1)].astype(np.float32)
+    mesh.attributes.new(FRAME, "FLOAT2", "POINT").data.foreach_set("vector", ends.reshape(-1))
     return mesh
 
 
@@ -60,13 +74,10 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     triangle = triangle_of(result, scene)
     shown, at = (vectors(mesh, name)[corner_vertices(mesh)] for name in ("reflected_position", "mirror_position"))
     front = fronts_seen(scene, triangle, (at - shown).mean(axis=1))
-    fronts, backs = rows_of(scene, kept.sheets)
-    # the same for both sides where the map has but one of them
-    fronts, backs = np.where(fronts < 0, backs, fronts), np.where(backs < 0, fronts, backs)
-    row = np.where(front, fronts[triangle], backs[triangle])
     yield 0.0, WRITING
     weights = weights_of(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)
-    spots = np.matmul(weights, kept.uv[row].astype(np.float64)).astype(np.float32)
+    yield 0.0, WRITING
+    spots = _spots(kept, rows_of(scene, kept.sheets), triangle, front, weights)
     yield 0.0, WRITING
     layer = light_layer(mesh)
     layer.uv.foreach_set("vector", spots.reshape(-1))
@@ -83,12 +94,38 @@ def write_mirror_normals(mesh: bpy.types.Mesh, view: View) -> bool:
     return True
 
 
-def rows_of(scene: DiffuseScene, sheets: list) -> tuple[np.ndarray, np.ndarray]:
+def _spots(kept: KeptMap, rows: list[tuple[np.ndarray, np.ndarray]], triangle: np.ndarray, front: np.ndarray,
+           weights: np.ndarray) -> np.ndarray:
+    """Where in the map the corners of faces lie, (n, 3, 2) float32, by the `weights` (n, 3, 3) of those of their
+    triangles (n,), of which they show the `front` (n,) or the back: in the finest sheet that holds all of a face."""
+    uv, frames = kept.uv, kept.frames
+    fronts, backs = (side[triangle] >= 0 for side in rows[0])
+    # the same for both sides where the map has but one of them
+    front = np.where(front, fronts, ~backs)
+    found = np.zeros((len(triangle), 3, 2))
+    for level, (fronts, backs) in enumerate(rows):
+        row = np.where(front, fronts[triangle], backs[triangle])
+        there = np.flatnonzero(row >= 0)
+        row = row[there]
+        spots = np.matmul(weights[there], uv[row].astype(np.float64))
+        within = np.clip(spots, frames[row, :1], frames[row, 1:])
+        # what mirrors could not show when it was baked has no room, and must not show what else there is
+        held = (within == spots).all(axis=(1, 2)) if level else np.ones(len(there), dtype=bool)
+        found[there[held]] = within[held]
+    return found.astype(np.float32)
+
+
+def rows_of(scene: DiffuseScene, sheets: list) -> list[tuple[np.ndarray, np.ndarray]]:
     """Which triangle of the map is the front of each triangle of the scene, and which its back, -1 where the map does
-    not have that."""
-    rows = {False: np.full(len(scene.source_object), -1), True: np.full(len(scene.source_object), -1)}
-    parts, start = triangles_by_source(scene), 0
+    not have that; of those that it has several times first the coarsest."""
+    parts, start, count = triangles_by_source(scene), 0, len(scene.source_object)
+    rows: list[tuple[np.ndarray, np.ndarray]] = []
+    levels: Counter = Counter()
     for number, back in sheets:
-        rows[back][parts[number]] = start + np.arange(len(parts[number]))
+        level = levels[number, back]
+        levels[number, back] += 1
+        if level == len(rows):
+            rows.append((np.full(count, -1), np.full(count, -1)))
+        rows[level][back][parts[number]] = start + np.arange(len(parts[number]))
         start += len(parts[number])
-    return rows[False], rows[True]
+    return rows

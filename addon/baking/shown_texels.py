@@ -14,7 +14,7 @@ AT_ONCE = 1 << 18  # texels, in the boxes of triangles
 ALONG = 4  # places along a side of a texel, of which some may be hidden
 
 
-def shown_texels(bodies: MirrorBodies, corners: np.ndarray, spots: np.ndarray, size: int,
+def shown_texels(bodies: MirrorBodies, corners: np.ndarray, spots: np.ndarray, size: np.ndarray,
                  turned: bool) -> np.ndarray | None:
     """How much of each texel of a picture is not hidden by `bodies`.
 
@@ -22,21 +22,21 @@ def shown_texels(bodies: MirrorBodies, corners: np.ndarray, spots: np.ndarray, s
     ----------
     corners, spots : (n, 3, 3) and (n, 3, 2) float64
         Of triangles, in space, and in the picture, in texels.
-    size : int
-        Of the picture along a side.
+    size : (2,) int64
+        Width and height of the picture.
     turned : bool
         Whether it shows their backs.
 
     Returns
     -------
-    shown : (size, size) float32, or None
+    shown : (height, width) float32, or None
         From 0, also where its middle is hidden, to 1; None where nothing is.
     """
     near = bodies.near(corners)
     corners, spots = corners[near], spots[near]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals *= (-1.0 if turned else 1.0) / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
-    steps, found, shown = _steps(corners, spots), [], np.ones((size, size), dtype=np.float32)
+    steps, found, shown = _steps(corners, spots), [], np.ones(size[::-1], dtype=np.float32)
 
     def hidden(row: np.ndarray, column: np.ndarray, part: np.ndarray) -> np.ndarray:
         away = np.column_stack((column, row)) - spots[part, 0]
@@ -69,7 +69,7 @@ def _steps(corners: np.ndarray, spots: np.ndarray) -> np.ndarray:
     return np.matmul(back.reshape(-1, 2, 2), corners[:, 1:] - corners[:, :1])
 
 
-def _texels(spots: np.ndarray, size: int) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+def _texels(spots: np.ndarray, size: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Rows and columns (t,) of the texels whose middles lie in triangles with corners `spots` (n, 3, 2), and in which,
     some after some."""
     low = np.clip(np.floor(spots.min(axis=1)).astype(np.int64), 0, size)

@@ -93,7 +93,7 @@ def light_on_objects(context: bpy.types.Context, lit: list, view: View, samples:
     opaque, lamps = all(map(is_opaque, scene.materials)), lamps_that_show(context)
 
     def show() -> Steps[None]:
-        light_map = kept_map(NAME, light.uv)
+        light_map = kept_map(NAME, light.uv, light.frames)
         whole.undo(bpy.data.meshes.remove, light_map)
         for result in lit:
             around = Surroundings(result.reflection_mesh.mirror, lamps_before(result, lamps),

@@ -1,6 +1,7 @@
 """Room for every triangle of an object in a square picture, and for the pictures of several objects in one."""
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,7 @@ RIM = 0.49         # texels between a triangle and the border of its cell: the o
 DIAGONAL = 2.0     # texels along either leg to another triangle that shares its cell
 NARROW = 1.0       # the same in the smallest cells
 SMALLEST = 2       # a cell's side is at least 2 to this power
+WIDER = (1.0, 1.1, 1.2)  # than the side of a square of all the area: one of these holds all best
 
 
 @dataclass(frozen=True)
@@ -35,12 +37,42 @@ class Atlas:
 
 
 def arranged(sizes: np.ndarray) -> tuple[np.ndarray, int]:
-    """Where square pictures with sides of powers of two lie in one, (n, 2) int64 columns and rows, and its side."""
-    order = np.argsort(-sizes, kind="stable")
-    area = sizes[order] ** 2
-    at = np.empty((len(sizes), 2), dtype=np.int64)
-    at[order] = _along_z_curve(np.concatenate(([0], np.cumsum(area)))[:-1])
-    return at, _side(int(area.sum()))
+    """Where pictures of `sizes` (n, 2), width and height, lie in one, (n, 2) int64 columns and rows, and how long the
+    longer side of all together is."""
+    least = max(int(sizes[:, 0].max(initial=1)), math.ceil(math.sqrt(int(sizes.prod(axis=1).sum()))))
+    tried = [_below_a_skyline(sizes, int(wider * least)) for wider in WIDER]
+    sides = [int((at + sizes).max(initial=1)) for at in tried]
+    return tried[int(np.argmin(sides))], min(sides)
+
+
+def _below_a_skyline(sizes: np.ndarray, width: int) -> np.ndarray:
+    """Where pictures lie, the highest first, each where the skyline of those before lets it lie lowest (J. Jylänki, "A
+    thousand ways to pack the bin", 2010)."""
+    at, skyline = np.zeros((len(sizes), 2), dtype=np.int64), [(0, 0, width)]  # column, row, width
+    for number in np.argsort(-sizes[:, 1], kind="stable").tolist():
+        wide, high = sizes[number].tolist()
+        row, column, first = min((_row_above(skyline, index, wide), part[0], index)
+                                 for index, part in enumerate(skyline) if part[0] + wide <= width)
+        at[number] = column, row
+        last, rest = first, wide
+        while rest > 0 and skyline[last][2] <= rest:
+            rest, last = rest - skyline[last][2], last + 1
+        raised = [(column, row + high, wide)]
+        if rest > 0:
+            start, own, long = skyline[last]
+            raised, last = [*raised, (start + rest, own, long - rest)], last + 1
+        if first and skyline[first - 1][1] == row + high:
+            first, raised[0] = first - 1, (skyline[first - 1][0], row + high, skyline[first - 1][2] + wide)
+        skyline[first:last] = raised
+    return at
+
+
+def _row_above(skyline: list[tuple[int, int, int]], index: int, wide: int) -> int:
+    """The lowest row that is free above so much of a skyline from a part on."""
+    row = 0
+    while wide > 0:
+        row, wide, index = max(row, skyline[index][1]), wide - skyline[index][2], index + 1
+    return row
 
 
 def packed(corners: np.ndarray, density: float | np.ndarray) -> Atlas:

@@ -87,10 +87,10 @@ def parts_along(spots: np.ndarray, widest: float) -> np.ndarray:
 
 
 def enlarged(small: np.ndarray, large: np.ndarray, known: np.ndarray, start: np.ndarray, end: np.ndarray) -> None:
-    """Write into a picture `large`, where nothing is `known` (side, side), what `small` tells, linearly between its
+    """Write into a picture `large`, where nothing is `known` (height, width), what `small` tells, linearly between its
     texels, of parts that have their corners (p, 3, 2) in it at `start`, and in `large` at `end`, counted in texels."""
     low = np.maximum(np.floor(end.min(axis=1) - 0.5).astype(np.int64), 0)
-    wide, high = np.maximum(np.minimum(np.ceil(end.max(axis=1)).astype(np.int64) + 1, len(large)) - low, 0).T
+    wide, high = np.maximum(np.minimum(np.ceil(end.max(axis=1)).astype(np.int64) + 1, known.shape[::-1]) - low, 0).T
     along, up = end[:, 1] - end[:, 0], end[:, 2] - end[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
         # to the places along both sides
@@ -116,7 +116,7 @@ def _between(picture: np.ndarray, at: np.ndarray) -> np.ndarray:
     """A picture at places (n, 2), counted in texels, linearly between their middles."""
     low = np.floor(at - 0.5).astype(np.int64)
     column, row = (at - 0.5 - low).astype(np.float32).T[:, :, None]
-    (left, below), (right, above) = (np.clip(side, 0, len(picture) - 1).T for side in (low, low + 1))
+    (left, below), (right, above) = (np.clip(side, 0, np.array(picture.shape[1::-1]) - 1).T for side in (low, low + 1))
     return ((1.0 - row) * ((1.0 - column) * picture[below, left] + column * picture[below, right])
             + row * ((1.0 - column) * picture[above, left] + column * picture[above, right]))
 

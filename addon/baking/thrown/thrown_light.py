@@ -16,19 +16,23 @@ from .drawn_flat import drawn_flat
 WIDTHS = {"FLOAT": 1, "INT": 1, "FLOAT2": 2, "FLOAT_VECTOR": 3}
 DRAWING = "Cycles draws the light that mirrors throw"
 RINGS = 2       # of texels beyond a triangle, which interpolation looks at
+TOGETHER = -1   # the picture of all sheets that lie in their frames
+CLOSE = 0.6     # of a texel beyond its frame, the outer half of whose last texels is left out of it
 LEAST = 0.05    # of a texel: a triangle that holds less does not tell its light
 
 
-def thrown_light(context: bpy.types.Context, scene: DiffuseScene, sheets: list, uv: np.ndarray,
+def thrown_light(context: bpy.types.Context, scene: DiffuseScene, sheets: list, places: tuple[np.ndarray, np.ndarray],
                  side: int) -> Steps[tuple[np.ndarray, set]]:
     """The light that mirrors throw on the objects of `scene`, as white paint would send it back.
 
     Parameters
     ----------
-    sheets, uv
+    sheets
         As `ObjectLight` has them.
+    places : (m, 3, 2) and (m, 2, 2) float64
+        The triangles' corners, and what belongs to their sheets, in a square picture of the objects' light, 0 to 1.
     side : int
-        Of the picture of the objects' light, in texels.
+        Of that picture, in texels.
 
     Returns
     -------
@@ -37,7 +41,12 @@ def thrown_light(context: bpy.types.Context, scene: DiffuseScene, sheets: list, 
     lit : set of (int, bool)
         The sheets on which it falls.
     """
-    rows, seen, laid, reached = rows_of(scene, sheets), seen_in(context), [], []
+    (uv, frames), seen, levels = places, seen_in(context), rows_of(scene, sheets)
+    sheet_of = np.repeat(np.arange(len(sheets)), [np.count_nonzero(scene.source_object == number)
+                                                  for number, _ in sheets])
+    drawn = _drawn_together(sheet_of, uv, frames, CLOSE / side)
+    laid: dict[int, list[MeshArrays]] = {}
+    reached = []
     depsgraph = context.evaluated_depsgraph_get()
     for result in [obj for obj in context.view_layer.objects
                    if obj.reflection_mesh.role == "CAUSTICS" and obj.type == "MESH" and seen(obj)]:
@@ -45,21 +54,37 @@ def thrown_light(context: bpy.types.Context, scene: DiffuseScene, sheets: list, 
         mesh = result.evaluated_get(depsgraph).data
         if "source_face" not in mesh.attributes:
             continue
-        face, row, places = _on_the_map(result, mesh, scene, rows, uv)
-        if len(face):
-            reached.append(row)
-            materials = [slot.material for slot in result.material_slots]
-            laid.append(_flat(mesh, face, places, 1.0 + len(laid), materials))
+        face, row, corners = (np.concatenate(part) for part in zip(
+            *(_on_the_map(result, mesh, scene, rows, uv) for rows in levels), strict=True))
+        reached.append(row)
+        materials = [slot.material for slot in result.material_slots]
+        for group in np.unique(drawn[row]).tolist():
+            own = np.flatnonzero(drawn[row] == group)
+            above = laid.setdefault(group, [_ground(uv[drawn == group])])
+            above.append(_flat(mesh, face[own], corners[own], float(len(above)), materials))
     if not laid:
         return np.zeros((0, 0, 3), dtype=np.float32), set()
-    row = np.unique(np.concatenate(reached))
-    low = np.clip(np.floor(side * uv[row].min(axis=(0, 1))).astype(np.int64) - RINGS, 0, side - 1)
-    high = np.clip(np.ceil(side * uv[row].max(axis=(0, 1))).astype(np.int64) + RINGS, low + 1, side)
-    picture = yield from shown_while(drawn_flat(context, [_ground(uv), *laid], low, high, side), 0.0, DRAWING)
-    light = np.zeros((side, side, 3), dtype=np.float32)
-    light[low[1]:high[1], low[0]:high[0]] = _beyond(picture[..., :3], picture[..., 3:])
-    starts = np.cumsum([0] + [np.count_nonzero(scene.source_object == number) for number, _ in sheets])
-    return light, {sheets[index] for index in np.unique(np.searchsorted(starts, row, side="right") - 1).tolist()}
+    row, light = np.unique(np.concatenate(reached)), np.zeros((side, side, 3), dtype=np.float32)
+    # what is drawn by itself comes last, each in its own frame
+    for group in sorted(laid):
+        own = row[drawn[row] == group]
+        seen_of = np.clip(uv[own], frames[own, :1], frames[own, 1:])
+        low = np.clip(np.floor(side * seen_of.min(axis=(0, 1))).astype(np.int64) - RINGS, 0, side - 1)
+        high = np.clip(np.ceil(side * seen_of.max(axis=(0, 1))).astype(np.int64) + RINGS, low + 1, side)
+        if group != TOGETHER:
+            low = np.maximum(low, np.floor(side * frames[own[0], 0]).astype(np.int64))
+            high = np.minimum(high, np.ceil(side * frames[own[0], 1]).astype(np.int64))
+        picture = yield from shown_while(drawn_flat(context, laid[group], low, high, side), 0.0, DRAWING)
+        light[low[1]:high[1], low[0]:high[0]] = _beyond(picture[..., :3], picture[..., 3:])
+    return light, {sheets[index] for index in np.unique(sheet_of[row]).tolist()}
+
+
+def _drawn_together(sheet_of: np.ndarray, uv: np.ndarray, frames: np.ndarray, room: float) -> np.ndarray:
+    """In which picture each of the map's triangles (m,) is drawn: `TOGETHER`, or, where some of its sheet reach farther
+    beyond what belongs to it than there is room and would cover others, the sheet's own."""
+    beyond = ((uv < frames[:, :1] - room) | (uv > frames[:, 1:] + room)).any(axis=(1, 2))
+    apart = np.bincount(sheet_of, beyond) > 0.0
+    return np.where(apart[sheet_of], sheet_of, TOGETHER)
 
 
 def _on_the_map(result: bpy.types.Object, mesh: bpy.types.Mesh, scene: DiffuseScene, rows: tuple,

@@ -49,11 +49,16 @@ def test_what_is_seen_from_afar_is_baked_coarsely(blank, room, monkeypatch):
     """Of a floor under a ball, most of which the ball shows small."""
     ball_scene(blank)
     blank.scene.render.resolution_x = blank.scene.render.resolution_y = 2 * SIZE
-    parts.generate()
+    result = parts.generate()
     counted = baked_texels(monkeypatch, room)
     light(1)
-    texels = np.array(bpy.data.images["Reflection Light"].size).prod()
-    assert len(counted) == 3 and sum(counted) < 0.35 * texels
+    points = np.array([point.co[:2] for point in result.reflection_mesh.light_map.vertices])
+    finest = points[-6:].reshape(2, 3, 2) * bpy.data.images["Reflection Light"].size
+    (along, up), size = np.moveaxis(finest[:, 1:] - finest[:, :1], 1, 0), np.ptp(points, axis=0)
+    whole = 0.5 * np.abs(along[:, 0] * up[:, 1] - along[:, 1] * up[:, 0]).sum()
+    assert len(counted) == 3 and sum(counted) < 0.35 * whole
+    # and most of the floor has no room where it is fine
+    assert np.array(bpy.data.images["Reflection Light"].size).prod() < 0.6 * whole and size.max() > 1.0
 
 
 @pytest.mark.slow

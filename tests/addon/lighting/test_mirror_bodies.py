@@ -97,8 +97,9 @@ def test_texels_tell_how_much_of_them_is_shown(blank, room):
     corners = np.array((((-1.0, -2.0, FLOOR), (1.0, -2.0, FLOOR), (-1.0, 0.0, FLOOR)),
                         ((1.0, 0.0, FLOOR), (-1.0, 0.0, FLOOR), (1.0, -2.0, FLOOR))))
     spots = 8.0 + 24.0 * (corners[..., :2] + (1.0, 2.0)) + 0.01
-    shown = room("addon.baking.shown_texels").shown_texels(bodies, corners, spots, 64, False)
+    shown = room("addon.baking.shown_texels").shown_texels(bodies, corners, spots, np.array((64, 72)), False)
     hidden = (1.0 - shown).sum() / 24.0**2
     assert hidden == pytest.approx(np.pi * RADIUS**2, rel=0.02)
     assert ((shown > 0.0) & (shown < 1.0)).any() and (shown[:8] == 1.0).all()
-    assert room("addon.baking.shown_texels").shown_texels(bodies, corners + (5.0, 0.0, 0.0), spots, 64, False) is None
+    assert room("addon.baking.shown_texels").shown_texels(bodies, corners + (5.0, 0.0, 0.0), spots, np.array((64, 72)),
+                                                          False) is None

@@ -1,0 +1,97 @@
+"""What is kept of the pictures of objects' light: each face shows the finest that holds all of it, and there is no more
+of it than is worth its time."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from lamp_scenes import SIZE
+from test_asked_parts import ball_scene, light
+
+IMAGE = "Reflection Light"
+
+
+@pytest.fixture
+def lit_ball(blank):
+    """The reflection of a wide floor in a ball, lit with few samples."""
+    ball_scene(blank)
+    blank.scene.render.resolution_x = blank.scene.render.resolution_y = 2 * SIZE
+    result = parts.generate()
+    light(1)
+    return result
+
+
+def faces(room, result) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Where in the map corners of faces lie, (n, 3, 2), from 0 to 1; their areas in texels, and in pixels."""
+    mesh, geometry = result.data, room("core.geometry")
+    view = room("addon.reading").read_view(bpy.context)
+    corners = np.array([face.vertices for face in mesh.polygons])
+    spots = np.array([entry.vector for entry in mesh.uv_layers.active.uv]).reshape(-1, 3, 2)
+    pixels = view.pixels(room("addon.reading").vectors(mesh, "mirror_position"))[corners]
+    texels = spots * bpy.data.images[IMAGE].size
+    return spots, *(np.abs(0.5 * geometry.doubled_areas(at)) for at in (texels, pixels))
+
+
+def frames(room, result) -> tuple[np.ndarray, np.ndarray]:
+    """The frames of its map, and the sheet of each."""
+    kept = room("addon.baking").KeptMap(result.reflection_mesh.light_map, [])
+    return np.unique(kept.frames, axis=0, return_inverse=True)
+
+
+def test_each_face_lies_in_what_is_kept_of_one_picture_and_is_as_fine_as_it_is_seen(lit_ball, room):
+    spots, texels, pixels = faces(room, lit_ball)
+    ends, sheet = frames(room, lit_ball)
+    assert len(ends) == 3 and len(sheet) == 6  # a floor of two triangles, three times
+    within = np.array([((spots >= low - 1e-6) & (spots <= high + 1e-6)).all(axis=(1, 2)) for low, high in ends])
+    assert (within.sum(axis=0) == 1).all() and (within.sum(axis=1) > 20).all()
+    # what is kept does not overlap
+    for one in range(3):
+        for other in range(one):
+            apart = (ends[one, 0] > ends[other, 1]) | (ends[other, 0] > ends[one, 1])
+            assert apart.any()
+    finer = room("addon.baking.levels").FINER
+    large = pixels > 0.05
+    assert np.mean((texels / np.maximum(pixels, 1e-12))[large] > 0.9 * finer**2) > 0.9
+
+
+def test_what_was_not_seen_so_finely_is_shown_as_it_was(lit_ball, room):
+    """From elsewhere faces show what is kept of the coarser pictures where the finer do not have them, and nothing that
+    belongs to others."""
+    bpy.context.scene.camera.location.x += 3.0
+    bpy.context.view_layer.update()
+    parts.select(bpy.data.objects["Floor"], bpy.data.objects["Ball"])
+    result = parts.generate()
+    assert result.reflection_mesh.light_material is not None
+    spots, texels, pixels = faces(room, result)
+    ends, _ = frames(room, result)
+    within = np.array([((spots >= low - 1e-6) & (spots <= high + 1e-6)).all(axis=(1, 2)) for low, high in ends])
+    assert within.any(axis=0).all()
+    assert ((texels < pixels) & (pixels > 0.05)).any()
+
+
+def test_maps_of_earlier_versions_have_no_frames(lit_ball, room):
+    light_map = lit_ball.reflection_mesh.light_map
+    light_map.attributes.remove(light_map.attributes["frame"])
+    ends, _ = frames(room, lit_ball)
+    assert ends.tolist() == [[[0.0, 0.0], [1.0, 1.0]]]
+
+
+@pytest.mark.parametrize("most", [20_000, 60_000])
+def test_no_more_is_kept_than_is_worth_it(blank, room, monkeypatch, most):
+    """And nearly as much as that."""
+    charts = room("addon.baking.charts")
+    ball_scene(blank)
+    blank.scene.render.resolution_x = blank.scene.render.resolution_y = 2 * SIZE
+    parts.generate()
+    monkeypatch.setattr(charts, "FEWEST", most)
+    monkeypatch.setattr(charts, "MOST", 0.0)
+    kept, made = [], charts.charts_of
+
+    def noted(*arguments):
+        found = made(*arguments)
+        kept.append(sum(int(chart.size.prod()) for chart in found[1]))
+        return found
+    monkeypatch.setattr(room("addon.baking.object_bake"), "charts_of", noted)
+    light(1)
+    assert 0.6 * most < kept[0] <= most
