@@ -1,7 +1,7 @@
 """Whole faces: triangles that the patch of a mirror shows whole, drawn from the images of their vertices."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -24,7 +24,8 @@ from .sinking import Sinking
 LEAST_TRIANGLES, LEAST_PATCH = 8000, 32  # of the scene, and of the mirror: fewer are cut sooner than looked at twice
 LEAST_SHARE = 0.25  # of what is seen of the mirror: a smaller patch is not worth it
 PROBES = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (1 / 3, 1 / 3))
-WIDER = 1.25  # than the rays of a triangle at its probes: those between them
+WIDER = 1.25  # than the rays of a triangle at its corners, or at its probes: those between them
+TURNING = 0.05  # sine of how far the rays at a triangle's corners turn, beyond which it is probed between them too
 
 
 @dataclass(frozen=True)
@@ -100,10 +101,14 @@ def _seeing(patch: Patch, corners: np.ndarray) -> np.ndarray:
     """Which triangles (k,) of the patch may see some of the triangles with `corners` (3, 3, n), from the eye."""
     if not corners.shape[2]:
         return np.zeros(len(patch), dtype=bool)
-    member = np.repeat(np.arange(len(patch)), len(PROBES))
-    uv = np.tile(np.array(PROBES).T, (1, len(patch)))
-    place, ray = (part.reshape(3, len(patch), -1) for part in patch.leaving(member, uv))
-    cones = Cones.round(place[:, :, :3], ray, WIDER)
+    corner = patch.cameras.corners
+    cones = Cones.round(patch.cameras.places[:, corner] - patch.eye[:, :, None], patch.cameras.rays[:, corner], WIDER)
+    turning = np.flatnonzero(cones.sine > TURNING)
+    place, ray = (part.reshape(3, len(turning), len(PROBES)) for part in patch.leaving(
+        np.repeat(turning, len(PROBES)), np.tile(np.array(PROBES).T, (1, len(turning)))))
+    probed = Cones.round(place[:, :, :3], ray, WIDER)
+    for field in fields(Cones):
+        getattr(cones, field.name)[..., turning] = getattr(probed, field.name)
     positions = np.ascontiguousarray(corners.transpose(2, 1, 0)).reshape(-1, 3)
     tree = SceneTree.of_ordered(TriangleMesh(positions, np.arange(len(positions)).reshape(-1, 3)))
     seeing = np.zeros(len(patch), dtype=bool)
