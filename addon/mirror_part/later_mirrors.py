@@ -11,7 +11,8 @@ from ..reading import is_result
 from ..writing.nodes.shader_builder import ShaderBuilder
 from .mirror_share import WHITE, Share
 
-FLAT = 1e-4  # of a mirror's size: what strays less from a plane cannot see itself
+FLAT = 1e-4  # of a mirror's size: what strays less from a plane, or from its own convex body, cannot see itself
+MOST_PAIRS, AT_ONCE = 1 << 27, 1 << 20  # of corners and faces that are looked at, in all and at once
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,9 @@ class LaterMirrors:
         if most < 2:
             return cls()
         mirrors = {obj.reflection_mesh.mirror for obj in objects if is_result(obj)} - {None}
-        tints = {share.tint for other in mirrors if other != mirror or not _is_flat(other) for share in Share.of(other)}
+        # by way of another one it may be met again, be it convex
+        own = not _is_flat(mirror) and not (most == 2 and _is_convex(mirror, result.reflection_mesh.camera))
+        tints = {share.tint for other in mirrors if own or other != mirror for share in Share.of(other)}
         return cls(tints.pop(), most) if len(tints) == 1 else cls()
 
     def leave(self, build: ShaderBuilder, colour):
@@ -63,8 +66,31 @@ def _most_bounces(result: bpy.types.Object) -> int:
 def _is_flat(mirror: bpy.types.Object) -> bool:
     if mirror.type != "MESH" or mirror.modifiers or not len(mirror.data.vertices):
         return False
-    points = np.empty((len(mirror.data.vertices), 3), dtype=np.float32)
-    mirror.data.attributes["position"].data.foreach_get("vector", points.reshape(-1))
-    points = points.astype(np.float64) - points.mean(axis=0)
-    sizes = np.linalg.svd(points, compute_uv=False)
+    points = _vectors(mirror.data.attributes["position"].data, "vector")
+    sizes = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
     return bool(sizes[-1] <= FLAT * sizes[0]) if len(points) > 2 else True
+
+
+def _is_convex(mirror: bpy.types.Object, camera: bpy.types.Object | None) -> bool:
+    """Whether a mirror bounds one convex body, and the camera is not within."""
+    mesh = mirror.data
+    if mirror.type != "MESH" or mirror.modifiers or len(mesh.vertices) * len(mesh.polygons) > MOST_PAIRS:
+        return False
+    # closed: each edge is a side of two faces
+    if camera is None or not len(mesh.polygons) or len(mesh.loops) != 2 * len(mesh.edges):
+        return False
+    eye = mirror.matrix_world.inverted_safe() @ camera.matrix_world.translation
+    points = np.vstack((_vectors(mesh.attributes["position"].data, "vector"), eye))
+    centre, normal = (_vectors(mesh.polygons, name) for name in ("center", "normal"))
+    room, highest = FLAT * float(np.ptp(points[:-1], axis=0).max()), np.full(len(points), -np.inf)
+    for part in np.array_split(np.arange(len(normal)), len(points) * len(normal) // AT_ONCE + 1):
+        heights = normal[part] @ points.T - (normal[part] * centre[part]).sum(axis=1)[:, None]
+        highest = np.maximum(highest, heights.max(axis=0))
+    return bool((highest[:-1] <= room).all() and highest[-1] > 0.0)
+
+
+def _vectors(collection, name: str) -> np.ndarray:
+    """(n, 3) float64."""
+    values = np.empty((len(collection), 3), dtype=np.float32)
+    collection.foreach_get(name, values.reshape(-1))
+    return values.astype(np.float64)
