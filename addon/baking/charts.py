@@ -16,6 +16,7 @@ LARGEST = 4096  # texels along a side of all maps together
 # texels of all that is kept that no light is too dear for; and for each pixel that results are seen in, where these are
 # many: the light on objects is made in the time of the picture's, or a few times that
 FEWEST, MOST = 4_300_000, 8.0
+SMALL = 24      # texels for each triangle: the smallest take eight, and the box round them up to twice that
 # of the texels along a line, where there are too many, from one try to the next at the least, and at the most
 LESS, CLOSE = 0.5, 0.98
 NEARLY = 1.1    # times as many along a line are too many: they are as many as there is room for
@@ -54,7 +55,8 @@ def charts_of(results: list, view: View, scene: DiffuseScene, parts: list, sides
     ReflectionError
         Where there are more triangles than texels.
     """
-    corners, most = scene.mesh.positions[scene.mesh.triangles], max(FEWEST, MOST * pixels_shown(results, view))
+    corners = scene.mesh.positions[scene.mesh.triangles]
+    most = max(FEWEST, MOST * pixels_shown(results, view), SMALL * sum(len(parts[number]) for number, _ in sides))
     held, least, scale = None, np.inf, 1.0
     while held is None or least > NEARLY * held[0]:
         breathe()

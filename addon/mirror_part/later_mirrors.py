@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..reading import is_result
+from ..reading import is_result, vectors
 from ..writing.nodes.shader_builder import ShaderBuilder
 from .mirror_share import WHITE, Share
 
@@ -66,7 +66,7 @@ def _most_bounces(result: bpy.types.Object) -> int:
 def _is_flat(mirror: bpy.types.Object) -> bool:
     if mirror.type != "MESH" or mirror.modifiers or not len(mirror.data.vertices):
         return False
-    points = _vectors(mirror.data.attributes["position"].data, "vector")
+    points = vectors(mirror.data, "position")
     sizes = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
     return bool(sizes[-1] <= FLAT * sizes[0]) if len(points) > 2 else True
 
@@ -80,17 +80,12 @@ def _is_convex(mirror: bpy.types.Object, camera: bpy.types.Object | None) -> boo
     if camera is None or not len(mesh.polygons) or len(mesh.loops) != 2 * len(mesh.edges):
         return False
     eye = mirror.matrix_world.inverted_safe() @ camera.matrix_world.translation
-    points = np.vstack((_vectors(mesh.attributes["position"].data, "vector"), eye))
-    centre, normal = (_vectors(mesh.polygons, name) for name in ("center", "normal"))
+    points = np.vstack((vectors(mesh, "position"), eye))
+    centre, normal = np.empty((2, len(mesh.polygons), 3), dtype=np.float32)
+    mesh.polygons.foreach_get("center", centre.reshape(-1))
+    mesh.polygons.foreach_get("normal", normal.reshape(-1))
     room, highest = FLAT * float(np.ptp(points[:-1], axis=0).max()), np.full(len(points), -np.inf)
     for part in np.array_split(np.arange(len(normal)), len(points) * len(normal) // AT_ONCE + 1):
         heights = normal[part] @ points.T - (normal[part] * centre[part]).sum(axis=1)[:, None]
         highest = np.maximum(highest, heights.max(axis=0))
     return bool((highest[:-1] <= room).all() and highest[-1] > 0.0)
-
-
-def _vectors(collection, name: str) -> np.ndarray:
-    """(n, 3) float64."""
-    values = np.empty((len(collection), 3), dtype=np.float32)
-    collection.foreach_get(name, values.reshape(-1))
-    return values.astype(np.float64)

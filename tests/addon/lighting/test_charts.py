@@ -95,3 +95,17 @@ def test_no_more_is_kept_than_is_worth_it(blank, room, monkeypatch, most):
     monkeypatch.setattr(room("addon.baking.object_bake"), "charts_of", noted)
     light(1)
     assert 0.6 * most < kept[0] <= most
+
+
+def test_of_many_triangles_each_has_its_texels_whatever_they_take(blank, room, monkeypatch):
+    """More than is worth it where nothing is coarser: that is no reason to refuse them."""
+    charts = room("addon.baking.charts")
+    ball_scene(blank)
+    other = parts.add("ico_sphere", "Other", subdivisions=5, radius=0.5, location=(1.5, -2.5, 0.6))
+    other.data.materials.append(bpy.data.objects["Floor"].data.materials[0])
+    parts.select(bpy.data.objects["Floor"], other, bpy.data.objects["Ball"])
+    parts.generate(tolerance=2.0)
+    monkeypatch.setattr(charts, "FEWEST", 1)
+    monkeypatch.setattr(charts, "MOST", 0.0)
+    light(1)
+    assert np.prod(bpy.data.images[IMAGE].size) > 4 * len(other.data.polygons)
