@@ -78,6 +78,8 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
                                  "where transforms have been applied; zero where there are none")
     landmark_places: FloatVectorProperty(name="Landmark Places", size=12, description="Where these were generated, in "
                                          "its own space")
+    later_materials: CollectionProperty(name="Later Materials", type=ReflectionMaterial,
+                                        description="The materials of the mirrors that it is seen by after its own")
     materials: CollectionProperty(name="Materials", type=ReflectionMaterial,
                                   description="The materials of its mesh when it was generated")
     estimated_error: FloatProperty(name="Estimated Error", description="99th percentile of the displacement, in pixels")

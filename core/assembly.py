@@ -46,13 +46,12 @@ def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors,
     breathe()
     arrays = {name: np.concatenate([part.pop(name) for part in parts]) for name in tuple(parts[0])}
     breathe()
-    faces = {"map_face": arrays.pop("map_face")}
+    maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
+    map_face = arrays.pop("map_face")
+    arrays["later_mirrors"] = _later_mirrors(maps, arrays["bounces"], map_face, met)
     if isinstance(mirror_map.view, LampView):
-        maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
-        faces["later_mirrors"] = _later_mirrors(maps, arrays["bounces"], faces["map_face"], met)
-        arrays |= faces
         arrays["positions"] = arrays["mirror_position"]
-        return ReflectionMesh(**arrays, maps=maps)
+        return ReflectionMesh(**arrays, maps=maps, map_face=map_face)
     arrays["positions"] = place(mirror_map.view, arrays["mirror_position"].T, arrays["path_length"], placement, reach).T
     return ReflectionMesh(**arrays)
 

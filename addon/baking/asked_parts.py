@@ -6,14 +6,8 @@ import numpy as np
 
 from ...core import View, breathe
 from ...core.geometry import doubled_areas
-from ..reading import DiffuseScene, moves
-from .seen_sources import (
-    corner_vertices,
-    face_values,
-    triangle_of,
-    vectors,
-    weights_of,
-)
+from ..reading import DiffuseScene, corner_vertices, moves, numbers, vectors
+from .seen_sources import triangle_of, weights_of
 
 TURNED = 0.17      # sine of the angle by which a mirror may still be turned, or moved, before it shows other sides
 LEAST_AREA = 1e-3  # of a pixel: smaller faces tell nothing of how fine what they show is
@@ -61,7 +55,7 @@ def sides_before_mirrors(results: list, scene: DiffuseScene) -> np.ndarray:
 
 
 def _shows_mirrors(result: bpy.types.Object) -> bool:
-    return bool((face_values(result.data, "bounces") > 1).any())
+    return bool((numbers(result.data, "bounces") > 1).any())
 
 
 def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -81,7 +75,7 @@ def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple[n
         room = one * other - both * both
         half = 0.5 * (other * wide - 2.0 * both * slant + one * tall) / room
         density = np.sqrt(half + np.sqrt(np.maximum(half * half - turned * turned / room, 0.0)))
-    density = np.where(face_values(mesh, "bounces") == 1, np.nan_to_num(density, nan=0.0), np.inf)
+    density = np.where(numbers(mesh, "bounces") == 1, np.nan_to_num(density, nan=0.0), np.inf)
     told = 0.5 * turned > LEAST_AREA
     breathe()
     weights = weights_of(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)

@@ -10,8 +10,7 @@ import numpy as np
 from ...core import TriangleMesh, View, breathe
 from ...core.geometry import area_normals, unit
 from ...core.trees import BoxTree, first_hits
-from ..reading import join_scene, read_meshes, vectors
-from .seen_sources import corner_vertices, face_values
+from ..reading import corner_vertices, join_scene, numbers, read_meshes, vectors
 
 NEAR = 1e-5     # of what mirrors measure: what comes nearer touches
 ASKED = 1024    # faces of a result that tell which side of its mirror reflects
@@ -73,7 +72,7 @@ def mirror_bodies(context: bpy.types.Context, results: list, view: View) -> Mirr
     seen = np.zeros((len(mirrors), 2))
     for result in results:
         mesh = result.data
-        corners = corner_vertices(mesh)[face_values(mesh, "bounces") == 1]
+        corners = corner_vertices(mesh)[numbers(mesh, "bounces") == 1]
         some = corners[::max(len(corners) // ASKED, 1)]
         origins, ahead = view.rays(view.pixels(vectors(mesh, "mirror_position")[some].mean(axis=1)))
         triangle = first_hits(tree, origins.T, ahead.T).triangle

@@ -8,11 +8,11 @@ import numpy as np
 from ...core import View
 from ...core.geometry import unit
 from ...core.trees import BoxTree, first_hits
-from ..mirror_part import BACK, MATERIAL, NORMAL, OWN_NORMAL, OWN_PLACE, own_layer
-from ..reading import DiffuseScene, read_scene, vectors
+from ..mirror_part import BACK, MATERIAL, OWN_NORMAL, OWN_PLACE, own_layer
+from ..reading import DiffuseScene, corner_vertices, numbers, read_scene, vectors
 from ..reading.materials import reflecting_materials
-from ..writing import FIELDS
-from .seen_sources import barycentric, corner_vertices, face_values
+from ..writing import FIELDS, NORMAL
+from .seen_sources import barycentric
 
 
 def write_mirror_layers(result: bpy.types.Object, view: View, asked: set[str]) -> None:
@@ -80,7 +80,7 @@ class _Padded:
 def _triangles(mesh: bpy.types.Mesh, surface: DiffuseScene, places: np.ndarray, view: View) -> np.ndarray:
     """The triangle (n,) of a mirror that each face lies in, with corners at `places` (n, 3, 3); the one in its middle
     where there are several."""
-    triangle = face_values(mesh, "mirror_face")
+    triangle = numbers(mesh, "mirror_face")
     triangle = np.where(triangle < len(surface.mesh.triangles), triangle, -1)
     several = np.flatnonzero(triangle < 0)
     if len(several):

@@ -9,12 +9,12 @@ import numpy as np
 
 from ...core import View, reflecting_normals
 from ..faults import Steps
-from ..mirror_part import NORMAL
-from ..reading import DiffuseScene, vectors
+from ..mirror_part import LATER_TINT, write_later_tints
+from ..reading import DiffuseScene, corner_vertices, vectors
 from ..reading.materials import asked_attributes
-from ..writing import light_layer
+from ..writing import LATER_MATERIAL, NORMAL, light_layer
 from .mirror_layers import write_mirror_layers
-from .seen_sources import corner_vertices, fronts_seen, triangle_of, triangles_by_source, weights_of
+from .seen_sources import fronts_seen, triangle_of, triangles_by_source, weights_of
 
 WRITING, FRAME = "Writing", "frame"
 
@@ -65,7 +65,10 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     what its layers are, as far as the `material` that shows the map asks for them."""
     mesh = result.data
     write_mirror_normals(mesh, view)
-    write_mirror_layers(result, view, asked_attributes([material]))
+    asked = asked_attributes([material])
+    write_mirror_layers(result, view, asked)
+    if LATER_TINT in asked:
+        write_later_tints(result)
     # engines darken what is shaded by one normal and stands by another, and here the mirror is what is shaded
     own = mesh.attributes.get("custom_normal")
     if own is not None:
@@ -85,7 +88,10 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
 
 
 def write_mirror_normals(mesh: bpy.types.Mesh, view: View) -> bool:
-    """Tell each point of a result how the mirror stands there; whether the result knows enough for that."""
+    """Tell each point of a result how the mirror stands there; whether the result knows enough for that. One that is
+    seen by several mirrors was generated with it."""
+    if LATER_MATERIAL.format(2) in mesh.attributes:
+        return NORMAL in mesh.attributes
     if any(name not in mesh.attributes for name in ("mirror_position", "reflected_position")):
         return False
     normals = reflecting_normals(view, vectors(mesh, "mirror_position"), vectors(mesh, "reflected_position"))

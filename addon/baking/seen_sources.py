@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core import ReflectionError, View, breathe
 from ...core.geometry import connected, distinct, edge_numbers, first_of
-from ..reading import DiffuseScene, vectors
+from ..reading import DiffuseScene, corner_vertices, numbers, vectors
 from .sight import places_of_sight
 
 ONE_EYE = 0.2   # radians between how an object is seen and how from one place, from which on gloss would be wrong
@@ -141,7 +141,7 @@ def triangles_in(result: bpy.types.Object, mesh: bpy.types.Mesh, scene: DiffuseS
     another than the result's own."""
     index = {source: number for number, source in enumerate(scene.sources)}
     table = np.array([index.get(entry.object, -1) for entry in result.reflection_mesh.sources], dtype=np.int64)
-    owner, face = table[face_values(mesh, "source_object")], face_values(mesh, "source_face")
+    owner, face = table[numbers(mesh, "source_object")], numbers(mesh, "source_face")
     parts = triangles_by_source(scene)
     counts = np.array([len(part) for part in parts])
     there = (owner >= 0) & (face < counts[owner])
@@ -152,11 +152,6 @@ def triangles_by_source(scene: DiffuseScene) -> list:
     """The triangles of each source of a scene, in their own order, as indices (n,) into the scene's."""
     order = np.lexsort((scene.source_face, scene.source_object))
     return np.split(order, np.searchsorted(scene.source_object[order], np.arange(1, len(scene.sources))))
-
-
-def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
-    """The vertices (n, 3) of a mesh of triangles."""
-    return _values(mesh, ".corner_vert", len(mesh.loops)).reshape(-1, 3)
 
 
 def weights_of(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -182,7 +177,7 @@ def _faces(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple:
     """Triangle of the scene, area in pixels, pixels per unit, mirrored eye, middle and side of each face of a result
     that one mirror shows, and whether it is in the picture."""
     mesh = result.data
-    once = face_values(mesh, "bounces") == 1
+    once = numbers(mesh, "bounces") == 1
     corners, triangle = corner_vertices(mesh)[once], triangle_of(result, scene)[once]
     shown, mirror = vectors(mesh, "reflected_position"), vectors(mesh, "mirror_position")
     spots = view.pixels(mirror)[corners]
@@ -217,14 +212,3 @@ def _densities(owner: np.ndarray, density: np.ndarray, area: np.ndarray, count: 
             found[number] = density[order][part][np.searchsorted(summed, SHARPEST * summed[-1])]
     seen = found > 0.0
     return np.where(seen, found, UNSEEN * np.median(found[seen]) if seen.any() else 1.0)
-
-
-def face_values(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
-    """An attribute of the faces, (n,) int32."""
-    return _values(mesh, name, len(mesh.polygons))
-
-
-def _values(mesh: bpy.types.Mesh, name: str, count: int) -> np.ndarray:
-    values = np.empty(count, dtype=np.int32)
-    mesh.attributes[name].data.foreach_get("value", values)
-    return values

@@ -11,7 +11,16 @@ from .. import compat
 from ..baking import write_mirror_layers, write_mirror_normals
 from ..faults import AllOrNothing
 from ..lamps import ShownLamp, lamp_light, lamps_before
-from ..mirror_part import MATERIAL, WHITE, LaterMirrors, Share, by_material, opacity_of
+from ..mirror_part import (
+    MATERIAL,
+    WHITE,
+    Share,
+    by_material,
+    leave_later,
+    opacity_of,
+    takes_later,
+    write_later_tints,
+)
 from ..reading.materials import asked_attributes, one_output, surface_shader
 from ..writing import PREVIEW as MARK
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
@@ -27,13 +36,12 @@ def shows_preview(result: bpy.types.Object) -> bool:
                for slot in result.material_slots)
 
 
-def show_previews(results: Iterable[bpy.types.Object], scene: bpy.types.Scene, view: View, shown: list[ShownLamp],
-                  whole: AllOrNothing) -> None:
-    """Let results of a scene that show the materials of their meshes to `view` show previews of them, and lamps that
+def show_previews(results: Iterable[bpy.types.Object], view: View, shown: list[ShownLamp], whole: AllOrNothing) -> None:
+    """Let results that show the materials of their meshes to `view` show previews of them, and lamps that
     are `shown` with them; the meshes keep theirs."""
     made: dict = {}
     for result in results:
-        lamps, later = lamps_before(result, shown), LaterMirrors.of(result, scene.objects)
+        lamps, later = lamps_before(result, shown), takes_later(result)
         shares, faces = Share.of(result.reflection_mesh.mirror), len(result.data.polygons) > 0
         if any(share.goes_by_place for share in shares) and not (faces and write_mirror_normals(result.data, view)):
             shares = tuple(Share(share.tint) for share in shares)
@@ -51,6 +59,8 @@ def show_previews(results: Iterable[bpy.types.Object], scene: bpy.types.Scene, v
             slot.material = made[key]
         if asked and faces:
             write_mirror_layers(result, view, asked)
+        if later:
+            write_later_tints(result)
 
 
 def forget_previews() -> None:
@@ -60,7 +70,7 @@ def forget_previews() -> None:
 
 
 def _preview(source: bpy.types.Material | None, mirrors: tuple[tuple[Share, ...], bpy.types.Object | None],
-             later: LaterMirrors, lamps: tuple[ShownLamp, ...]) -> bpy.types.Material:
+             later: bool, lamps: tuple[ShownLamp, ...]) -> bpy.types.Material:
     """What shows a source's material in the shares of a mirror, which is given where they are textured."""
     shares, mirror = mirrors
     if source is not None and compat.uses_nodes(source):
@@ -76,7 +86,7 @@ def _preview(source: bpy.types.Material | None, mirrors: tuple[tuple[Share, ...]
     plain = GREY if source is None else tuple(source.diffuse_color)
     build = _Builder(tree, plain)
     tint = by_material(build, [share.tint_in(build, mirror) for share in shares], partial(build.blended, "MIX"))
-    build.tint = later.leave(build, tint)
+    build.tint = leave_later(build, tint) if later else tint
     if source is None or not compat.uses_nodes(source):
         shader = build.add("ShaderNodeBsdfDiffuse")
         build.feed(plain, shader.inputs["Color"])

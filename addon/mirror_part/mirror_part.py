@@ -10,12 +10,12 @@ from .. import compat
 from ..faults import AllOrNothing, remove_new
 from ..lamps import ShownLamp, lamp_light
 from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, one_output, surface_shader
-from ..writing import UV_MAP, show_unblurred
+from ..writing import NORMAL, UV_MAP, show_unblurred
 from ..writing.nodes.copied_nodes import copied
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
-from .later_mirrors import LaterMirrors
+from .later_mirrors import leave_later
 from .mirror_coordinates import BACK, MirrorCoordinates
-from .mirror_share import GLOSSY, NORMAL, layer_weights_as_fresnel
+from .mirror_share import GLOSSY, layer_weights_as_fresnel
 from .several_materials import by_material
 
 
@@ -29,15 +29,15 @@ class Surroundings:
         On which its textures lie.
     lamps : tuple of ShownLamp
         That stand before what is shown.
-    later : LaterMirrors
-        That it shows mirrors in.
+    later : bool
+        Whether it shows mirrors that take some of the light as well.
     behind : bool
         Whether the mirror itself is seen behind what shows the light.
     """
 
     mirror: bpy.types.Object | None = None
     lamps: tuple[ShownLamp, ...] = ()
-    later: LaterMirrors = LaterMirrors()
+    later: bool = False
     behind: bool = False
 
 
@@ -114,7 +114,9 @@ class _Builder(ShaderBuilder):
         self.light = self.add("ShaderNodeTexImage", name=image.name, image=image, interpolation="Linear",
                               extension="EXTEND")
         tree.links.new(where.outputs[0], self.light.inputs["Vector"])
-        self.lit = around.later.leave(self, self.light.outputs["Color"])
+        self.lit = self.light.outputs["Color"]
+        if around.later:
+            self.lit = leave_later(self, self.lit)
         if around.lamps:
             self.lit = self.vector("ADD", self.lit, lamp_light(self, around.lamps))
 

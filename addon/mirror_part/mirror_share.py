@@ -7,12 +7,11 @@ import bpy
 
 from .. import compat
 from ..reading.materials import is_mirror, reflecting_materials, surface_shader
+from ..writing import NORMAL
 from ..writing.nodes.copied_nodes import copied
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
 from .mirror_coordinates import MirrorCoordinates
 
-NORMAL = "mirror_normal"
-"""The attribute with the unit normal of the mirror at each point."""
 GLOSSY = {"BSDF_GLOSSY", "BSDF_METALLIC"}
 REFLECTING = GLOSSY | {"BSDF_PRINCIPLED"}
 WHITE = (1.0, 1.0, 1.0, 1.0)

@@ -98,7 +98,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             unseen += refused[-1:]
             continue
         lacks += shortcomings(mirror.name, result)
-        written = partial(_written, result, scene, surface, view, lines)
+        written = partial(_written, result, scene, (surface, surfaces), view, lines)
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")
         prepared.append(Reflection(mirror, context.scene.camera, sources, result, arrays, view.resolution,
@@ -114,14 +114,16 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
                    read=(view, dict(zip(chosen.mirrors, surfaces)), scene))
 
 
-def _written(result: core.ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: core.View,
-             lines: bool) -> tuple[core.ReflectionMesh, MeshArrays]:
-    """A result as it is to be written, and its arrays: where lines are drawn, its faces share vertices."""
+def _written(result: core.ReflectionMesh, scene: DiffuseScene, mirrors: tuple[MirrorSurface, list[MirrorSurface]],
+             view: core.View, lines: bool) -> tuple[core.ReflectionMesh, MeshArrays]:
+    """A result as it is to be written, and its arrays: where lines are drawn, its faces share vertices. It was made of
+    one of the mirrors, and then of them all."""
+    surface, every = mirrors
     if result.discs is not None:
         return result, point_arrays(result, scene, surface, view)
     if lines:
         result = core.with_borders_closed(result, view, scene.mesh, scene.source_object)
-    return result, mesh_arrays(result, scene, surface, view)
+    return result, mesh_arrays(result, scene, surface, view, every)
 
 
 def _with_faces(chosen: Participants, of_mirrors: list, placed: list) -> tuple[Participants, tuple, list[str]]:

@@ -106,7 +106,7 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
         entries = [entry for group in written for entry in group]
         unlit = [entry.obj for entry in entries
                  if not is_lit(entry.obj) and (needs_light(entry.obj) or lamps_before(entry.obj, lamps))]
-        show_previews([obj for obj in unlit if preview or obj in previewed], context.scene, view, lamps, whole)
+        show_previews([obj for obj in unlit if preview or obj in previewed], view, lamps, whole)
         if manners.collect:
             gather(context, [obj for obj, _ in results if obj not in there], whole)
         whole.after(forget_previews)

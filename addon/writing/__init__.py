@@ -1,6 +1,9 @@
 """Arrays as Blender's data: meshes, points, the objects that carry them, windows, and records of the making."""
 from .arrays import (
+    LATER_COSINE,
+    LATER_MATERIAL,
     MOST_UV_MAPS,
+    NORMAL,
     UV_MAP,
     Attribute,
     Edges,
@@ -35,10 +38,11 @@ from .write_object import (
     write_object,
 )
 
-__all__ = ["Attribute", "Builder", "Edges", "FIELDS", "LONGEST_RECORD", "MOST_UV_MAPS", "MeshArrays", "PREVIEW",
-           "RAYS", "Reflection", "UV_MAP", "Written", "applied_to", "as_shown", "close_abandoned_windows",
-           "disc_nodes", "forget_collection", "forget_landmarks", "forget_mesh", "forget_nodes", "forget_unblurred",
-           "gather", "hide_discs", "light_layer", "link_beside", "mesh_arrays", "mesh_bytes", "new_beside",
-           "new_object", "place_of", "point_arrays", "put_back_materials", "result_name", "set_free", "set_window",
-           "show_for_camera", "show_in_layer", "show_own_materials", "show_unblurred", "shown_layers", "size_text",
-           "told_of", "unblurred_in", "vertices_written", "what_is_in_the_way", "write_mesh", "write_object"]
+__all__ = ["Attribute", "Builder", "Edges", "FIELDS", "LATER_COSINE", "LATER_MATERIAL", "LONGEST_RECORD",
+           "MOST_UV_MAPS", "MeshArrays", "NORMAL", "PREVIEW", "RAYS", "Reflection", "UV_MAP", "Written", "applied_to",
+           "as_shown", "close_abandoned_windows", "disc_nodes", "forget_collection", "forget_landmarks", "forget_mesh",
+           "forget_nodes", "forget_unblurred", "gather", "hide_discs", "light_layer", "link_beside", "mesh_arrays",
+           "mesh_bytes", "new_beside", "new_object", "place_of", "point_arrays", "put_back_materials", "result_name",
+           "set_free", "set_window", "show_for_camera", "show_in_layer", "show_own_materials", "show_unblurred",
+           "shown_layers", "size_text", "told_of", "unblurred_in", "vertices_written", "what_is_in_the_way",
+           "write_mesh", "write_object"]

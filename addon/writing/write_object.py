@@ -174,6 +174,9 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     record.sources.clear()
     for source in made.sources:
         record.sources.add().object = source
+    record.later_materials.clear()
+    for material in made.arrays.later_materials:
+        record.later_materials.add().material = material
     record.estimated_error = result.estimated_error
     record.counts = json.dumps({name: int(count) for name, count in result.counts.items()})
     record.resolution = made.resolution

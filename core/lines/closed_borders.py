@@ -14,12 +14,11 @@ from ..geometry import TriangleMesh, distinct, groups
 from ..result import ReflectionMesh
 from ..support import breathe
 from ..views import View
-from .joined_places import of_faces, with_places_joined
+from .joined_places import with_places_joined
 from .split_sides import with_sides_split
 from .surfaces import Surfaces
 
 ROUNDS = 3  # of splitting faces, each along one of its sides
-OF_VERTICES = ("positions", "reflected_position", "mirror_position", "path_length", "image_parity", "mirror_normals")
 
 
 def with_borders_closed(mesh: ReflectionMesh, view: View, scene: TriangleMesh, owner: np.ndarray) -> ReflectionMesh:
@@ -65,8 +64,7 @@ def with_borders_closed(mesh: ReflectionMesh, view: View, scene: TriangleMesh, o
     # of two faces on the same vertices, as slivers that closed a gap are then, one is enough
     once, _ = groups(*np.sort(closed.triangles, axis=1).T)
     once.sort()
-    closed = replace(closed, triangles=closed.triangles[once], **of_faces(closed, once))
+    closed = replace(closed, triangles=closed.triangles[once], **closed.of_faces(once))
     kept, corners = distinct(closed.triangles.ravel())
     breathe()
-    return replace(closed, triangles=corners.reshape(-1, 3), **{
-        name: getattr(closed, name)[kept] for name in OF_VERTICES if getattr(closed, name) is not None})
+    return replace(closed, triangles=corners.reshape(-1, 3), **closed.of_vertices(kept))

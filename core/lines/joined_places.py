@@ -14,7 +14,6 @@ from .surfaces import Surfaces
 SAME = 0.004  # pixels: vertices that are no farther apart are in one place
 SHIFTS = SAME * np.array([(0.0, 0.0), (0.5, 0.0), (0.0, 0.5), (0.5, 0.5)])
 MOST = 32  # of the vertices in one place: where more lie, as at the tip of a fan, not each is compared with each
-OF_FACES = ("source_weights", "source_face", "mirror_face", "bounces")
 
 
 def with_places_joined(mesh: ReflectionMesh, surfaces: Surfaces) -> ReflectionMesh:
@@ -36,7 +35,7 @@ def with_places_joined(mesh: ReflectionMesh, surfaces: Surfaces) -> ReflectionMe
     stands[ends.ravel()] = lowest[place]
     triangles = stands[mesh.triangles]
     kept = np.flatnonzero((triangles != following(triangles)).all(axis=1))
-    joined = replace(mesh, triangles=triangles[kept], **of_faces(mesh, kept))
+    joined = replace(mesh, triangles=triangles[kept], **mesh.of_faces(kept))
     # slivers may be turned over by that, and are turned back
     pixels = surfaces.pixels
     turned = doubled_areas(pixels[joined.triangles]) * doubled_areas(pixels[mesh.triangles[kept]]) < 0.0
@@ -57,8 +56,3 @@ def _in_one_place(spots: np.ndarray) -> np.ndarray:
     other, run = ranges(rank + 1, behind)
     breathe()
     return np.stack((order[run], order[other]))
-
-
-def of_faces(mesh: ReflectionMesh, face: np.ndarray) -> dict:
-    """The arrays, by name, that tell of faces (k,)."""
-    return {name: getattr(mesh, name)[face] for name in OF_FACES}

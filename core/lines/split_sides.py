@@ -8,7 +8,7 @@ import numpy as np
 from ..geometry import dot, doubled_areas, edge_lengths, in_order, next_corner, ranges
 from ..result import ReflectionMesh
 from .borders import Borders
-from .joined_places import SAME, of_faces
+from .joined_places import SAME
 from .near_sides import beside, lengths
 from .surfaces import Surfaces
 
@@ -40,7 +40,7 @@ def with_sides_split(mesh: ReflectionMesh, surfaces: Surfaces,
     rest[parent[right]] = False
     kept = np.concatenate((np.flatnonzero(rest), parent[run]))
     order = in_order(kept)
-    arrays = of_faces(mesh, kept[order])
+    arrays = mesh.of_faces(kept[order])
     arrays["source_weights"] = np.concatenate(
         (mesh.source_weights[rest], _weights(mesh, parent[run], side[run], triangles)))[order]
     # what was not split may be on another side

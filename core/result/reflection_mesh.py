@@ -5,11 +5,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..geometry import following
+from ..geometry import dot, following, unit
 from ..support import breathe
+from ..views import View
 from .discs import Discs
 
 ON_SIDE = 1e-6  # of a triangle: what lies nearer to its side lies on it
+OF_FACES = ("source_face", "source_weights", "mirror_face", "bounces", "map_face", "later_mirrors")
+OF_VERTICES = ("positions", "reflected_position", "mirror_position", "path_length", "image_parity", "mirror_normals")
 
 
 @dataclass(frozen=True)
@@ -61,8 +64,8 @@ class ReflectionMesh:
     map_face : (m,) int64 or None
         For a lamp's view, the face of its bounce's map that each face is seen by.
     later_mirrors : (m, b) int64 or None
-        For a lamp's view, the triangles of all mirrors that the light of each face meets after the first one, in its
-        order; -1 where it meets no more.
+        The triangles of all mirrors that each face is seen by after the first one, the nearest to the eye first; -1
+        where it is seen by no more. None of points.
 
     Examples
     --------
@@ -137,6 +140,34 @@ class ReflectionMesh:
         length = np.sqrt(np.einsum("fci,fci->fc", shown, shown))[:, :, None]
         breathe()
         return np.divide(shown, length, out=np.zeros_like(shown), where=length > 0.0)
+
+    def cosines(self, view: View) -> np.ndarray:
+        """(n, b) float64: of the angle of incidence at each of the mirrors of `mirror_normals`; 0 where there is none.
+
+        Parameters
+        ----------
+        view : View
+            The eye that the result was made for.
+        """
+        assert self.mirror_normals is not None  # of faces
+        sight, found = unit(view.directions(self.mirror_position).T), []
+        for normal in np.moveaxis(self.mirror_normals, (1, 2), (0, 1)):
+            breathe()
+            level = dot(sight, normal)
+            found.append(np.abs(level))
+            sight = sight - 2.0 * level * normal
+        return np.stack(found, axis=1)
+
+    def of_faces(self, face: np.ndarray) -> dict:
+        """What faces (k,) know, by name, but for their `triangles`."""
+        return self._chosen(OF_FACES, face)
+
+    def of_vertices(self, vertex: np.ndarray) -> dict:
+        """What vertices (k,) know, by name."""
+        return self._chosen(OF_VERTICES, vertex)
+
+    def _chosen(self, names: tuple[str, ...], chosen: np.ndarray) -> dict:
+        return {name: getattr(self, name)[chosen] for name in names if getattr(self, name) is not None}
 
     @property
     def missing_share(self) -> float:

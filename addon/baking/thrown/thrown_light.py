@@ -6,11 +6,11 @@ import numpy as np
 
 from ....core import breathe
 from ...faults import Steps
-from ...reading import DiffuseScene, seen_in
+from ...reading import DiffuseScene, corner_vertices, seen_in
 from ...rendering import shown_while, sum_around
 from ...writing import FIELDS, Attribute, MeshArrays
 from ..object_map import rows_of
-from ..seen_sources import corner_vertices, fronts_seen, triangles_in, weights_of
+from ..seen_sources import fronts_seen, triangles_in, weights_of
 from .drawn_flat import drawn_flat
 
 WIDTHS = {"FLOAT": 1, "INT": 1, "FLOAT2": 2, "FLOAT_VECTOR": 3}

@@ -1,14 +1,16 @@
 """What is to be written into a mesh, as arrays in Blender's own types, and that of a reflection with faces."""
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ....core import ReflectionMesh, TriangleMesh, View, breathe
 from ... import compat
 from ...reading.meshes import DiffuseScene, MirrorSurface
+from .attribute import Attribute
+from .later_mirrors import later_mirrors
 from .mesh_edges import Edges
 from .shown_attributes import shown_attributes
 from .single_precision import in_single_precision
@@ -16,16 +18,6 @@ from .single_precision import in_single_precision
 # a Blender mesh holds no more
 MOST_UV_MAPS = 8
 UP = np.array((0.0, 0.0, 1.0))  # the normal of what has none
-
-
-@dataclass(frozen=True)
-class Attribute:
-    """The values of one attribute; `kind` and `domain` in Blender's words."""
-
-    name: str
-    kind: str
-    domain: str
-    values: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -56,6 +48,8 @@ class MeshArrays:
         None of loose points.
     edges : Edges or None
         Of the triangles; None where writing is to find them.
+    later_materials : list of bpy.types.Material or None
+        Of the mirrors that faces are seen by after the first one, as an attribute numbers them.
     """
 
     origin: np.ndarray
@@ -65,6 +59,7 @@ class MeshArrays:
     materials: list
     lines: Lines | None = None
     edges: Edges | None = None
+    later_materials: list = field(default_factory=list)
 
     def seen_in(self, materials: list) -> MeshArrays:
         """The same with no more attributes than `materials` read."""
@@ -76,7 +71,8 @@ class MeshArrays:
         return [attribute.name for attribute in self.attributes if attribute.kind == "FLOAT2"]
 
 
-def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: View) -> MeshArrays:
+def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: View,
+                mirrors: Sequence[MirrorSurface] = ()) -> MeshArrays:
     """The arrays of a result with faces.
 
     Parameters
@@ -87,12 +83,15 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
         What it was reflected in.
     view : View
         Who sees it.
+    mirrors : sequence of MirrorSurface
+        All that it may be seen by after that one, in the order in which it counts them; none at a depth of one.
     """
     result, origin = vertices_written(result, surface.mesh, view)
     breathe()
     source, mirror_face = result.source_face, result.mirror_face
     spans = mirror_face < 0
     weights = result.source_weights.astype(np.float32)
+    later, later_materials = later_mirrors(result, mirrors, view)
     own = (
         Attribute("material_index", "INT", "FACE", scene.material[source].astype(np.int32)),
         *point_attributes(result),
@@ -103,6 +102,7 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
                   np.where(spans, -1, surface.triangle[np.where(spans, 0, mirror_face)]).astype(np.int32)),
         Attribute("sharp_face", "BOOLEAN", "FACE", scene.sharp_face[source]),
         *_normals(result, scene),
+        *later,
     )
     breathe()
     # corners of the result's faces are interpolated in their source triangles
@@ -110,7 +110,7 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
     breathe()
     edges = Edges.of(result.triangles)
     return MeshArrays(origin, (result.positions - origin).astype(np.float32), result.triangles.astype(np.int32),
-                      own + shown, scene.materials, _lines(result, scene, edges), edges)
+                      own + shown, scene.materials, _lines(result, scene, edges), edges, later_materials)
 
 
 def vertices_written(result: ReflectionMesh, mirror: TriangleMesh, view: View) -> tuple[ReflectionMesh, np.ndarray]:

@@ -5,7 +5,8 @@ import numpy as np
 
 from ....core import ReflectionMesh, View
 from ...reading.meshes import DiffuseScene, MirrorSurface
-from .mesh_arrays import Attribute, MeshArrays, origin_of, point_attributes, shown_layers
+from .attribute import Attribute
+from .mesh_arrays import MeshArrays, origin_of, point_attributes, shown_layers
 
 
 def point_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: View) -> MeshArrays:

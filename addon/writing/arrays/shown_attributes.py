@@ -7,10 +7,12 @@ import bpy
 
 from ... import compat
 from ...reading.materials import all_nodes, asked_attributes, emits
+from .later_mirrors import LATER_COSINE, LATER_MATERIAL, NORMAL
 
 # what results know of how they came about, and nothing that is seen asks for
 OF_METHOD = frozenset({"reflected_position", "mirror_position", "path_length", "image_parity", "source_object",
-                       "source_face", "bounces", "mirror_face"})
+                       "source_face", "bounces", "mirror_face", NORMAL})
+LATER = {LATER_MATERIAL.format(""), LATER_COSINE.format("")}
 # nodes that take the active UV map, or may, and those that take normals
 READS_UV = {"TEX_COORD", "UVMAP", "NORMAL_MAP", "TANGENT", "TEX_IMAGE", "TEX_GABOR", "SCRIPT"}
 READS_NORMALS = {"TEX_COORD", "NEW_GEOMETRY", "FRESNEL", "LAYER_WEIGHT", "BUMP", "NORMAL_MAP", "TANGENT", "BEVEL",
@@ -27,6 +29,7 @@ def shown_attributes(attributes: tuple, materials: list) -> tuple:
     uv_maps = [entry.name for entry in attributes if entry.kind == "FLOAT2"]
     colours = [entry.name for entry in attributes if "COLOR" in entry.kind]
     unread = OF_METHOD | {*uv_maps, *colours}
+    unread |= {entry.name for entry in attributes if entry.name.rstrip("0123456789") in LATER}
     if types & READS_UV:
         unread -= set(uv_maps[:1])
     if nameless:

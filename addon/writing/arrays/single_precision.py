@@ -39,10 +39,8 @@ def in_single_precision(result: ReflectionMesh, origin: np.ndarray, view: View) 
         return replace(result, triangles=triangles, source_weights=weights)
     kept, corners = distinct(triangles.ravel())
     breathe()
-    of_faces = {name: getattr(result, name)[face] for name in ("source_face", "mirror_face", "bounces")}
-    of_vertices = {name: getattr(result, name)[kept] for name in (
-        "positions", "reflected_position", "mirror_position", "path_length", "image_parity", "mirror_normals")}
-    return replace(result, triangles=corners.reshape(-1, 3), source_weights=weights, **of_faces, **of_vertices)
+    return replace(result, triangles=corners.reshape(-1, 3),
+                   **{**result.of_faces(face), "source_weights": weights}, **result.of_vertices(kept))
 
 
 def _away(places: np.ndarray, ahead: np.ndarray, triangles: np.ndarray) -> np.ndarray:
