@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core import View, reflecting_normals
 from ..faults import Steps
-from ..mirror_part import LATER_TINT, write_later_tints
+from ..mirror_part import LATER, write_later_tints
 from ..reading import DiffuseScene, corner_vertices, vectors
 from ..reading.materials import asked_attributes
 from ..writing import LATER_MATERIAL, NORMAL, light_layer
@@ -67,7 +67,7 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     write_mirror_normals(mesh, view)
     asked = asked_attributes([material])
     write_mirror_layers(result, view, asked)
-    if LATER_TINT in asked:
+    if asked & LATER:
         write_later_tints(result)
     # engines darken what is shaded by one normal and stands by another, and here the mirror is what is shaded
     own = mesh.attributes.get("custom_normal")

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import partial
 
 import bpy
@@ -14,11 +15,10 @@ from ..lamps import ShownLamp, lamp_light, lamps_before
 from ..mirror_part import (
     MATERIAL,
     WHITE,
+    LaterMirrors,
     Share,
     by_material,
-    leave_later,
     opacity_of,
-    takes_later,
     write_later_tints,
 )
 from ..reading.materials import asked_attributes, one_output, surface_shader
@@ -41,7 +41,7 @@ def show_previews(results: Iterable[bpy.types.Object], view: View, shown: list[S
     are `shown` with them; the meshes keep theirs."""
     made: dict = {}
     for result in results:
-        lamps, later = lamps_before(result, shown), takes_later(result)
+        lamps, later = lamps_before(result, shown), _later(result)
         shares, faces = Share.of(result.reflection_mesh.mirror), len(result.data.polygons) > 0
         if any(share.goes_by_place for share in shares) and not (faces and write_mirror_normals(result.data, view)):
             shares = tuple(Share(share.tint) for share in shares)
@@ -59,7 +59,7 @@ def show_previews(results: Iterable[bpy.types.Object], view: View, shown: list[S
             slot.material = made[key]
         if asked and faces:
             write_mirror_layers(result, view, asked)
-        if later:
+        if later != LaterMirrors():
             write_later_tints(result)
 
 
@@ -69,8 +69,14 @@ def forget_previews() -> None:
                            if MARK in material and not material.users and material.library is None])
 
 
+def _later(result: bpy.types.Object) -> LaterMirrors:
+    """What a preview knows of later mirrors: in a window nothing is behind it that would know better."""
+    found = LaterMirrors.of(result)
+    return replace(found, unknown=False) if result.reflection_mesh.window else found
+
+
 def _preview(source: bpy.types.Material | None, mirrors: tuple[tuple[Share, ...], bpy.types.Object | None],
-             later: bool, lamps: tuple[ShownLamp, ...]) -> bpy.types.Material:
+             later: LaterMirrors, lamps: tuple[ShownLamp, ...]) -> bpy.types.Material:
     """What shows a source's material in the shares of a mirror, which is given where they are textured."""
     shares, mirror = mirrors
     if source is not None and compat.uses_nodes(source):
@@ -86,7 +92,7 @@ def _preview(source: bpy.types.Material | None, mirrors: tuple[tuple[Share, ...]
     plain = GREY if source is None else tuple(source.diffuse_color)
     build = _Builder(tree, plain)
     tint = by_material(build, [share.tint_in(build, mirror) for share in shares], partial(build.blended, "MIX"))
-    build.tint = leave_later(build, tint) if later else tint
+    build.tint = later.leave(build, tint)
     if source is None or not compat.uses_nodes(source):
         shader = build.add("ShaderNodeBsdfDiffuse")
         build.feed(plain, shader.inputs["Color"])
@@ -97,7 +103,7 @@ def _preview(source: bpy.types.Material | None, mirrors: tuple[tuple[Share, ...]
         if lamps:
             surface = build.with_lamps(surface, lamps, opacity)
         wholes = [share.of_the_whole(build, surface, opacity) for share in shares]
-        build.put_out(by_material(build, wholes, build.mixed))
+        build.put_out(by_material(build, wholes, build.mixed), later)
     return material
 
 
@@ -141,12 +147,12 @@ class _Builder(ShaderBuilder):
         self.feed(opacity, own.node.inputs["Strength"])
         return self.added(surface, own)
 
-    def put_out(self, surface: bpy.types.NodeSocket) -> None:
+    def put_out(self, surface: bpy.types.NodeSocket, later: LaterMirrors) -> None:
         """Let Cycles and EEVEE show a surface; exporters begin at what the material was before."""
         known = one_output(self.tree)
         for engine in ("CYCLES", "EEVEE"):
             output = self.add("ShaderNodeOutputMaterial", target=engine)
-            self.feed(surface, output.inputs["Surface"])
+            self.feed(later.behind(self, surface) if engine == "CYCLES" else surface, output.inputs["Surface"])
             for socket in known.inputs:
                 if socket.is_linked and socket.name != "Surface":
                     self.feed(given(socket), output.inputs[socket.name])

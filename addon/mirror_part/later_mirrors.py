@@ -1,6 +1,8 @@
 """What mirrors take of the light that the eye sees by more than one of them."""
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import bpy
 import numpy as np
 
@@ -9,36 +11,72 @@ from ..reading import corner_vertices, numbers
 from ..writing import LATER_COSINE, LATER_MATERIAL
 from ..writing.nodes.shader_builder import ShaderBuilder
 
-LATER_TINT = "later_tint"
-"""The attribute with what all mirrors but the first leave of the light, in red, green and blue."""
+LATER_TINT, LATER_UNKNOWN = "later_tint", "later_unknown"
+"""The attributes with what all mirrors but the first leave of the light, in red, green and blue, and with 1 on faces of
+which that is not all: such mirrors have a ground that is seen as well, or textures."""
+LATER = {LATER_TINT, LATER_UNKNOWN}
 ANGLES = np.linspace(0.0, 1.0, 9)  # cosines at which a perfect mirror is told from others
 
 
-def takes_later(result: bpy.types.Object) -> bool:
-    """Whether mirrors that a result's first one shows take any of the light."""
-    return (LATER_MATERIAL.format(2) in result.data.attributes
-            and any((tint.at(ANGLES) < 1.0).any() for tint in _tints(result)))
+@dataclass(frozen=True)
+class LaterMirrors:
+    """The mirrors that a mirror shows mirrors in.
 
+    Attributes
+    ----------
+    takes : bool
+        Whether any takes some of the light.
+    unknown : bool
+        Whether of any it is not known what else it shows.
+    """
 
-def leave_later(build: ShaderBuilder, colour):
-    """What they leave of light of a colour, a socket or the colour itself."""
-    left = build.add("ShaderNodeAttribute", attribute_name=LATER_TINT).outputs["Vector"]
-    return build.blended("MULTIPLY", 1.0, colour, left)
+    takes: bool = False
+    unknown: bool = False
+
+    @classmethod
+    def of(cls, result: bpy.types.Object) -> LaterMirrors:
+        """Of a result with faces."""
+        if LATER_MATERIAL.format(2) not in result.data.attributes:
+            return cls()
+        tints = _tints(result)
+        return cls(any((tint.at(ANGLES) < 1.0).any() for tint in tints), not all(tint.whole for tint in tints))
+
+    def leave(self, build: ShaderBuilder, colour):
+        """What they leave of light of a colour, a socket or the colour itself."""
+        if not self.takes:
+            return colour
+        left = build.add("ShaderNodeAttribute", attribute_name=LATER_TINT).outputs["Vector"]
+        return build.blended("MULTIPLY", 1.0, colour, left)
+
+    def behind(self, build: ShaderBuilder, shown: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+        """A surface that is clear where the mirror itself, seen behind it, knows better."""
+        if not self.unknown:
+            return shown
+        clear = build.add("ShaderNodeBsdfTransparent").outputs[0]
+        return build.mixed(build.add("ShaderNodeAttribute", attribute_name=LATER_UNKNOWN).outputs["Fac"], shown, clear)
 
 
 def write_later_tints(result: bpy.types.Object) -> None:
-    """Tell each corner of a result what they leave of the light, by their materials as these are now."""
+    """Tell each corner of a result what they leave of the light, and each face whether that is all, by their materials
+    as these are now."""
     mesh = result.data
-    left, tints = np.ones((len(mesh.polygons), 3, 3)), _tints(result)
+    left, unknown = np.ones((len(mesh.polygons), 3, 3)), np.zeros(len(mesh.polygons), dtype=bool)
     if LATER_MATERIAL.format(2) in mesh.attributes:
-        corners, count = corner_vertices(mesh), int(numbers(mesh, "bounces").max(initial=1))
-        met = np.stack([numbers(mesh, LATER_MATERIAL.format(bounce)) for bounce in range(2, count + 1)], axis=1)
-        cosine = np.stack([numbers(mesh, LATER_COSINE.format(bounce)) for bounce in range(2, count + 1)], axis=1)
-        later = np.flatnonzero(met[:, 0] >= 0)
+        bounces, tints = range(2, max(int(numbers(mesh, "bounces").max(initial=1)), 2) + 1), _tints(result)
+        met, cosine = (np.stack([numbers(mesh, name.format(bounce)) for bounce in bounces], axis=1)
+                       for name in (LATER_MATERIAL, LATER_COSINE))
+        later, corners = np.flatnonzero(met[:, 0] >= 0), corner_vertices(mesh)
         left[later] = MirrorColours(tints, np.arange(len(tints))).left(
             met[later], cosine[corners[later]].astype(np.float64))
-    written = mesh.attributes.get(LATER_TINT) or mesh.attributes.new(LATER_TINT, "FLOAT_VECTOR", "CORNER")
-    written.data.foreach_set("vector", left.astype(np.float32).reshape(-1))
+        # those that are seen by no more have the last number
+        unknown = np.array([not tint.whole for tint in tints] + [False])[met].any(axis=1)
+    _write(mesh, LATER_TINT, ("FLOAT_VECTOR", "CORNER", "vector"), left)
+    _write(mesh, LATER_UNKNOWN, ("FLOAT", "FACE", "value"), unknown)
+
+
+def _write(mesh: bpy.types.Mesh, name: str, kind: tuple[str, str, str], values: np.ndarray) -> None:
+    written = mesh.attributes.get(name) or mesh.attributes.new(name, *kind[:2])
+    written.data.foreach_set(kind[2], values.astype(np.float32).reshape(-1))
 
 
 def _tints(result: bpy.types.Object) -> list[Tint]:

@@ -13,7 +13,7 @@ from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, o
 from ..writing import NORMAL, UV_MAP, show_unblurred
 from ..writing.nodes.copied_nodes import copied
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
-from .later_mirrors import leave_later
+from .later_mirrors import LaterMirrors
 from .mirror_coordinates import BACK, MirrorCoordinates
 from .mirror_share import GLOSSY, layer_weights_as_fresnel
 from .several_materials import by_material
@@ -29,15 +29,15 @@ class Surroundings:
         On which its textures lie.
     lamps : tuple of ShownLamp
         That stand before what is shown.
-    later : bool
-        Whether it shows mirrors that take some of the light as well.
+    later : LaterMirrors
+        That it shows mirrors in.
     behind : bool
         Whether the mirror itself is seen behind what shows the light.
     """
 
     mirror: bpy.types.Object | None = None
     lamps: tuple[ShownLamp, ...] = ()
-    later: bool = False
+    later: LaterMirrors = LaterMirrors()
     behind: bool = False
 
 
@@ -68,8 +68,8 @@ def new_object_material(name: str, image: bpy.types.Image, mirror: Sequence[bpy.
         for link in list(output.inputs[name_].links):
             tree.links.remove(link)
     show_unblurred(tree, [build.light], output, whole)
-    if around.behind and not all(map(is_opaque, mirror)):
-        _leave_to_the_mirror(build, shown, mirror)
+    if around.behind and (around.later.unknown or not all(map(is_opaque, mirror))):
+        _leave_to_the_mirror(build, shown, mirror, around.later)
     for node in tree.nodes:
         node.select = node == build.light
     tree.nodes.active = build.light
@@ -96,13 +96,14 @@ def _merged(name: str, mirror: Sequence[bpy.types.Material | None], whole: AllOr
 
 
 def _leave_to_the_mirror(build: ShaderBuilder, shown: bpy.types.NodeSocket,
-                         mirror: Sequence[bpy.types.Material | None]) -> None:
+                         mirror: Sequence[bpy.types.Material | None], later: LaterMirrors) -> None:
     """Let Cycles see a mirror that light goes through, glass or what is cut out, and nothing before it: that shows its
-    reflection as well as what is behind it, and would show the former twice."""
+    reflection as well as what is behind it, and would show the former twice. So with what is seen by mirrors of which
+    that is not all that they show."""
     clear = build.add("ShaderNodeBsdfTransparent").outputs[0]
     output = build.add("ShaderNodeOutputMaterial", target="CYCLES")
     parts = [shown if is_opaque(one) else clear for one in mirror]
-    build.feed(by_material(build, parts, build.mixed), output.inputs["Surface"])
+    build.feed(later.behind(build, by_material(build, parts, build.mixed)), output.inputs["Surface"])
 
 
 class _Builder(ShaderBuilder):
@@ -114,9 +115,7 @@ class _Builder(ShaderBuilder):
         self.light = self.add("ShaderNodeTexImage", name=image.name, image=image, interpolation="Linear",
                               extension="EXTEND")
         tree.links.new(where.outputs[0], self.light.inputs["Vector"])
-        self.lit = self.light.outputs["Color"]
-        if around.later:
-            self.lit = leave_later(self, self.lit)
+        self.lit = around.later.leave(self, self.light.outputs["Color"])
         if around.lamps:
             self.lit = self.vector("ADD", self.lit, lamp_light(self, around.lamps))
 

@@ -26,7 +26,7 @@ from ..lighting import (
     texels_of,
     white_of,
 )
-from ..mirror_part import Surroundings, new_object_material, takes_later
+from ..mirror_part import LaterMirrors, Surroundings, new_object_material
 from ..reading import is_opaque, read_scene, seen_in, vectors
 from ..reading.materials import reflecting_materials
 from ..rendering import shown_while
@@ -97,7 +97,7 @@ def light_on_objects(context: bpy.types.Context, lit: list, view: View, samples:
         whole.undo(bpy.data.meshes.remove, light_map)
         for result in lit:
             around = Surroundings(result.reflection_mesh.mirror, lamps_before(result, lamps),
-                                  takes_later(result), not result.reflection_mesh.window)
+                                  LaterMirrors.of(result), not result.reflection_mesh.window)
             material = new_object_material(NAME, image, _mirror_materials(result), opaque, around, whole)
             yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets, light.dull),
                                          whole)

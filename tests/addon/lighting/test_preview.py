@@ -189,6 +189,32 @@ def test_each_of_several_mirrors_in_mirrors_takes_its_own_share(blank, room, lit
     assert (wrong > 0.05).mean() < 0.001
 
 
+@pytest.mark.parametrize("lit", [False, True])
+def test_what_later_mirrors_show_beside_what_they_reflect_is_left_to_the_mirror(blank, room, lit):
+    """The gold wall shows a pane over paint that shines, by Fresnel: what it reflects is a small part of what is seen
+    there, in the pane's own result and behind that of the wall."""
+    gold = parts.add("plane", "Gold", size=4.0, location=(0.0, 2.0, 1.2), rotation=(np.pi / 2, 0.0, 0.0))
+    two_mirrors(blank, gold)
+    blue = bpy.data.objects["Blue"]
+    tree, blue.reflection_mesh.role = blue.data.materials[0].node_tree, "MIRROR"
+    paint, mix, share = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("Emission", "MixShader", "Fresnel"))
+    paint.inputs["Color"].default_value = (0.1, 0.4, 0.6, 1.0)
+    gloss, output = tree.nodes[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    for source, socket in ((share, mix.inputs[0]), (paint, mix.inputs[1]), (gloss, mix.inputs[2]),
+                           (mix, output.inputs["Surface"])):
+        tree.links.new(source.outputs[0], socket)
+    reference = picture(room)
+    parts.generate(depth=2, preview=True)
+    wall = bpy.data.objects["Gold Reflection"]
+    parts.select(wall)
+    if lit:
+        bpy.ops.reflection_mesh.light(samples=1, kind="OBJECTS")
+    bpy.data.objects["Blue Reflection"].hide_render = True
+    wrong = np.abs(picture(room) - reference).max(axis=2)
+    assert (wrong > 0.05).mean() < 0.001
+    assert (np.array([entry.value for entry in wall.data.attributes["later_unknown"].data]) > 0.5).any()
+
+
 def test_the_share_of_later_mirrors_follows_their_materials_when_lit_again(blank, room):
     """The result of the gold wall shows the blue one, which becomes red."""
     gold = parts.add("plane", "Gold", size=4.0, location=(0.0, 2.0, 1.2), rotation=(np.pi / 2, 0.0, 0.0))
