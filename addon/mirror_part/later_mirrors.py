@@ -6,8 +6,10 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from .. import compat
 from ..illumination import MirrorColours, Tint
 from ..reading import corner_vertices, numbers
+from ..reading.materials import glows, is_mirror, is_opaque, surface_shader
 from ..writing import LATER_COSINE, LATER_MATERIAL
 from ..writing.nodes.shader_builder import ShaderBuilder
 
@@ -38,8 +40,7 @@ class LaterMirrors:
         """Of a result with faces."""
         if LATER_MATERIAL.format(2) not in result.data.attributes:
             return cls()
-        tints = _tints(result)
-        return cls(any((tint.at(ANGLES) < 1.0).any() for tint in tints), not all(tint.whole for tint in tints))
+        return cls(any((tint.at(ANGLES) < 1.0).any() for tint in _tints(result)), not all(_is_whole(result)))
 
     def leave(self, build: ShaderBuilder, colour):
         """What they leave of light of a colour, a socket or the colour itself."""
@@ -69,7 +70,7 @@ def write_later_tints(result: bpy.types.Object) -> None:
         left[later] = MirrorColours(tints, np.arange(len(tints))).left(
             met[later], cosine[corners[later]].astype(np.float64))
         # those that are seen by no more have the last number
-        unknown = np.array([not tint.whole for tint in tints] + [False])[met].any(axis=1)
+        unknown = ~np.array(_is_whole(result) + [True])[met].all(axis=1)
     _write(mesh, LATER_TINT, ("FLOAT_VECTOR", "CORNER", "vector"), left)
     _write(mesh, LATER_UNKNOWN, ("FLOAT", "FACE", "value"), unknown)
 
@@ -81,3 +82,16 @@ def _write(mesh: bpy.types.Mesh, name: str, kind: tuple[str, str, str], values: 
 
 def _tints(result: bpy.types.Object) -> list[Tint]:
     return [Tint.of_material(entry.material) for entry in result.reflection_mesh.later_materials]
+
+
+def _is_whole(result: bpy.types.Object) -> list[bool]:
+    """Of each of the materials whether its tint tells all that is seen of it."""
+    materials = [entry.material for entry in result.reflection_mesh.later_materials]
+    return [material is None or is_mirror(material) and is_opaque(material) and not glows(material)
+            and not _has_coat(material) and Tint.of_material(material).constant for material in materials]
+
+
+def _has_coat(material: bpy.types.Material) -> bool:
+    shader = surface_shader(material.node_tree) if compat.uses_nodes(material) else None
+    weight = None if shader is None else shader.inputs.get("Coat Weight")
+    return weight is not None and (weight.is_linked or weight.default_value > 0.0)

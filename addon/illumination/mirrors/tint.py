@@ -87,11 +87,6 @@ class Tint:
         texture = Texture(material, shader.name, sockets[0].identifier) if known and linked[0] else None
         return cls(*colours, metal, known and not linked[0], coat, texture)
 
-    @property
-    def whole(self) -> bool:
-        """Whether it is one colour all over, and nothing else of the material is seen beside it."""
-        return self.constant and self.coat == WHOLE
-
     def same(self, other: Tint) -> bool:
         """Whether both make the same of light."""
         return (np.array_equal(self.colour, other.colour) and np.array_equal(self.edge, other.edge)
