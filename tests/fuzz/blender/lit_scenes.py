@@ -52,6 +52,9 @@ def lit_scene(seed: int) -> Scene:
     rng = np.random.default_rng((seed, 14))  # of what came later: the scenes of all seeds else stay what they are
     if rng.random() < 0.2:
         names.append("in part of " + _second_material(rng, mirror, UNKNOWN[kind]))
+    if len(mirrors) > 1 and rng.random() < 0.7:
+        of, mirrors[1].data.materials[0] = mirror_material(rng, UNKNOWN[kind])
+        names.append(f"the other one of {of}")
     bpy.context.view_layer.update()
     select(list(bpy.context.scene.objects), mirror)
     return Scene(", ".join([*names, placement, kind]),
