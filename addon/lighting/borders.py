@@ -11,10 +11,14 @@ SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
 UNSEEN = 0.002
 UNSURE = 0.04     # of a pixel: by how much coverage, and the light beside, may be wrong
 BRIGHTEST_GAP = 2.0  # times what results show beside a gap that is thinner than a pixel
+LAMP = 4.0        # light of what may be a lamp, where that is no more than white
+SPILT = 2.0       # times what results show farther within, beside a lamp: what is brighter is that one's light
+SPREAD = 3        # pixels as far as which filters bring it
 
 
 def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: np.ndarray,
-                             rings: int, thin_too: bool = True) -> tuple[np.ndarray, np.ndarray]:
+                             rings: int, thin_too: bool = True,
+                             lamp: float = np.inf) -> tuple[np.ndarray, np.ndarray]:
     """What results show in pixels that they cover in part, where the light beside them, continued for a filter's width
     of `rings`, tells, as near to what they show within as that leaves open: beside a lamp it leaves much; and which
     pixels (height, width) are known so.
@@ -22,8 +26,10 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
     In a gap that is thinner than a pixel, be it one before a lamp, no such light is near, and what lies on its other
     side may be very different: there what results show goes on as it is within, as far as something between darkness
     and twice as bright a light in the gap allows. What is so thin that no pixel shows much of it shows, with
-    `thin_too`, what all the pixels around have of it together.
+    `thin_too`, what all the pixels around have of it together. What beside a lamp, brighter than `lamp`, is brighter than
+    farther within is unknown.
     """
+    spilt = _spilt(light, coverage, lamp)
     border = (coverage > UNSEEN) & (coverage < SEEN_WHOLE)
     apart = (coverage <= UNSEEN) & (opacity > UNSEEN)
     breathe()
@@ -31,7 +37,7 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
     breathe()
     beside, told = continued(both, apart, border, rings)
     breathe()
-    within, inner = continued(light, coverage >= SEEN_WHOLE, border, rings)
+    within, inner = continued(light, (coverage >= SEEN_WHOLE) & ~spilt, border, rings)
     breathe()
     alone = light.copy()
     # row after row: few have a border, and a row stays in the cache
@@ -55,7 +61,32 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
         together, enough = _together(light, coverage, opacity, beside, told | (coverage >= SEEN_WHOLE))
         thin &= enough
         alone[thin], known = together[thin], known | thin
-    return alone, known
+    return alone, known & ~spilt
+
+
+def _spilt(light: np.ndarray, coverage: np.ndarray, lamp: float) -> np.ndarray:
+    """Pixels (height, width) in which the light is that of lamps beside, spilt by the filter: a pixel of which a
+    thousandth lies outside is white beside one that is a thousand times white. The lamp may be thinner than a pixel; it
+    is no part of what results show where no pixel around that they cover whole is as bright."""
+    bright, whole = light.max(axis=2), coverage >= SEEN_WHOLE
+    breathe()
+    outside = np.where(whole, 0.0, bright)
+    if outside.max(initial=0.0) <= lamp:
+        return np.zeros(bright.shape, dtype=bool)
+    outside, inside = (_brightest(part) for part in (outside, np.where(whole, bright, 0.0)))
+    near = (outside > lamp) & (outside > inside)
+    breathe()
+    within, told = continued(bright[..., None], whole & ~near, near, 2 * SPREAD + 1)
+    return near & (bright > np.where(told, SPILT * within[..., 0], lamp))
+
+
+def _brightest(bright: np.ndarray) -> np.ndarray:
+    """The brightest of all pixels (height, width) as near as a filter reaches."""
+    for axis in (0, 1):
+        breathe()
+        around = np.pad(bright, [(SPREAD, SPREAD) if axis == side else (0, 0) for side in (0, 1)])
+        bright = np.lib.stride_tricks.sliding_window_view(around, 2 * SPREAD + 1, axis=axis).max(axis=2)
+    return bright
 
 
 def _together(light: np.ndarray, coverage: np.ndarray, opacity: np.ndarray, beside: np.ndarray,

@@ -13,7 +13,7 @@ import numpy as np
 from ...core import breathe, in_steps
 from ..faults import Steps, part
 from ..rendering import grown
-from .borders import SEEN_PARTLY, UNSEEN, filled, without_what_lies_beside
+from .borders import LAMP, SEEN_PARTLY, UNSEEN, filled, without_what_lies_beside
 
 REACH = 3           # texels around the covered ones that filters and interpolation may ask for
 FINE = 512          # places across a pixel at which its filter is summed
@@ -29,7 +29,7 @@ LEAST_RESPONSE = 0.2  # of a wave that a wide filter hardly lets through no more
 
 
 def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float = np.inf,
-              opacity: np.ndarray | None = None, thin_too: bool = True) -> Steps[np.ndarray]:
+              opacity: np.ndarray | None = None, faces: str = "ALL") -> Steps[np.ndarray]:
     """The texels whose picture is `light` where results cover it; yields (fraction, stage).
 
     Parameters
@@ -44,15 +44,16 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white
         From which on light looks white. Around brighter lamps texels would have to be below zero.
     opacity : (height, width) float32, optional
         The part of each pixel that anything covers which is in `light`; 1 where it is not given.
-    thin_too : bool
-        Whether what covers no pixel well is told from what all around show of it: not where that may be a lamp.
+    faces : {'ALL', 'MATTE', 'SHINING'}
+        Which are covered: of matte ones alone what covers no pixel well is not told from what all around show of it, for
+        that may be a lamp; and what shines is as bright as it is, be it thinner than a pixel.
 
     Returns
     -------
     texels : (height, width, 3) float32, zero farther than `REACH` from what is covered.
     """
     yield 0.0, SHARPENING
-    steps = in_steps(partial(_texels, light, coverage, kernel, white, opacity, thin_too))
+    steps = in_steps(partial(_texels, light, coverage, kernel, white, opacity, faces))
     return (yield from part(steps, 0.0, 1.0, SHARPENING))
 
 
@@ -71,11 +72,12 @@ def beside_lamps(coverage: np.ndarray, shining: np.ndarray) -> np.ndarray:
 
 
 def _texels(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float,
-            opacity: np.ndarray | None, thin_too: bool) -> np.ndarray:
+            opacity: np.ndarray | None, faces: str) -> np.ndarray:
     needed = grown(coverage > 0.0, REACH)
     whole = np.ones(coverage.shape) if opacity is None else opacity.astype(np.float64)
     alone, known = without_what_lies_beside(light.astype(np.float64), coverage.astype(np.float64), whole,
-                                            len(kernel) // 2, thin_too)
+                                            len(kernel) // 2, faces != "MATTE",
+                                            min(white, LAMP) if faces != "SHINING" else np.inf)
     filtered = filled(alone, known, needed)
     sharp = _sharpened(filtered, kernel, white)
     breathe()

@@ -56,7 +56,7 @@ def light_in_picture(context: bpy.types.Context, lit: list, view: View, samples:
         # what shines ends where its faces do, however bright it is: between texels it could not
         apart = []
         for name, part_of in (("Matte", beside_lamps(coverage, shining)), ("Shining", shining)):
-            found = yield from part(texels_of(light[..., :3], part_of, kernel, white, opacity, name == "Shining"), 0.98,
+            found = yield from part(texels_of(light[..., :3], part_of, kernel, white, opacity, name.upper()), 0.98,
                                     0.005)
             apart.append((yield from part(new_image(f"{NAME} {name}", found, whole), 0.985, 0.0)))
     export_image = yield from part(new_export_image(f"{NAME} Export", texels, whole), 0.99, 0.01)

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
+import pytest
 import parts
 from lamp_scenes import picture, psnr, scene_of
 
@@ -121,6 +122,36 @@ def test_what_is_overexposed_in_one_colour_is_as_bright_as_it_is_where_a_result_
     found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
                                       texels.pixel_kernel("BOX", 1.0), white=1.0))
     assert np.abs(found[:, 9:] - own).max() < 0.05
+
+
+@pytest.mark.parametrize("faces", ["ALL", "MATTE"])
+def test_a_lamp_thinner_than_a_pixel_beside_a_result_is_no_part_of_it(room, faces):
+    """Of a lamp a thousand times white, an eighth of a pixel beside where the result ends, so much is spilt into pixels
+    that this covers whole that they are white; farther within, one that stands before it is as bright as it is."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    fine, (height, width) = 8, (24, 32)
+    across = np.arange(fine * width)
+    covered = np.broadcast_to(across >= 76, (fine * height, fine * width)).astype(float)
+    shown = np.where(covered > 0.0, 0.1, 0.15)
+    # a spark of two pixels' height beside the result, and one of two by two pixels before it
+    shown[64:80, 74:76], shown[64:80, 192:208] = 1000.0, 50.0
+    light, coverage = (_in_pixels(picture, fine) for picture in (shown, covered))
+    found = finished(texels.texels_of(light.astype(np.float32)[..., None].repeat(3, axis=2), coverage.astype(np.float32),
+                                      texels.pixel_kernel("BLACKMAN_HARRIS", 1.5), white=1.0, faces=faces))
+    assert light[9, 10] > 1.0 and coverage[9, 10] > 0.99
+    assert np.abs(found[:, 10:20] - 0.1).max() < 0.05 and found[9, 24:26].min() > 5.0
+
+
+def _in_pixels(picture: np.ndarray, fine: int) -> np.ndarray:
+    """A picture of so many places a pixel through Cycles' filter of 1.5 pixels, in closed form."""
+    at = (np.arange(3 * fine) + 0.5) / (3 * fine)
+    turn = 2.0 * np.pi * at
+    weight = 0.35875 - 0.48829 * np.cos(turn) + 0.14128 * np.cos(2.0 * turn) - 0.01168 * np.cos(3.0 * turn)
+    for axis in (0, 1):
+        around = np.pad(picture, [(fine, fine) if axis == side else (0, 0) for side in (0, 1)], mode="edge")
+        windows = np.lib.stride_tricks.sliding_window_view(around, 3 * fine, axis=axis)
+        picture = (windows[::fine] if axis == 0 else windows[:, ::fine]) @ (weight / weight.sum())
+    return picture
 
 
 def test_beside_small_lamps_it_is_nearly_as_dark_as_it_is(room):
