@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-import pytest
 import parts
+import pytest
 from lamp_scenes import picture, psnr, scene_of
 
 
