@@ -26,8 +26,8 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
     In a gap that is thinner than a pixel, be it one before a lamp, no such light is near, and what lies on its other
     side may be very different: there what results show goes on as it is within, as far as something between darkness
     and twice as bright a light in the gap allows. What is so thin that no pixel shows much of it shows, with
-    `thin_too`, what all the pixels around have of it together. What beside a lamp, brighter than `lamp`, is brighter than
-    farther within is unknown.
+    `thin_too`, what all the pixels around have of it together. What is brighter than farther within, beside a lamp that
+    is brighter than `lamp`, is unknown.
     """
     spilt = _spilt(light, coverage, lamp)
     border = (coverage > UNSEEN) & (coverage < SEEN_WHOLE)

@@ -45,8 +45,8 @@ def texels_of(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white
     opacity : (height, width) float32, optional
         The part of each pixel that anything covers which is in `light`; 1 where it is not given.
     faces : {'ALL', 'MATTE', 'SHINING'}
-        Which are covered: of matte ones alone what covers no pixel well is not told from what all around show of it, for
-        that may be a lamp; and what shines is as bright as it is, be it thinner than a pixel.
+        Which are covered: of matte ones alone what covers no pixel well is not told from what all around show of it,
+        for that may be a lamp; and what shines is as bright as it is, be it thinner than a pixel.
 
     Returns
     -------

@@ -136,8 +136,9 @@ def test_a_lamp_thinner_than_a_pixel_beside_a_result_is_no_part_of_it(room, face
     # a spark of two pixels' height beside the result, and one of two by two pixels before it
     shown[64:80, 74:76], shown[64:80, 192:208] = 1000.0, 50.0
     light, coverage = (_in_pixels(picture, fine) for picture in (shown, covered))
-    found = finished(texels.texels_of(light.astype(np.float32)[..., None].repeat(3, axis=2), coverage.astype(np.float32),
-                                      texels.pixel_kernel("BLACKMAN_HARRIS", 1.5), white=1.0, faces=faces))
+    found = finished(texels.texels_of(light.astype(np.float32)[..., None].repeat(3, axis=2),
+                                      coverage.astype(np.float32), texels.pixel_kernel("BLACKMAN_HARRIS", 1.5),
+                                      white=1.0, faces=faces))
     assert light[9, 10] > 1.0 and coverage[9, 10] > 0.99
     assert np.abs(found[:, 10:20] - 0.1).max() < 0.05 and found[9, 24:26].min() > 5.0
 
