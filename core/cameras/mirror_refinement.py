@@ -115,7 +115,7 @@ def _marked(cameras: Cameras, edges: _Edges, edge: np.ndarray, reach: float, tol
     marked = _straying(cameras, edges, reach) > tolerance
     marked |= _straying_beside(cameras, edges, edge, reach) > BESIDE_EDGES * tolerance
     marked |= _parted(cameras, edges)
-    # beyond the horizon the map is a sliver of made-up rays: nothing to be exact about
+    # slivers of lifted rays: nothing to be exact about
     asked = np.flatnonzero(marked[edge].any(axis=1))
     worth = np.zeros(len(marked), dtype=bool)
     worth[edge[asked[~beyond_horizon(cameras.select(asked))]]] = True

@@ -1,14 +1,16 @@
 """The horizon of a smooth mirror: where its interpolated normals would send rays under the flat faces they leave.
 
 Beyond it the true map lifts the rays until they clear the surface, and bends sharply where it begins to. Cameras are
-cut along that line, so that none has the bend inside; what lies beyond is a sliver at the silhouette.
+cut along that line, so that none has the bend inside. What lies beyond is a sliver at the silhouette of a fine mirror,
+and may be a third of a coarse one, as of a cube with smooth normals.
 """
 from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import dot, edge_lengths, following, next_corner, split
+from ..geometry import dot, doubled_areas, edge_lengths, following, next_corner, split
 from ..support import portions
+from ..views import LampView
 from .camera_splitting import split_cameras
 from .three_ray_cameras import Cameras
 
@@ -16,13 +18,21 @@ STEPS = 30
 CAMERAS_AT_ONCE = 4096
 LEVELS = 20  # of splits before the cut, for cameras across which the horizon bulges
 LONG_EDGE = 8.0  # pixels: in a smaller camera a bulge does not matter
+SLIVER = 2.0  # pixels: a narrower camera of lifted rays alone is not worth refining
 ON_LINE = 1e-6  # rise of rays on the horizon itself, which belong to both its sides
 _PROBES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [1 / 3] * 3]).T
 
 
 def beyond_horizon(cameras: Cameras) -> np.ndarray:
-    """Which cameras (n,) lie beyond the horizon whole, made of lifted rays alone: nothing there is worth refining."""
-    return np.all(_lifted_probes(cameras, ON_LINE), axis=0)
+    """Which cameras (n,) lie beyond the horizon whole, of lifted rays alone, and are not worth refining: slivers in
+    the picture, and all in a lamp's, whose light is made fine enough where it falls."""
+    beyond = np.all(_lifted_probes(cameras, ON_LINE), axis=0)
+    if not isinstance(cameras.view, LampView):
+        asked = np.flatnonzero(beyond)
+        with np.errstate(invalid="ignore", over="ignore"):
+            pixels = cameras.view.pixels(cameras.places[:, cameras.corners[asked].ravel()].T).reshape(-1, 3, 2)
+            beyond[asked] = np.abs(doubled_areas(pixels)) < SLIVER * edge_lengths(pixels).max(axis=1)
+    return beyond
 
 
 def _lifted_probes(cameras: Cameras, slack: float) -> np.ndarray:

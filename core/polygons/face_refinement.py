@@ -30,7 +30,7 @@ QUARTER = 0.25  # of an edge: no farther than that from its middle no better pla
 @dataclass(frozen=True)
 class FaceRefinement:
     """Splits faces on one mirror and one scene; `virtual` tells that faces are drawn at the virtual image's depth,
-    `beyond` which cameras lie beyond the horizon, where there is nothing to be exact about."""
+    `beyond` which cameras are slivers beyond the horizon, where there is nothing to be exact about."""
 
     cameras: Cameras
     frames: SceneFrames

@@ -89,7 +89,7 @@ def _bent_edges(candidates: Candidates, tolerance: np.ndarray) -> tuple[np.ndarr
 
 
 def _worth_refining(cameras: Cameras, bent: np.ndarray) -> np.ndarray:
-    """(n, 1): which cameras with edges that are `bent` (n, 3) do not lie beyond the horizon."""
+    """(n, 1): which cameras with edges that are `bent` (n, 3) are worth refining beyond the horizon."""
     asked = bent.any(axis=1)
     worth = asked.copy()
     worth[asked] = ~beyond_horizon(cameras.select(asked))
