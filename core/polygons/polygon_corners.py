@@ -204,7 +204,8 @@ def _contacts_of_mirror_edges(corners: _Corners, chosen: np.ndarray):
 
 def _contacts_of_scene_edges(corners: _Corners, chosen: np.ndarray):
     scene_edge = corners.scene_edge(chosen, corners.low[chosen])
-    first, group = groups(corners.cameras.face[corners.camera[chosen]], *scene_edge.T)
+    # an edge goes through the mirror once; straight outlines that run along the line of contact meet it in every camera
+    first, group = groups(corners.camera[chosen], *scene_edge.T)
     return _contact(corners, chosen[first]), group
 
 

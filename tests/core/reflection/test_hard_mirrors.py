@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from core import TriangleMesh, View, reflect
+from core import Settings, TriangleMesh, View, reflect
 from tests.inputs import shapes
 from tests.oracles.judge import HOLE, compare, judge
 from tests.oracles.raster import rasterise
@@ -101,3 +101,16 @@ def test_a_coarse_mirror_shows_what_rays_see_that_are_lifted_off_it(eye):
     wrong, lifted = against_lifted_rays(view, mirror, scene, reflect(view, mirror, scene))
     assert lifted.mean() > 0.3
     assert wrong[lifted].mean() < 0.001
+
+
+def test_an_outline_that_runs_along_the_line_of_contact_ends_where_the_edge_goes_through_the_mirror():
+    rng = np.random.default_rng(36)
+    eye = rng.normal(size=3)
+    view = looking(5.0 * eye / np.linalg.norm(eye), (0, 0, 0), 0.45)
+    mirror = smooth(shapes.combine(shapes.box((0, 0, 0), (1.5, 1.5, 1.5), 0.3)))
+    scene = TriangleMesh(rng.normal(0.0, 1.3, (9, 3)), np.arange(9).reshape(3, 3))
+    mesh = reflect(view, mirror, scene, Settings(placement="VIRTUAL"))
+    assert mesh.counts["contacts"] > 0
+    wrong, _ = against_lifted_rays(view, mirror, scene, mesh)
+    assert len(wrong) > 30000
+    assert wrong.sum() < 10  # 54 with one corner where the edge goes through, and none where outlines meet the line
