@@ -120,6 +120,20 @@ def test_what_is_not_there_must_not_be_shown(good):
     assert [problem[:6] for problem in picture_checks.shows_what_rays_see(one, other)] == ["layers"]
 
 
+@pytest.mark.parametrize("scale", [0.0, 3.0])
+@pytest.mark.parametrize("resolution", [(64, 64), (128, 96), (200, 200), (30, 120), (5, 3), (1, 100)])
+def test_the_few_pixels_that_are_asked_are_some_of_the_picture(resolution, scale):
+    view = View.looking_at((1.0, 2.0, 3.0), (0.0, 0.0, 0.0), resolution, orthographic_scale=scale)
+    few = picture_checks.coarse(view)
+    width, height = few.resolution
+    middles = np.stack(np.meshgrid(np.arange(width), np.arange(height)), axis=-1).reshape(-1, 2) + 0.5
+    origins, directions = few.rays(middles)
+    places = view.pixels(origins + 2.0 * directions)
+    np.testing.assert_allclose(places - np.floor(places), 0.5, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(places.min(axis=0) + places.max(axis=0), resolution, rtol=0, atol=max(resolution) / 24)
+    np.testing.assert_allclose(few.pixels(origins + 2.0 * directions), middles, rtol=0, atol=1e-9)
+
+
 def test_a_mirror_that_is_seen_is_not_refused(good):
     one, _ = good[GENERAL]
     sentence = "The view does not see the mirror; turn the camera."

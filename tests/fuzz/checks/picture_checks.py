@@ -1,4 +1,9 @@
-"""Whether a reflection mesh shows what rays see, on a coarse grid of the picture: whole regions must not be wrong."""
+"""Whether a reflection mesh shows what rays see, in some of the picture's pixels: whole regions must not be wrong.
+
+A pixel is asked in its middle. Where rays fill squares of up to a pixel they tell what is seen there, and nothing of
+what lies between two middles: in none of the 499 pixels of a bowl did a result show what rays do not meet, and in 8 of
+69 places between them it did.
+"""
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -11,7 +16,7 @@ from tests.fuzz.drawing.configurations import Configuration
 from tests.oracles.raster import rasterise
 from tests.oracles.truth_bounces import trace_bounces
 
-PIXELS = 24  # of the longer side of the coarse picture
+PIXELS = 24  # of the longer side that are asked, about
 SHARE, FEWEST = 0.04, 5  # of the mirror's pixels, and pixels: more must not be wrong
 OTHER_SURFACE = 2.0  # pixels: another triangle further away is another surface
 TOLERANCES = 3.0  # by which a region may be displaced, and one pixel more
@@ -70,9 +75,16 @@ def regions(configuration: Configuration, mesh: ReflectionMesh) -> tuple[int, di
 
 
 def coarse(view: View) -> View:
-    """The same eye with few pixels."""
-    return replace(view, resolution=tuple(max(1, round(PIXELS * side / max(view.resolution)))
-                                          for side in view.resolution))
+    """The same eye with few pixels, whose middles are those of some of its own, evenly spaced."""
+    sides = np.array(view.resolution)
+    step = max(1, round(sides.max() / PIXELS))
+    count = np.maximum(1, sides // step)
+    # of the picture, in its pixels: where the first of the few begins
+    start = (sides - 1 - step * (count - 1)) // 2 + 0.5 * (1 - step)
+    scale, shift = sides / (step * count), (sides - 2.0 * start) / (step * count) - 1.0
+    projection = view.projection.copy()
+    projection[:2] = scale[:, None] * projection[:2] + shift[:, None] * projection[3]
+    return replace(view, projection=projection, resolution=(int(count[0]), int(count[1])))
 
 
 CHECKS = (shows_what_rays_see,)
