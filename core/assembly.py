@@ -261,7 +261,7 @@ def _on_mirror(mirror_map: MirrorMap, face: np.ndarray, triangles: np.ndarray, s
     moved, away = brought_back(mirror_map, face[corner], seen[:, vertex])
     order = np.lexsort((away, vertex))
     order = order[np.flatnonzero(np.diff(vertex[order], prepend=-1))]
-    order = order[away[order] > room]
+    order = order[norm(moved[:, order] - seen[:, vertex[order]]) > room]
     seen = seen.copy()
     seen[:, vertex[order]] = moved[:, order]
     return seen

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import norm
+from ..geometry import dot, norm
 from .mirror_map import MirrorMap
-from .mirror_surface import drawn_in
+from .mirror_surface import drawn_in, least_weight
 
 STEPS = 6
 INSIDE = 1e-9  # of a triangle: rounding
@@ -49,24 +49,42 @@ def settle(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarra
 
 
 def distance_from(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """How far places (3, n) are from the triangles `face` (n,) that they belong to."""
-    return _nearest(mirror_map, face, places)[1]
+    """How far places (3, n) are from what they are brought back to of the triangles `face` (n,) that they belong to."""
+    return norm(_drawn_in(mirror_map, face, places) - places)
 
 
 def brought_back(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The nearest to each of the places (3, n) on its triangle (n,) or on the one beyond the edge that it left by, and
-    how far away that is."""
+    """What the eye sees nearest to each of the places (3, n) of its triangle (n,) or of the one beyond the edge that it
+    left by, and how many pixels away that is. In space what lies a pixel beside a triangle seen all but edge on is far
+    from it, and something else in the picture may be nearer."""
     _, corner = _least(mirror_map.coordinates(face, places))
     beyond = mirror_map.surface.across[face, corner]
-    near, gap = _nearest(mirror_map, face, places)
-    other, other_gap = _nearest(mirror_map, np.where(beyond >= 0, beyond, face), places)
-    return np.where(other_gap < gap, other, near), np.minimum(gap, other_gap)
+    own, other = (_drawn_in(mirror_map, one, places) for one in (face, np.where(beyond >= 0, beyond, face)))
+    pixels = mirror_map.view.pixels(places.T)
+    away, other_away = (np.linalg.norm(mirror_map.view.pixels(one.T) - pixels, axis=1) for one in (own, other))
+    return np.where(other_away < away, other, own), np.fmin(away, other_away)
 
 
-def _nearest(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Places (3, n) drawn into the triangles, and how far that moves them."""
-    drawn = mirror_map.places(face, drawn_in(mirror_map.coordinates(face, places)))
-    return drawn, norm(drawn - places)
+@np.errstate(invalid="ignore", over="ignore")
+def _drawn_in(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Places (3, n), those outside of their triangles drawn to the rim, to what the eye sees nearest, in the first
+    order."""
+    uv = mirror_map.coordinates(face, places)
+    out = np.flatnonzero(least_weight(uv) < 0.0)
+    gradients = mirror_map.view.pixel_gradients(places[:, out])
+    pixels = [np.stack([dot(gradient, span) for gradient in gradients]) for span in mirror_map.spans(face[out])]
+    least, rim = np.full(len(out), np.inf), uv[:, out]
+    for start, end in (((0.0, 0.0), (1.0, 0.0)), ((1.0, 0.0), (0.0, 1.0)), ((0.0, 1.0), (0.0, 0.0))):
+        corner, way = np.array(start)[:, None], np.subtract(end, start)[:, None]
+        offset = corner - uv[:, out]
+        first, side = (one[0] * pixels[0] + one[1] * pixels[1] for one in (offset, way))
+        share = np.clip(-(first * side).sum(axis=0) / np.maximum((side * side).sum(axis=0), 1e-300), 0.0, 1.0)
+        distance = ((first + share * side)**2).sum(axis=0)
+        rim = np.where(distance < least, corner + share * way, rim)
+        least = np.minimum(distance, least)
+    # what has no picture, or is seen edge on to the last digit
+    uv[:, out] = drawn_in(rim)
+    return mirror_map.places(face, uv)
 
 
 def _least(uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
