@@ -136,7 +136,7 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
         faces, bounded = refined(ray_map, faces, receivers, lamp, (LEAST * whole, FINEST * reach),
                                  settings.maximum_faces)
         seen.counts["bounded"] = seen.counts.get("bounded", 0) | bounded
-        places = np.moveaxis(faces.light.place.reshape(3, 3, -1), 2, 0).swapaxes(1, 2)
+        places = faces.light.place.transpose(2, 1, 0)
         flux = flux_of(view, places) * mean_weight(ray_map, faces.face, faces.light, lamp)
         lit.append((faces, flux, seen, number, receivers))
     return lit
@@ -151,6 +151,6 @@ def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, rec
     for own in portions(len(chosen), AT_ONCE):
         corner, owner = triangles[own].T.ravel(), np.tile(face[own], 3)
         uv = ray_map.coordinates(owner, seen.mirror_position[corner].T)
-        parts.append(light_at(ray_map, owner, uv, points[:, corner], np.tile(normal[:, own], 3), lamp))
+        parts.append(light_at(ray_map, owner, uv, points[:, corner], np.tile(normal[:, own], 3), lamp).of_faces())
     return LitFaces(triangles, points, face, normal, source, chosen, seen.source_sides[chosen] >= 0,
                     np.full((len(chosen), 3), np.nan), Corners.joined(parts))

@@ -11,13 +11,12 @@ sees of the triangle. So that both find the same, light must be weighted by how 
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..cameras import BouncedMap, ReflectionMap
-from ..geometry import dot, following, norm, unit
+from ..geometry import ColumnArrays, dot, following, norm, unit
 from ..support import portions
 from .lamps import Lamp, mean_of_seven
 
@@ -28,23 +27,23 @@ ARRIVED = 1e-6  # of the path: by how much the ray of a corner may miss it
 
 
 @dataclass(frozen=True)
-class Corners:
-    """Corners of faces of one map.
+class Corners(ColumnArrays):
+    """The three corners of each of m faces of one map.
 
     Attributes
     ----------
-    uv : (2, n) float64
-        Where on the map's face.
-    irradiance : (n,) float64
+    uv : (2, 3, m) float64
+        Where on the map's face, as [coordinate, corner, face].
+    irradiance : (3, m) float64
         Infinite on a caustic.
-    turned : (n,) float64
-    cosine : (b, n) float64
+    turned : (3, m) float64
+    cosine : (b, 3, m) float64
         At each of the mirrors, the first one first.
-    place : (3, n) float64
-        Where on the first mirror.
-    side : (n,) float64
+    place : (3, 3, m) float64
+        Where on the first mirror, as [component, corner, face].
+    side : (3, m) float64
         1 where the front of the receiver is lit, -1 where its back is.
-    arrived : (n,) bool
+    arrived : (3, m) bool
         Whether the ray really comes there.
     """
 
@@ -56,34 +55,26 @@ class Corners:
     side: np.ndarray
     arrived: np.ndarray
 
-    @staticmethod
-    def joined(parts: Sequence[Corners]) -> Corners:
-        """Several as one, which are runs of the first, second and third corners each: run after run."""
-        def together(name: str) -> np.ndarray:
-            values = [getattr(part, name) for part in parts]
-            values = [value.reshape(*value.shape[:-1], 3, -1) for value in values]
-            joined = np.concatenate(values, axis=-1)
-            return joined.reshape(*joined.shape[:-2], -1)
-        return Corners(*(together(name) for name in NAMES))
+    def of_faces(self) -> Corners:
+        """What is told of the first corners of m faces, behind them of the second and of the third, as theirs."""
+        return Corners(*(values.reshape(*values.shape[:-1], 3, -1) for values in self._values()))
 
     def of_parts(self, middles: Corners, parent: np.ndarray, local: np.ndarray, place: np.ndarray) -> Corners:
         """Of parts of faces, whose corners `local` (m, 3) are 0 1 2 of these of their `parent` (m,), or 3 4 5 of the
-        `middles` of its sides, which stand at its `place`; all are runs of the first, second and third corners."""
-        count, more, corner = self.uv.shape[1] // 3, middles.uv.shape[1] // 3, local.T
-        index = np.where(corner < 3, corner * count + parent, (3 * count) + (corner - 3) * more + place[parent]).ravel()
+        `middles` of its sides, which stand at its `place`."""
+        corner = local.T
+        index = np.where(corner < 3, corner * len(self) + parent,
+                         3 * len(self) + (corner - 3) * len(middles) + place[parent])
 
-        def chosen(name: str) -> np.ndarray:
-            return np.concatenate((getattr(self, name), getattr(middles, name)), axis=-1).take(index, axis=-1)
-        return Corners(*(chosen(name) for name in NAMES))
-
-
-NAMES = tuple(Corners.__dataclass_fields__)
+        def chosen(*values: np.ndarray) -> np.ndarray:
+            return np.concatenate([value.reshape(*value.shape[:-2], -1) for value in values], axis=-1).take(index, -1)
+        return Corners(*map(chosen, self._values(), middles._values()))
 
 
 def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: np.ndarray,
              normals: np.ndarray, lamp: Lamp) -> Corners:
     """What a lamp of unit intensity, times its pattern, sends to `points` (3, n) that it sees at places (u, v) of
-    faces, where flat receivers have the unit `normals` (3, n)."""
+    faces, where flat receivers have the unit `normals` (3, n): told of n places, not of the corners of m faces."""
     origin, ray = ray_map.leave(face, uv)
     length = np.maximum(norm(ray), 1e-300)
     s = dot(points - origin, ray) / length**2
@@ -122,10 +113,9 @@ def mean_weight(ray_map: ReflectionMap, face: np.ndarray, light: Corners, lamp: 
     Over the places of a face it is asked for by the light that comes: as these are seen from the lamp, and as steeply
     as it falls on the mirrors. Where it grazes them the weight alone has no bounds.
     """
-    uv = light.uv.reshape(2, 3, -1)
     counted = np.empty(len(face))
     for own in portions(len(face), AT_ONCE):
-        corners = uv[:, :, own]
+        corners = light.uv[:, :, own]
         places = np.concatenate((corners, 0.5 * (corners + following(corners)), corners.mean(axis=1, keepdims=True)), 1)
         sent, came = (values.reshape(7, -1) for values in _passed(
             ray_map, np.tile(face[own], 7), places.reshape(2, -1), lamp))

@@ -60,11 +60,11 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     light, corners = faces.light, faces.corners()
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area, size = 0.5 * norm(normal), np.abs(corners[:, 1:] - corners[:, :1]).max(axis=(0, 1))
-    arrived = light.arrived.reshape(3, -1).all(axis=0) | (flux > STRAY * flux.sum())
+    arrived = light.arrived.all(axis=0) | (flux > STRAY * flux.sum())
     kept = np.flatnonzero(has_area(area, size) & (flux > 0.0) & arrived)
     corners = corners.transpose(2, 1, 0)[kept]
-    irradiance, side = (value.reshape(3, -1).T[kept] for value in (light.irradiance, light.side))
-    cosine = light.cosine.reshape(number, 3, -1).T[kept]
+    irradiance, side = (value.T[kept] for value in (light.irradiance, light.side))
+    cosine = light.cosine.T[kept]
     irradiance = balanced(irradiance, on_faces(flux[kept], faces.beside[kept], faces.triangles[kept]),
                           faces.triangles[kept], shown_area(corners, area[kept], reach))
     breathe()
@@ -82,11 +82,12 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     used, first = np.unique(faces.triangles[kept], return_index=True)
     number_of = np.zeros(faces.points.shape[1], dtype=np.int64)
     number_of[used] = np.arange(len(used))
-    entry = (first % 3) * len(faces) + kept[first // 3]
-    parity = np.where(np.abs(light.turned[entry]) < ON_CAUSTIC, 0, np.sign(light.turned[entry]))
+    face, corner = kept[first // 3], first % 3
+    turned = light.turned[corner, face]
+    parity = np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned))
     return {
         "positions": faces.points[:, used].T, "triangles": number_of[triangles], "irradiance": irradiance,
-        "flux": flux[kept], "mirror_position": light.place[:, entry].T,
+        "flux": flux[kept], "mirror_position": light.place[:, corner, face].T,
         "image_parity": parity.astype(np.int8), "met": met, "direction": direction,
         "cosine": np.pad(cosine, ((0, 0), (0, 0), (0, met.shape[1] - number))),
         "source_face": source, "source_weights": weights,
@@ -101,8 +102,8 @@ def _met(seen: ReflectionMesh, face: np.ndarray) -> np.ndarray:
 
 def _directions(ray_map: ReflectionMap, faces: LitFaces, kept: np.ndarray) -> np.ndarray:
     """Unit vectors (m, 3, 3) in which light comes to the corners of the faces that are `kept` (m,)."""
-    uv = faces.light.uv.reshape(2, 3, -1)
-    return np.stack([unit(ray_map.rays(faces.face[kept], uv[:, corner, kept])).T for corner in range(3)], axis=1)
+    return np.stack([unit(ray_map.rays(faces.face[kept], faces.light.uv[:, corner, kept])).T for corner in range(3)],
+                    axis=1)
 
 
 def _weights(receivers: TriangleMesh, source: np.ndarray, corners: np.ndarray) -> np.ndarray:

@@ -61,7 +61,7 @@ class LitFaces:
         Their light that falls beyond the sides 01, 12, 20, for those that are straight in the lamp's picture are curves
         on the receiver; negative where it ends before them. Not a number until it has been asked for.
     light : Corners
-        Of the corners, (3, m) as (3 m,): corner k of face i is the entry k m + i.
+        Of the corners.
     """
 
     triangles: np.ndarray
@@ -120,8 +120,7 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, la
 
 def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[float, float]) -> np.ndarray:
     """On which sides (k, 3) of the faces asked the irradiance in the middle is not that between the ends."""
-    ends = faces.light.irradiance.reshape(3, -1)[:, asked].T
-    lit = middles.irradiance.reshape(3, -1).T
+    ends, lit = faces.light.irradiance[:, asked].T, middles.irradiance.T
     corners = faces.corners(asked)
     with np.errstate(invalid="ignore"):
         astray = ~(np.abs(0.5 * (ends + following(ends)) - lit) <= STRAYING * lit)
@@ -135,7 +134,7 @@ def _wide(faces: LitFaces, asked: np.ndarray, lamp: Lamp) -> np.ndarray:
     """Which sides (k, 3) of the faces asked span more of the lamp's picture than what its pattern may hold."""
     if not np.isfinite(lamp.narrow):
         return np.zeros((len(asked), 3), dtype=bool)
-    ways = faces.light.place.reshape(3, 3, -1)[:, :, asked] - lamp.place[:, None, None]
+    ways = faces.light.place[:, :, asked] - lamp.place[:, None, None]
     lit = np.ones(len(asked), dtype=bool) if lamp.cone is None else in_cone(lamp.cone, ways)
     ways = unit(ways)
     return lit[:, None] & (norm(ways - following(ways)).T > 2.0 * np.sin(0.5 * min(lamp.narrow, np.pi)))
@@ -149,7 +148,7 @@ def _beside(faces: LitFaces, asked: np.ndarray, middles: Corners, points: np.nda
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     beyond = cross(points - 0.5 * (corners + after), after - corners)
     area = 2.0 / 3.0 * (beyond * (normal / np.maximum(norm(normal), 1e-300))[:, None]).sum(axis=0).T
-    lit = middles.irradiance.reshape(3, -1).T
+    lit = middles.irradiance.T
     return area * np.where(found & np.isfinite(lit), lit, 0.0)
 
 
@@ -161,7 +160,7 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within:
     for portion in portions(max(len(asked), 1), AT_ONCE):
         part = asked[portion]
         own, face = np.tile(part, 3), np.tile(faces.face[part], 3)
-        uv = faces.light.uv.reshape(2, 3, -1)[:, :, part]
+        uv = faces.light.uv[:, :, part]
         start = 0.5 * (uv + following(uv)).reshape(2, -1)
         corners = faces.corners(part)
         chord = 0.5 * (corners + following(corners)).reshape(3, -1)
@@ -185,7 +184,7 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within:
         good &= light.arrived & (np.abs(place - start).max(axis=0) <= 0.5 * size + 1e-12)
         # nor does light come from beyond the mirror's triangle, but for what corners may lie beside it
         good &= _off(place) <= np.maximum(_off(uv), _off(following(uv))).ravel() + OFF
-        parts.append(light)
+        parts.append(light.of_faces())
         points.append(point.reshape(3, 3, -1))
         found.append(good.reshape(3, -1).T)
     return Corners.joined(parts), np.concatenate(points, axis=2), np.concatenate(found)
