@@ -8,7 +8,7 @@ import numpy as np
 from ..support import numbers, portions
 from .certain_pairs import certain_images, common_lengths, own_lengths
 from .doubtful_pairs import doubtful_images
-from .scaling import of_ordinary_size, strange_sizes
+from .scaling import of_ordinary_size
 
 CHUNK = 12288
 """Pairs that are worked on at once: their arrays stay in the caches."""
@@ -100,7 +100,7 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     """
     vertices, rays, points, facing = _checked(vertices, rays, points, facing)
     count = len(points)
-    degenerate = np.zeros(count, dtype=bool)
+    degenerate, power = np.zeros(count, dtype=bool), np.zeros(count, dtype=np.int64)
     # The C library maps large arrays anew each time, and clears their pages, until it has freed a larger one once.
     np.empty(64 * CHUNK)
     found, doubts = [], []
@@ -112,23 +112,21 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     # a number that is not finite leaves every doubt
     if not all(np.isfinite(given[left]).all() for given in (vertices, rays, points)):
         raise ValueError("Vertices, rays and points must be finite numbers; repair or leave out the others.")
-    for part in _chunks(left):
+    vertices, rays, points, power[left] = of_ordinary_size(vertices[left], rays[left], points[left])
+    for part in _chunks(np.arange(len(left))):
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], own_lengths)
-        found.append(_turned(facing, part[pair], *images))
+        found.append(_turned(facing, left[part[pair]], *images))
         doubtful_left.append(part[doubtful])
-    left = np.concatenate(doubtful_left)
-    strange = strange_sizes(vertices[left], rays[left], points[left])
-    if strange.any():
-        some, left = left[strange], left[~strange]
-        images, degenerate[some] = _of_strange_size(vertices[some], rays[some], points[some],
-                                                    None if facing is None else facing[some])
-        found.append((some[images[0]], *images[1:]))
-    for part in _chunks(left):
-        (pair, *images), degenerate[part] = doubtful_images(vertices[part], rays[part], points[part])
-        found.append(_turned(facing, part[pair], *images))
+    for part in _chunks(np.concatenate(doubtful_left)):
+        (pair, *images), degenerate[left[part]] = doubtful_images(vertices[part], rays[part], points[part])
+        found.append(_turned(facing, left[part[pair]], *images))
     pair, distance, weights, parity = (np.concatenate(column) for column in zip(*found))
+    with np.errstate(over="ignore", under="ignore"):
+        distance = np.ldexp(distance, power[pair])
     # stable, since the images of one pair already come by rising distance
     order = np.argsort(pair, kind="stable")
+    # no float64 can tell other distances from 0 and from infinity
+    order = order[(distance[order] > 0.0) & (distance[order] < np.inf)]
     return Images(pair[order], distance[order], weights[order], parity[order], degenerate)
 
 
@@ -144,16 +142,6 @@ def _checked(vertices, rays, points, facing):
             raise ValueError(wrong)
         facing = np.where(facing < 0, -1.0, 1.0)
     return vertices, rays, points, facing
-
-
-def _of_strange_size(vertices, rays, points, facing):
-    """Columns of images in pairs so large or small that numbers might overflow, and which cubics vanish."""
-    *near_one, power = of_ordinary_size(vertices, rays, points)
-    images = project(*near_one, facing=facing)
-    with np.errstate(over="ignore", under="ignore"):
-        distance = np.ldexp(images.distance, power[images.pair])
-    told = (distance > 0.0) & (distance < np.inf)     # no float64 can tell the others from 0 and from infinity
-    return (images.pair[told], distance[told], images.weights[told], images.parity[told]), images.degenerate
 
 
 def _chunks(pairs: np.ndarray):
