@@ -4,12 +4,10 @@ from __future__ import annotations
 import numpy as np
 
 from .bounce import Bounce
-from .cameras import BouncedMap, Cameras
+from .cameras import BouncedMap, Cameras, ray_numbers
 from .culling import SceneAndMirrors
-from .geometry import distinct, doubled_areas, groups, norm
+from .geometry import distinct, doubled_areas, groups
 
-SAME_RAY = 1e-7  # of its length: rays at one node that differ by less are one ray
-PATCHES = 8  # smooth patches of a mirror that meet in a node; more share no corners
 SMALLEST = 1e-4  # square pixels: a smaller image of a mirror shows nothing
 
 
@@ -32,23 +30,8 @@ def bounced_cameras(bounce: Bounce, met: SceneAndMirrors) -> Cameras:
 
     node, face = faces.nodes[seen].ravel(), np.repeat(chain, 3)
     origins, rays = bounced.leave(face, bounced.coordinates(face, nodes.place[:, node]))
-    corner, chosen = _shared(node, rays)
+    # one corner for those that lie on one node and have one ray
+    first, own = groups(node, *ray_numbers(rays))
+    chosen, corner = distinct(first[own])
     places, origins, rays = nodes.place[:, node[chosen]], origins[:, chosen], rays[:, chosen]
     return Cameras(corner.reshape(-1, 3), chain, places, rays, origins, bounced)
-
-
-def _shared(node: np.ndarray, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Which corners (n,) are one, since they lie on one node and have one ray; and the first of each."""
-    like = np.full(len(node), -1)
-    rest = np.arange(len(node))
-    for _ in range(PATCHES):
-        first, group = groups(node[rest])
-        leader = rest[first][group]
-        same = norm(rays[:, rest] - rays[:, leader]) <= SAME_RAY * norm(rays[:, leader])
-        like[rest[same]] = leader[same]
-        rest = rest[~same]
-        if not len(rest):
-            break
-    like[rest] = rest
-    chosen, corner = distinct(like)
-    return corner, chosen

@@ -4,7 +4,7 @@ In come a view and a mirror; out come cameras whose interpolated rays stray from
 than the tolerance. C. Mei, V. Popescu, E. Sacks, GRAPP 2007; normals are kept above the surface as Cycles does.
 """
 from .bounced_map import BouncedMap
-from .camera_splitting import in_picture, split_cameras, true_rays, with_pieces
+from .camera_splitting import in_picture, ray_numbers, split_cameras, true_rays, with_pieces
 from .folding import may_fold
 from .mirror_map import MirrorMap
 from .mirror_refinement import refine_mirror
@@ -28,5 +28,5 @@ __all__ = ["ALONG_UV", "BouncedMap", "Cameras", "INSIDE", "MirrorMap", "MirrorSu
            "beyond_horizon", "box_counts", "brought_back", "cells_before", "cells_between", "covered_pixels",
            "cut_at_horizon", "distance_from", "drawn_in", "grown", "in_picture", "least_weight", "may_fold",
            "not_edge_on", "picture_areas", "pixels_around_faces", "pixels_crossed", "pixels_held", "pixels_of",
-           "places_at", "refine_mirror", "settle", "split_cameras", "three_ray_cameras", "true_rays",
+           "places_at", "ray_numbers", "refine_mirror", "settle", "split_cameras", "three_ray_cameras", "true_rays",
            "visible_triangles", "with_pieces"]

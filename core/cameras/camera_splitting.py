@@ -74,12 +74,17 @@ def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray, weights
     low = cameras.places.min(axis=1, keepdims=True)
     size = np.ptp(cameras.places, axis=1).max()
     first, group = groups(*np.rint((places - low) / (WELD * size)).astype(np.int64),
-                          *np.rint((unit(rays) + 1.0) / SAME_RAY).astype(np.int64))
+                          *ray_numbers(rays))
     corner[new] = group + cameras.places.shape[1]
     kept = cameras.select(whole)
     return cameras.replaced(np.concatenate((kept.corners, corner.reshape(3, -1).T)),
                             np.concatenate((kept.face, cameras.face[parent])), places[:, first], origins[:, first],
                             rays[:, first])
+
+
+def ray_numbers(rays: np.ndarray) -> np.ndarray:
+    """Whole numbers (3, n), the same for rays that go the same way."""
+    return np.rint((unit(rays) + 1.0) / SAME_RAY).astype(np.int64)
 
 
 def true_rays(mirror_map: ReflectionMap, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
