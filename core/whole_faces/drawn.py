@@ -9,10 +9,9 @@ from ..support import breathe, portions
 from ..views import box
 from .images import Images
 from .layers import Layers
-from .pieces import AT_ONCE, Pieces, turned_away, whole
-from .sinking import Sinking
+from .pieces import AT_ONCE, Pieces, turned_away
 
-SMALL, MANY = 4.0, 50_000  # pixels: images of edges bend less; how many faces are worth a look before the others
+SMALL = 4.0  # pixels: images of edges bend less
 ROOM, FAR = 2.0, 64.0  # pixels round a piece; by which edges that leave the patch may be longer
 WAYS = ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2))  # from corner to corner of a triangle
 
@@ -28,20 +27,6 @@ def shown_or_behind(images: Images, pieces: Pieces, outward: np.ndarray | None) 
     shown = np.ones(len(pieces), dtype=bool)
     shown[away] = False
     return pieces.select(shown), pieces.nodes[:, away]
-
-
-def without_hidden(images: Images, pieces: Pieces, sinking: Sinking) -> Pieces:
-    """The pieces without those that others hide, where many are so small that none is divided before that is told."""
-    found = images.found[pieces.nodes]
-    small = np.flatnonzero(found[0] & found[1] & found[2])
-    low, high = box(images.pixel[:, pieces.nodes[:, small]])
-    small = small[(high - low).max(axis=0) < SMALL]
-    if len(small) < MANY:
-        return pieces
-    small = small[whole(sinking.patch, images, pieces.select(small))]
-    kept = np.ones(len(pieces), dtype=bool)
-    kept[small] = ~Layers(images, sinking).hidden(pieces.nodes[:, small])
-    return pieces.select(kept)
 
 
 def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: np.ndarray,

@@ -29,9 +29,10 @@ class Layers:
         another, or behind triangles of the scene with corners `near` (3, 3, t), so closely that what is seen could
         change when they sink or slide."""
         sinking = self.sinking
-        grid, corners, order = self._given(nodes)
+        grid = Grid.over(sinking.patch)
+        corners, order = grid.spots(self.images.pixel[:, nodes]), sinking.order(self.images)[nodes]
         covered = Covered.of(corners, order, grid.size, False)
-        hidden, pixels = self._hidden(solid, covered, (corners, order, grid.size)), grid.size[0] * grid.size[1]
+        hidden, pixels = _hidden(solid, covered, corners, order, grid.size), grid.size[0] * grid.size[1]
         close = np.zeros(nodes.shape[1], dtype=bool)
         if sinking.layered:
             left = ~hidden[covered.face]
@@ -39,33 +40,6 @@ class Layers:
             close[self._close(nodes, face, pixel, order_there, pixels)] = True
             close[self._behind_contacts(nodes, face, pixel, grid, near)] = True
         return hidden, close
-
-    def hidden(self, nodes: np.ndarray) -> np.ndarray:
-        """Which of the faces (3, f), all of them solid, nearer ones hide whole."""
-        grid, corners, order = self._given(nodes)
-        covered = Covered.of(corners, order, grid.size, False)
-        return self._hidden(np.ones(nodes.shape[1], dtype=bool), covered, (corners, order, grid.size))
-
-    def _given(self, nodes: np.ndarray) -> tuple[Grid, np.ndarray, np.ndarray]:
-        """The grid, and on it the corners (2, 3, f) of faces (3, f); and how near these come to the eye."""
-        grid = Grid.over(self.sinking.patch)
-        return grid, grid.spots(self.images.pixel[:, nodes]), self.sinking.order(self.images)[nodes]
-
-    def _hidden(self, solid: np.ndarray, covered: Covered, given: tuple) -> np.ndarray:
-        """Which faces (f,) those that are `solid` hide; `given` are their corners, their order and the grid's size."""
-        corners, order, size = given
-        front, own = np.full(size[0] * size[1], -1.0), solid[covered.face]
-        np.maximum.at(front, covered.pixel[own], covered.order[own])
-        shown = np.zeros(len(solid), dtype=bool)
-        shown[covered.face[covered.order >= front[covered.pixel]]] = True
-        # what is seen in no pixel's middle may be seen beside it
-        doubtful = np.flatnonzero(~shown)
-        touched = Covered.of(corners[:, :, doubtful], order[:, doubtful], size, True)
-        around = least_around(front.reshape(size[::-1])).ravel()
-        inside = np.bincount(touched.face, minlength=len(doubtful)) > 0
-        shown[doubtful[~inside]] = True
-        shown[doubtful[touched.face[touched.order * (1.0 + APART) >= around[touched.pixel]]]] = True
-        return ~shown & solid
 
     def _close(self, nodes, face, pixel, near, pixels: int) -> np.ndarray:
         """Faces that lie before others by less than they sink, given the faces at samples."""
@@ -101,3 +75,21 @@ class Layers:
         lowest, highest = depth.min(axis=0) - 2.0 * slid, depth.max(axis=0)
         lowest, highest = (-end if patch.mirror_map.orthographic else 1.0 / end for end in (lowest, highest))
         return face[(front[pixel] >= highest[column]) & (front[pixel] <= lowest[column])]
+
+
+def _hidden(solid: np.ndarray, covered: Covered, corners: np.ndarray, order: np.ndarray,
+            size: tuple[int, int]) -> np.ndarray:
+    """Which faces (f,) those that are `solid` hide, of their `corners` (2, 3, f) and their `order` (3, f) there on a
+    grid of this size."""
+    front, own = np.full(size[0] * size[1], -1.0), solid[covered.face]
+    np.maximum.at(front, covered.pixel[own], covered.order[own])
+    shown = np.zeros(len(solid), dtype=bool)
+    shown[covered.face[covered.order >= front[covered.pixel]]] = True
+    # what is seen in no pixel's middle may be seen beside it
+    doubtful = np.flatnonzero(~shown)
+    touched = Covered.of(corners[:, :, doubtful], order[:, doubtful], size, True)
+    around = least_around(front.reshape(size[::-1])).ravel()
+    inside = np.bincount(touched.face, minlength=len(doubtful)) > 0
+    shown[doubtful[~inside]] = True
+    shown[doubtful[touched.face[touched.order * (1.0 + APART) >= around[touched.pixel]]]] = True
+    return ~shown & solid

@@ -14,7 +14,7 @@ from ..trees import Cones, SceneTree
 from ..views import LampView
 from .contacts import contacts
 from .division import Division
-from .drawn import FAR, ROOM, WAYS, drawn_or_left, shown_or_behind, without_hidden
+from .drawn import FAR, ROOM, WAYS, drawn_or_left, shown_or_behind
 from .images import Images
 from .layers import Layers
 from .merging import Merged
@@ -160,7 +160,6 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, re
     division = Division(patch, FACE_SHARE * settings.tolerance, sinking, settings.placement == "VIRTUAL", most)
     pieces, behind = shown_or_behind(images, Pieces.of(merged.triangles[merged.left], merged.left), met.outward)
     breathe()
-    pieces = without_hidden(images, pieces, sinking)
     images, pieces, straying, limited = division.divided(images, pieces)
     shown = np.flatnonzero(whole(patch, images, pieces))
     breathe()
