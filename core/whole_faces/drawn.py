@@ -3,13 +3,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import columns
 from ..patches import Patch
-from ..support import breathe, portions
+from ..support import breathe
 from ..views import box
 from .images import Images
 from .layers import Layers
-from .pieces import AT_ONCE, Pieces, turned_away
+from .pieces import Pieces, turned_away
 
 SMALL = 4.0  # pixels: images of edges bend less
 ROOM, FAR = 2.0, 64.0  # pixels round a piece; by which edges that leave the patch may be longer
@@ -42,8 +41,7 @@ def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: np.
     drawn[shown] = True
     left[shown] = False
     drawn &= np.isin(np.arange(len(pieces)), found)
-    nodes = pieces.nodes[:, found]
-    nodes = np.concatenate((nodes, _behind_some(patch, images, nodes, behind)), axis=1)
+    nodes = np.concatenate((pieces.nodes[:, found], behind), axis=1)
     solid = np.zeros(nodes.shape[1], dtype=bool)
     solid[:len(found)] = drawn[found]
     hidden, close = (told[:len(found)] for told in layers.hidden_and_close(nodes, solid, near))
@@ -54,18 +52,6 @@ def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: np.
     breathe()
     drawn[over], left[over] = False, True
     return drawn, left
-
-
-def _behind_some(patch: Patch, images: Images, nodes: np.ndarray, behind: np.ndarray) -> np.ndarray:
-    """Those of the faces (3, k) `behind` that may lie behind some of the faces (3, f) which sink."""
-    if not behind.shape[1]:
-        return behind
-    several = nodes[:, images.several(nodes)]
-    cells = patch.border.with_boxes(*box(images.pixel[:, several]))
-    kept = np.empty(behind.shape[1], dtype=bool)
-    for part in portions(len(kept), AT_ONCE):
-        kept[part] = cells.touched(*box(columns(images.pixel, behind[:, part])))
-    return behind[:, kept]
 
 
 def _beyond(patch: Patch, images: Images, nodes: np.ndarray) -> np.ndarray:
