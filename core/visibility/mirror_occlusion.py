@@ -121,8 +121,6 @@ def _behind(other: np.ndarray, polygon: np.ndarray,
     """Of pairs of a mirror's candidate `other` and a polygon, rising: the polygons that pass through one, each once,
     and the first that they pass through; and which polygons (q,) are hidden in their middles."""
     candidates = polygons.candidates
-    near = _near(other, polygon, polygons)
-    other, polygon = other[near], polygon[near]
     own, hidden = polygons.pair[polygon], np.zeros(len(polygons), dtype=bool)
     hidden[polygon[_hides(candidates, other, own, columns(polygons.middles, polygon))]] = True
     # only where the planes meet in the camera may a polygon pass through the mirror, and only where both are
@@ -136,16 +134,6 @@ def _behind(other: np.ndarray, polygon: np.ndarray,
     kept = kept[_changes_sign(both, order[:, kept])]
     passing, first = np.unique(polygon[kept], return_index=True)
     return passing, other[kept[first]], hidden
-
-
-def _near(other: np.ndarray, polygon: np.ndarray, polygons: Polygons) -> np.ndarray:
-    """Which mirror triangles have no side that keeps the box of the polygon's weights outside."""
-    low, high = (columns(bound, polygon) for bound in polygons.extents(polygons.weights))
-    near = np.ones(len(other), dtype=bool)
-    for side in polygons.candidates.sides:
-        values = columns(side, other)
-        near &= np.maximum(values * low, values * high).sum(axis=0) >= 0.0
-    return near
 
 
 def _changes_sign(polygons: Polygons, corner_values: np.ndarray) -> np.ndarray:
