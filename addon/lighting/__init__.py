@@ -13,9 +13,9 @@ from .lit_results import (
 from .needs_light import is_plain, needs_light
 from .preview import forget_previews, show_previews, shows_preview
 from .texels import beside_lamps, is_overexposed, pixel_kernel, texels_of
-from .window import Window
+from .window import Window, on_the_mirror
 
-__all__ = ["Window", "beside_lamps", "dull_objects", "forget_light", "forget_previews", "is_lit",
-           "is_overexposed", "is_plain", "keep_light", "light_lines", "light_scene", "needs_light", "new_export_image",
-           "new_image", "new_material", "paper_white_of", "pixel_kernel", "show_light", "show_object_light",
+__all__ = ["Window", "beside_lamps", "dull_objects", "forget_light", "forget_previews", "is_lit", "is_overexposed",
+           "is_plain", "keep_light", "light_lines", "light_scene", "needs_light", "new_export_image", "new_image",
+           "new_material", "on_the_mirror", "paper_white_of", "pixel_kernel", "show_light", "show_object_light",
            "show_previews", "shows_preview", "texels_of", "white_of"]

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import compat
 from ..faults import still_there
-from ..reading import is_opaque, materials_of
+from ..reading import is_opaque, materials_of, read_view
 from ..reading.materials import is_exact
 from ..rendering import (
     Renders,
@@ -28,7 +28,8 @@ from ..rendering import (
 from .clear_air import clear_air, is_of_fog
 from .cutting import cut_through
 from .picture_layout import shining_slots
-from .window import Window
+from .standing_before import standing_before
+from .window import Window, on_the_mirror
 
 COVERAGE_SAMPLES = 64  # where a result ends; elsewhere as few tell that it does not
 INNER_SAMPLES, UNEVEN = 8, 0.01
@@ -122,7 +123,7 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         for obj in before:
             back.callback(setattr, obj, "is_holdout", obj.is_holdout)
             obj.is_holdout = True
-        for obj in set(hidden).difference(before) if alone else itertools.filterfalse(_is_opaque, hidden):
+        for obj in set(hidden).difference(before) if alone else _looked_through(context, results, hidden):
             back.callback(setattr, obj, "visible_camera", True)
             obj.visible_camera = False
         exact = all(is_exact(material) for mirror in mirrors for material in materials_of(mirror))
@@ -141,6 +142,18 @@ def _seen_others(context: bpy.types.Context, lit: set) -> tuple[list, set]:
         of_mirror = instance.is_instance and instance.parent is not None and instance.parent.original in lit
         (parts if of_mirror else shown).add(instance.object.original)
     return [obj for obj in shown - lit if obj.visible_camera], parts
+
+
+def _looked_through(context: bpy.types.Context, results: list, others: list) -> list:
+    """Those of others that let light through and that the camera sees results through. Behind mirrors that let light
+    through as well, such others are a part of what is seen there."""
+    clear = list(itertools.filterfalse(_is_opaque, others))
+    if not clear:
+        return []
+    before = standing_before(context.scene, context.evaluated_depsgraph_get(), read_view(context),
+                             np.concatenate([on_the_mirror(result) for result in results]))
+    # of what is instanced rays tell the instancer
+    return [obj for obj in clear if obj in before or obj.name not in context.view_layer.objects]
 
 
 def _cutting(context: bpy.types.Context, mirrors: set, others: list) -> list:

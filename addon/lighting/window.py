@@ -3,9 +3,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import bpy
 import numpy as np
 
 from ...core import View
+from ..reading import vectors
+from ..writing import place_of
 
 MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
 
@@ -32,3 +35,11 @@ class Window:
         if (highest <= lowest).any():
             return None
         return cls(*lowest.tolist(), *(highest - lowest).tolist(), view.resolution)
+
+
+def on_the_mirror(result: bpy.types.Object) -> np.ndarray:
+    """Places (n, 3) of a result's points where the camera sees them in the mirror: any on the same line of sight do."""
+    if "mirror_position" in result.data.attributes:
+        return vectors(result.data, "mirror_position")
+    to_world = np.array(place_of(result))
+    return vectors(result.data, "position") @ to_world[:3, :3].T + to_world[:3, 3]

@@ -19,6 +19,7 @@ from ..lighting import (
     new_export_image,
     new_image,
     new_material,
+    on_the_mirror,
     paper_white_of,
     pixel_kernel,
     show_light,
@@ -27,10 +28,9 @@ from ..lighting import (
     white_of,
 )
 from ..mirror_part import LaterMirrors, Surroundings, new_object_material
-from ..reading import is_opaque, read_scene, seen_in, vectors
+from ..reading import is_opaque, read_scene, seen_in
 from ..reading.materials import reflecting_materials
 from ..rendering import shown_while
-from ..writing import place_of
 
 NAME = "Reflection Light"
 
@@ -66,14 +66,6 @@ def light_in_picture(context: bpy.types.Context, lit: list, view: View, samples:
         for result in lit:
             yield from show_light(result, material, view, window, whole)
     return show
-
-
-def on_the_mirror(result: bpy.types.Object) -> np.ndarray:
-    """Places (n, 3) of a result's points where the camera sees them in the mirror: any on the same line of sight do."""
-    if "mirror_position" in result.data.attributes:
-        return vectors(result.data, "mirror_position")
-    to_world = np.array(place_of(result))
-    return vectors(result.data, "position") @ to_world[:3, :3].T + to_world[:3, 3]
 
 
 def light_on_objects(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing

@@ -110,6 +110,21 @@ def test_what_stands_behind_a_mirror_that_is_half_open_is_seen_through_it(blank,
 
 
 @pytest.mark.slow
+def test_a_floor_that_lets_light_through_goes_on_behind_a_mirror_that_is_half_open(blank, room):
+    """It is seen through the mirror, in its own reflection, as what the mirror itself is seen through must not be."""
+    scene_of(blank, "UV", "Half open")
+    bpy.data.objects["Floor"].data.materials[0] = principled("Film", (0.2, 0.7, 0.3), Alpha=0.5)
+    pane = parts.add("plane", "Pane", size=1.0, location=(0.8, -2.5, 1.0), rotation=(np.pi / 2, 0.0, 0.0))
+    pane.data.materials.append(principled("Pane", (0.7, 0.3, 0.2), Alpha=0.4))
+    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    blank.view_layer.update()
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert psnr(picture(room), reference) > psnr(other, reference) - 1.0
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["", "Tint"])
 def test_light_lies_behind_what_stands_before_the_mirror_too(blank, room, kind):
     """A post before the mirror is taken away after lighting: what it hid is lit as all else."""

@@ -58,8 +58,8 @@ def test_what_a_result_covers_is_told_finely_where_it_ends(blank, room):
     parts.select(bpy.data.objects["Box"], bpy.data.objects["Mirror"])
     result = parts.generate()
     place = room("addon.lighting.light_scene")
-    lighting, operator = room("addon.lighting"), room("addon.operators.made_light")
-    window = lighting.Window.around(room("addon.reading").read_view(blank), operator.on_the_mirror(result))
+    lighting = room("addon.lighting")
+    window = lighting.Window.around(room("addon.reading").read_view(blank), lighting.on_the_mirror(result))
     found = []
     for finest in (False, True):
         with lighting.light_scene(blank, [result], window) as scene, pytest.MonkeyPatch.context() as patched:

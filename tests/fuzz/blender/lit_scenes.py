@@ -13,6 +13,7 @@ from mathutils import Euler, Vector
 
 from tests.fuzz.blender.lit_materials import MIRRORS as MATERIALS
 from tests.fuzz.blender.lit_materials import SHADE, colour, mirror_material, node, object_material
+from tests.fuzz.blender.lit_variations import varied
 from tests.fuzz.blender.scene_shapes import chosen
 from tests.fuzz.blender.scenes import Scene, select
 
@@ -55,6 +56,7 @@ def lit_scene(seed: int) -> Scene:
     if len(mirrors) > 1 and rng.random() < 0.7:
         of, mirrors[1].data.materials[0] = mirror_material(rng, UNKNOWN[kind])
         names.append(f"the other one of {of}")
+    names += varied(np.random.default_rng((seed, 15)), mirror, MODIFIERS)
     bpy.context.view_layer.update()
     select(list(bpy.context.scene.objects), mirror)
     return Scene(", ".join([*names, placement, kind]),
