@@ -12,7 +12,7 @@ from ..faults import Steps
 from ..mirror_part import LATER, write_later_tints
 from ..reading import DiffuseScene, corner_vertices, vectors
 from ..reading.materials import asked_attributes
-from ..writing import LATER_MATERIAL, NORMAL, light_layer
+from ..writing import LATER_MATERIAL, NORMAL, images_of, light_layer
 from .mirror_layers import write_mirror_layers
 from .seen_sources import fronts_seen, triangle_of, triangles_by_source, weights_of
 
@@ -80,7 +80,8 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     yield 0.0, WRITING
     weights = weights_of(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)
     yield 0.0, WRITING
-    spots = _spots(kept, rows_of(scene, kept.sheets), triangle, front, weights)
+    half = max((0.5 / min(image.size) for image in images_of(material) if all(image.size)), default=0.0)
+    spots = _spots(kept, rows_of(scene, kept.sheets), (triangle, front), weights, half)
     yield 0.0, WRITING
     layer = light_layer(mesh)
     layer.uv.foreach_set("vector", spots.reshape(-1))
@@ -100,10 +101,12 @@ def write_mirror_normals(mesh: bpy.types.Mesh, view: View) -> bool:
     return True
 
 
-def _spots(kept: KeptMap, rows: list[tuple[np.ndarray, np.ndarray]], triangle: np.ndarray, front: np.ndarray,
-           weights: np.ndarray) -> np.ndarray:
+def _spots(kept: KeptMap, rows: list[tuple[np.ndarray, np.ndarray]], seen: tuple[np.ndarray, np.ndarray],
+           weights: np.ndarray, half: float) -> np.ndarray:
     """Where in the map the corners of faces lie, (n, 3, 2) float32, by the `weights` (n, 3, 3) of those of their
-    triangles (n,), of which they show the `front` (n,) or the back: in the finest sheet that holds all of a face."""
+    triangles (n,), of which they show the front, or the back, both as `seen`: in the finest sheet that holds all of a
+    face, but for the `half` of a texel by which those on a sheet's rim lie beside the middle of its last one."""
+    triangle, front = seen
     uv, frames = kept.uv, kept.frames
     fronts, backs = (side[triangle] >= 0 for side in rows[0])
     # the same for both sides where the map has but one of them
@@ -116,7 +119,7 @@ def _spots(kept: KeptMap, rows: list[tuple[np.ndarray, np.ndarray]], triangle: n
         spots = np.matmul(weights[there], uv[row].astype(np.float64))
         within = np.clip(spots, frames[row, :1], frames[row, 1:])
         # what mirrors could not show when it was baked has no room, and must not show what else there is
-        held = (within == spots).all(axis=(1, 2)) if level else np.ones(len(there), dtype=bool)
+        held = (np.abs(within - spots) <= half).all(axis=(1, 2)) if level else np.ones(len(there), dtype=bool)
         found[there[held]] = within[held]
     return found.astype(np.float32)
 

@@ -11,7 +11,7 @@ from ... import core
 from .. import compat
 from ..faults import AllOrNothing, Steps, part, remove_new
 from ..files import open_exr
-from ..writing import UV_MAP, show_unblurred
+from ..writing import UV_MAP, images_of, show_unblurred
 from .picture_layout import SHINING
 
 WRITING = "Writing"
@@ -118,14 +118,6 @@ def _put_apart(tree: bpy.types.NodeTree, add: Callable[..., bpy.types.Node], spo
         tree.links.new(look.outputs["Color"], socket)
     for output in [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL" and node.target != "ALL"]:
         tree.links.new(both.outputs[2], output.inputs["Surface"])
-
-
-def images_of(material: bpy.types.Material) -> list[bpy.types.Image]:
-    """The images that a material of light shows, the exact one first; fewer where somebody has changed that."""
-    nodes = material.node_tree.nodes if material.node_tree else ()
-    # nodes of a mirror's own may show images of the user's
-    return [node.image for node in nodes
-            if node.type == "TEX_IMAGE" and node.image is not None and node.name.startswith(UV_MAP)]
 
 
 def texels_shown(material: bpy.types.Material) -> np.ndarray | None:

@@ -10,8 +10,8 @@ from ...core import View
 from ..baking import KeptMap, can_be_baked, lay_out
 from ..faults import AllOrNothing, Steps, finished, keep_data, keep_object, still_there
 from ..reading import DiffuseScene
-from ..writing import LONGEST_RECORD, forget_mesh, forget_unblurred, show_own_materials, unblurred_in
-from .light_material import images_of, texels_shown
+from ..writing import LONGEST_RECORD, forget_mesh, forget_unblurred, images_of, show_own_materials, unblurred_in
+from .light_material import texels_shown
 from .needs_light import needs_light
 from .picture_layout import lay_out as lay_out_picture
 from .picture_light import record_of, window_of

@@ -2,6 +2,8 @@
 of it than is worth its time."""
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import parts
@@ -53,6 +55,21 @@ def test_each_face_lies_in_what_is_kept_of_one_picture_and_is_as_fine_as_it_is_s
     finer = room("addon.baking.levels").FINER
     large = pixels > 0.05
     assert np.mean((texels / np.maximum(pixels, 1e-12))[large] > 0.9 * finer**2) > 0.9
+
+
+@pytest.mark.parametrize(("beside", "finest"), [(0.0, True), (0.2, True), (0.9, False)])
+def test_a_face_on_the_rim_of_what_is_kept_is_as_fine_as_others(room, beside, finest):
+    """One triangle, kept twice in 100 x 100 texels; a face has two corners so many texels `beside` the middle of the
+    last one of the finer. What is beside it by less than half a texel is in it."""
+    triangle = np.array(((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))
+    uv = np.array((0.1 + 0.2 * triangle, 0.4 + 0.4 * triangle))
+    frames = np.array((((0.1, 0.1), (0.3, 0.3)), ((0.4, 0.4), (0.8, 0.8))))
+    frames[1, 0, 0] += 0.01 * beside
+    rows = [(np.array([0]), np.array([-1])), (np.array([1]), np.array([-1]))]
+    kept, weights = SimpleNamespace(uv=uv, frames=frames), np.eye(3)[None]
+    spots = room("addon.baking.object_map")._spots(kept, rows, (np.zeros(1, int), np.ones(1, bool)), weights, 0.005)
+    shown = np.clip(uv[1], *frames[1]) if finest else uv[0]
+    assert np.allclose(spots[0], shown, atol=1e-6)
 
 
 def test_what_was_not_seen_so_finely_is_shown_as_it_was(lit_ball, room):
