@@ -149,6 +149,16 @@ def two_mirrors(context: bpy.types.Context, gold: bpy.types.Object, *shown: bpy.
     context.view_layer.update()
 
 
+def wrong_pixels(room, depth: int, lit: bool) -> float:
+    """The share of pixels in which previews, or light on the objects, of so many bounces differ from Cycles."""
+    reference = picture(room)
+    parts.generate(depth=depth, preview=True)
+    if lit:
+        parts.select(*(obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"))
+        bpy.ops.reflection_mesh.light(samples=1, kind="OBJECTS")
+    return float((np.abs(picture(room) - reference).max(axis=2) > 0.05).mean())
+
+
 @pytest.mark.parametrize("lit", [False, True])
 @pytest.mark.parametrize("body", [False, True])
 def test_mirrors_in_mirrors_take_their_share(blank, room, body, lit):
@@ -157,13 +167,7 @@ def test_mirrors_in_mirrors_take_their_share(blank, room, body, lit):
     gold = parts.add("cube", "Gold", size=4.0, location=(0.0, 4.0, 1.2)) if body else \
         parts.add("plane", "Gold", size=4.0, location=(0.0, 2.0, 1.2), rotation=(np.pi / 2, 0.0, 0.0))
     two_mirrors(blank, gold)
-    reference = picture(room)
-    parts.generate(depth=2, preview=True)
-    if lit:
-        parts.select(*(obj for obj in blank.scene.objects if obj.reflection_mesh.role == "REFLECTION"))
-        bpy.ops.reflection_mesh.light(samples=1, kind="OBJECTS")
-    wrong = np.abs(picture(room) - reference).max(axis=2)
-    assert (wrong > 0.05).mean() < 0.001
+    assert wrong_pixels(room, 2, lit) < 0.001
 
 
 @pytest.mark.parametrize(("lit", "metal"), [(False, False), (True, False), (True, True)])
@@ -180,13 +184,7 @@ def test_each_of_several_mirrors_in_mirrors_takes_its_own_share(blank, room, lit
         mirror.data.materials[0] = principled(f"{mirror.name} metal", colour, Metallic=1.0, Roughness=0.0)
     blank.scene.camera.location, blank.scene.camera.rotation_euler = (-2.4, -5.0, 0.5), (1.5, 0.0, -0.45)
     blank.view_layer.update()
-    reference = picture(room)
-    parts.generate(depth=3, preview=True)
-    if lit:
-        parts.select(*(obj for obj in blank.scene.objects if obj.reflection_mesh.role == "REFLECTION"))
-        bpy.ops.reflection_mesh.light(samples=1, kind="OBJECTS")
-    wrong = np.abs(picture(room) - reference).max(axis=2)
-    assert (wrong > 0.05).mean() < 0.001
+    assert wrong_pixels(room, 3, lit) < 0.001
 
 
 @pytest.mark.parametrize("lit", [False, True])
