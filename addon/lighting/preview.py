@@ -21,7 +21,14 @@ from ..mirror_part import (
     opacity_of,
     write_later_tints,
 )
-from ..reading.materials import asked_attributes, one_output, surface_shader
+from ..reading.materials import (
+    asked_attributes,
+    is_mirror,
+    one_output,
+    reflecting_materials,
+    shines,
+    surface_shader,
+)
 from ..writing import PREVIEW as MARK
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
 
@@ -70,9 +77,11 @@ def forget_previews() -> None:
 
 
 def _later(result: bpy.types.Object) -> LaterMirrors:
-    """What a preview knows of later mirrors: in a window nothing is behind it that would know better."""
-    found = LaterMirrors.of(result)
-    return replace(found, unknown=False) if result.reflection_mesh.window else found
+    """What a preview knows of later mirrors: in a window, and on what is a mirror by its role alone, nothing is behind
+    it that would know better."""
+    found, record = LaterMirrors.of(result), result.reflection_mesh
+    mirrors = not record.window and any(is_mirror(one) or shines(one) for one in reflecting_materials(record.mirror))
+    return replace(found, unknown=found.unknown and mirrors)
 
 
 def _preview(source: bpy.types.Material | None, mirrors: tuple[tuple[Share, ...], bpy.types.Object | None],

@@ -213,6 +213,21 @@ def test_what_later_mirrors_show_beside_what_they_reflect_is_left_to_the_mirror(
     assert (np.array([entry.value for entry in wall.data.attributes["later_unknown"].data]) > 0.5).any()
 
 
+def test_mirrors_by_their_role_alone_show_previews_of_what_later_ones_show(blank):
+    """Of white paint, they are no mirrors where they are seen themselves."""
+    walls = [parts.add("plane", "Gold", size=4.0, location=(0.0, 2.0, 1.2), rotation=(np.pi / 2, 0.0, 0.0))]
+    two_mirrors(blank, *walls)
+    walls.append(bpy.data.objects["Blue"])
+    for wall in walls:
+        wall.reflection_mesh.role = "MIRROR"
+        wall.data.materials[0] = parts.material("Paint", "DIFFUSE")
+    parts.generate(depth=2, preview=True)
+    wall = bpy.data.objects["Gold Reflection"]
+    assert max(entry.value for entry in wall.data.attributes["bounces"].data) == 2
+    assert not [node for material in previews() for node in material.node_tree.nodes
+                if node.type == "ATTRIBUTE" and node.attribute_name == "later_unknown"]
+
+
 def test_the_share_of_later_mirrors_follows_their_materials_when_lit_again(blank, room):
     """The result of the gold wall shows the blue one, which becomes red."""
     gold = parts.add("plane", "Gold", size=4.0, location=(0.0, 2.0, 1.2), rotation=(np.pi / 2, 0.0, 0.0))
