@@ -159,6 +159,17 @@ def test_twins_must_agree_to_the_last_bit(good, field):
     assert not list(twins.same_to_the_bit(mesh, mesh, 1.0, one, one))
 
 
+def test_twins_must_be_seen_by_the_same_later_mirrors(good):
+    one, mesh = good[TWICE]
+    twice = np.flatnonzero(mesh.later_mirrors[:, 0] >= 0)
+    later = mesh.later_mirrors.copy()
+    assert len(twice) and list(twins.same_to_the_bit(mesh, replace(mesh, later_mirrors=np.full_like(later, -1)), 1.0,
+                                                     one, one))
+    later[twice[0]] -= 1
+    assert list(twins.same_to_the_bit(mesh, replace(mesh, later_mirrors=later), 1.0, one, one))
+    assert not list(twins.same_to_the_bit(mesh, mesh, 1.0, one, one))
+
+
 def test_twins_must_agree_nearly(good):
     one, mesh = good[GENERAL]
     parts = ("triangles", "source_face", "source_weights", "mirror_face", "bounces")

@@ -16,6 +16,7 @@ SAME_AREA, PIXELS = 0.01, 4  # by which the pixels that are covered may differ: 
 COUNT = 100  # faces or points by which their numbers may differ, beside a share
 LENGTHS = {"positions", "reflected_position", "mirror_position", "path_length"}
 NOWHERE = np.zeros(3)
+OF_TRIANGLES = ("source_face", "source_weights", "mirror_face", "later_mirrors")  # compared by where those lie
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ def same_to_the_bit(mesh: ReflectionMesh, twin: ReflectionMesh, factor: float, o
     """Both meshes are one, lengths of the twin's `factor` times as large; numbers of source triangles aside."""
     for field in fields(mesh):
         values, found = getattr(mesh, field.name), getattr(twin, field.name)
-        if field.name in ("source_face", "mirror_face", "source_weights") or not isinstance(values, np.ndarray):
+        if field.name in OF_TRIANGLES or not isinstance(values, np.ndarray):
             continue
         if values.shape != found.shape:
             yield f"{field.name} is {values.shape} and {found.shape}"
@@ -94,15 +95,22 @@ def same_to_the_bit(mesh: ReflectionMesh, twin: ReflectionMesh, factor: float, o
     if mesh.counts != twin.counts:
         differing = sorted(name for name in mesh.counts if mesh.counts[name] != twin.counts.get(name))
         yield f"the counts {', '.join(differing)} differ"
-    if (_named(one.scene, mesh.source_face) * factor != _named(other.scene, twin.source_face)).any():
-        yield "source_face names other triangles"
     if (np.sort(mesh.source_weights, axis=2) != np.sort(twin.source_weights, axis=2)).any():
         yield "source_weights differs"
-    known = mesh.mirror_face >= 0
-    if (known != (twin.mirror_face >= 0)).any() or (
-            _named(one.mirror, mesh.mirror_face[known]) * factor
-            != _named(other.mirror, twin.mirror_face[known])).any():
-        yield "mirror_face names other triangles"
+    for name, given, others in (("source_face", one.scene, other.scene), ("mirror_face", one.mirror, other.mirror),
+                                 ("later_mirrors", one.mirrors, other.mirrors)):
+        if not _same_triangles(given, getattr(mesh, name), others, getattr(twin, name), factor):
+            yield f"{name} names other triangles"
+
+
+def _same_triangles(mesh: TriangleMesh, faces: np.ndarray | None, other: TriangleMesh, others: np.ndarray | None,
+                    factor: float) -> bool:
+    """Both name the same triangles, -1 none, those of the other mesh `factor` times as large."""
+    if faces is None or others is None:
+        return faces is None and others is None
+    known = faces >= 0
+    return faces.shape == others.shape and bool((known == (others >= 0)).all()) and bool((
+        _named(mesh, faces[known]) * factor == _named(other, others[known])).all())
 
 
 def _named(mesh: TriangleMesh, faces: np.ndarray) -> np.ndarray:
