@@ -29,8 +29,9 @@ def places_asked(materials: list) -> list[str]:
 
 
 def asked_by(nodes: Iterable[bpy.types.Node]) -> set[str]:
-    """Coordinates of the object that nodes ask for, those of its UV maps as `uv` and the map's name."""
-    return {name for node in nodes for name in _asked(node)}
+    """Coordinates of the object that nodes ask for, those of its UV maps as `uv` and the map's name; and what is stored
+    on it, as `stored` and its name."""
+    return {name for node in nodes for name in (*_asked(node), *_stored(node))}
 
 
 def uv(name: str) -> str:
@@ -38,23 +39,29 @@ def uv(name: str) -> str:
     return f"UV {name}"
 
 
+def stored(name: str) -> str:
+    """What a colour or another attribute of an object is called, its active colour where it has no name."""
+    return f"Stored {name}"
+
+
 def show_by_places(tree: bpy.types.NodeTree, whole: AllOrNothing, places: dict = PLACES) -> None:
     """Let the nodes of a tree, which is our own, ask for the attributes that stand for `places`; groups that ask for
     any are copied."""
     for node in list(tree.nodes):
         if node.type == "GROUP" and node.node_tree is not None and any(
-                name in places for one in all_nodes(node.node_tree) for name in _asked(one)):
+                name in places for name in asked_by(all_nodes(node.node_tree))):
             node.node_tree = node.node_tree.copy()
             node.node_tree[MARK] = True
             whole.undo(bpy.data.node_groups.remove, node.node_tree)
             show_by_places(node.node_tree, whole, places)
-        for name, targets in _asked(node).items():
+        for name, targets in (_asked(node) | _stored(node)).items():
             if name not in places:
                 continue
             place = tree.nodes.new("ShaderNodeAttribute")
             place.attribute_name, place.location = places[name], (node.location[0] - 200.0, node.location[1])
             for socket in targets:
-                tree.links.new(place.outputs["Vector"], socket)
+                told = socket.links[0].from_socket.name if socket.is_linked else "Vector"
+                tree.links.new(place.outputs[told if name in _stored(node) else "Vector"], socket)
 
 
 def asks_for_more(tree: bpy.types.NodeTree) -> bool:
@@ -91,3 +98,12 @@ def _asked(node: bpy.types.Node) -> dict[str, list]:
     if vector is None or not vector.enabled or vector.is_linked:
         return {}
     return {uv("") if node.type == "TEX_IMAGE" else "Generated": [vector]}
+
+
+def _stored(node: bpy.types.Node) -> dict[str, list]:
+    """What is stored on the object that a node reads, and the sockets that it goes to."""
+    if node.type not in {"ATTRIBUTE", "VERTEX_COLOR"} or getattr(node, "attribute_type", "GEOMETRY") != "GEOMETRY":
+        return {}
+    name = node.layer_name if node.type == "VERTEX_COLOR" else node.attribute_name
+    sockets = [link.to_socket for output in node.outputs for link in output.links if output.name != "Alpha"]
+    return {stored(name): sockets} if sockets else {}

@@ -1,7 +1,7 @@
 """What share of light a mirror sends back that lets some of it into itself, by the angle."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -15,11 +15,12 @@ BY_COAT = ("Coat Weight", "Coat Roughness", "Coat IOR")
 @dataclass(frozen=True)
 class Coat:
     """The share of a mirror in a Mix Shader: `factor`, or what a dielectric of the refractive index `ior` reflects,
-    where that is none of 0; or what these leave."""
+    where that is none of 0; or what these leave. All of it counts as much as the material is opaque."""
 
     factor: float = 1.0
     ior: float = 0.0
     rest: bool = False
+    opacity: float = 1.0
 
     def at(self, cosine: np.ndarray) -> np.ndarray:
         """The share by the cosine of the angle of incidence, outside of the dielectric.
@@ -32,7 +33,7 @@ class Coat:
             g = np.sqrt(np.maximum(self.ior**2 - 1.0 + c**2, 0.0))
             a, b = (g - c) / np.maximum(g + c, 1e-300), (c * (g + c) - 1.0) / (c * (g - c) + 1.0)
             share = 0.5 * a**2 * (1.0 + b**2)
-        return 1.0 - share if self.rest else share
+        return self.opacity * (1.0 - share if self.rest else share)
 
 
 WHOLE = Coat()
@@ -71,6 +72,14 @@ def gloss_of(shader: bpy.types.Node | None) -> Gloss | None:
     # Schlick's formula is linear in the colour, and near to a dielectric's
     both = metallic * _colour(shader, "Base Color") + (1.0 - metallic) * upright(shader) * tint
     return Gloss(both, WHOLE, True, known and _plain(shader, "Base Color"))
+
+
+def as_opaque(coat: Coat, shader: bpy.types.Node) -> tuple[Coat, bool]:
+    """What a shader mirrors where it is as opaque as it is, and whether that is known all over the mirror."""
+    alpha = shader.inputs.get("Alpha")
+    if alpha is None:
+        return coat, True
+    return replace(coat, opacity=min(max(alpha.default_value, 0.0), 1.0)), not alpha.is_linked
 
 
 def share_of(factor: bpy.types.NodeSocket) -> tuple[Coat, bool]:

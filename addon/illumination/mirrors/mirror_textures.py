@@ -9,7 +9,7 @@ from ...faults import AllOrNothing
 from ...reading import DiffuseScene, all_nodes, materials_of, read_scene
 from ...writing import Attribute
 from ...writing.nodes.copied_nodes import copied
-from ..receiver_places import MARK, PLACES, asked_by, show_by_places, uv
+from ..receiver_places import MARK, PLACES, asked_by, show_by_places, stored, uv
 from .mirror_parts import MirrorPart
 from .tint import Texture, Tint
 
@@ -20,8 +20,10 @@ BY_PLACE = {"RGB", "VALUE", "VALTORGB", "CURVE_RGB", "CURVE_VEC", "CURVE_FLOAT",
             "COMBINE_COLOR", "SEPRGB", "COMBRGB", "SEPXYZ", "COMBXYZ", "RGBTOBW", "BLACKBODY", "VECTOR_ROTATE", "GROUP",
             "GROUP_INPUT", "GROUP_OUTPUT", "REROUTE", "FRAME", "TEX_COORD", "UVMAP", "TEX_BRICK", "TEX_CHECKER",
             "TEX_GABOR", "TEX_GRADIENT", "TEX_IMAGE", "TEX_MAGIC", "TEX_MUSGRAVE", "TEX_NOISE", "TEX_VORONOI",
-            "TEX_WAVE", "TEX_WHITE_NOISE"}
+            "TEX_WAVE", "TEX_WHITE_NOISE", "ATTRIBUTE", "VERTEX_COLOR"}
 """Nodes that tell a colour by a place on the object alone."""
+ASKING = {"TEX_COORD", "UVMAP", "ATTRIBUTE", "VERTEX_COLOR"}
+"""Those of them that read what is on the object."""
 
 
 def textured(mirror: bpy.types.Object) -> list[Tint]:
@@ -78,18 +80,22 @@ def mirror_attributes(lit: list[tuple[MirrorPart, np.ndarray, CausticMesh]], tin
     weights = _weights(mirror.mesh.positions[mirror.mesh.triangles[triangle]], places).astype(np.float32)
     for name in sorted({name for tint in tints for name in _asked(tint.texture)}):
         values = np.matmul(weights, _values(mirror, name)[triangle])
-        if values.shape[2] == 2:
-            values = np.pad(values, ((0, 0), (0, 0), (0, 1)))
+        # numbers alone stand for themselves three times, colours without how opaque they are
+        values = np.repeat(values, 3, axis=2) if values.shape[2] == 1 else values[:, :, :3]
+        values = np.pad(values, ((0, 0), (0, 0), (0, 3 - values.shape[2])))
         found.append(Attribute(_attribute(name), "FLOAT_VECTOR", "CORNER", values))
     return tuple(found)
 
 
 def _values(mirror: DiffuseScene, name: str):
-    """Coordinates at the corners of a mirror's triangles."""
+    """Coordinates, or what is stored, at the corners of a mirror's triangles."""
     if name in PLACES:
         return {"Generated": mirror.generated, "Object": mirror.own_places}[name]
-    map_name = name.removeprefix(uv("")) or mirror.active_uv
-    return mirror.uv_maps.get(map_name, np.zeros((len(mirror.mesh.triangles), 3, 2), dtype=np.float32))
+    nothing = np.zeros((len(mirror.mesh.triangles), 3, 3), dtype=np.float32)
+    if name.startswith(stored("")):
+        asked = name.removeprefix(stored("")) or mirror.active_colour
+        return (mirror.colours | mirror.numbers).get(asked, ("", mirror.uv_maps.get(asked, nothing)))[1]
+    return mirror.uv_maps.get(name.removeprefix(uv("")) or mirror.active_uv, nothing)
 
 
 def _weights(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
@@ -105,6 +111,8 @@ def _weights(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
 def _attribute(name: str) -> str:
     if name in PLACES:
         return f"mirror_{name.lower()}"
+    if name.startswith(stored("")):
+        return f"mirror_stored {name.removeprefix(stored(''))}".strip()
     return f"mirror_uv {name.removeprefix(uv(''))}".strip()
 
 
@@ -112,12 +120,14 @@ def _by_place(texture: Texture) -> bool:
     """Whether a texture tells its colour by a place on the mirror alone."""
     colour = texture.plugged_in
     return colour is not None and all(
-        node.type in BY_PLACE and not (node.type in {"TEX_COORD", "UVMAP"} and _elsewhere(node))
+        node.type in BY_PLACE and not (node.type in ASKING and _elsewhere(node))
         for node in _nodes(colour.node))
 
 
 def _elsewhere(node: bpy.types.Node) -> bool:
-    """Whether a node tells coordinates of something else than the mirror, or such as depend on the eye."""
+    """Whether a node tells of something else than the mirror, of what depends on the eye, or how opaque a colour is."""
+    if node.type in {"ATTRIBUTE", "VERTEX_COLOR"}:
+        return getattr(node, "attribute_type", "GEOMETRY") != "GEOMETRY" or node.outputs["Alpha"].is_linked
     known = {"Generated", "UV"} | ({"Object"} if getattr(node, "object", None) is None else set())
     return node.from_instancer or (node.type == "TEX_COORD"
                                    and any(one.is_linked and one.name not in known for one in node.outputs))

@@ -8,7 +8,7 @@ import numpy as np
 
 from ... import compat
 from ...reading.materials import MIRRORS, is_mirror, is_sharp, surface_shader
-from .coat import WHOLE, Coat, gloss_of, share_of
+from .coat import WHOLE, Coat, as_opaque, gloss_of, share_of
 
 F82 = 1.0 / 7.0  # cosine of the angle at which the edge tint is given
 
@@ -74,16 +74,20 @@ class Tint:
         shader, coat, known = (surface_shader(material.node_tree), WHOLE, True) if is_mirror(material) else (
             _coated(material) or (None, WHOLE, True))
         if shader is None:
-            gloss = gloss_of(surface_shader(material.node_tree))
-            return (cls(white, white, False, True) if gloss is None else
-                    cls(gloss.colour, white, gloss.metal, gloss.known, gloss.coat))
+            lacquer = surface_shader(material.node_tree)
+            gloss = gloss_of(lacquer)
+            if gloss is None:
+                return cls(white, white, False, True)
+            coat, known = as_opaque(gloss.coat, lacquer)
+            return cls(gloss.colour, white, gloss.metal, gloss.known and known, coat)
         metal = shader.type in {"BSDF_PRINCIPLED", "BSDF_METALLIC"}
         edge = {"BSDF_PRINCIPLED": "Specular Tint", "BSDF_METALLIC": "Edge Tint"}.get(shader.type)
         sockets = [shader.inputs.get("Base Color") or shader.inputs.get("Color"), shader.inputs.get(edge or "")]
         colours = [white if socket is None else np.array(socket.default_value[:3], dtype=np.float64)
                    for socket in sockets]
         linked = [socket is not None and socket.is_linked for socket in sockets]
-        known = known and not linked[1] and getattr(shader, "fresnel_type", "F82") == "F82"
+        coat, opaque = as_opaque(coat, shader)
+        known = known and opaque and not linked[1] and getattr(shader, "fresnel_type", "F82") == "F82"
         texture = Texture(material, shader.name, sockets[0].identifier) if known and linked[0] else None
         return cls(*colours, metal, known and not linked[0], coat, texture)
 

@@ -11,6 +11,9 @@ from caustic_scene import AIM, TINT, aim, light_of_mirror, paint, ratios, render
 def stained(mirror: bpy.types.Object, kind: str) -> None:
     """A colour over the mirror by a texture."""
     tree = mirror.active_material.node_tree
+    if kind.startswith("stored"):
+        painted(mirror, tree, kind)
+        return
     node = {"UV image": "Image", "named map": "Checker", "Object": "Checker"}.get(kind, "Noise")
     if kind == "named map":
         layer = mirror.data.uv_layers.new(name="Second")
@@ -54,6 +57,31 @@ def stained(mirror: bpy.types.Object, kind: str) -> None:
     tree.links.new(colour, target)
 
 
+def painted(mirror: bpy.types.Object, tree: bpy.types.NodeTree, kind: str) -> None:
+    """A colour over the mirror that is stored on its mesh."""
+    rng, target = np.random.default_rng(5), tree.nodes[0].inputs["Color"]
+    if kind == "stored numbers":
+        mirror.data.attributes.new("Age", "FLOAT", "POINT").data.foreach_set("value", rng.uniform(0.1, 0.9, 4))
+        age, ramp = tree.nodes.new("ShaderNodeAttribute"), tree.nodes.new("ShaderNodeValToRGB")
+        age.attribute_name = "Age"
+        ramp.color_ramp.elements[0].color = (0.9, 0.1, 0.2, 1.0)
+        tree.links.new(age.outputs["Fac"], ramp.inputs[0])
+        tree.links.new(ramp.outputs[0], target)
+        return
+    colours = mirror.data.color_attributes.new("Shade", "FLOAT_COLOR", "CORNER")
+    colours.data.foreach_set("color", rng.uniform(0.1, 1.0, 16).astype(np.float32))
+    shade = tree.nodes.new("ShaderNodeVertexColor" if kind == "stored active colour" else "ShaderNodeAttribute")
+    if kind == "stored active colour":
+        tree.links.new(shade.outputs["Color"], target)
+        return
+    shade.attribute_name = "Shade"
+    # a colour's brightness, which is not the mean of its parts
+    grey = tree.nodes.new("ShaderNodeMath")
+    tree.links.new(shade.outputs["Color"], grey.inputs[0])
+    grey.inputs[1].default_value = 0.1
+    tree.links.new(grey.outputs[0], target)
+
+
 def as_a_window(mirror: bpy.types.Object) -> None:
     """Let the mirror's colour be that of what passes through it."""
     tree = mirror.active_material.node_tree
@@ -62,7 +90,8 @@ def as_a_window(mirror: bpy.types.Object) -> None:
     tree.links.new(clear.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
 
 
-@pytest.mark.parametrize("kind", ["UV image", "named map", "Object", "Generated", "group", "ramp and curves"])
+@pytest.mark.parametrize("kind", ["UV image", "named map", "Object", "Generated", "group", "ramp and curves", "stored colour",
+                                  "stored active colour", "stored numbers"])
 def test_a_stained_mirror_throws_its_picture(blank, tmp_path, capfd, kind):
     """As light that comes from behind through a window of the same stain."""
     floor, mirror, lamp = scene_of()
@@ -85,6 +114,25 @@ def test_a_stained_mirror_throws_its_picture(blank, tmp_path, capfd, kind):
     assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
     mirror.active_material.node_tree.nodes.remove(mirror.active_material.node_tree.nodes["Transparent BSDF"])
     assert parts.state()["data"] == data
+
+
+@pytest.mark.parametrize("kind", ["PRINCIPLED", "coated", "GLASS"])
+def test_a_mirror_that_is_open_in_part_throws_as_much_less(blank, tmp_path, kind):
+    """What comes through it is not thrown."""
+    floor, mirror, lamp = scene_of()
+    material = paint("Metal", "PRINCIPLED", (0.9, 0.6, 0.3), "Base Color")
+    shader = material.node_tree.nodes[0]
+    shader.inputs["Roughness"].default_value = 1.0 if kind == "coated" else 0.0
+    shader.inputs["Coat Weight"].default_value = float(kind == "coated")
+    shader.inputs["Metallic"].default_value = float(kind == "PRINCIPLED")
+    shader.inputs["Transmission Weight"].default_value = float(kind == "GLASS")
+    mirror.data.materials[0], mirror.reflection_mesh.role = material, "MIRROR"
+    blank.scene.cycles.max_bounces = 0
+    whole = light_of_mirror(tmp_path)
+    shader.inputs["Alpha"].default_value = 0.4
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    ratio, _ = ratios(light_of_mirror(tmp_path), whole)
+    assert len(ratio) > 300 and np.allclose(ratio, 0.4, rtol=2e-3)
 
 
 def test_what_only_the_mirror_knows_is_told(blank, capfd):
