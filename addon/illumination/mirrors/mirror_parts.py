@@ -20,7 +20,7 @@ class MirrorPart:
     tint : Tint
     mesh : core.TriangleMesh
     triangle : (m,) int64
-        Of the mirror.
+        Of the object, where some of its faces may not mirror.
     others : core.TriangleMesh or None
         Other mirrors, and the rest of this one.
     colours : MirrorColours
@@ -44,8 +44,8 @@ def parts_of(surface: MirrorSurface, others: list[MirrorSurface]) -> list[Mirror
         standing = [other.mesh for other in others] + ([_of(surface.mesh, rest)] if len(rest) else [])
         order = np.concatenate((own, np.arange(count, len(colours.tint_of)), rest))
         mesh = _of(surface.mesh, own) if len(rest) else surface.mesh
-        parts.append(MirrorPart(tints[place], mesh, own, TriangleMesh.joined(standing) if standing else None,
-                                colours.ordered(order)))
+        parts.append(MirrorPart(tints[place], mesh, surface.triangle[own],
+                                TriangleMesh.joined(standing) if standing else None, colours.ordered(order)))
     return parts
 
 

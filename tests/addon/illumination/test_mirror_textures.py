@@ -68,7 +68,8 @@ def painted(mirror: bpy.types.Object, tree: bpy.types.NodeTree, kind: str) -> No
         tree.links.new(age.outputs["Fac"], ramp.inputs[0])
         tree.links.new(ramp.outputs[0], target)
         return
-    colours = mirror.data.color_attributes.new("Shade", "FLOAT_COLOR", "CORNER")
+    colours = mirror.data.color_attributes.new("Shade", *(
+        ("BYTE_COLOR", "POINT") if kind == "stored active colour" else ("FLOAT_COLOR", "CORNER")))
     colours.data.foreach_set("color", rng.uniform(0.1, 1.0, 16).astype(np.float32))
     shade = tree.nodes.new("ShaderNodeVertexColor" if kind == "stored active colour" else "ShaderNodeAttribute")
     if kind == "stored active colour":
@@ -114,6 +115,25 @@ def test_a_stained_mirror_throws_its_picture(blank, tmp_path, capfd, kind):
     assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
     mirror.active_material.node_tree.nodes.remove(mirror.active_material.node_tree.nodes["Transparent BSDF"])
     assert parts.state()["data"] == data
+
+
+def test_a_mirror_in_a_frame_throws_its_own_picture(blank, tmp_path):
+    """Faces that do not mirror come first."""
+    floor, mirror, lamp = scene_of()
+    stained(mirror, "Object")
+    blank.scene.cycles.max_bounces = 0
+    alone = light_of_mirror(tmp_path)
+    assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
+    places = np.array([vertex.co for vertex in mirror.data.vertices])[mirror.data.polygons[0].vertices]
+    framed = bpy.data.meshes.new("Framed")
+    framed.from_pydata([*places[:, ::-1] + (0.0, 9.0, 0.0), *places[:, ::-1] + (0.0, 7.0, 0.0), *places], [],
+                       [(0, 1, 2, 3), (4, 5, 6, 7), (8, 9, 10, 11)])
+    for material in (paint("Wood", "DIFFUSE", (0.1, 0.1, 0.1)), mirror.active_material):
+        framed.materials.append(material)
+    framed.polygons.foreach_set("material_index", [0, 0, 1])
+    mirror.data = framed
+    ratio, _ = ratios(light_of_mirror(tmp_path), alone)
+    assert len(ratio) > 300 and np.percentile(np.abs(ratio - 1.0), 95) < 1e-3
 
 
 @pytest.mark.parametrize("kind", ["PRINCIPLED", "coated", "GLASS"])
