@@ -34,7 +34,7 @@ class CausticMesh:
         Triangles of the mirrors that the light of each face meets, in its order, those of `mirrors` behind those of
         `mirror`; -1 where it meets no more.
     cosine : (m, 3, b) float64
-        Of the angles at which it meets them, at the corners.
+        Of the angles at which it meets them, at the corners; negative where it meets a triangle's back.
     direction : (m, 3, 3) float64
         In which the light comes to the corners; unit vectors.
     source_face : (m,) int64

@@ -38,7 +38,7 @@ class Corners(ColumnArrays):
         Infinite on a caustic.
     turned : (3, m) float64
     cosine : (b, 3, m) float64
-        At each of the mirrors, the first one first.
+        At each of the mirrors, the first one first; negative at the back of its triangle.
     place : (3, 3, m) float64
         Where on the first mirror, as [component, corner, face].
     side : (3, m) float64
@@ -99,11 +99,24 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
     directions = [unit(way) for way in ways]
     upright = np.stack([np.sqrt(np.clip(0.5 * (1.0 - dot(came, sent)), 0.0, 1.0))
                         for came, sent in zip(directions, directions[1:])])
+    upright *= _sides(ray_map, face, directions[:-1])
     miss = norm(origin + s * ray - points)
     size = sum(map(norm, ray_map.spans(face)))
     # where the mirror stands on what is lit, light comes from the very place
     arrived = (s * length >= -ARRIVED * size) & (miss <= ARRIVED * (norm(points - origin) + size))
     return Corners(uv, irradiance, turned, upright, place, np.sign(cosine), arrived)
+
+
+def _sides(ray_map: ReflectionMap, face: np.ndarray, came: list[np.ndarray]) -> np.ndarray:
+    """1 where light, whose ways (3, n) `came` to the mirrors, meets the fronts of their triangles, -1 where their
+    backs, as (b, n)."""
+    sides = []
+    for way in came[::-1]:
+        surface, triangle = ray_map.last(face)
+        sides.append(np.where(dot(way, surface.face_normal[:, triangle]) > 0.0, -1.0, 1.0))
+        if isinstance(ray_map, BouncedMap):
+            face, ray_map = ray_map.face_before[face], ray_map.before
+    return np.stack(sides[::-1])
 
 
 def mean_weight(ray_map: ReflectionMap, face: np.ndarray, light: Corners, lamp: Lamp) -> np.ndarray:

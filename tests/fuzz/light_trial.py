@@ -83,7 +83,7 @@ def _numbers(configuration: LightConfiguration, mesh: CausticMesh) -> Iterator[s
         yield "lengths: it shows nothing, and nothing says so"
     mirrors = [one for one in (configuration.mirror, configuration.others) if one is not None]
     bounds = {"triangles": (0, vertices - 1), "met": (-1, sum(len(one.triangles) for one in mirrors) - 1),
-              "irradiance": (0.0, np.inf), "flux": (0.0, np.inf), "cosine": (0.0, 1.0),
+              "irradiance": (0.0, np.inf), "flux": (0.0, np.inf), "cosine": (-1.0, 1.0),
               "direction": (-1.0 - 1e-12, 1.0 + 1e-12),
               "source_face": (0, len(configuration.receivers.triangles) - 1), "source_weights": (0.0, 1.0 + 1e-9),
               "bounces": (1, configuration.settings.depth), "image_parity": (-1, 1)}

@@ -14,26 +14,49 @@ BY_COAT = ("Coat Weight", "Coat Roughness", "Coat IOR")
 
 @dataclass(frozen=True)
 class Coat:
-    """The share of a mirror in a Mix Shader: `factor`, or what a dielectric of the refractive index `ior` reflects,
-    where that is none of 0; or what these leave. All of it counts as much as the material is opaque."""
+    """The share of what mirrors in a material.
+
+    Attributes
+    ----------
+    factor : float
+    ior : float
+        Where it is none of 0, the share is what a dielectric of this refractive index reflects.
+    from_within : bool
+        Whether the inverse index counts at backs, as of what light meets from within.
+    facing : float
+        Where it is none of 0, the share is what the cosine, to this power, leaves.
+    rest : bool
+        Whether it is what all that leaves.
+    opacity : float
+        How opaque the material is: all of it counts as much.
+    """
 
     factor: float = 1.0
     ior: float = 0.0
+    from_within: bool = False
+    facing: float = 0.0
     rest: bool = False
     opacity: float = 1.0
 
     def at(self, cosine: np.ndarray) -> np.ndarray:
-        """The share by the cosine of the angle of incidence, outside of the dielectric.
-
-        As `fresnel_dielectric_cos` of Cycles' kernel has it.
-        """
-        share = np.full(cosine.shape, self.factor)
+        """The share by the cosine of the angle of incidence, negative at backs."""
+        share, c = np.full(cosine.shape, self.factor), np.clip(np.abs(cosine), 0.0, 1.0)
         if self.ior:
-            c = np.clip(cosine, 0.0, 1.0)
-            g = np.sqrt(np.maximum(self.ior**2 - 1.0 + c**2, 0.0))
-            a, b = (g - c) / np.maximum(g + c, 1e-300), (c * (g + c) - 1.0) / (c * (g - c) + 1.0)
-            share = 0.5 * a**2 * (1.0 + b**2)
+            inside = (cosine < 0.0) & self.from_within
+            share = _reflectance(np.where(inside, 1.0 / self.ior, self.ior), c)
+        elif self.facing:
+            share = 1.0 - c**self.facing
         return self.opacity * (1.0 - share if self.rest else share)
+
+
+def _reflectance(ior: np.ndarray, c: np.ndarray) -> np.ndarray:
+    """What a dielectric reflects at the cosine c of the angle of incidence; all of it beyond the critical angle.
+
+    As `fresnel_dielectric_cos` of Cycles' kernel has it.
+    """
+    g = np.sqrt(np.maximum(ior**2 - 1.0 + c**2, 0.0))
+    a, b = (g - c) / np.maximum(g + c, 1e-300), (c * (g + c) - 1.0) / (c * (g - c) + 1.0)
+    return 0.5 * a**2 * (1.0 + b**2)
 
 
 WHOLE = Coat()
@@ -55,8 +78,8 @@ def gloss_of(shader: bpy.types.Node | None) -> Gloss | None:
     if shader is None:
         return None
     if shader.type == "BSDF_GLASS" and is_sharp(shader):
-        return Gloss(_colour(shader, "Color"), Coat(ior=max(shader.inputs["IOR"].default_value, LEAST)), False,
-                     _plain(shader, "Color", "IOR"))
+        return Gloss(_colour(shader, "Color"), Coat(ior=max(shader.inputs["IOR"].default_value, LEAST),
+                                                    from_within=True), False, _plain(shader, "Color", "IOR"))
     if shader.type != "BSDF_PRINCIPLED":
         return None
     metallic = shader.inputs["Metallic"].default_value
@@ -68,7 +91,8 @@ def gloss_of(shader: bpy.types.Node | None) -> Gloss | None:
     known = _plain(shader, "Metallic", "IOR", "Specular IOR Level", "Specular Tint")
     tint = _colour(shader, "Specular Tint")
     if not metallic > 0.0:
-        return Gloss(tint, Coat(ior=index_of(shader)), False, known)
+        clear = shader.inputs["Transmission Weight"].default_value >= 1.0
+        return Gloss(tint, Coat(ior=index_of(shader), from_within=clear), False, known)
     # Schlick's formula is linear in the colour, and near to a dielectric's
     both = metallic * _colour(shader, "Base Color") + (1.0 - metallic) * upright(shader) * tint
     return Gloss(both, WHOLE, True, known and _plain(shader, "Base Color"))
@@ -90,10 +114,15 @@ def share_of(factor: bpy.types.NodeSocket) -> tuple[Coat, bool]:
     node = source.node
     if not any(socket.is_linked for socket in node.inputs):
         if node.type == "FRESNEL":
-            return Coat(ior=max(node.inputs["IOR"].default_value, LEAST)), True
-        if node.type == "LAYER_WEIGHT" and source.name == "Fresnel":
+            return Coat(ior=max(node.inputs["IOR"].default_value, LEAST), from_within=True), True
+        if node.type == "LAYER_WEIGHT":
             # as Cycles' `svm_node_layer_weight` has it
-            return Coat(ior=1.0 / max(1.0 - node.inputs["Blend"].default_value, LEAST)), True
+            blend = node.inputs["Blend"].default_value
+            if source.name == "Fresnel":
+                return Coat(ior=1.0 / max(1.0 - blend, LEAST), from_within=True), True
+            blend = min(max(blend, 0.0), 1.0 - LEAST)
+            power = 2.0 * blend if blend < 0.5 else 0.5 / (1.0 - blend)
+            return (Coat(facing=power) if power else Coat(0.0)), True
     return Coat(factor.default_value), False
 
 

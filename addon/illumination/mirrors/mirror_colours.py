@@ -48,7 +48,7 @@ class MirrorColours:
         met : (n, b) int64
             Triangles that light meets, in its order; -1 where it meets no more.
         cosine : (n, ..., b) float64
-            At which it meets them.
+            At which it meets them, negative at their backs.
 
         Returns
         -------

@@ -98,13 +98,14 @@ class Tint:
                 == (other.fresnel, other.constant, other.coat, other.texture))
 
     def at(self, cosine: np.ndarray) -> np.ndarray:
-        """What is left of red, green and blue, (..., 3), where light meets the mirror at `cosine` (...).
+        """What is left of red, green and blue, (..., 3), where light meets the mirror at `cosine` (...), negative at
+        its back.
 
         N. Hoffman, "Fresnel Equations Considered Harmful", MAM 2019.
         """
         left = np.broadcast_to(self.colour, (*cosine.shape, 3))
         if self.fresnel:
-            grazing = (1.0 - np.clip(cosine, 0.0, 1.0))[..., None]
+            grazing = (1.0 - np.clip(np.abs(cosine), 0.0, 1.0))[..., None]
             schlick = self.colour + (1.0 - self.colour) * (1.0 - F82)**5
             fall = schlick * (7.0 / (1.0 - F82)**6) * (1.0 - self.edge)
             left = self.colour + (1.0 - self.colour) * grazing**5 - fall * (1.0 - grazing) * grazing**6

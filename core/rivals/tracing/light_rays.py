@@ -46,7 +46,7 @@ class Landed:
     met : list of (n,) int64
         The mirror's triangle for each bounce, -1 from the one on that did not take place.
     cosine : list of (n,) float64
-        Of the angle at which each mirror was met.
+        Of the angle at which each mirror was met; negative at the back of its triangle.
     bent : (n,) bool
         Whether smooth normals would have sent it into a mirror's flat triangles, so that it was lifted out of them.
     """
@@ -141,7 +141,8 @@ class LightRays:
         self._surface.lift(face, uv, ray, way)
         weight = np.maximum(rise, 0.0) / np.maximum(self._sine(face, way), SMALLEST)
         # a ray is turned by twice the angle that it has to the mirror's plane
-        return ray, np.sqrt(np.clip(0.5 * (1.0 - dot(way, ray)), 0.0, 1.0)), weight, lifted
+        side = np.where(dot(way, self._surface.face_normal[:, face]) > 0.0, -1.0, 1.0)
+        return ray, side * np.sqrt(np.clip(0.5 * (1.0 - dot(way, ray)), 0.0, 1.0)), weight, lifted
 
 
 def by_boxes(mesh: TriangleMesh) -> Tracer:

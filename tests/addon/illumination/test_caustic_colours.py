@@ -21,8 +21,10 @@ def coated(colour=(1.0, 0.5, 0.2), ior: float = 1.33, over: bool = True) -> bpy.
     return made
 
 
-def seen_of_white_world(scene: bpy.types.Scene, material: bpy.types.Material, angle: float, tmp_path) -> tuple:
-    """A mirror of that material over a black ground, and its picture of a white world, seen at an angle."""
+def seen_of_white_world(scene: bpy.types.Scene, material: bpy.types.Material, angle: float, tmp_path,
+                        behind: bool = False) -> tuple:
+    """A mirror of that material over a black ground, and its picture of a white world, seen at an angle, or its
+    back's."""
     scene.render.engine, scene.view_settings.view_transform = "CYCLES", "Raw"
     scene.render.resolution_x = scene.render.resolution_y = 64
     scene.cycles.use_denoising, scene.cycles.blur_glossy = False, 0.0
@@ -31,7 +33,7 @@ def seen_of_white_world(scene: bpy.types.Scene, material: bpy.types.Material, an
         scene.world.use_nodes = True
     background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
     background.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
-    mirror = parts.add("plane", "Mirror", size=100.0)
+    mirror = parts.add("plane", "Mirror", size=100.0, rotation=(np.pi * behind, 0.0, 0.0))
     mirror.data.materials.append(material)
     ground = parts.add("plane", "Ground", size=100.0, location=(0.0, 0.0, -0.5))
     ground.data.materials.append(paint("Black", "DIFFUSE", (0.0, 0.0, 0.0)))
@@ -61,12 +63,12 @@ def shader_alone(kind: str, **values) -> bpy.types.Material:
     return made
 
 
-def by_layer_weight() -> bpy.types.Material:
+def by_layer_weight(output: str = "Fresnel", blend: float = 0.4) -> bpy.types.Material:
     made = coated(over=True)
     tree = made.node_tree
     weight = tree.nodes.new("ShaderNodeLayerWeight")
-    weight.inputs["Blend"].default_value = 0.4
-    tree.links.new(weight.outputs["Fresnel"], next(n for n in tree.nodes if n.type == "MIX_SHADER").inputs[0])
+    weight.inputs["Blend"].default_value = blend
+    tree.links.new(weight.outputs[output], next(n for n in tree.nodes if n.type == "MIX_SHADER").inputs[0])
     return made
 
 
@@ -80,18 +82,49 @@ NOT_METAL = {
         "Coat Weight": 0.7, "Coat Roughness": 0.0}),
     "part metal": lambda: shader_alone("ShaderNodeBsdfPrincipled", **{
         "Base Color": (0.9, 0.5, 0.2, 1.0), "Metallic": 0.5, "Transmission Weight": 1.0}),
-    "layer weight": by_layer_weight}
+    "water": coated,
+    "layer weight": by_layer_weight,
+    "facing": lambda: by_layer_weight("Facing"),
+    "facing more": lambda: by_layer_weight("Facing", 0.8),
+    "open": lambda: shader_alone("ShaderNodeBsdfPrincipled", **{
+        "Base Color": (0.9, 0.5, 0.2, 1.0), "Metallic": 1.0, "Alpha": 0.3})}
 
 
+# what is metal and glass in parts is met from outside
+@pytest.mark.parametrize(("kind", "behind"), [(kind, behind) for kind in NOT_METAL for behind in (False, True)
+                                              if not (behind and kind == "part metal")])
 @pytest.mark.parametrize("angle", [0.0, 0.9, 1.2])
-@pytest.mark.parametrize("kind", NOT_METAL)
-def test_what_is_no_metal_sends_back_what_cycles_says(blank, room, tmp_path, kind, angle):
-    """It threw all of the light."""
-    mirror, seen = seen_of_white_world(blank.scene, NOT_METAL[kind](), angle, tmp_path)
+def test_what_is_no_metal_sends_back_what_cycles_says(blank, room, tmp_path, kind, angle, behind):
+    """It threw all of the light; and backs as fronts, at which glass and water send back what comes from within."""
+    mirror, seen = seen_of_white_world(blank.scene, NOT_METAL[kind](), angle, tmp_path, behind)
     mirror.reflection_mesh.role = "MIRROR"
     tint = room("addon.illumination").Tint.of(mirror)
-    found = tint.at(np.full((1, 3), np.cos(angle)))[0, 0]
+    found = tint.at(np.full((1, 3), np.cos(angle) * (-1.0 if behind else 1.0)))[0, 0]
     assert tint.constant and np.allclose(found, seen, rtol=0.05, atol=0.004)
+
+
+def test_light_that_meets_water_from_below_is_thrown_as_such(blank):
+    """A mirror that turns its back to the lamp, so small that light meets it at one angle."""
+    floor, mirror, lamp = scene_of()
+    mirror.data.materials[0], mirror.reflection_mesh.role = coated(ior=2.0), "MIRROR"
+    mirror.scale, thrown = (0.02, 0.02, 0.02), []
+    for turn in (-0.5, 0.5):
+        mirror.rotation_euler = (0.0, np.pi * turn, 0.0)
+        blank.view_layer.update()
+        parts.select(floor, lamp, mirror)
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+        mesh = bpy.data.objects["Mirror Caustics"].data
+        light = np.empty(9 * len(mesh.polygons), dtype=np.float32)
+        mesh.attributes["caustic_light"].data.foreach_get("vector", light)
+        thrown.append(np.array([face.area for face in mesh.polygons]) @ light.reshape(-1, 9).mean(axis=1))
+    way = mirror.location - lamp.location
+    c = way.x / way.length
+    # Fresnel's equations, with Snell's law
+    inner = [np.sqrt(1.0 - (1.0 - c * c) / index**2) for index in (2.0, 0.5)]
+    sent = [0.5 * (((c - n * t) / (c + n * t))**2 + ((n * c - t) / (n * c + t))**2)
+            for n, t in zip((2.0, 0.5), inner)]
+    assert sent[1] > 1.5 * sent[0]
+    assert abs(thrown[1] / thrown[0] / (sent[1] / sent[0]) - 1.0) < 0.01
 
 
 def textured(floor: bpy.types.Object, kind: str, coordinates: str, grouped: bool) -> None:

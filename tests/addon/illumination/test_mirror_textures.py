@@ -91,8 +91,8 @@ def as_a_window(mirror: bpy.types.Object) -> None:
     tree.links.new(clear.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
 
 
-@pytest.mark.parametrize("kind", ["UV image", "named map", "Object", "Generated", "group", "ramp and curves", "stored colour",
-                                  "stored active colour", "stored numbers"])
+@pytest.mark.parametrize("kind", ["UV image", "named map", "Object", "Generated", "group", "ramp and curves",
+                                  "stored colour", "stored active colour", "stored numbers"])
 def test_a_stained_mirror_throws_its_picture(blank, tmp_path, capfd, kind):
     """As light that comes from behind through a window of the same stain."""
     floor, mirror, lamp = scene_of()

@@ -46,7 +46,9 @@ def test_light_tells_the_mirrors_that_it_has_met_and_how_steeply():
         assert ((side * normal).sum(axis=1) > -1e-3).all()
     assert len(np.unique(mesh.met[twice, 1])) == 4
     turned = way[twice] * (-1.0, 1.0, 1.0)
-    expected = np.abs((turned * normal[:, None]).sum(axis=2))
+    # at backs it is negative
+    expected = -(turned * normal[:, None]).sum(axis=2)
+    assert (expected < 0.0).all()
     np.testing.assert_allclose(mesh.cosine[twice, :, 1], expected, rtol=0, atol=1e-9)
 
 
