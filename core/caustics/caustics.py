@@ -23,7 +23,7 @@ from .refinement import LitFaces, refined
 
 DETAIL = 1024
 """Pixels across the mirror in the lamp's picture, in which the settings' tolerance is counted."""
-LEAST = 1.5e-5  # of the flux: what carries less is not split
+LEAST = 1.5e-5  # of the flux of all of a lamp: what carries less is not split
 FINEST = 2e-3  # of the size of what is lit: shorter sides are not split
 AT_ONCE = 1 << 14
 
@@ -133,7 +133,7 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
             continue
         breathe()
         faces = _faces(ray_map, seen, chosen, receivers, lamp)
-        faces, bounded = refined(ray_map, faces, receivers, lamp, (LEAST * whole, FINEST * reach),
+        faces, bounded = refined(ray_map, faces, receivers, lamp, (LEAST * lamp.places * whole, FINEST * reach),
                                  settings.maximum_faces)
         seen.counts["bounded"] = seen.counts.get("bounded", 0) | bounded
         places = faces.light.place.transpose(2, 1, 0)

@@ -29,6 +29,9 @@ class Lamp:
         In radians: what the pattern holds is not narrower.
     cone : (3,) float64 and float, optional
         Axis, a unit vector in world space, and half angle in radians of a cone beyond which the pattern is zero.
+    places : int
+        Of how many of a larger lamp it is one. The light of all adds up, and errors even out in it: each may be
+        coarser.
 
     Examples
     --------
@@ -42,6 +45,7 @@ class Lamp:
     pattern: Callable[[np.ndarray], np.ndarray] | None = None
     narrow: float = np.inf
     cone: tuple[np.ndarray, float] | None = None
+    places: int = 1
 
     def __post_init__(self) -> None:
         wrong = "The lamp's place must be three finite numbers up to 1e40; move the lamp nearer."

@@ -96,7 +96,7 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, la
         middles, points, found = _middles(ray_map, faces, asked, within, lamp)
         faces.beside[asked] = _beside(faces, asked, middles, points, found)
         chosen = np.zeros(int(edge.max(initial=-1)) + 1, dtype=bool)
-        chosen[edge[asked][(_astray(faces, asked, middles, least) | _wide(faces, asked, lamp)) & found]] = True
+        chosen[edge[asked][(_astray(faces, asked, middles, least, lamp) | _wide(faces, asked, lamp)) & found]] = True
         chosen[edge[asked][~found]] = False
         beside = np.flatnonzero(~new & chosen[edge].any(axis=1))
         more, more_points, more_found = _middles(ray_map, faces, beside, within, lamp)
@@ -118,12 +118,13 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, la
     return faces, bounded
 
 
-def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[float, float]) -> np.ndarray:
+def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[float, float],
+            lamp: Lamp) -> np.ndarray:
     """On which sides (k, 3) of the faces asked the irradiance in the middle is not that between the ends."""
     ends, lit = faces.light.irradiance[:, asked].T, middles.irradiance.T
     corners = faces.corners(asked)
     with np.errstate(invalid="ignore"):
-        astray = ~(np.abs(0.5 * (ends + following(ends)) - lit) <= STRAYING * lit)
+        astray = ~(np.abs(0.5 * (ends + following(ends)) - lit) <= STRAYING * np.sqrt(lamp.places) * lit)
     astray &= norm(corners - following(corners)).T > least[1]
     area = 0.5 * norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
     mean = np.where(np.isfinite(lit), lit, 0.0).mean(axis=1)

@@ -152,7 +152,8 @@ def _lit(scene: CausticScene, pair: tuple, wanted: Asked) -> Steps[list]:
     share = 1.0 / (len(eyes) * len(parts) * len(receivers))
     for number, (eye, own, ends) in enumerate(product(eyes, parts, receivers)):
         standing = _joined([scene.blockers[lamp], eye.body])
-        steps = core.caustic_steps(eye.shining, own.mesh, ends.mesh, wanted.settings(mirror), own.others, standing)
+        shining = replace(eye.shining, places=len(eyes))
+        steps = core.caustic_steps(shining, own.mesh, ends.mesh, wanted.settings(mirror), own.others, standing)
         try:
             mesh = yield from part(steps, number * share, share)
             lit.append((eye, own, replace(mesh, **ends.counted(mesh))))

@@ -1,6 +1,8 @@
 """Light that mirrors throw, against closed forms and rays traced one by one."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -243,6 +245,23 @@ def test_the_light_of_a_ring_is_that_of_rays():
         spread = np.sqrt(theirs * share.mean())
         assert np.abs(ours - theirs).sum() < 1.2 * np.sqrt(2.0 / np.pi) * spread.sum() + 0.01 * theirs.sum()
         assert np.isfinite(mesh.irradiance).all() and mesh.irradiance.min() >= 0.0
+
+
+@pytest.mark.slow
+def test_places_on_one_lamp_need_fewer_faces_and_their_light_is_that_of_rays():
+    """Which are asked from each of the places."""
+    table, mirror = level(0.0, 0.0, -1e-3, SIDE), ring(96)
+    lamps = [Lamp((3.0 + 0.2 * np.cos(angle), 0.3 + 0.2 * np.sin(angle), 1.6)) for angle in np.arange(12) * np.pi / 6.0]
+    alone, of_one = ([caustics(replace(lamp, places=places), mirror, table) for lamp in lamps] for places in (1, 12))
+    assert sum(len(mesh.triangles) for mesh in of_one) < 0.65 * sum(len(mesh.triangles) for mesh in alone)
+    rays = [by_rays(lamp, mirror, table, 1_000_000) for lamp in lamps]
+    points, share = (np.concatenate(each) for each in zip(*rays))
+    theirs = binned(points, share, 32)
+    spread = np.sqrt(theirs * share.mean())
+    for meshes in (alone, of_one):
+        ours = sum(binned(*strewn(mesh, 16), 32) for mesh in meshes)
+        assert np.abs(ours - theirs).sum() < 1.2 * np.sqrt(2.0 / np.pi) * spread.sum() + 0.01 * theirs.sum()
+        assert abs(ours.sum() / theirs.sum() - 1.0) < 0.002
 
 
 def test_the_cusp_of_a_ring_lies_at_half_its_radius():
