@@ -1,8 +1,8 @@
 """The search at random, for as long as one likes, or of some seeds alone:
 
     make fuzz SECONDS=600 [FIRST=SEED]
-    python -m tests.fuzz [core|light|scenes|lamps|lit] [--seconds 600] [--first SEED]
-    python -m tests.fuzz core|light|scenes|lamps|lit SEED [SEED ...]
+    python -m tests.fuzz [core|light|scenes|lamps|lit|thrown] [--seconds 600] [--first SEED]
+    python -m tests.fuzz core|light|scenes|lamps|lit|thrown SEED [SEED ...]
 
 Seeds are new every time. Each is tried in a process that may crash or be stopped; the one that fails is printed with
 what is wrong and how to try it alone, and kept in tests/fuzz/kept_seeds.json, which the tests try from then on.
@@ -20,7 +20,7 @@ from threading import Lock
 from tests.fuzz.asking import Asked
 from tests.fuzz.kept import keep
 
-KINDS = ("core", "light", "scenes", "lamps", "lit")
+KINDS = ("core", "light", "scenes", "lamps", "lit", "thrown")
 TELLING = Lock()
 
 

@@ -16,7 +16,7 @@ WALL = 600.0  # seconds by the clock on the wall after which a worker that waits
 
 
 class Asked:
-    """A worker of one kind, "core", "light", "scenes", "lamps" or "lit"."""
+    """A worker of one kind, "core", "light", "scenes", "lamps", "lit" or "thrown"."""
 
     def __init__(self, kind: str) -> None:
         self.kind = kind

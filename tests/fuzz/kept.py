@@ -14,7 +14,7 @@ OF_A_KIND = 3  # seeds that fail alike: more teach nothing, and cost time in eve
 
 
 def kept_seeds(kind: str, file: Path = FILE) -> list[int]:
-    """The seeds kept of one kind, "core", "light", "scenes", "lamps" or "lit"."""
+    """The seeds kept of one kind, "core", "light", "scenes", "lamps", "lit" or "thrown"."""
     return [int(seed) for seed in _read(file).get(kind, {})]
 
 

@@ -1,6 +1,6 @@
 """Tries seeds, one after another, in a process of its own that may crash or be killed:
 
-    python -m tests.fuzz.worker core|light|scenes|lamps|lit
+    python -m tests.fuzz.worker core|light|scenes|lamps|lit|thrown
 
 reads a seed a line and answers each with a line of JSON: {"seed": ..., "name": ..., "problems": [...]}.
 """
@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 # of processor time, for a seed with all that is done to it
-SECONDS = {"core": 60, "light": 90, "scenes": 120, "lamps": 300, "lit": 300}
+SECONDS = {"core": 60, "light": 90, "scenes": 120, "lamps": 300, "lit": 300, "thrown": 300}
 GIGABYTES = 8  # of address space, for all seeds
 
 
@@ -27,7 +27,8 @@ def main(kind: str) -> None:
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    with {"core": _core, "light": _light, "scenes": _scenes, "lamps": _lamps, "lit": _lit}[kind]() as tried:
+    with {"core": _core, "light": _light, "scenes": _scenes, "lamps": _lamps, "lit": _lit,
+          "thrown": _thrown}[kind]() as tried:
         resource.setrlimit(resource.RLIMIT_AS, (GIGABYTES * 10**9, resource.RLIM_INFINITY))
         for line in sys.stdin:
             # SIGXCPU ends the process where a seed takes longer
@@ -73,6 +74,13 @@ def _lit() -> Iterator[Callable[[int], dict]]:
     with _extension():
         from tests.fuzz.blender.lit_trial import tried_lit
         yield tried_lit
+
+
+@contextmanager
+def _thrown() -> Iterator[Callable[[int], dict]]:
+    with _extension():
+        from tests.fuzz.blender.thrown_trial import tried_thrown
+        yield tried_thrown
 
 
 @contextmanager
