@@ -12,10 +12,13 @@ import bpy
 from .. import compat
 from ..faults import AllOrNothing
 from ..reading import all_nodes
+from ..writing.nodes.box_projection import project_by
+from ..writing.nodes.shader_builder import ShaderBuilder
 
 MARK = "reflection_mesh_adds_light"
 PLACES = {"Generated": "lit_generated", "Object": "lit_object"}
 """Outputs of the node Texture Coordinate, and the attributes that stand for them."""
+NORMAL = "Normal"
 OF_THE_OBJECT = {"OBJECT_INFO": None, "TEX_COORD": {"Normal"}, "HAIR_INFO": None, "PARTICLE_INFO": None,
                  "NEW_GEOMETRY": {"Normal", "Tangent", "True Normal", "Pointiness", "Random Per Island", "Parametric"}}
 """What nothing stands for, all outputs or some: it is the mesh of light's own."""
@@ -29,8 +32,8 @@ def places_asked(materials: list) -> list[str]:
 
 
 def asked_by(nodes: Iterable[bpy.types.Node]) -> set[str]:
-    """Coordinates of the object that nodes ask for, those of its UV maps as `uv` and the map's name; and what is stored
-    on it, as `stored` and its name."""
+    """Coordinates of the object that nodes ask for, its normals as `NORMAL`, those of its UV maps as `uv` and the map's
+    name; and what is stored on it, as `stored` and its name."""
     return {name for node in nodes for name in (*_asked(node), *_stored(node))}
 
 
@@ -62,6 +65,8 @@ def show_by_places(tree: bpy.types.NodeTree, whole: AllOrNothing, places: dict =
             for socket in targets:
                 told = socket.links[0].from_socket.name if socket.is_linked else "Vector"
                 tree.links.new(place.outputs[told if name in _stored(node) else "Vector"], socket)
+            if name == NORMAL and node.type == "TEX_IMAGE":
+                project_by(ShaderBuilder(tree), node, place.outputs["Vector"])
 
 
 def asks_for_more(tree: bpy.types.NodeTree) -> bool:
@@ -89,15 +94,16 @@ def _asked(node: bpy.types.Node) -> dict[str, list]:
     def fed(output: bpy.types.NodeSocket) -> list:
         return [link.to_socket for link in output.links]
     if node.type == "TEX_COORD" and not node.from_instancer:
-        found = {name: fed(node.outputs[name]) for name in PLACES if name != "Object" or node.object is None}
+        found = {name: fed(node.outputs[name]) for name in (*PLACES, NORMAL) if name != "Object" or node.object is None}
         return {name: sockets for name, sockets in (found | {uv(""): fed(node.outputs["UV"])}).items() if sockets}
     if node.type == "UVMAP" and not node.from_instancer:
         sockets = fed(node.outputs[0])
         return {uv(node.uv_map): sockets} if sockets else {}
     vector = node.inputs.get("Vector") if node.type.startswith("TEX_") else None
-    if vector is None or not vector.enabled or vector.is_linked:
-        return {}
-    return {uv("") if node.type == "TEX_IMAGE" else "Generated": [vector]}
+    told = vector is None or not vector.enabled or vector.is_linked
+    found = {} if told else {uv("") if node.type == "TEX_IMAGE" else "Generated": [vector]}
+    # which side of a box shows its picture the normal tells
+    return found | {NORMAL: []} if node.type == "TEX_IMAGE" and node.projection == "BOX" else found
 
 
 def _stored(node: bpy.types.Node) -> dict[str, list]:

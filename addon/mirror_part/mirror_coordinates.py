@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from ..writing.nodes.box_projection import project_by
 from ..writing.nodes.shader_builder import ShaderBuilder
-from .box_projection import project_by
 
 LONGEST_NAME = 60  # of an attribute, which Blender cuts
 BACK = "mirror_back"

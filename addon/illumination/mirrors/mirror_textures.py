@@ -9,7 +9,7 @@ from ...faults import AllOrNothing
 from ...reading import DiffuseScene, all_nodes, materials_of, read_scene
 from ...writing import Attribute
 from ...writing.nodes.copied_nodes import copied
-from ..receiver_places import MARK, PLACES, asked_by, show_by_places, stored, uv
+from ..receiver_places import MARK, NORMAL, PLACES, asked_by, show_by_places, stored, uv
 from .mirror_parts import MirrorPart
 from .tint import Texture, Tint
 
@@ -77,9 +77,13 @@ def mirror_attributes(lit: list[tuple[MirrorPart, np.ndarray, CausticMesh]], tin
              for number, one in enumerate(grown)]
     triangle = np.concatenate([part.triangle[mesh.met[:, 0]] for part, _, mesh in lit])
     places = np.concatenate([mesh.mirror_position[mesh.triangles] for *_, mesh in lit])
+    sides = np.concatenate([np.where(mesh.cosine[:, :, :1] < 0.0, -1.0, 1.0) for *_, mesh in lit]).astype(np.float32)
     weights = _weights(mirror.mesh.positions[mirror.mesh.triangles[triangle]], places).astype(np.float32)
     for name in sorted({name for tint in tints for name in _asked(tint.texture)}):
         values = np.matmul(weights, _values(mirror, name)[triangle])
+        if name == NORMAL:
+            # of a back it is that of the side that is met, and as long as between corners it is not
+            values *= sides / np.maximum(np.linalg.norm(values, axis=2, keepdims=True), 1e-12)
         # numbers alone stand for themselves three times, colours without how opaque they are
         values = np.repeat(values, 3, axis=2) if values.shape[2] == 1 else values[:, :, :3]
         values = np.pad(values, ((0, 0), (0, 0), (0, 3 - values.shape[2])))
@@ -89,8 +93,8 @@ def mirror_attributes(lit: list[tuple[MirrorPart, np.ndarray, CausticMesh]], tin
 
 def _values(mirror: DiffuseScene, name: str):
     """Coordinates, or what is stored, at the corners of a mirror's triangles."""
-    if name in PLACES:
-        return {"Generated": mirror.generated, "Object": mirror.own_places}[name]
+    if name in (*PLACES, NORMAL):
+        return {"Generated": mirror.generated, "Object": mirror.own_places, NORMAL: mirror.own_normals}[name]
     nothing = np.zeros((len(mirror.mesh.triangles), 3, 3), dtype=np.float32)
     if name.startswith(stored("")):
         asked = name.removeprefix(stored("")) or mirror.active_colour
@@ -109,7 +113,7 @@ def _weights(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
 
 
 def _attribute(name: str) -> str:
-    if name in PLACES:
+    if name in (*PLACES, NORMAL):
         return f"mirror_{name.lower()}"
     if name.startswith(stored("")):
         return f"mirror_stored {name.removeprefix(stored(''))}".strip()
@@ -128,7 +132,7 @@ def _elsewhere(node: bpy.types.Node) -> bool:
     """Whether a node tells of something else than the mirror, of what depends on the eye, or how opaque a colour is."""
     if node.type in {"ATTRIBUTE", "VERTEX_COLOR"}:
         return getattr(node, "attribute_type", "GEOMETRY") != "GEOMETRY" or node.outputs["Alpha"].is_linked
-    known = {"Generated", "UV"} | ({"Object"} if getattr(node, "object", None) is None else set())
+    known = {"Generated", "UV", NORMAL} | ({"Object"} if getattr(node, "object", None) is None else set())
     return node.from_instancer or (node.type == "TEX_COORD"
                                    and any(one.is_linked and one.name not in known for one in node.outputs))
 

@@ -11,7 +11,7 @@ from ..materials import is_mirror
 from ..metaballs import basis_of, is_part
 from ..nothing_seen import NothingSeen
 from .join_layers import join_layers
-from .placed_values import PlacedValues, generated_places, lines_of, normals_of, own_places
+from .placed_values import PlacedValues, generated_places, lines_of, normals_of, own_normals, own_places
 from .read_meshes import Placed, read_meshes
 from .shading_normals import told_apart
 
@@ -44,8 +44,8 @@ class DiffuseScene:
     numbers : dict of str to (type, (m, 3, c) float32)
         Other attributes that materials ask for; type is FLOAT or FLOAT_VECTOR.
     active_uv, active_colour : str
-    generated, own_places : PlacedValues of (m, 3, 3) float32
-        The corners in Generated and in Object coordinates.
+    generated, own_places, own_normals : PlacedValues of (m, 3, 3) float32
+        The corners in Generated and in Object coordinates, and the normals there in the latter.
     """
 
     mesh: TriangleMesh
@@ -66,6 +66,7 @@ class DiffuseScene:
     active_colour: str
     generated: PlacedValues
     own_places: PlacedValues
+    own_normals: PlacedValues
 
 
 @dataclass(frozen=True)
@@ -97,7 +98,7 @@ def join_scene(placed: list[Placed], objects: list) -> DiffuseScene:
     positions, triangles, owners, faces, material, materials = _join(placed, len(objects))
     return DiffuseScene(_triangle_mesh(objects, positions, triangles), list(objects), owners, faces, material,
                         materials, normals_of(placed), *lines_of(placed), *join_layers(placed),
-                        generated_places(placed), own_places(placed))
+                        generated_places(placed), own_places(placed), own_normals(placed))
 
 
 def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> MirrorSurface:

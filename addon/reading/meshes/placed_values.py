@@ -110,6 +110,15 @@ def own_places(placed: list[Placed]) -> PlacedValues:
     return PlacedValues(placed, (3, 3), np.float32, _own)
 
 
+def own_normals(placed: list[Placed]) -> PlacedValues:
+    """Corner normals (m, 3, 3) float32 in the space of the object that each triangle is of."""
+    def values(part: Part) -> np.ndarray:
+        normals = part.mesh.normals[part.triangle].astype(np.float32)
+        normals[part.turned_over] = normals[part.turned_over][:, [0, 2, 1]]
+        return normals
+    return PlacedValues(placed, (3, 3), np.float32, values)
+
+
 def generated_places(placed: list[Placed]) -> PlacedValues:
     """The same in the box that Generated coordinates are counted in, which goes from 0 to 1."""
     def values(part: Part) -> np.ndarray:

@@ -14,11 +14,13 @@ def stained(mirror: bpy.types.Object, kind: str) -> None:
     if kind.startswith("stored"):
         painted(mirror, tree, kind)
         return
-    node = {"UV image": "Image", "named map": "Checker", "Object": "Checker"}.get(kind, "Noise")
+    node = {"UV image": "Image", "box": "Image", "named map": "Checker", "Object": "Checker"}.get(kind, "Noise")
     if kind == "named map":
         layer = mirror.data.uv_layers.new(name="Second")
         layer.uv.foreach_set("vector", np.array([0.1, 0.2, 0.8, 0.1, 0.9, 0.7, 0.3, 0.9], dtype=np.float32))
     target = tree.nodes[0].inputs["Color"]
+    if kind == "normals":
+        target = by_normals(tree, target)
     if kind == "group":
         group = bpy.data.node_groups.new("Stain", "ShaderNodeTree")
         group.interface.new_socket("Color", in_out="OUTPUT", socket_type="NodeSocketColor")
@@ -32,6 +34,9 @@ def stained(mirror: bpy.types.Object, kind: str) -> None:
         image.colorspace_settings.name = "Non-Color"
         image.pixels.foreach_set(np.random.default_rng(3).uniform(0.1, 1.0, 64).astype(np.float32))
         texture.image, texture.interpolation = image, "Linear"
+        if kind == "box":
+            texture.projection, texture.projection_blend = "BOX", 0.3
+            tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Object"], texture.inputs["Vector"])
     else:
         texture.inputs["Scale"].default_value = 3.0
     if node == "Checker":
@@ -55,6 +60,18 @@ def stained(mirror: bpy.types.Object, kind: str) -> None:
             tree.links.new(first, second)
         colour = mix.outputs[2]
     tree.links.new(colour, target)
+
+
+def by_normals(tree: bpy.types.NodeTree, target: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+    """A colour by the mirror's normal, to the side that is seen; and the socket for a pattern that it is to have."""
+    half, mixed = tree.nodes.new("ShaderNodeVectorMath"), tree.nodes.new("ShaderNodeMix")
+    half.operation = "MULTIPLY_ADD"
+    half.inputs[1].default_value, half.inputs[2].default_value = 3 * (0.3,), 3 * (0.6,)
+    mixed.data_type, mixed.blend_type, mixed.inputs[0].default_value = "RGBA", "MULTIPLY", 1.0
+    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Normal"], half.inputs[0])
+    tree.links.new(half.outputs[0], mixed.inputs[6])
+    tree.links.new(mixed.outputs[2], target)
+    return mixed.inputs[7]
 
 
 def painted(mirror: bpy.types.Object, tree: bpy.types.NodeTree, kind: str) -> None:
@@ -92,11 +109,14 @@ def as_a_window(mirror: bpy.types.Object) -> None:
 
 
 @pytest.mark.parametrize("kind", ["UV image", "named map", "Object", "Generated", "group", "ramp and curves",
+                                  "box", "box behind", "normals", "normals behind",
                                   "stored colour", "stored active colour", "stored numbers"])
 def test_a_stained_mirror_throws_its_picture(blank, tmp_path, capfd, kind):
     """As light that comes from behind through a window of the same stain."""
     floor, mirror, lamp = scene_of()
-    stained(mirror, kind)
+    stained(mirror, kind.removesuffix(" behind"))
+    if kind.endswith("behind"):
+        mirror.rotation_euler = (0.0, np.pi / 2, 0.0)
     blank.view_layer.update()
     blank.scene.cycles.max_bounces = 0
     data = parts.state()["data"]

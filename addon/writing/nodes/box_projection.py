@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..writing.nodes.shader_builder import ShaderBuilder, given
+from .shader_builder import ShaderBuilder, given
 
 STEP = 1e-6  # stands for no blend at all
 ALIKE = ("image", "interpolation", "extension")
