@@ -94,8 +94,9 @@ def _view(rng: np.random.Generator) -> None:
     cycles = scene.cycles
     cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling = SAMPLES, False, False
     cycles.caustics_refractive, cycles.blur_glossy, cycles.sample_clamp_indirect = False, 0.0, 0.0
-    # light that goes on from what it lights is no part of the mesh; nor is what has met the mirror twice
-    cycles.diffuse_bounces = cycles.glossy_bounces = 1
+    # light that goes on from what it lights is no part of the mesh; nor is what has met the mirror twice, which Cycles
+    # follows by one bounce more than it is told
+    cycles.diffuse_bounces, cycles.glossy_bounces = 1, 0
 
 
 def _matt(obj: bpy.types.Object) -> None:

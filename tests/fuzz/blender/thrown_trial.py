@@ -81,10 +81,11 @@ def compared(shown: np.ndarray, pair: tuple[np.ndarray, np.ndarray], alone: np.n
     off, light, variance = cells(shown - true), cells(true - alone), cells((0.5 * (pair[0] - pair[1]))**2)
     # the result and the light alone are as noisy as Cycles is where the mirror throws none
     spark = (np.abs(pair[0] - pair[1]) * asked[..., None]).max(axis=(0, 1))
-    noise, mean = NOISE * np.sqrt(2.0 * variance) + FOUND * spark, np.abs(light.sum(axis=(0, 1))) / CELLS**2
-    found = []
-    astray = np.abs(off) - (EACH * np.abs(light) + NEXT * CELLS**2 * mean / 2.0 + noise)
-    whole = np.abs(off.sum(axis=(0, 1))) - (WHOLE * CELLS**2 * mean + np.sqrt((noise**2).sum(axis=(0, 1))))
+    found, mean = [], np.abs(light.sum(axis=(0, 1))) / CELLS**2
+    astray = np.abs(off) - (EACH * np.abs(light) + NEXT * CELLS**2 * mean / 2.0 + FOUND * spark
+                            + NOISE * np.sqrt(2.0 * variance))
+    whole = np.abs(off.sum(axis=(0, 1))) - (WHOLE * CELLS**2 * mean + FOUND * spark
+                                            + NOISE * np.sqrt(2.0 * variance.sum(axis=(0, 1))))
     ratio = 1.0 + off.sum() / max(light.sum(), 1e-9)
     if (whole > 0.0).any():
         found.append(f"thrown: {ratio:.2f} of Cycles' light, by colour "
