@@ -30,7 +30,7 @@ def lit_scene(seed: int) -> Scene:
     rng = np.random.default_rng((seed, 13))
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     kind = chosen(rng, list(LIGHT))
-    shape, mirror = _object(rng, "Mirror", MIRRORS)
+    shape, mirror = added_object(rng, "Mirror", MIRRORS)
     of, material = mirror_material(rng, UNKNOWN[kind])
     mirror.data.materials.append(material)
     mirror.reflection_mesh.role = "MIRROR"
@@ -44,7 +44,7 @@ def lit_scene(seed: int) -> Scene:
     eye = Vector((rng.uniform(-2.0, 2.0), -6.5, rng.uniform(0.3, 2.5)))
     names += [_placed(rng, number, eye, UNKNOWN[kind]) for number in range(chosen(rng, [2, 3, 5]))]
     if rng.random() < 0.7:
-        names.append("on a floor of " + _floor(rng, UNKNOWN[kind]))
+        names.append("on a floor of " + added_floor(rng, UNKNOWN[kind]))
     names += [_lamp(rng, number) for number in range(chosen(rng, [1, 1, 2]))] + [_world(rng), _camera(rng, eye)]
     _rendered(rng)
     options = {"kind": kind, "samples": LIGHT[kind]}
@@ -63,7 +63,8 @@ def lit_scene(seed: int) -> Scene:
                  {"light": options, "generate": {"placement": placement, "depth": len(mirrors)}}, mirrors)
 
 
-def _object(rng: np.random.Generator, name: str, kinds: dict) -> tuple[str, bpy.types.Object]:
+def added_object(rng: np.random.Generator, name: str, kinds: dict) -> tuple[str, bpy.types.Object]:
+    """An object of one of some kinds, by what adds each, with colours at its corners; and which kind."""
     kind = chosen(rng, list(kinds))
     kinds[kind](rng)
     obj = bpy.context.object
@@ -104,7 +105,7 @@ def _beside(rng: np.random.Generator) -> bpy.types.Object:
 
 def _placed(rng: np.random.Generator, number: int, eye: Vector, without: tuple[str, ...]) -> str:
     """One object before the mirror, beside what the camera sees of that; some of them stand for themselves alone."""
-    kind, obj = _object(rng, f"Object{number}", OBJECTS)
+    kind, obj = added_object(rng, f"Object{number}", OBJECTS)
     while True:
         place = Vector((rng.uniform(-3.0, 3.0), rng.uniform(-4.5, 0.0), rng.uniform(-0.8, 2.0)))
         along = eye * max(0.0, min(1.0, place.dot(eye) / eye.dot(eye)))
@@ -139,7 +140,8 @@ def _instanced(rng: np.random.Generator, obj: bpy.types.Object) -> str:
     return "instances of"
 
 
-def _floor(rng: np.random.Generator, without: tuple[str, ...]) -> str:
+def added_floor(rng: np.random.Generator, without: tuple[str, ...]) -> str:
+    """A wide plane below the mirror; what it is made of."""
     bpy.ops.mesh.primitive_plane_add(size=16.0, location=(0.0, 0.0, -1.6))
     floor = bpy.context.object
     floor.name = "Floor"

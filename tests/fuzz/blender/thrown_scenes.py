@@ -26,7 +26,7 @@ def thrown_scene(seed: int) -> Scene:
     """Build the scene of a seed, the same every time, in a new empty file."""
     rng = np.random.default_rng((seed, 16))
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    shape, mirror = lit_scenes._object(rng, "Mirror", {name: lit_scenes.MIRRORS[name] for name in SHAPES})
+    shape, mirror = lit_scenes.added_object(rng, "Mirror", {name: lit_scenes.MIRRORS[name] for name in SHAPES})
     of, material = mirror_material(rng, tuple(MATERIALS.keys() - set(SHARP)))
     mirror.data.materials.append(material)
     mirror.reflection_mesh.role, mirror.location = "MIRROR", (0.0, 1.2, 0.2)
@@ -35,12 +35,12 @@ def thrown_scene(seed: int) -> Scene:
         mirror.rotation_euler = Euler((np.pi / 2 + rng.uniform(-0.5, 0.2) + turned, 0.0, rng.uniform(-0.5, 0.5)))
     names = [str(seed), f"{shape} of {of}"]
     glossy = tuple(OBJECTS.keys() - set(MATT))
-    names.append("floor of " + lit_scenes._floor(rng, glossy))
+    names.append("floor of " + lit_scenes.added_floor(rng, glossy))
     if rng.random() < 0.5:
         bpy.ops.mesh.primitive_plane_add(size=8.0, location=(-3.2, -1.0, 0.0), rotation=(0.0, np.pi / 2, 0.0))
         names.append("wall of " + _made_of(rng, glossy))
     for _ in range(chosen(rng, [0, 1, 2])):
-        kind, obj = lit_scenes._object(rng, "Object", lit_scenes.OBJECTS)
+        kind, obj = lit_scenes.added_object(rng, "Object", lit_scenes.OBJECTS)
         obj.location = (rng.uniform(-2.0, 2.0), rng.uniform(-3.0, -0.6), rng.uniform(-1.0, 0.8))
         obj.rotation_euler, obj.scale = rng.uniform(-1.5, 1.5, 3).tolist(), 3 * (chosen(rng, [0.4, 0.6]),)
         names.append(f"{kind} of " + _made_of(rng, glossy))
