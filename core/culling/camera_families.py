@@ -8,9 +8,9 @@ import numpy as np
 
 from ..cameras import Cameras
 from ..geometry import in_order
-from ..trees import Bound, Cones, Fronts, SceneTree, Touching, bounded_trace, curve_leaves, depth_for
+from ..trees import Bound, Fronts, SceneTree, Shafts, Touching, bounded_trace, curve_leaves, depth_for
 
-FAMILY = 16  # cameras that are looked at together at the most, or about half as many
+FAMILY = 32  # cameras that are looked at together at the most, or about half as many
 
 
 def traced(tree: SceneTree, cameras: Cameras, bound: Bound, fronts: Fronts | None,
@@ -18,15 +18,15 @@ def traced(tree: SceneTree, cameras: Cameras, bound: Bound, fronts: Fronts | Non
     """`bounded_trace` of cameras by families, without what turns away."""
     family = _families(cameras)
     order = in_order(family)
-    cones = Cones.around(cameras.select(order))
+    shafts = Shafts.around(cameras.select(order), float(tree.spheres[0][3, 0]))
 
     def counting(cone: np.ndarray, triangle: np.ndarray) -> np.ndarray:
-        kept = np.ones(len(cone), dtype=bool) if fronts is None else fronts.may_show(cones, cone, triangle)
+        kept = np.ones(len(cone), dtype=bool) if fronts is None else fronts.may_show(shafts.cones, cone, triangle)
         if asked is not None:
             kept[kept] = asked(order[cone[kept]], triangle[kept])
         return kept
 
-    found = bounded_trace(tree, cones, bound.select(order), counting, family[order])
+    found = bounded_trace(tree, shafts, bound.select(order), counting, family[order])
     return found.among(order, len(order))
 
 

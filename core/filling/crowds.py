@@ -33,7 +33,7 @@ from .whole_squares import WholeSquares
 
 LOOK = 1.0 / 8.0  # of the work for a candidate: that of looking at a pair that may become one
 TESTS = 2.0  # of a cone and a triangle, to a pair
-HIDING = 1.0 / 4.0  # of the work for a candidate: that of asking whether a mirror hides it
+HIDING = 1.0 / 16.0  # of the work for a candidate: that of asking whether a mirror hides it
 OVERLAPPING = 24  # of the mirrors in a camera: more hardly lie over one and the same polygon
 CROSSED = 2.0 / np.pi  # half as many lines of a square grid as a line of any direction crosses in its side's length
 CELLS = 4  # for each ray, where faces of the mirror may share one

@@ -13,8 +13,9 @@ from .magnification import Magnification
 from .node_tree import along_curve, curve_leaves, depth_for
 from .point_tree import SMALL, PointTree
 from .scene_tree import SceneTree
+from .shafts import Shafts
 from .vertex_tree import StandIns, VertexTree
 
 __all__ = ["SMALL", "Balls", "Bound", "BoxTree", "Cones", "Fronts", "Magnification", "PointTree", "SceneTree",
-           "StandIns", "Touching", "VertexTree", "along_curve", "bounded_trace", "curve_leaves", "depth_for",
+           "Shafts", "StandIns", "Touching", "VertexTree", "along_curve", "bounded_trace", "curve_leaves", "depth_for",
            "first_crossed", "first_hits", "meet"]

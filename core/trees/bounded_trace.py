@@ -10,6 +10,7 @@ from ..support import breathe, crowded
 from .cones import Cones
 from .node_tree import CONES_AT_ONCE
 from .scene_tree import SceneTree
+from .shafts import Shafts
 
 VISITS_OF_A_PAIR = 3  # tests of a cone against a node, to a pair that may be found
 
@@ -81,7 +82,7 @@ class Touching:
         return Touching(chosen[self.cone], self.triangle, self.visited, given_up, full)
 
 
-def bounded_trace(tree: SceneTree, cones: Cones, bound: Bound,
+def bounded_trace(tree: SceneTree, cones: Cones | Shafts, bound: Bound,
                   asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
                   family: np.ndarray | None = None) -> Touching:
     """Pairs of cones and triangles that may touch, as many as are allowed.
@@ -89,7 +90,7 @@ def bounded_trace(tree: SceneTree, cones: Cones, bound: Bound,
     Parameters
     ----------
     tree : SceneTree
-    cones : Cones
+    cones : Cones or Shafts
     bound : Bound
     asked : callable, optional
         Which pairs (p,) of a cone and a triangle count.

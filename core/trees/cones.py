@@ -27,6 +27,9 @@ class Cones:
     sine: np.ndarray
     cosine: np.ndarray
 
+    def __len__(self) -> int:
+        return len(self.radius)
+
     @classmethod
     def around(cls, cameras: Cameras) -> Cones:
         return cls.round(cameras.origins[:, cameras.corners], cameras.rays[:, cameras.corners])
@@ -75,6 +78,9 @@ class Balls:
 
     centre: np.ndarray
     radius: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.radius)
 
     def touch(self, ball: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
         """Whether the spheres `ball` (n,) and those with `centre` (3, n) and `radius` (n,) overlap."""

@@ -12,6 +12,7 @@ import numpy as np
 from ..geometry import Order, TriangleMesh, columns
 from ..support import breathe, portions
 from .cones import Balls, Cones
+from .shafts import Shafts
 
 FIRST_LEVEL = 4
 STRIDE = 2
@@ -51,19 +52,19 @@ class NodeTree:
     def __len__(self) -> int:
         return len(self.order)
 
-    def descended(self, cones: Cones | Balls, wanted: np.ndarray, resting: Callable | None = None
+    def descended(self, cones: Cones | Balls | Shafts, wanted: np.ndarray, resting: Callable | None = None
                   ) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
         """Cones and leaves that touch, and how many nodes were tested for it, in shares that fit the memory. A cone
         that is no longer `wanted` (n,) when its turn comes goes no further; nor do cones at nodes where `resting`,
         asked with (level, cone, node), says so."""
         level, first = self.top()
-        for part in portions(len(cones.radius), CONES_AT_ONCE):
+        for part in portions(len(cones), CONES_AT_ONCE):
             cone = np.arange(part.start, part.stop)
             waiting = [(level, np.repeat(cone, len(first)), np.tile(first, len(cone)))]
             while waiting:
                 yield self._step(cones, wanted, resting, waiting)
 
-    def _step(self, cones: Cones | Balls, wanted: np.ndarray, resting: Callable | None,
+    def _step(self, cones: Cones | Balls | Shafts, wanted: np.ndarray, resting: Callable | None,
               waiting: list) -> tuple[np.ndarray, np.ndarray, int]:
         """One level of the tree for the cones and nodes that have waited least; what comes of them waits in its turn,
         unless they are leaves."""

@@ -19,9 +19,10 @@ from .box_tree import BoxTree
 from .closed_bodies import ClosedBodies
 from .cones import Balls, Cones
 from .node_tree import NODES_AT_ONCE, NodeTree, along_curve, depth_for, node_spheres
+from .shafts import Shafts
 from .vertex_tree import VertexTree
 
-BUCKET = 16
+BUCKET = 4
 AT_ONCE = 16384  # triangles: what their arrays take fits the cache
 LEAST_FAMILY = 1.5  # cones: to look for fewer together costs more than it spares
 
@@ -107,11 +108,11 @@ class SceneTree(NodeTree):
             Tests of a cone against a node.
         """
         none = np.zeros(0, dtype=np.int64)
-        found = [(none, none, 0), *self.traced(cones, np.ones(len(cones.radius), dtype=bool))]
+        found = [(none, none, 0), *self.traced(cones, np.ones(len(cones), dtype=bool))]
         cone, triangle, visited = zip(*found)
         return np.concatenate(cone), np.concatenate(triangle), sum(visited)
 
-    def traced(self, cones: Cones | Balls, wanted: np.ndarray, family: np.ndarray | None = None,
+    def traced(self, cones: Cones | Balls | Shafts, wanted: np.ndarray, family: np.ndarray | None = None,
                enough: np.ndarray | None = None) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
         """What `trace` returns, in shares that fit the memory; a cone that is no longer `wanted` (n,) when its turn
         comes is not followed, nor is one wanted any longer that is to be tested against more than `enough` (n,)
@@ -128,12 +129,11 @@ class SceneTree(NodeTree):
             for part in list(shares(end - begin, 4 * NODES_AT_ONCE)) or [slice(0, 0)]:
                 entry, pair = ranges(begin[part], (end - begin)[part])
                 own, triangle = cone[part][pair], self.order[entry]
-                sphere = columns(self.triangle_spheres, triangle)
-                touching = cones.touch(own, sphere[:3], sphere[3])
+                touching = self._touch(cones, own, triangle)
                 yield own[touching], triangle[touching], visited
                 visited = 0
 
-    def _traced_together(self, cones: Cones | Balls, wanted: np.ndarray, start: np.ndarray,
+    def _traced_together(self, cones: Cones | Balls | Shafts, wanted: np.ndarray, start: np.ndarray,
                          enough: np.ndarray | None) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
         """What `traced` returns for families of cones that begin at `start` (f,)."""
         size = np.diff(np.append(start, len(wanted)))
@@ -146,11 +146,24 @@ class SceneTree(NodeTree):
                 if enough is not None:
                     left = _not_too_many(own, np.ones(len(own)), wanted, enough)
                     own, chosen = own[left], chosen[left]
-                sphere = columns(self.triangle_spheres, chosen)
-                touching = wanted[own] & cones.touch(own, sphere[:3], sphere[3])
+                touching = wanted[own] & self._touch(cones, own, chosen)
                 yield own[touching], chosen[touching], visited
                 visited = 0
         wanted[np.repeat(~some, size)] = False
+
+    def _touch(self, cones: Cones | Balls | Shafts, cone: np.ndarray, triangle: np.ndarray) -> np.ndarray:
+        """Whether cones (p,) may touch triangles (p,)."""
+        sphere = columns(self.triangle_spheres, triangle)
+        touching = cones.touch(cone, sphere[:3], sphere[3])
+        if isinstance(cones, Shafts):
+            some = np.flatnonzero(touching)
+            touching[some] = cones.hold(cone[some], self._corners, triangle[some])
+        return touching
+
+    @cached_property
+    def _corners(self) -> list[np.ndarray]:
+        """Three (3, m): those of the triangles."""
+        return [rows(self.mesh.positions[corner]) for corner in self.mesh.triangles.T]
 
 
 def _boxes_and_spheres(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

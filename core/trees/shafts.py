@@ -1,0 +1,114 @@
+"""Shafts round cameras: between four planes, two and two across, closer than cones where rays part more one way than
+the other, as behind slivers and where a mirror is bent one way.
+
+E. Haines, J. Wallace, "Shaft Culling for Efficient Ray-Traced Radiosity", 1991.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..cameras import Cameras
+from ..geometry import columns, cross, dot, norm, unit
+from .cones import Cones
+
+ROUNDING = 1e-12  # of the lengths that planes are made of
+UPRIGHT = 1e-6  # of a ray along the axis: rays that lean more have no slope to speak of
+
+
+@dataclass(frozen=True)
+class Shafts:
+    """One shaft round the cone of each of n cameras, or of each run of cameras, on k corners.
+
+    Attributes
+    ----------
+    cones : Cones
+    places, rays : (3, k) float64
+        The rays, of unit length, that the corners leave, those of one shaft side by side.
+    start : (n,) int64
+        Where those of each shaft begin.
+    reach : float
+        How far away the shafts are to be close round their rays, in scene units.
+    """
+
+    cones: Cones
+    places: np.ndarray
+    rays: np.ndarray
+    start: np.ndarray
+    reach: float
+
+    @classmethod
+    def around(cls, cameras: Cameras, reach: float) -> Shafts:
+        corner = cameras.corners.ravel()
+        return cls(Cones.around(cameras), columns(cameras.origins, corner), unit(columns(cameras.rays, corner)),
+                   3 * np.arange(len(cameras)), reach)
+
+    def __len__(self) -> int:
+        return len(self.cones)
+
+    def together(self, start: np.ndarray) -> Shafts:
+        """Shafts round the shafts of each run from one of `start` (f,) to the next."""
+        return replace(self, cones=self.cones.together(start), start=self.start[start])
+
+    def touch(self, shaft: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
+        """Whether the cones of shafts `shaft` (n,) may touch spheres with `centre` (3, n) and `radius` (n,)."""
+        return self.cones.touch(shaft, centre, radius)
+
+    def hold(self, shaft: np.ndarray, corners: list[np.ndarray], triangle: np.ndarray) -> np.ndarray:
+        """Whether triangles (p,) with three `corners` (3, m) may reach into the shafts (p,); never a false no."""
+        left = np.arange(len(shaft))
+        for plane in self.planes:
+            own, some = columns(plane, shaft[left]), triangle[left]
+            beyond = dot(own, columns(corners[0], some)) > own[3]
+            for corner in corners[1:]:
+                beyond &= dot(own, columns(corner, some)) > own[3]
+            left = left[~beyond]
+        held = np.zeros(len(shaft), dtype=bool)
+        held[left] = True
+        return held
+
+    @cached_property
+    def planes(self) -> list[np.ndarray]:
+        """Four (4, n): outward normals, and how high the planes lie along them; first the two that lie closer together.
+
+        Let W be barycentric weights in a camera, and heights be above the centre of the cone: q(W) along the axis and
+        x(W) across of the camera's places, h and x of a point in the shaft. Then x = x(W) + slope(W) (h - q(W)), where
+        slope(W) lies between those of the corners and h >= q(W): beside the mean slope, x strays by half the range of
+        slopes for each unit of h - q(W) at the most.
+        """
+        centre, axis, start = self.cones.centre, self.cones.axis, self.start
+        run = np.repeat(np.arange(len(start)), np.diff(np.append(start, self.rays.shape[1])))
+        own, away = columns(axis, run), self.places - columns(centre, run)
+        height, rising = dot(away, own), dot(self.rays, own)
+        everything = np.minimum.reduceat(rising, start) < UPRIGHT
+        rising = np.maximum(rising, UPRIGHT)
+        size = norm(centre) + self.reach + np.maximum.reduceat(norm(away), start)
+        lowest = np.minimum.reduceat(height, start)
+        planes = []
+        for across in _directions(axis, away + self.reach * self.rays, run, start):
+            own = columns(across, run)
+            slope = dot(self.rays, own) / rising
+            least, most = np.minimum.reduceat(slope, start), np.maximum.reduceat(slope, start)
+            mean, widening = 0.5 * (least + most), 0.5 * (most - least)
+            beside = dot(away, own) - mean[run] * height
+            room = ROUNDING * size * (1.0 + np.abs(mean) + widening) - widening * lowest
+            for side, end in ((1.0, np.maximum.reduceat(beside, start)), (-1.0, -np.minimum.reduceat(beside, start))):
+                normal = side * (across - mean * axis) - widening * axis
+                high = np.where(everything, np.inf, end + room + dot(normal, centre))
+                planes.append(np.concatenate((normal, high[None])))
+        return planes
+
+
+def _directions(axis: np.ndarray, ends: np.ndarray, run: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Two unit vectors (3, n) across each axis, and across one another, that along which `ends` (3, k) of rays are
+    spread least first."""
+    other = np.where(np.abs(axis[:1]) < 0.6, np.array([[1.0], [0.0], [0.0]]), np.array([[0.0], [1.0], [0.0]]))
+    first = unit(cross(axis, other))
+    second = cross(axis, first)
+    count = np.diff(np.append(start, len(run)))
+    x, y = ((end := dot(ends, columns(way, run))) - (np.add.reduceat(end, start) / count)[run]
+            for way in (first, second))
+    angle = 0.5 * np.arctan2(2.0 * np.add.reduceat(x * y, start), np.add.reduceat(x * x - y * y, start))
+    return second * np.cos(angle) - first * np.sin(angle), first * np.cos(angle) + second * np.sin(angle)
