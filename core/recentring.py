@@ -67,7 +67,7 @@ def _moved(spheres: np.ndarray, offset: np.ndarray) -> np.ndarray:
 def _with(surface: Surface, **values: object) -> Surface:
     """A copy with other values, which are known to be good."""
     copied = copy(surface)
-    for made in ("bodies", "boxes", "vertices", "_corners"):
+    for made in ("bodies", "boxes", "vertices"):
         vars(copied).pop(made, None)
     for name, value in values.items():
         object.__setattr__(copied, name, value)

@@ -157,13 +157,8 @@ class SceneTree(NodeTree):
         touching = cones.touch(cone, sphere[:3], sphere[3])
         if isinstance(cones, Shafts):
             some = np.flatnonzero(touching)
-            touching[some] = cones.hold(cone[some], self._corners, triangle[some])
+            touching[some] = cones.hold(cone[some], self.mesh.positions, self.mesh.triangles[triangle[some]])
         return touching
-
-    @cached_property
-    def _corners(self) -> list[np.ndarray]:
-        """Three (3, m): those of the triangles."""
-        return [rows(self.mesh.positions[corner]) for corner in self.mesh.triangles.T]
 
 
 def _boxes_and_spheres(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

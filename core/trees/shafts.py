@@ -56,14 +56,14 @@ class Shafts:
         """Whether the cones of shafts `shaft` (n,) may touch spheres with `centre` (3, n) and `radius` (n,)."""
         return self.cones.touch(shaft, centre, radius)
 
-    def hold(self, shaft: np.ndarray, corners: list[np.ndarray], triangle: np.ndarray) -> np.ndarray:
-        """Whether triangles (p,) with three `corners` (3, m) may reach into the shafts (p,); never a false no."""
+    def hold(self, shaft: np.ndarray, positions: np.ndarray, corners: np.ndarray) -> np.ndarray:
+        """Whether triangles (p,), with `corners` (p, 3) among positions (v, 3), may reach into the shafts (p,); never a
+        false no."""
         left = np.arange(len(shaft))
         for plane in self.planes:
-            own, some = columns(plane, shaft[left]), triangle[left]
-            beyond = dot(own, columns(corners[0], some)) > own[3]
-            for corner in corners[1:]:
-                beyond &= dot(own, columns(corner, some)) > own[3]
+            own, beyond = columns(plane, shaft[left]), np.ones(len(left), dtype=bool)
+            for corner in corners[left].T:
+                beyond &= dot(own, positions.take(corner, axis=0).T) > own[3]
             left = left[~beyond]
         held = np.zeros(len(shaft), dtype=bool)
         held[left] = True

@@ -19,7 +19,8 @@ def thrown(points, rng, size):
 
 
 def held(shafts, shaft, corners):
-    return shafts.hold(shaft, corners, np.arange(len(shaft)))
+    count = len(shaft)
+    return shafts.hold(shaft, np.concatenate(corners, axis=1).T, np.arange(3 * count).reshape(3, count).T)
 
 
 @pytest.mark.parametrize("offset", [0.0, 1e4])
