@@ -26,6 +26,7 @@ from core.points.beams import Beams
 from core.polygons import FaceRefinement, Overlaps
 from core.trees import Bound, Magnification
 from core.trees.closed_bodies import ClosedBodies
+from core.trees.shafts import Shafts
 from core.visibility.mirror_visibility import DepthGrid
 from core.whole_faces import seams
 from core.whole_faces.division import Division
@@ -122,6 +123,8 @@ PARTS = {
         candidates, np.zeros(len(candidates.cameras), dtype=bool), 0, 0), (VIEW, FLOOR, BOXES), "uncovered", above=0.1),
     "mirrors before the scene": Part(BOUNCE, "cut_behind_mirrors", lambda met, polygons: (polygons, 0, 0),
                                      (VIEW, BALLS, ROOM), "spill", 10.0, settings=ALL),
+    "shafts": Part(Shafts, "hold", lambda self, shaft, positions, corners: np.ones(len(shaft), dtype=bool), "cylinder",
+                   "pairs", 3.0, settings=ALL),
     "neighbours that only touch": Part(BOUNCE, "plainly_seen", lambda met, candidates: np.ones(
         len(candidates), dtype=bool), "torus", "candidates", 1.08, settings=ALL),
     "what mirrors hide from whole cameras": Part(Overlaps, "in_sight", lambda self, last: self.candidates, "torus",
