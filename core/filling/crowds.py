@@ -33,7 +33,8 @@ from .whole_squares import WholeSquares
 
 LOOK = 1.0 / 8.0  # of the work for a candidate: that of looking at a pair that may become one
 TESTS = 2.0  # of a cone and a triangle, to a pair
-HIDING = 1.0 / 16.0  # of the work for a candidate: that of asking whether a mirror hides it
+# of the work for a candidate: that of asking whether a mirror hides it, at the most and as a rule
+HIDING, USUALLY = 1.0 / 4.0, 1.0 / 16.0
 OVERLAPPING = 24  # of the mirrors in a camera: more hardly lie over one and the same polygon
 CROSSED = 2.0 / np.pi  # half as many lines of a square grid as a line of any direction crosses in its side's length
 CELLS = 4  # for each ray, where faces of the mirror may share one
@@ -89,8 +90,9 @@ class Crowds:
         cameras = candidates.cameras
         count, hiding = (np.bincount(candidates.camera, weights, len(cameras))
                          for weights in (None, self.met.are_mirrors(candidates)))
-        load, worth = count * (1.0 + HIDING * np.minimum(hiding, OVERLAPPING)), picture_areas(cameras)
-        crowd = crowd | crowded(count, worth, self.limits.candidates) | crowded(load, worth, self.limits.work)
+        most, load = (count * (1.0 + share * np.minimum(hiding, OVERLAPPING)) for share in (HIDING, USUALLY))
+        worth = picture_areas(cameras)
+        crowd = crowd | crowded(count, worth, self.limits.candidates) | crowded(most, worth, self.limits.work)
         crowd |= self.dense_in(cameras, np.where(crowd, 0.0, load))
         self._cameras.append(cameras.select(crowd))
         if crowd.any():

@@ -35,7 +35,7 @@ class Limits:
     candidates : int
         Of cameras and triangles that overlap.
     work : int
-        Candidates, each counted once more for every sixteen mirrors that may hide it.
+        Candidates, each counted once more for every four mirrors that may hide it.
     faces : int
     rays : int
         Through crowded cameras.
