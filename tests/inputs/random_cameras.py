@@ -32,3 +32,12 @@ def random_cameras(rng, count, size=0.3, turn=0.3):
     rays = rays / np.linalg.norm(rays, axis=2, keepdims=True) + rng.normal(scale=turn, size=(count, 3, 3))
     rays *= rng.uniform(0.5, 2.0, (count, 3, 1))
     return cameras_of(places, rays)
+
+
+def random_families(rng, count, turn):
+    """`random_cameras`, those that look nearly the same way side by side, as on one triangle of a mirror; and where
+    runs of about three begin."""
+    cameras = random_cameras(rng, count, turn=turn)
+    direction = cameras.rays[:, cameras.corners].sum(axis=2)
+    cameras = cameras.select(np.lexsort(np.round(direction / np.linalg.norm(direction, axis=0))))
+    return cameras, np.flatnonzero(np.append(True, rng.uniform(size=count - 1) < 0.3))

@@ -5,7 +5,7 @@ import pytest
 from core.cameras.mirror_map import MirrorMap
 from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from core.trees.cones import Cones
-from tests.inputs.random_cameras import cameras_of, moved, random_cameras
+from tests.inputs.random_cameras import cameras_of, moved, random_cameras, random_families
 from tests.oracles.true_map import case_of
 
 
@@ -86,11 +86,7 @@ def test_a_camera_whose_rays_go_all_ways_holds_everything():
 @pytest.mark.parametrize("turn", [0.0, 0.05, 0.4, 2.0])
 def test_a_cone_round_several_holds_the_rays_of_all(turn):
     rng = np.random.default_rng(59)
-    cameras = random_cameras(rng, 200, turn=turn)
-    # cameras that look nearly the same way come together, as on one triangle of a mirror
-    direction = cameras.rays[:, cameras.corners].sum(axis=2)
-    cameras = cameras.select(np.lexsort(np.round(direction / np.linalg.norm(direction, axis=0))))
-    start = np.flatnonzero(np.append(True, rng.uniform(size=199) < 0.3))
+    cameras, start = random_families(rng, 200, turn)
     cone, points = samples(cameras, rng, 40)
     together = Cones.around(cameras).together(start)
     family = np.searchsorted(start, cone, side="right") - 1

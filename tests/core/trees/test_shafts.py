@@ -7,7 +7,7 @@ from core.cameras.three_ray_cameras import three_ray_cameras, visible_triangles
 from core.geometry import rows
 from core.trees.shafts import Shafts
 from tests.core.trees.test_cones import samples
-from tests.inputs.random_cameras import cameras_of, moved, random_cameras
+from tests.inputs.random_cameras import cameras_of, moved, random_cameras, random_families
 from tests.oracles.true_map import case_of
 
 
@@ -48,10 +48,7 @@ def test_shafts_hold_the_true_rays_of_a_mirrors_corners(name):
 @pytest.mark.parametrize("turn", [0.0, 0.05, 0.4, 2.0])
 def test_a_shaft_round_several_holds_the_rays_of_all(turn):
     rng = np.random.default_rng(59)
-    cameras = random_cameras(rng, 200, turn=turn)
-    direction = cameras.rays[:, cameras.corners].sum(axis=2)
-    cameras = cameras.select(np.lexsort(np.round(direction / np.linalg.norm(direction, axis=0))))
-    start = np.flatnonzero(np.append(True, rng.uniform(size=199) < 0.3))
+    cameras, start = random_families(rng, 200, turn)
     shaft, points = samples(cameras, rng, 40)
     together = Shafts.around(cameras, 5.0).together(start)
     assert len(together) == len(start) < 100
