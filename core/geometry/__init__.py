@@ -24,6 +24,7 @@ from .subdivision import (
 )
 from .triangle_mesh import TriangleMesh, area_normals, areal, has_area
 from .vectors import (
+    across,
     between,
     columns,
     cross,
@@ -40,7 +41,8 @@ from .vectors import (
     unit,
 )
 
-__all__ = ["ColumnArrays", "Order", "SceneFrames", "TURNS", "TriangleMesh", "area_normals", "areal", "areas", "between",
+__all__ = ["ColumnArrays", "Order", "SceneFrames", "TURNS", "TriangleMesh", "across", "area_normals", "areal", "areas",
+           "between",
            "borders", "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas",
            "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area",
            "in_order", "largest", "meeting", "next_corner", "norm", "ordered", "others", "parent_side",

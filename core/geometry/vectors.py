@@ -62,6 +62,13 @@ def unit(a: np.ndarray) -> np.ndarray:
     return a / np.where(length > 0.0, length, 1.0)
 
 
+def across(axis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Two unit vectors (3, n) across unit vectors `axis` (3, n) and across one another."""
+    other = np.where(np.abs(axis[:1]) < 0.6, np.array([[1.0], [0.0], [0.0]]), np.array([[0.0], [1.0], [0.0]]))
+    first = unit(cross(axis, other))
+    return first, cross(axis, first)
+
+
 def solve(c0: np.ndarray, c1: np.ndarray, c2: np.ndarray, right: np.ndarray) -> np.ndarray:
     """x (3, n) with x0 c0 + x1 c1 + x2 c2 = right, by Cramer's rule; zero where the three columns are dependent."""
     normal = cross(c1, c2)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import cross, dot, norm, unit
+from ..geometry import across, dot, norm
 from ..trees import Cones
 
 ROUNDING = 1e-9  # of what a point's distance is measured in
@@ -43,9 +43,7 @@ class Beams:
     @classmethod
     def of(cls, cameras: Cameras, cones: Cones) -> Beams:
         axis = cones.axis
-        other = np.where(np.abs(axis[:1]) < 0.6, np.array([[1.0], [0.0], [0.0]]), np.array([[0.0], [1.0], [0.0]]))
-        first = unit(cross(axis, other))
-        frame = np.stack((cones.centre, first, cross(axis, first), axis))
+        frame = np.stack((cones.centre, *across(axis), axis))
         corners = cameras.corners.T
         places = np.take(cameras.places, corners, axis=1) - cones.centre[:, None]
         rays = np.take(cameras.rays, corners, axis=1)

@@ -11,11 +11,11 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import columns, cross, dot, norm, unit
+from ..geometry import across, columns, dot, norm, unit
 from .cones import Cones
 
 ROUNDING = 1e-12  # of the lengths that planes are made of
-UPRIGHT = 1e-6  # of a ray along the axis: rays that lean more have no slope to speak of
+UPRIGHT = 1e-6  # of a ray along the axis: where one leans more than that, a shaft holds everything
 
 
 @dataclass(frozen=True)
@@ -87,15 +87,15 @@ class Shafts:
         size = norm(centre) + self.reach + np.maximum.reduceat(norm(away), start)
         lowest = np.minimum.reduceat(height, start)
         planes = []
-        for across in _directions(axis, away + self.reach * self.rays, run, start):
-            own = columns(across, run)
+        for way in _directions(axis, away + self.reach * self.rays, run, start):
+            own = columns(way, run)
             slope = dot(self.rays, own) / rising
             least, most = np.minimum.reduceat(slope, start), np.maximum.reduceat(slope, start)
             mean, widening = 0.5 * (least + most), 0.5 * (most - least)
             beside = dot(away, own) - mean[run] * height
             room = ROUNDING * size * (1.0 + np.abs(mean) + widening) - widening * lowest
             for side, end in ((1.0, np.maximum.reduceat(beside, start)), (-1.0, -np.minimum.reduceat(beside, start))):
-                normal = side * (across - mean * axis) - widening * axis
+                normal = side * (way - mean * axis) - widening * axis
                 high = np.where(everything, np.inf, end + room + dot(normal, centre))
                 planes.append(np.concatenate((normal, high[None])))
         return planes
@@ -104,9 +104,7 @@ class Shafts:
 def _directions(axis: np.ndarray, ends: np.ndarray, run: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, ...]:
     """Two unit vectors (3, n) across each axis, and across one another, that along which `ends` (3, k) of rays are
     spread least first."""
-    other = np.where(np.abs(axis[:1]) < 0.6, np.array([[1.0], [0.0], [0.0]]), np.array([[0.0], [1.0], [0.0]]))
-    first = unit(cross(axis, other))
-    second = cross(axis, first)
+    first, second = across(axis)
     count = np.diff(np.append(start, len(run)))
     x, y = ((end := dot(ends, columns(way, run))) - (np.add.reduceat(end, start) / count)[run]
             for way in (first, second))

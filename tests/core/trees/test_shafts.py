@@ -56,8 +56,8 @@ def test_a_shaft_round_several_holds_the_rays_of_all(turn):
 
 
 def test_a_shaft_of_rays_in_one_plane_is_thin():
-    """A sliver whose rays part along it: what lies a little beside the plane of its rays is not in it, nor what lies
-    before it, though the cone round it holds both."""
+    """A sliver whose rays part along it: what lies a little beside the plane of its rays is not in it, though the
+    cone round it holds that."""
     places = np.array([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1e-3, 0.0]])
     rays = np.array([[-0.4, 0.0, 1.0], [0.4, 0.0, 1.0], [0.0, 0.0, 1.0]])
     shafts = Shafts.around(cameras_of(places[None], rays[None]), 5.0)
