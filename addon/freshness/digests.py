@@ -5,13 +5,14 @@ anything.
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from hashlib import blake2b
 
 import bpy
 import numpy as np
 from bpy.app.handlers import persistent
 
-from ..reading import drawn_meshes
+from ..reading import drawn_meshes, is_rendered, rendered_in
 from ..registration import Handlers
 from .materials import forget_materials
 
@@ -38,14 +39,25 @@ def forget(session_uid: int | None = None) -> None:
 
 
 def digest_of(depsgraph: bpy.types.Depsgraph, objects: list) -> str:
-    """One digest of what `objects`, and what they instance, show and where; nothing that is hidden takes part."""
-    owner_of = {obj: index for index, obj in enumerate(objects)}
+    """One digest of what `objects`, and what they instance, show and where; nothing that viewports hide takes part."""
+    return _digest(depsgraph, {obj: index for index, obj in enumerate(objects)}, lambda instance: True)
+
+
+def digest_of_shown(depsgraph: bpy.types.Depsgraph, objects: list) -> str:
+    """As `digest_of`, of what mirrors show of `objects`: nothing that renders hide, or that glossy rays do not meet."""
+    rendered = rendered_in(depsgraph.view_layer)
+    owner_of = {obj: index for index, obj in enumerate(objects) if obj.visible_glossy and rendered(obj)}
+    return _digest(depsgraph, owner_of, lambda instance: not instance.is_instance or (
+        is_rendered(instance) and instance.object.original.visible_glossy))
+
+
+def _digest(depsgraph: bpy.types.Depsgraph, owner_of: dict, counts: Callable) -> str:
     known = []
     for instance in drawn_meshes(depsgraph):
         evaluated = instance.object
         parent = instance.parent.original if instance.is_instance else None
         owner = owner_of.get(evaluated.original if parent is None else parent)
-        if owner is None:
+        if owner is None or not counts(instance):
             continue
         key = (evaluated.original.session_uid, parent.session_uid if parent else 0, evaluated.data.name)
         if key not in _geometry:

@@ -17,7 +17,7 @@ VALUES = ("type", "color", "energy", "exposure", "temperature", "use_temperature
 
 def lamps_of(context: bpy.types.Context) -> str:
     """A digest of the lamps that a view layer's renders know, where they stand, and of the world."""
-    lamps = [obj for obj in filter(rendered_in(context), context.view_layer.objects)
+    lamps = [obj for obj in filter(rendered_in(context.view_layer), context.view_layer.objects)
              if obj.type == "LIGHT" and not is_glint(obj)]
     told = sorted(np.array(lamp.matrix_world, dtype=np.float32).tobytes() + _made_of(lamp.data) for lamp in lamps)
     world = context.scene.world

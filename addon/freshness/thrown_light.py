@@ -100,7 +100,7 @@ def _origin(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.type
               if obj != lamp and not is_glint(obj)]
     numbers = blake2b(repr(lamp_numbers(depsgraph, lamp)).encode(), digest_size=digests.SIZE).hexdigest()
     return LightOrigin(digests.digest_of(depsgraph, [mirror]) + colours_of([mirror]), numbers,
-                       digests.digest_of(depsgraph, sources) + materials_of(sources) + colours_of(sources),
+                       digests.digest_of_shown(depsgraph, sources) + materials_of(sources) + colours_of(sources),
                        digests.digest_of(depsgraph, around), _settings(context, mirror))
 
 

@@ -25,7 +25,7 @@ class Caustic:
         Of a new object.
     mirror, lamp : bpy.types.Object
     sources : list of bpy.types.Object
-        What is lit.
+        What is lit, and after it what would be, were it not hidden.
     arrays : MeshArrays
         With the receivers' materials.
     counts : dict

@@ -12,7 +12,7 @@ NO_SURFACES = {"CURVES", "POINTCLOUD", "VOLUME"}
 def rendered_alone(context: bpy.types.Context, mirrors: list, diffuse: list) -> list:
     """What is hidden in the viewport but not from the mirrors in renders, and so is missing, where all else that is
     seen takes part; nothing where the user chose what does."""
-    rendered, taking = rendered_in(context), {*mirrors, *diffuse}
+    rendered, taking = rendered_in(context.view_layer), {*mirrors, *diffuse}
     if not _shows_all(context, mirrors, diffuse):
         return []
     return [obj for obj in context.view_layer.objects

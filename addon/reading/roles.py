@@ -180,7 +180,7 @@ def _why_unseen(obj: bpy.types.Object, there: set, hidden: str) -> str:
 
 def seen_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
     """Tells of an object whether it is seen, in the viewport and in renders."""
-    in_layer, rendered = set(context.view_layer.objects), rendered_in(context)
+    in_layer, rendered = set(context.view_layer.objects), rendered_in(context.view_layer)
     return lambda obj: obj in in_layer and obj.visible_get() and rendered(obj)
 
 
@@ -190,11 +190,10 @@ def _seen_at_times(context: bpy.types.Context) -> Callable[[bpy.types.Object], b
     return lambda obj: is_seen(obj) or (obj in in_layer and comes_and_goes(obj))
 
 
-def rendered_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
-    """Tells of an object of the view layer whether it is in renders."""
+def rendered_in(layer: bpy.types.ViewLayer) -> Callable[[bpy.types.Object], bool]:
+    """Tells of an object of a view layer whether it is in renders."""
     # what each object's own list of collections says, which is worked out anew whenever it is asked
-    rendered = {obj for collection in rendered_collections(context.view_layer.layer_collection)
-                for obj in collection.objects}
+    rendered = {obj for collection in rendered_collections(layer.layer_collection) for obj in collection.objects}
     return lambda obj: not obj.hide_render and obj in rendered
 
 

@@ -41,6 +41,8 @@ class CausticScene:
     blockers : dict
         By lamp: what stands in the way of its light.
     diffuse : DiffuseScene
+    sources : list of bpy.types.Object
+        What light falls on, those among it that are hidden now and take part again when they are shown.
     origins : dict
         By (mirror, lamp): the record of what light is made from.
     remarks, lacks : list of str
@@ -55,6 +57,7 @@ class CausticScene:
     receivers: dict[bpy.types.Object, list[Receiving]]
     blockers: dict[bpy.types.Object, core.TriangleMesh | None]
     diffuse: DiffuseScene
+    sources: list
     origins: dict
     remarks: list[str]
     lacks: list[str]
@@ -88,9 +91,9 @@ def reading_caustics(context: bpy.types.Context, chosen: Participants, lamps: li
     receivers = {mirror: receiving(scene, surface.mesh) for mirror, surface in surfaces.items()}
     standing = blocking(context, chosen)
     blockers = {lamp: blockers_of(depsgraph, [obj for obj in standing if obj != lamp]) for lamp in lamps}
-    origins = {}
+    origins, sources = {}, scene.sources + [obj for obj in chosen.waiting if obj not in lamps]
     for pair in pairs:
-        origins[pair] = light_record(context, *pair, scene.sources)
+        origins[pair] = light_record(context, *pair, sources)
         yield 0.0, "Reading the scene"
-    return CausticScene(depsgraph, pairs, dark, surfaces, places, receivers, blockers, scene, origins,
+    return CausticScene(depsgraph, pairs, dark, surfaces, places, receivers, blockers, scene, sources, origins,
                         left_out(context, chosen.hidden) + faceless, remarks_on_taking(scene, surfaces))

@@ -180,7 +180,7 @@ def _made(context: bpy.types.Context, name: str, pair: tuple, lit: list, scene: 
     source_face = next(one.values for one in arrays.attributes if one.name == "source_face")
     layers = yield from core.in_steps(partial(most_layers, arrays.positions, arrays.triangles, source_face))
     plain = all(_plain(own, mesh, places.tints) for _, own, mesh in lit)
-    return Caustic(name, *pair, diffuse.sources, arrays, dict(counts), layers, plain, places.tints)
+    return Caustic(name, *pair, scene.sources, arrays, dict(counts), layers, plain, places.tints)
 
 
 def _plain(own: MirrorPart, mesh: core.CausticMesh, textured: list[Tint]) -> bool:
