@@ -28,8 +28,8 @@ def main(arguments: list[str]) -> int:
     count = next((k for k, argument in enumerate(arguments) if not argument.endswith(".blend")), len(arguments))
     files, arguments = arguments[:max(count, 1)], arguments[max(count, 1):]
     if not arguments or (len(files) > 1 and arguments[0] != "benchmark"):
-        print("Usage: python addon/run_with_bpy.py scene.blend generate|light|bake|compare|benchmark [options]",
-              file=sys.stderr)
+        print("Usage: python addon/run_with_bpy.py scene.blend "
+              "generate|light|caustics|bake|mirror-uvs|compare|benchmark [options]", file=sys.stderr)
         return 2
     if len(files) > 1:
         arguments += ["--scenes", *files]

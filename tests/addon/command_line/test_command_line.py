@@ -1,5 +1,6 @@
 """The verbs of the command line: exit status 0 only on success, the opened file as it was unless it is to be saved."""
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -164,9 +165,14 @@ def test_pypis_bpy_without_a_file(tmp_path):
     assert done.stderr.startswith(f"Error: '{tmp_path / 'none.blend'}' cannot be opened")
 
 
-def test_pypis_bpy_without_a_verb():
+def test_pypis_bpy_without_a_verb(room, capsys):
+    """It names the verbs that there are."""
     done = with_bpy()
     assert done.returncode == 2 and done.stderr.startswith("Usage:")
+    assert room("addon.command_line").run(["none"]) == 2
+    verbs = re.findall(r"'([\w-]+)'", capsys.readouterr().err.partition("choose from")[2])
+    told = done.stderr.partition(".blend ")[2].split()[0].split("|")
+    assert sorted(told) == sorted(verbs or told) and "caustics" in told
 
 
 def test_pypis_bpy_takes_several_files_for_a_benchmark_alone(tmp_path):
