@@ -93,11 +93,11 @@ def write_own_map(found: OwnMap, frame: Frame, whole: AllOrNothing) -> Steps[bpy
 def _own_triangles(source: bpy.types.Object, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Face corners (m, 3) and polygon (m,) of each of the `count` triangles that are reflected."""
     if source.type != "MESH" or source.library is not None or source.is_instancer:
-        raise ReflectionError(f"'{source.name}' has no mesh of its own that could be written: choose On a Copy.")
+        raise ReflectionError(f"'{source.name}' has no mesh of its own that could be written: choose A Copy.")
     mesh = source.data
     mesh.calc_loop_triangles()
     if any(modifier.show_viewport for modifier in source.modifiers) or len(mesh.loop_triangles) != count:
-        raise ReflectionError(f"'{source.name}' is reflected with its modifiers: apply them, or choose On a Copy.")
+        raise ReflectionError(f"'{source.name}' is reflected with its modifiers: apply them, or choose A Copy.")
     if UV_MAP not in mesh.uv_layers and len(mesh.uv_layers) >= MOST_UV_MAPS:
         raise ReflectionError(f"'{source.name}' has as many UV maps as a mesh can hold: remove one.")
     corners, polygon = np.empty((count, 3), dtype=np.int32), np.empty(count, dtype=np.int32)

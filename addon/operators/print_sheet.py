@@ -86,6 +86,8 @@ class REFLECTION_MESH_OT_print_sheet(BrowsingOperator, bpy.types.Operator):
         return polls.passes(cls, context, polls.has_sheet)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
+        if not bpy.path.basename(self.filepath):
+            raise ReflectionError("No file is named: write the name of a .png or .svg file.")
         if self.filepath.startswith("//") and not bpy.data.filepath:
             raise ReflectionError("The file has not been saved: save it, or choose an absolute path.")
         path = os.path.abspath(bpy.path.abspath(self.filepath))

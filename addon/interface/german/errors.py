@@ -153,6 +153,8 @@ LIGHT = {
 FILES = {
     "The file has not been saved: save it, or choose an absolute folder.":
         "Die Datei ist noch nicht gesichert: sichere sie, oder wähle einen Ordner mit ganzem Pfad.",
+    "No file is named: write the name of a .png or .svg file.":
+        "Keine Datei ist genannt: schreibe den Namen einer .png- oder .svg-Datei.",
     "The file has not been saved: save it, or choose an absolute path.":
         "Die Datei ist noch nicht gesichert: sichere sie, oder wähle einen ganzen Pfad.",
     "No folder is named: choose one for the results.": "Es ist kein Ordner genannt: wähle einen für die Ergebnisse.",
@@ -203,9 +205,9 @@ PRINTS = {
         "'{}' hat keine UV-Karte '{}': drücke zuerst Spiegel-UVs schreiben.",
     "'{}' is not flat, and cannot be printed on a sheet: choose a flat object.":
         "'{}' ist nicht eben, und lässt sich nicht auf ein Blatt drucken: wähle ein ebenes Objekt.",
-    "'{}' has no mesh of its own that could be written: choose On a Copy.":
+    "'{}' has no mesh of its own that could be written: choose A Copy.":
         "'{}' hat kein eigenes Netz zum Beschreiben: wähle Eine Kopie.",
-    "'{}' is reflected with its modifiers: apply them, or choose On a Copy.":
+    "'{}' is reflected with its modifiers: apply them, or choose A Copy.":
         "'{}' spiegelt sich mit seinen Modifiern: wende sie an, oder wähle Eine Kopie.",
     "'{}' has as many UV maps as a mesh can hold: remove one.":
         "'{}' hat so viele UV-Karten, wie ein Netz fasst: entferne eine.",

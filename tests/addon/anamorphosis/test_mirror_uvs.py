@@ -291,7 +291,9 @@ def test_refusals(wall, tmp_path):
     (tmp_path / "text.png").write_text("no picture")
     assert "no picture that Blender can read" in parts.refusal(refused, picture=str(tmp_path / "text.png"))
     bend = wall.modifiers.new("Bend", "SUBSURF")
-    assert "modifiers" in parts.refusal(refused, target="ORIGINAL")
+    # by the name that the choice has in the panel
+    label = refused.get_rna_type().properties["target"].enum_items["COPY"].name
+    assert f"modifiers: apply them, or choose {label}." in parts.refusal(refused, target="ORIGINAL")
     wall.modifiers.remove(bend)
     printing = bpy.ops.reflection_mesh.print_sheet
     bpy.context.view_layer.objects.active = wall
@@ -308,6 +310,8 @@ def test_a_bent_sheet_is_not_printed(wall, tmp_path):
     ball = parts.add("uv_sphere", "Ball", radius=0.5, location=(0.0, -1.0, 1.0))
     parts.select(ball, bpy.data.objects["Mirror"])
     bpy.context.view_layer.objects.active = write(picture=ramp(tmp_path))
+    for path in ("", f"{tmp_path}/"):
+        assert "No file is named" in parts.refusal(bpy.ops.reflection_mesh.print_sheet, filepath=path)
     assert "neither a .png nor a .svg" in parts.refusal(bpy.ops.reflection_mesh.print_sheet,
                                                         filepath=str(tmp_path / "ball.jpg"))
     assert "not flat" in parts.refusal(bpy.ops.reflection_mesh.print_sheet, filepath=str(tmp_path / "ball.png"))
