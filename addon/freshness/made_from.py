@@ -39,7 +39,8 @@ class Origin(NamedTuple):
 
 def origin_of(depsgraph: bpy.types.Depsgraph, view: View, mirror: bpy.types.Object, sources: list) -> Origin:
     """What a result would be made from now."""
-    return Origin(view_numbers(view), digests.digest_of(depsgraph, [mirror]), digests.digest_of_shown(depsgraph, sources),
+    return Origin(view_numbers(view), digests.digest_of(depsgraph, [mirror]),
+                  digests.digest_of_shown(depsgraph, sources),
                   materials_of([mirror, *sources]), colours_of([mirror, *sources]), lines_drawn(depsgraph.scene),
                   looked_through(depsgraph, [mirror], sources))
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..frames import plays
 from ..illumination import blocking, is_glint, light_of_nodes, radiance_of
-from ..reading import Participants
+from ..reading import Participants, seen_in
 from . import digests
 from .made_from import COARSE, LONGEST, settings_of
 from .materials import colours_of, materials_of
@@ -99,6 +99,8 @@ def _origin(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.type
     around = [obj for obj in blocking(context, Participants([mirror], sources, []))
               if obj != lamp and not is_glint(obj)]
     numbers = blake2b(repr(lamp_numbers(depsgraph, lamp)).encode(), digest_size=digests.SIZE).hexdigest()
+    # what is hidden gives no light
+    numbers += "" if seen_in(context)(lamp) else " hidden"
     return LightOrigin(digests.digest_of(depsgraph, [mirror]) + colours_of([mirror]), numbers,
                        digests.digest_of_shown(depsgraph, sources) + materials_of(sources) + colours_of(sources),
                        digests.digest_of(depsgraph, around), _settings(context, mirror))

@@ -71,6 +71,26 @@ def test_light_on_what_is_hidden_now_is_stale(blank, room, switch):
     assert told(room, light) == ""
 
 
+@pytest.mark.parametrize("hidden", ["hide_render", "hide_viewport", "collection"])
+def test_light_of_a_lamp_that_is_hidden_now_is_stale(blank, room, hidden):
+    """Of a lamp that is hidden nothing is thrown, as in Cycles; it is there again when the lamp is shown."""
+    floor, mirror, lamp = scene_of()
+    holder, name = (in_collection(lamp), "hide_render") if hidden == "collection" else (lamp, hidden)
+    parts.select(floor, lamp, mirror)
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    light = bpy.data.objects["Mirror Caustics"]
+    bright = shape_of_light(light)
+    parts.select()
+    setattr(holder, name, True)
+    assert told(room, light) == "the lamp has changed"
+    assert bpy.ops.reflection_mesh.update() == {"FINISHED"}
+    assert told(room, light) == "" and not len(light.data.polygons)
+    setattr(holder, name, False)
+    assert told(room, light) == "the lamp has changed"
+    assert bpy.ops.reflection_mesh.update() == {"FINISHED"}
+    assert told(room, light) == "" and shape_of_light(light) == bright
+
+
 def test_what_was_hidden_is_lit_again_when_it_is_shown(blank, room):
     """As reflections show it again: light that was made anew meanwhile has not forgotten what it falls on."""
     floor, mirror, lamp = scene_of()
