@@ -7,6 +7,7 @@ from .. import compat
 from ..faults import AllOrNothing, keep_object
 from ..reading import camera_of, every_result_of
 from ..writing import show_for_camera
+from .play import plays
 from .sequence import keyed
 
 SWITCHES = ("hide_render", "hide_viewport")
@@ -15,12 +16,14 @@ SWITCHES = ("hide_render", "hide_viewport")
 def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
     """Of cameras' players (object, name of the camera) show those of the one that looks: the scene's, or the one that a
     marker binds."""
-    # Blender cuts to no camera that renders hide
-    bound = {marker.frame: marker.camera for marker in scene.timeline_markers
-             if marker.camera and not marker.camera.hide_render}
+    bound = _cuts(scene)
     if not bound and len({name for _, name in players}) == 1:
         # a camera without results sees what is there
         scene.reflection_mesh.seen_by = None
+        for obj, _ in players:
+            if obj.hide_render and obj.hide_viewport:
+                # as beside what plays for every camera: shown again when its camera looks
+                obj.reflection_mesh.aside = (True, True)
         show_for_camera(scene)
         return
     scene.reflection_mesh.seen_by = scene.camera
@@ -32,6 +35,26 @@ def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
             setattr(obj, switch, scene.camera is None or scene.camera.name != name)
             if bound:
                 keyed(obj, obj, switch, {frame: camera.name != name for frame, camera in bound.items()})
+
+
+def make_way(context: bpy.types.Context, players: list, whole: AllOrNothing) -> list:
+    """Hide what plays for every camera where one of the cameras looks of the `players` (object, name of the camera) of
+    the same mirror, over which it would lie; returns what is hidden now or at some of the cuts."""
+    names = {name for _, name in players}
+    mirrors = dict.fromkeys(obj.reflection_mesh.mirror for obj, _ in players)
+    scene, bound = context.scene, _cuts(context.scene)
+    looking = bound or {scene.frame_current: scene.camera}
+    if not any(camera is not None and camera.name in names for camera in looking.values()):
+        return []
+    others = [other for mirror in mirrors for other in every_result_of(context, mirror, context.view_layer.objects)
+              if plays(other) and camera_of(other) is None]
+    for other in others:
+        keep_object(other, whole)
+        for switch in SWITCHES:
+            setattr(other, switch, scene.camera is not None and scene.camera.name in names)
+            if bound:
+                keyed(other, other, switch, {frame: camera.name in names for frame, camera in bound.items()})
+    return others
 
 
 def show_always(context: bpy.types.Context, obj: bpy.types.Object, whole: AllOrNothing) -> list:
@@ -51,6 +74,12 @@ def show_always(context: bpy.types.Context, obj: bpy.types.Object, whole: AllOrN
         if other.animation_data is not None and other.animation_data.action is not None:
             whole.after(_forget_keys, other)
     return others
+
+
+def _cuts(scene: bpy.types.Scene) -> dict:
+    """The cameras that markers bind, by their frames; Blender cuts to none that renders hide."""
+    return {marker.frame: marker.camera for marker in scene.timeline_markers
+            if marker.camera and not marker.camera.hide_render}
 
 
 def _forget_keys(obj: bpy.types.Object) -> None:

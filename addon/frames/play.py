@@ -159,9 +159,11 @@ def _object(context: bpy.types.Context, player: Player, whole: AllOrNothing) -> 
     called = result_name(mirror, sequence.name)
     earlier = results_to_play(context, player)
     if not earlier:
+        others = every_result_of(context, mirror)
         obj = new_object(context, mirror, whole)
-        if sequence.name:
-            obj.name = called
+        if sequence.name or (sequence.camera and others):
+            # the scene's camera may be another one
+            obj.name = result_name(mirror, sequence.name or sequence.camera)
         return obj
     obj = earlier[0]
     keep_object(obj, whole)
@@ -174,13 +176,12 @@ def _object(context: bpy.types.Context, player: Player, whole: AllOrNothing) -> 
 
 
 def results_to_play(context: bpy.types.Context, player: Player) -> list:
-    """The results of a mirror that may play a sequence, of which the first one will: the one that plays those files,
-    else the mirror's own; of several sequences the one that is called so, or a still that its camera sees, and would
-    see besides."""
+    """The results of a mirror that may play a sequence, of which the first one will: the one that plays those files, or
+    files called so for the same camera, else the mirror's own; of several sequences the one that is called so, or a
+    still that its camera sees, and would see besides."""
     sequence, every = player.sequence, every_result_of(context, player.mirror)
     called = result_name(player.mirror, sequence.name)
-    files = _numberless(player.cache)
-    same = [obj for obj in every if plays(obj) and _numberless(obj.modifiers[NAME].cache_file) == files]
+    same = [obj for obj in every if plays(obj) and _goes_on(obj, player)]
     if same or not (sequence.name or sequence.camera):
         return same or results_of(context, player.mirror)
     stills = [obj for obj in every
@@ -188,9 +189,20 @@ def results_to_play(context: bpy.types.Context, player: Player) -> list:
     return [obj for obj in every if obj.name == called and sequence.name] or stills
 
 
-def _numberless(cache: bpy.types.CacheFile | None) -> str:
-    """What the files of a sequence are called, but for folder and number."""
-    return bpy.path.basename(cache.filepath).rsplit(".", 2)[0] if cache is not None else ""
+def _goes_on(obj: bpy.types.Object, player: Player) -> bool:
+    """Whether what an object plays is what a player does: these files, or such as are called so in another folder and
+    are for the same camera."""
+    (folder, name), (own_folder, own_name) = map(_numberless, (player.cache, obj.modifiers[NAME].cache_file))
+    return name == own_name and (folder == own_folder
+                                 or player.sequence.camera == getattr(camera_of(obj), "name", ""))
+
+
+def _numberless(cache: bpy.types.CacheFile | None) -> tuple[str, str]:
+    """The folder of a sequence's files, and what they are called but for their numbers."""
+    if cache is None:
+        return "", ""
+    folder, name = os.path.split(os.path.abspath(bpy.path.abspath(cache.filepath)))
+    return folder, name.rsplit(".", 2)[0]
 
 
 def material_of(name: str, library: str) -> bpy.types.Material | None:

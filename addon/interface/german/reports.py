@@ -75,6 +75,8 @@ KEPT = {
         "Was mit '{}' verbunden wurde, ist wieder ein eigenes Objekt: '{}'.",
     "Hidden, since what plays is right for every camera: {}.":
         "Ausgeblendet, da für jede Kamera stimmt, was abgespielt wird: {}.",
+    "Hidden where cameras have sequences of their own: {}.":
+        "Ausgeblendet, wo Kameras eigene Sequenzen haben: {}.",
     "Updated too, as a copy: {}.": "Auch erneuert, als Kopie: {}.",
     "'{}' shows other faces than before, and has lost what was made for those: {}.":
         "'{}' zeigt andere Flächen als vorher, und hat verloren, was für diese gemacht war: {}.",

@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ...faults import AllOrNothing
-from ...frames import Sequence, light_of, play, player_of, results_to_play, show_always, show_by_camera
+from ...frames import Sequence, light_of, make_way, play, player_of, results_to_play, show_always, show_by_camera
 from ...reading import candidates
 from ...writing import set_free, told_of
 from .plan import Plan
@@ -20,11 +20,18 @@ def playing(context: bpy.types.Context, sequences: list[Sequence]) -> tuple[list
         freed = [sentence for player in players for result in results_to_play(context, player)[:1]
                  for sentence in told_of(result, set_free(context, result, whole))]
         shown = [(play(context, player, diffuse, whole), player.sequence.camera) for player in players]
+        told = freed
         if sequences[0].camera:
             show_by_camera(context.scene, shown)
-        hidden = [other for obj, camera in shown if not camera for other in show_always(context, obj, whole)]
-    told = [f"Hidden, since what plays is right for every camera: {', '.join(repr(obj.name) for obj in hidden)}."]
-    return [obj for obj, _ in shown], freed + told * bool(hidden)
+            if hidden := make_way(context, shown, whole):
+                told += [f"Hidden where cameras have sequences of their own: {_listed(hidden)}."]
+        elif hidden := [other for obj, _ in shown for other in show_always(context, obj, whole)]:
+            told += [f"Hidden, since what plays is right for every camera: {_listed(hidden)}."]
+    return [obj for obj, _ in shown], told
+
+
+def _listed(objects: list) -> str:
+    return ", ".join(repr(obj.name) for obj in objects)
 
 
 def showing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -> tuple[list, list]:

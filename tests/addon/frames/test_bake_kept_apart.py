@@ -78,6 +78,24 @@ def test_a_sequence_for_all_cameras_after_one_for_each(moving, room, tmp_path):
     assert [bool(told[f"{frame} {one} hidden"]) for frame in FRAMES] == [False] * 4
 
 
+def test_a_sequence_for_each_camera_after_one_for_all(moving, tmp_path, capfd):
+    """Where a camera looks that has a sequence of its own, the one for all is not seen; elsewhere it is."""
+    scene, second = bpy.context.scene, cuts()
+    operate(tmp_path / "all", samples=0)
+    parts.select(second)
+    operate(tmp_path / "one", samples=0, cameras="SELECTED")
+    assert "Hidden where cameras have sequences of their own: 'Mirror Reflection'." in capfd.readouterr().out
+    assert shown(FRAMES) == {frame: ["Mirror Reflection Second" if frame > 2 else "Mirror Reflection"]
+                             for frame in FRAMES}
+    scene.frame_set(1)
+    operate(tmp_path / "all", samples=0)
+    assert shown(FRAMES) == dict.fromkeys(FRAMES, ["Mirror Reflection"])
+    scene.timeline_markers.clear()
+    scene.camera = second
+    operate(tmp_path / "one", samples=0, cameras="SELECTED")
+    assert shown(FRAMES) == dict.fromkeys(FRAMES, ["Mirror Reflection Second"])
+
+
 def played_again(folder) -> dict:
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "again.blend"))
     names = [obj.name for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"]
