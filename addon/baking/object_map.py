@@ -88,17 +88,21 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     layer.active = layer.active_render = True
 
 
-def write_mirror_normals(mesh: bpy.types.Mesh, view: View) -> bool:
-    """Tell each point of a result how the mirror stands there; whether the result knows enough for that. One that is
-    seen by several mirrors was generated with it."""
+def knows_mirror_normals(mesh: bpy.types.Mesh) -> bool:
+    """Whether a result knows enough to tell how the mirror stands at each of its points."""
     if LATER_MATERIAL.format(2) in mesh.attributes:
         return NORMAL in mesh.attributes
-    if any(name not in mesh.attributes for name in ("mirror_position", "reflected_position")):
-        return False
+    return all(name in mesh.attributes for name in ("mirror_position", "reflected_position"))
+
+
+def write_mirror_normals(mesh: bpy.types.Mesh, view: View) -> None:
+    """Tell each point of a result how the mirror stands there, where that is known. One that is seen by several mirrors
+    was generated with it."""
+    if LATER_MATERIAL.format(2) in mesh.attributes or not knows_mirror_normals(mesh):
+        return
     normals = reflecting_normals(view, vectors(mesh, "mirror_position"), vectors(mesh, "reflected_position"))
     attribute = mesh.attributes.get(NORMAL) or mesh.attributes.new(NORMAL, "FLOAT_VECTOR", "POINT")
     attribute.data.foreach_set("vector", normals.astype(np.float32).reshape(-1))
-    return True
 
 
 def _spots(kept: KeptMap, rows: list[tuple[np.ndarray, np.ndarray]], seen: tuple[np.ndarray, np.ndarray],

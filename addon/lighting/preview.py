@@ -1,24 +1,23 @@
-"""Results before they are lit: the colours of what they show, which no lamp touches, in the mirror's tint."""
+"""Results before they are lit: the colours of what they show, which no lamp touches, as the mirror reflects them."""
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from functools import partial
 
 import bpy
 
 from ...core import View
 from .. import compat
-from ..baking import write_mirror_layers, write_mirror_normals
+from ..baking import knows_mirror_normals, write_mirror_layers, write_mirror_normals
 from ..faults import AllOrNothing
-from ..lamps import ShownLamp, lamp_light, lamps_before
+from ..lamps import ShownLamp, lamps_before
 from ..mirror_part import (
-    MATERIAL,
-    WHITE,
+    OWN_NORMAL,
     LaterMirrors,
-    Share,
-    by_material,
-    opacity_of,
+    MirrorPart,
+    Surroundings,
+    asks_for_places,
+    copied_shaders,
     write_later_tints,
 )
 from ..reading.materials import (
@@ -29,12 +28,16 @@ from ..reading.materials import (
     shines,
     surface_shader,
 )
+from ..writing import NORMAL
 from ..writing import PREVIEW as MARK
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
+from .needs_light import is_plain
 
 GREY = (0.8, 0.8, 0.8, 1.0)  # of what has no material
-AS_THEY_ARE = {"BSDF_TRANSPARENT", "HOLDOUT"}
+BLACK = (0.0, 0.0, 0.0)
+OPEN = {"BSDF_TRANSPARENT", "HOLDOUT"}
 SIDEWAYS = 0.45  # of the colour of what faces the eye, shown where it does not: a head light, so that shapes are seen
+LEAST_OPEN = 1.0 / 256.0  # opacity: what is as open as that shows what shines in it, and hardly its mirror
 
 
 def shows_preview(result: bpy.types.Object) -> bool:
@@ -48,25 +51,26 @@ def show_previews(results: Iterable[bpy.types.Object], view: View, shown: list[S
     are `shown` with them; the meshes keep theirs."""
     made: dict = {}
     for result in results:
-        lamps, later = lamps_before(result, shown), _later(result)
-        shares, faces = Share.of(result.reflection_mesh.mirror), len(result.data.polygons) > 0
-        if any(share.goes_by_place for share in shares) and not (faces and write_mirror_normals(result.data, view)):
-            shares = tuple(Share(share.tint) for share in shares)
-        mirror = result.reflection_mesh.mirror if any(share.textured for share in shares) else None
-        asked: set = {MATERIAL} if len(shares) > 1 else set()
+        mirror, faces = _mirror_materials(result), len(result.data.polygons) > 0
+        around = Surroundings(result.reflection_mesh.mirror if asks_for_places(mirror) else None,
+                              tuple(lamps_before(result, shown)), _later(result), not result.reflection_mesh.window,
+                              faces and knows_mirror_normals(result.data))
+        asked: set = set()
         # a slot that has a material of its own has it from the user, and so what stands in place of what was made
         for slot in [slot for slot, made in zip(result.material_slots, result.reflection_mesh.materials)
                      if slot.link == "DATA" and slot.material == made.material]:
-            key = slot.material, shares, later, tuple(map(id, lamps)), mirror
+            key = slot.material, mirror, replace(around, lamps=tuple(map(id, around.lamps)))
             if key not in made:
-                made[key] = _preview(slot.material, (shares, mirror), later, lamps)
+                made[key] = _preview(slot.material, mirror, around)
                 whole.undo(bpy.data.materials.remove, made[key])
-            asked |= asked_attributes([made[key]]) if mirror is not None else set()
+            asked |= asked_attributes([made[key]])
             slot.link = "OBJECT"
             slot.material = made[key]
-        if asked and faces:
+        if faces and asked & {NORMAL, OWN_NORMAL}:
+            write_mirror_normals(result.data, view)
+        if faces:
             write_mirror_layers(result, view, asked)
-        if later != LaterMirrors():
+        if around.later != LaterMirrors():
             write_later_tints(result)
 
 
@@ -76,18 +80,29 @@ def forget_previews() -> None:
                            if MARK in material and not material.users and material.library is None])
 
 
+def _mirror_materials(result: bpy.types.Object) -> tuple:
+    """The materials of a result's mirror that reflect; None where all of the light is shown, as by what is a mirror by
+    its role alone."""
+    mirror = result.reflection_mesh.mirror
+    known = tuple(one if _mirrors(one) and not is_plain(one) else None
+                  for one in ([] if mirror is None else reflecting_materials(mirror)))
+    return known if len(set(known)) > 1 else (*known, None)[:1]
+
+
 def _later(result: bpy.types.Object) -> LaterMirrors:
     """What a preview knows of later mirrors: in a window, and on what is a mirror by its role alone, nothing is behind
     it that would know better."""
     found, record = LaterMirrors.of(result), result.reflection_mesh
-    mirrors = not record.window and any(is_mirror(one) or shines(one) for one in reflecting_materials(record.mirror))
+    mirrors = not record.window and any(map(_mirrors, reflecting_materials(record.mirror)))
     return replace(found, unknown=found.unknown and mirrors)
 
 
-def _preview(source: bpy.types.Material | None, mirrors: tuple[tuple[Share, ...], bpy.types.Object | None],
-             later: LaterMirrors, lamps: tuple[ShownLamp, ...]) -> bpy.types.Material:
-    """What shows a source's material in the shares of a mirror, which is given where they are textured."""
-    shares, mirror = mirrors
+def _mirrors(material: bpy.types.Material) -> bool:
+    return is_mirror(material) or shines(material)
+
+
+def _preview(source: bpy.types.Material | None, mirror: tuple, around: Surroundings) -> bpy.types.Material:
+    """What shows a source's material as materials of a mirror do."""
     if source is not None and compat.uses_nodes(source):
         material = source.copy()
         tree = material.node_tree
@@ -95,49 +110,79 @@ def _preview(source: bpy.types.Material | None, mirrors: tuple[tuple[Share, ...]
         material = bpy.data.materials.new("Reflection")
         tree = compat.use_nodes(material)
         tree.nodes.clear()
-        tree.nodes.new("ShaderNodeOutputMaterial")
+        paint, output = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("BsdfDiffuse", "OutputMaterial"))
+        paint.inputs["Color"].default_value = GREY if source is None else tuple(source.diffuse_color)
+        tree.links.new(paint.outputs[0], output.inputs["Surface"])
     material.name = f"{'Reflection' if source is None else source.name} Preview"
     material[MARK] = True
-    plain = GREY if source is None else tuple(source.diffuse_color)
-    build = _Builder(tree, plain)
-    tint = by_material(build, [share.tint_in(build, mirror) for share in shares], partial(build.blended, "MIX"))
-    build.tint = later.leave(build, tint)
-    if source is None or not compat.uses_nodes(source):
-        shader = build.add("ShaderNodeBsdfDiffuse")
-        build.feed(plain, shader.inputs["Color"])
-        tree.links.new(shader.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
     shader = surface_shader(tree)
-    if shader is not None:
-        surface, opacity = build.shown(shader), opacity_of(tree, shader)
-        if lamps:
-            surface = build.with_lamps(surface, lamps, opacity)
-        wholes = [share.of_the_whole(build, surface, opacity) for share in shares]
-        build.put_out(by_material(build, wholes, build.mixed), later)
+    if shader is None:
+        return material
+    build = _Source(tree, GREY if source is None else tuple(source.diffuse_color))
+    light, opacity = build.shown(shader)
+    if opacity != 1.0:
+        # as bright as it is where it is opaque
+        opacity = build.calculated("MAXIMUM", opacity, LEAST_OPEN)
+        light = build.vector("SCALE", light, Scale=build.calculated("DIVIDE", 1.0, opacity))
+    reflecting = MirrorPart(tree, light, around)
+    before = set(tree.nodes)
+    shader_of = copied_shaders([one for one in mirror if one is not None and compat.uses_nodes(one)], tree)
+    surface = reflecting.surface(mirror, [shader_of.get(one) for one in mirror],
+                                 [node for node in tree.nodes if node not in before])
+    if opacity != 1.0:
+        surface = build.mixed(opacity, reflecting.clear(), surface)
+    build.put_out(reflecting.before_the_mirror(surface, mirror), surface)
+    build.forget_unused(before)
     return material
 
 
-class _Builder(ShaderBuilder):
-    """Puts what shines in its own colour into the place of what lamps shine on."""
+class _Source(ShaderBuilder):
+    """Tells, as colours, what shines in its own colour in place of what lamps shine on."""
 
     def __init__(self, tree: bpy.types.NodeTree, plain: tuple) -> None:
         super().__init__(tree)
-        self.tint, self.plain = WHITE, plain
+        self.plain = plain
 
-    def tinted(self, colour):
-        return colour if self.tint == WHITE else self.blended("MULTIPLY", 1.0, colour, self.tint)
+    def shown(self, shader: bpy.types.Node | None) -> tuple:
+        """What stands for a shader node, which stays as it is: a colour, as much of it as is not open, and how opaque
+        that is, a socket or a number."""
+        if shader is None or shader.type in OPEN:
+            return self.combined(*BLACK), 1.0 if shader is None else 0.0
+        if shader.type == "MIX_SHADER":
+            share = given(shader.inputs[0])
+            (first, one), (second, other) = (self.shown(node_behind(socket)) for socket in shader.inputs[1:])
+            opacity = 1.0 if one == other == 1.0 else self._blended_numbers(share, one, other)
+            return self.blended("MIX", share, first, second), opacity
+        if shader.type == "ADD_SHADER":
+            (first, one), (second, other) = (self.shown(node_behind(socket)) for socket in shader.inputs)
+            # both at once hide as little as they let through together
+            opacity = 1.0 if one == other == 1.0 else self.calculated(
+                "MAXIMUM", self.calculated("SUBTRACT", self.calculated("ADD", one, other), 1.0), 0.0)
+            return self.vector("ADD", first, second), opacity
+        if shader.type == "EMISSION":
+            return self.scaled(given(shader.inputs["Color"]), given(shader.inputs["Strength"])), 1.0
+        colour = shader.inputs.get("Base Color") or shader.inputs.get("Color")
+        shown = self.shaded(self.plain if colour is None else given(colour))
+        return self.principled(shader, shown) if shader.type == "BSDF_PRINCIPLED" else (shown, 1.0)
+
+    def principled(self, shader: bpy.types.Node, shown: bpy.types.NodeSocket) -> tuple:
+        """With what a Principled BSDF emits, and open where it is."""
+        strength, alpha = given(shader.inputs["Emission Strength"]), given(shader.inputs["Alpha"])
+        if strength != 0.0:
+            shown = self.vector("ADD", shown, self.scaled(given(shader.inputs["Emission Color"]), strength))
+        return (shown, 1.0) if alpha == 1.0 else (self.scaled(shown, alpha), alpha)
 
     def shaded(self, colour) -> bpy.types.NodeSocket:
         """A colour that shines, less where the surface turns away from the eye."""
         at = self.add("ShaderNodeNewGeometry")
-        facing = self.add("ShaderNodeVectorMath", operation="DOT_PRODUCT")
-        self.feed(self.normal(at), facing.inputs[0])
-        self.feed(at.outputs["Incoming"], facing.inputs[1])
+        facing = self.dot(self.normal(at), at.outputs["Incoming"])
         share = self.add("ShaderNodeMapRange")
-        self.feed(self.calculated("ABSOLUTE", facing.outputs["Value"], 0.0), share.inputs["Value"])
+        self.feed(self.calculated("ABSOLUTE", facing), share.inputs["Value"])
         share.inputs["To Min"].default_value = SIDEWAYS
-        shown = self.glow(self.tinted(colour))
-        self.feed(share.outputs[0], shown.node.inputs["Strength"])
-        return shown
+        return self.scaled(colour, share.outputs[0])
+
+    def scaled(self, colour, factor) -> bpy.types.NodeSocket:
+        return self.vector("SCALE", colour if isinstance(colour, bpy.types.NodeSocket) else colour[:3], Scale=factor)
 
     def normal(self, at: bpy.types.Node) -> bpy.types.NodeSocket:
         """The normal of what is shown, in world space; `at` tells that of the mesh."""
@@ -149,57 +194,30 @@ class _Builder(ShaderBuilder):
         self.feed(known.outputs["Vector"], turned.inputs[0])
         return turned.outputs[0]
 
-    def with_lamps(self, surface: bpy.types.NodeSocket, lamps: tuple[ShownLamp, ...], opacity) -> bpy.types.NodeSocket:
-        """A surface with the light of what lamps stand before it; what is open leaves its share to what lies behind,
-        before which they stand as well."""
-        own = self.glow(self.tinted(lamp_light(self, lamps)))
-        self.feed(opacity, own.node.inputs["Strength"])
-        return self.added(surface, own)
-
-    def put_out(self, surface: bpy.types.NodeSocket, later: LaterMirrors) -> None:
+    def put_out(self, for_cycles: bpy.types.NodeSocket, for_eevee: bpy.types.NodeSocket) -> None:
         """Let Cycles and EEVEE show a surface; exporters begin at what the material was before."""
         known = one_output(self.tree)
-        for engine in ("CYCLES", "EEVEE"):
+        for engine, surface in (("CYCLES", for_cycles), ("EEVEE", for_eevee)):
             output = self.add("ShaderNodeOutputMaterial", target=engine)
-            self.feed(later.behind(self, surface) if engine == "CYCLES" else surface, output.inputs["Surface"])
+            self.feed(surface, output.inputs["Surface"])
             for socket in known.inputs:
                 if socket.is_linked and socket.name != "Surface":
                     self.feed(given(socket), output.inputs[socket.name])
         known.is_active_output = True
 
-    def shown(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
-        """What stands for a shader node, which stays as it is."""
-        if shader.type in AS_THEY_ARE:
-            return shader.outputs[0]
-        if shader.type == "MIX_SHADER":
-            return self.mixed(given(shader.inputs[0]), *map(self.behind, shader.inputs[1:]))
-        if shader.type == "ADD_SHADER":
-            both = self.add("ShaderNodeAddShader")
-            for part, socket in zip(map(self.behind, shader.inputs), both.inputs):
-                if part is not None:
-                    self.feed(part, socket)
-            return both.outputs[0]
-        if shader.type == "EMISSION":
-            own = self.glow(self.tinted(given(shader.inputs["Color"])))
-            self.feed(given(shader.inputs["Strength"]), own.node.inputs["Strength"])
-            return own
-        colour = shader.inputs.get("Base Color") or shader.inputs.get("Color")
-        shown = self.shaded(self.plain if colour is None else given(colour))
-        return self.principled(shader, shown) if shader.type == "BSDF_PRINCIPLED" else shown
+    def forget_unused(self, kept: set) -> None:
+        """Remove those of the nodes, but for some that are `kept`, which nothing shows."""
+        shown, open_ = set(), [node for node in self.tree.nodes if node.type == "OUTPUT_MATERIAL"]
+        while open_:
+            node = open_.pop()
+            if node not in shown:
+                shown.add(node)
+                open_ += [link.from_node for socket in node.inputs for link in socket.links]
+        for node in [node for node in self.tree.nodes if node not in kept and node not in shown]:
+            self.tree.nodes.remove(node)
 
-    def behind(self, socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
-        """What stands for the shader that feeds a socket."""
-        node = node_behind(socket)
-        return None if node is None else self.shown(node)
-
-    def principled(self, shader: bpy.types.Node, shown: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-        """With what a Principled BSDF emits, and open where it is."""
-        strength = given(shader.inputs["Emission Strength"])
-        if strength != 0.0:
-            own = self.glow(self.tinted(given(shader.inputs["Emission Color"])))
-            self.feed(strength, own.node.inputs["Strength"])
-            shown = self.added(shown, own)
-        alpha = given(shader.inputs["Alpha"])
-        if alpha == 1.0:
-            return shown
-        return self.mixed(alpha, self.add("ShaderNodeBsdfTransparent").outputs[0], shown)
+    def _blended_numbers(self, share, one, other) -> bpy.types.NodeSocket:
+        node = self.add("ShaderNodeMix")
+        for value, socket in ((share, node.inputs[0]), (one, node.inputs[2]), (other, node.inputs[3])):
+            self.feed(value, socket)
+        return node.outputs[0]

@@ -2,9 +2,13 @@
 are."""
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import bpy
 import numpy as np
 
+from .. import compat
+from ..reading.materials import all_nodes
 from ..writing.nodes.box_projection import project_by
 from ..writing.nodes.shader_builder import ShaderBuilder
 
@@ -24,6 +28,13 @@ BY_BOX = {"TEX_CHECKER", "TEX_NOISE", "TEX_VORONOI", "TEX_WAVE", "TEX_MAGIC", "T
 def own_layer(name: str) -> str:
     """What an attribute `name` of a mirror is called on its result, which has such of what it shows."""
     return f"Mirror {name}"[:LONGEST_NAME]
+
+
+def asks_for_places(materials: Iterable[bpy.types.Material | None]) -> bool:
+    """Whether any of a mirror's materials changes over it."""
+    asking = {"TEX_COORD", "UVMAP", *NAMED, *BY_UV, *BY_BOX}
+    return any(node.type in asking for material in materials if material is not None and compat.uses_nodes(material)
+               for node in all_nodes(material.node_tree))
 
 
 class MirrorCoordinates:

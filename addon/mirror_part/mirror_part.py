@@ -1,22 +1,23 @@
 """What a mirror makes of the light that it shows: its own shader, with light in place of what is glossy in it."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import bpy
 
 from .. import compat
-from ..faults import AllOrNothing, remove_new
 from ..lamps import ShownLamp, lamp_light
-from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, one_output, surface_shader
-from ..writing import NORMAL, UV_MAP, show_unblurred
+from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, surface_shader
+from ..writing import NORMAL
 from ..writing.nodes.copied_nodes import copied
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
+from .layer_weights import layer_weights_as_fresnel
 from .mirror_coordinates import BACK, MirrorCoordinates
-from .mirror_share import GLOSSY, layer_weights_as_fresnel
 from .several_materials import by_material
+
+GLOSSY = {"BSDF_GLOSSY", "BSDF_METALLIC"}
 
 
 @dataclass(frozen=True)
@@ -33,91 +34,64 @@ class Surroundings:
         That it shows mirrors in.
     behind : bool
         Whether the mirror itself is seen behind what shows the light.
+    bent : bool
+        Whether the attribute `NORMAL` tells how the mirror stands; else faces stand as it does.
     """
 
     mirror: bpy.types.Object | None = None
     lamps: tuple[ShownLamp, ...] = ()
     later: LaterMirrors = LaterMirrors()
     behind: bool = False
+    bent: bool = True
 
 
-def new_object_material(name: str, image: bpy.types.Image, mirror: Sequence[bpy.types.Material | None], opaque: bool,
-                        around: Surroundings, whole: AllOrNothing) -> bpy.types.Material:
-    """A material that shows light that stays with objects as those of a `mirror` would: tinted, by Fresnel, mixed with
-    what else they are; `None` shows all of the light.
-
-    Tints go by the true angle at the mirror, which the attribute `NORMAL` tells, and several materials by the attribute
-    `MATERIAL`. EEVEE has nodes of its own.
-    """
-    material, shaders = _merged(name, mirror, whole)
-    tree = material.node_tree
-    own = list(tree.nodes)
-    build = _Builder(tree, image, around)
-    if around.mirror is not None:
-        MirrorCoordinates(build, around.mirror).take_over(own)
-    parts = [build.part(one, shader) for one, shader in zip(mirror, shaders)]
-    build.bend_normals()
-    build.reflect_by_side()
-    output = one_output(tree)
-    shown = by_material(build, parts, build.mixed)
-    if not opaque:
-        clear = build.add("ShaderNodeBsdfTransparent").outputs[0]
-        shown = build.mixed(build.light.outputs["Alpha"], clear, shown)
-    tree.links.new(shown, output.inputs["Surface"])
-    for name_ in ("Displacement", "Volume"):
-        for link in list(output.inputs[name_].links):
-            tree.links.remove(link)
-    show_unblurred(tree, [build.light], output, whole)
-    if around.behind and (around.later.unknown or not all(map(is_opaque, mirror))):
-        _leave_to_the_mirror(build, shown, mirror, around.later)
-    for node in tree.nodes:
-        node.select = node == build.light
-    tree.nodes.active = build.light
-    return material
+def copied_shaders(mirror: Iterable[bpy.types.Material], tree: bpy.types.NodeTree
+                   ) -> dict[bpy.types.Material, bpy.types.Node | None]:
+    """The shaders of materials that have nodes, copied into a tree with all that feeds them."""
+    shader_of = {}
+    for material in dict.fromkeys(mirror):
+        nodes = [node for node in material.node_tree.nodes if node.type not in {"OUTPUT_MATERIAL", "FRAME"}]
+        shader_of[material] = copied(nodes, tree).get(surface_shader(material.node_tree))
+    return shader_of
 
 
-def _merged(name: str, mirror: Sequence[bpy.types.Material | None], whole: AllOrNothing
-            ) -> tuple[bpy.types.Material, list[bpy.types.Node | None]]:
-    """A new material with the nodes of all that have some, and the shader of each, None where it has none."""
-    with_nodes = [one for one in mirror if one is not None and compat.uses_nodes(one)]
-    material = with_nodes[0].copy() if with_nodes else bpy.data.materials.new(name)
-    whole.undo(remove_new, material)
-    material.name = name
-    tree = compat.use_nodes(material)
-    if not with_nodes:
-        tree.nodes.clear()
-        tree.nodes.new("ShaderNodeOutputMaterial")
-    shader_of = {one: surface_shader(tree) for one in with_nodes[:1]}
-    for other in with_nodes[1:]:
-        nodes = [node for node in other.node_tree.nodes if node.type not in {"OUTPUT_MATERIAL", "FRAME"}]
-        shader = surface_shader(other.node_tree)
-        shader_of[other] = copied(nodes, tree).get(shader)
-    return material, [shader_of.get(one) for one in mirror]
+class MirrorPart(ShaderBuilder):
+    """Adds to a tree what a mirror makes of `light`, a colour; `lit` is what it meets of that."""
 
-
-def _leave_to_the_mirror(build: ShaderBuilder, shown: bpy.types.NodeSocket,
-                         mirror: Sequence[bpy.types.Material | None], later: LaterMirrors) -> None:
-    """Let Cycles see a mirror that light goes through, glass or what is cut out, and nothing before it: that shows its
-    reflection as well as what is behind it, and would show the former twice. So with what is seen by mirrors of which
-    that is not all that they show."""
-    clear = build.add("ShaderNodeBsdfTransparent").outputs[0]
-    output = build.add("ShaderNodeOutputMaterial", target="CYCLES")
-    parts = [shown if is_opaque(one) else clear for one in mirror]
-    build.feed(later.behind(build, by_material(build, parts, build.mixed)), output.inputs["Surface"])
-
-
-class _Builder(ShaderBuilder):
-    """Adds nodes to a tree; `light` is the picture of the light, `lit` what the mirror meets."""
-
-    def __init__(self, tree: bpy.types.NodeTree, image: bpy.types.Image, around: Surroundings) -> None:
+    def __init__(self, tree: bpy.types.NodeTree, light: bpy.types.NodeSocket, around: Surroundings) -> None:
         super().__init__(tree)
-        where = self.add("ShaderNodeUVMap", uv_map=UV_MAP)
-        self.light = self.add("ShaderNodeTexImage", name=image.name, image=image, interpolation="Linear",
-                              extension="EXTEND")
-        tree.links.new(where.outputs[0], self.light.inputs["Vector"])
-        self.lit = around.later.leave(self, self.light.outputs["Color"])
+        self.around, self.lit = around, around.later.leave(self, light)
         if around.lamps:
             self.lit = self.vector("ADD", self.lit, lamp_light(self, around.lamps))
+
+    def surface(self, mirror: Sequence[bpy.types.Material | None], shaders: Sequence[bpy.types.Node | None],
+                own: Sequence[bpy.types.Node]) -> bpy.types.NodeSocket:
+        """What materials become that have these shaders and nodes of their `own` in the tree; all other nodes that are
+        there stay as they are."""
+        others = set(self.tree.nodes) - set(own)
+        if self.around.mirror is not None:
+            MirrorCoordinates(self, self.around.mirror).take_over(list(own))
+        parts = [self.part(one, shader) for one, shader in zip(mirror, shaders, strict=True)]
+        nodes = [node for node in self.tree.nodes if node not in others]
+        layer_weights_as_fresnel(self, nodes)
+        nodes = [node for node in self.tree.nodes if node not in others]
+        self.bend_normals(nodes)
+        self.reflect_by_side(nodes)
+        return by_material(self, parts, self.mixed)
+
+    def before_the_mirror(self, shown: bpy.types.NodeSocket, mirror: Sequence[bpy.types.Material | None]
+                          ) -> bpy.types.NodeSocket:
+        """What Cycles is to see of a surface that lies before the mirror. One that light goes through, glass or what is
+        cut out, shows its reflection as well as what is behind it, and would show the former twice: before that, and
+        before what is seen by mirrors of which that is not all that they show, there is nothing."""
+        if not self.around.behind or all(map(is_opaque, mirror)) and not self.around.later.unknown:
+            return shown
+        clear = self.clear()
+        parts = [shown if is_opaque(one) else clear for one in mirror]
+        return self.around.later.behind(self, by_material(self, parts, self.mixed))
+
+    def clear(self) -> bpy.types.NodeSocket:
+        return self.add("ShaderNodeBsdfTransparent").outputs[0]
 
     def part(self, material: bpy.types.Material | None, shader: bpy.types.Node | None) -> bpy.types.NodeSocket:
         """What one of the mirror's materials becomes, which has this shader."""
@@ -148,7 +122,7 @@ class _Builder(ShaderBuilder):
         alpha = given(shader.inputs["Alpha"])
         cut(self.tree, shader.inputs["Alpha"], 1.0)
         whole = self.varnished(shader)
-        return whole if alpha == 1.0 else self.mixed(alpha, self.add("ShaderNodeBsdfTransparent").outputs[0], whole)
+        return whole if alpha == 1.0 else self.mixed(alpha, self.clear(), whole)
 
     def varnished(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
         """Light by the coat, if there is one, over what is below it."""
@@ -207,19 +181,19 @@ class _Builder(ShaderBuilder):
             fresnel.inputs["IOR"].default_value = index_of(shader)
         return fresnel.outputs[0]
 
-    def bend_normals(self) -> None:
+    def bend_normals(self, nodes: Iterable[bpy.types.Node]) -> None:
         """Let nodes that go by the surface's normal take the mirror's."""
-        normal = self.add("ShaderNodeAttribute", attribute_name=NORMAL)
-        for node in list(self.tree.nodes):
+        normal = self.add("ShaderNodeAttribute", attribute_name=NORMAL).outputs["Vector"] if self.around.bent else \
+            self.add("ShaderNodeNewGeometry").outputs["True Normal"]
+        for node in nodes:
             socket = node.inputs.get("Normal")
             if socket is not None and not socket.is_linked:
-                self.feed(normal.outputs["Vector"], socket)
+                self.feed(normal, socket)
 
-    def reflect_by_side(self) -> None:
+    def reflect_by_side(self, nodes: Iterable[bpy.types.Node]) -> None:
         """Let Fresnel go by the side of the mirror that the eye sees. Cycles takes the eye to be within what turns its
         back, and a result turns its back wherever it shows that of what is reflected."""
-        layer_weights_as_fresnel(self)
-        nodes = [node for node in self.tree.nodes if node.type == "FRESNEL"]
+        nodes = [node for node in nodes if node.type == "FRESNEL"]
         if not nodes:
             return
         shown_back = self.add("ShaderNodeNewGeometry").outputs["Backfacing"]

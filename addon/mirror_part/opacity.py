@@ -5,7 +5,7 @@ import bpy
 
 from ..reading.materials import one_output, surface_shader
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
-from .mirror_share import layer_weights_as_fresnel
+from .layer_weights import layer_weights_as_fresnel
 
 OPEN = {"BSDF_TRANSPARENT", "HOLDOUT"}
 REFRACTING = {"FRESNEL", "BSDF_GLASS", "BSDF_REFRACTION"}
@@ -37,7 +37,7 @@ def turn_over(tree: bpy.types.NodeTree) -> None:
         front = build.calculated("SUBTRACT", 1.0, node.outputs["Backfacing"]) if links else None
         for link in links:
             build.feed(front, link.to_socket)
-    layer_weights_as_fresnel(build)
+    layer_weights_as_fresnel(build, tree.nodes)
     # of what is seen from within Cycles takes the inverse index; of a Principled BSDF for what comes through it alone
     for node in [node for node in tree.nodes if node.type in REFRACTING or _is_clear(node)]:
         build.feed(build.calculated("DIVIDE", 1.0, given(node.inputs["IOR"])), node.inputs["IOR"])

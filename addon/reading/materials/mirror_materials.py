@@ -34,12 +34,13 @@ def is_mirror(material: bpy.types.Material | None) -> bool:
 
 
 def shines(material: bpy.types.Material | None) -> bool:
-    """Whether what is no mirror mirrors a little as well: a gloss that is mixed in, or a Principled BSDF that is not
-    told to have no specular."""
+    """Whether what is no mirror mirrors a little as well: a gloss that is mixed in, or a Principled BSDF that is coated,
+    or not told to have no specular."""
     if material is None or not compat.uses_nodes(material):
         return False
-    return any(shader.type in MIRRORS or shader.type == "BSDF_PRINCIPLED" and not _constant(
-        shader, "Specular IOR Level", at_most=0.0) for shader in surface_shaders(material.node_tree))
+    return any(shader.type in MIRRORS or shader.type == "BSDF_PRINCIPLED" and (
+        has_sharp_coat(shader) or not _constant(shader, "Specular IOR Level", at_most=0.0))
+        for shader in surface_shaders(material.node_tree))
 
 
 def is_sharp(shader: bpy.types.Node) -> bool:

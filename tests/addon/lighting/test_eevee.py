@@ -72,3 +72,19 @@ def test_caustics_are_as_bright_as_in_cycles(blank, room):
     by_cycles, by_eevee = told
     assert by_cycles.sum() > 10.0
     assert np.allclose(by_eevee.sum(axis=(0, 1)), by_cycles.sum(axis=(0, 1)), rtol=0.03)
+
+
+def test_a_preview_is_as_open_as_its_mirror(blank, room):
+    """A card that shines, seen straight on in a golden mirror that is half open, alone."""
+    wall, gold = scene_of(blank, "", "Tint"), (0.95, 0.7, 0.35)
+    next(node for node in wall.data.materials[0].node_tree.nodes
+         if node.type == "BSDF_PRINCIPLED").inputs["Alpha"].default_value = 0.5
+    card = parts.add("plane", "Card", size=3.0, location=(0.0, -8.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
+    card.data.materials.append(parts.material("Card"))
+    parts.select(card, wall)
+    result = parts.generate(preview=True)
+    for obj in blank.scene.objects:
+        obj.hide_render = obj != result and obj != blank.scene.camera
+    blank.scene.render.film_transparent, blank.scene.view_settings.view_transform = True, "Raw"
+    shown = eevee.linear(room, True)[60:68, 44:52].mean(axis=(0, 1))
+    assert np.abs(shown - (*(0.5 * np.array(gold)), 0.5)).max() < 0.02

@@ -126,7 +126,7 @@ def test_what_the_mirror_does_not_show_is_not_there(blank, room, name):
     parts.generate(preview=True)
     assert np.quantile(difference(picture(room), reference), 0.98) < 0.05
     # nothing in the material is spent on it
-    assert all(node.type != "VECT_MATH" or node.operation != "SCALE" for material in bpy.data.materials
+    assert all(node.type != "ATTRIBUTE" or node.attribute_name != "reflected_position" for material in bpy.data.materials
                if material.node_tree for node in material.node_tree.nodes)
 
 
