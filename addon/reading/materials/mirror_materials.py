@@ -34,8 +34,8 @@ def is_mirror(material: bpy.types.Material | None) -> bool:
 
 
 def shines(material: bpy.types.Material | None) -> bool:
-    """Whether what is no mirror mirrors a little as well: a gloss that is mixed in, or a Principled BSDF that is coated,
-    or not told to have no specular."""
+    """Whether what is no mirror mirrors a little as well: a gloss that is mixed in, or a Principled BSDF that has
+    a coat, or is not told to have no specular."""
     if material is None or not compat.uses_nodes(material):
         return False
     return any(shader.type in MIRRORS or shader.type == "BSDF_PRINCIPLED" and (

@@ -126,8 +126,8 @@ def test_what_the_mirror_does_not_show_is_not_there(blank, room, name):
     parts.generate(preview=True)
     assert np.quantile(difference(picture(room), reference), 0.98) < 0.05
     # nothing in the material is spent on it
-    assert all(node.type != "ATTRIBUTE" or node.attribute_name != "reflected_position" for material in bpy.data.materials
-               if material.node_tree for node in material.node_tree.nodes)
+    assert not any(node.type == "ATTRIBUTE" and node.attribute_name == "reflected_position"
+                   for material in bpy.data.materials if material.node_tree for node in material.node_tree.nodes)
 
 
 def test_lamps_that_stand_before_a_face_are_found_and_far_ones_are_not(blank, room):
