@@ -74,7 +74,7 @@ def _spilt(light: np.ndarray, coverage: np.ndarray, lamp: float) -> np.ndarray:
     if outside.max(initial=0.0) <= lamp:
         return np.zeros(bright.shape, dtype=bool)
     outside, inside = (_brightest(part) for part in (outside, np.where(whole, bright, 0.0)))
-    near = (outside > lamp) & (outside > inside)
+    near = (outside > lamp) & (outside > SPILT * inside)
     breathe()
     within, told = continued(bright[..., None], whole & ~near, near, 2 * SPREAD + 1)
     return near & (bright > np.where(told, SPILT * within[..., 0], lamp))

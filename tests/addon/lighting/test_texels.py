@@ -143,6 +143,21 @@ def test_a_lamp_thinner_than_a_pixel_beside_a_result_is_no_part_of_it(room, face
     assert np.abs(found[:, 10:20] - 0.1).max() < 0.05 and found[9, 24:26].min() > 5.0
 
 
+def test_a_bright_strip_along_a_frame_is_no_lamp_beside_it(room):
+    """Overexposed and three pixels wide, of which the middle one alone is covered whole and, by its noise, a little less
+    bright than those beside; its end is dark, and so is what the bare mirror shows."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    coverage, opacity, own = np.zeros((16, 20)), np.ones((16, 20)), np.full((16, 20), 1.5)
+    coverage[:, 5], coverage[:, 6], coverage[:, 7] = 0.9, 1.0, 0.8
+    opacity[:, :6] = coverage[:, :6]
+    own[:4], own[4:, 6] = 0.03, 1.25
+    light = (own * coverage + 0.05 * (opacity - coverage))[..., None].repeat(3, axis=2)
+    found = finished(texels.texels_of(light.astype(np.float32), coverage.astype(np.float32),
+                                      texels.pixel_kernel("BOX", 1.0), white=1.0, opacity=opacity.astype(np.float32)))
+    # what is to be white may be whiter
+    assert found[6:, 5:8].min() > 0.9 and found[:2, 5:8].max() < 0.1
+
+
 def _in_pixels(picture: np.ndarray, fine: int) -> np.ndarray:
     """A picture of so many places a pixel through Cycles' filter of 1.5 pixels, in closed form."""
     at = (np.arange(3 * fine) + 0.5) / (3 * fine)
