@@ -1,11 +1,13 @@
-"""Which results look right as they are: what they show emits its own light, and their mirror takes nothing of it."""
+"""Which results look right as they are: what they show emits its own light, and neither their mirror nor fog takes
+anything of it."""
 from __future__ import annotations
 
 import bpy
 import numpy as np
 
 from .. import compat
-from ..reading.materials import emits, is_mirror, materials_of, surface_shader
+from ..reading import has_fog
+from ..reading.materials import emits_alike, is_mirror, materials_of, surface_shader
 
 WHITE = 0.999
 TINTS = {"BSDF_GLOSSY": ("Color",), "BSDF_PRINCIPLED": ("Base Color", "Specular Tint")}
@@ -17,10 +19,11 @@ PLAIN = {"Metallic": 1.0, "Roughness": 0.0, "Alpha": 1.0, "Transmission Weight":
 def needs_light(result: bpy.types.Object) -> bool:
     """Whether a result does not yet look as its mirror does."""
     mirror = result.reflection_mesh.mirror
-    if mirror is None or not all(map(emits, _shown(result))):
+    if mirror is None or not all(map(emits_alike, _shown(result))):
         return True
     mirrors = list(filter(is_mirror, materials_of(mirror)))
-    return not mirrors or not all(map(is_plain, mirrors))
+    # fog is looked for last: objects are many
+    return not mirrors or not all(map(is_plain, mirrors)) or any(map(has_fog, result.users_scene))
 
 
 def is_plain(material: bpy.types.Material) -> bool:
