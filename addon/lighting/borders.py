@@ -14,6 +14,7 @@ BRIGHTEST_GAP = 2.0  # times what results show beside a gap that is thinner than
 LAMP = 4.0        # light of what may be a lamp, where that is no more than white
 SPILT = 2.0       # times what results show farther within, beside a lamp: what is brighter is that one's light
 SPREAD = 3        # pixels as far as which filters bring it
+DAZZLING = 16.0   # times what may be a lamp: in pixels that results cover a part of, what is less bright is their rim
 
 
 def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: np.ndarray,
@@ -29,7 +30,7 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
     `thin_too`, what all the pixels around have of it together. What is brighter than farther within, beside a lamp that
     is brighter than `lamp`, is unknown.
     """
-    spilt = _spilt(light, coverage, lamp)
+    spilt = _spilt(light, coverage, lamp, UNSEEN if thin_too else SEEN_PARTLY)
     border = (coverage > UNSEEN) & (coverage < SEEN_WHOLE)
     apart = (coverage <= UNSEEN) & (opacity > UNSEEN)
     breathe()
@@ -64,13 +65,14 @@ def without_what_lies_beside(light: np.ndarray, coverage: np.ndarray, opacity: n
     return alone, known & ~spilt
 
 
-def _spilt(light: np.ndarray, coverage: np.ndarray, lamp: float) -> np.ndarray:
+def _spilt(light: np.ndarray, coverage: np.ndarray, lamp: float, beside: float) -> np.ndarray:
     """Pixels (height, width) in which the light is that of lamps beside, spilt by the filter: a pixel of which a
-    thousandth lies outside is white beside one that is a thousand times white. The lamp may be thinner than a pixel; it
-    is no part of what results show where no pixel around that they cover whole is as bright."""
+    thousandth lies outside is white beside one that is a thousand times white. It is no part of what results show where
+    no pixel around that they cover whole is nearly as bright. The lamp may be thinner than a pixel, and then be seen in
+    no pixel of which they cover no more than `beside`: so may a rim of what they show, but that does not dazzle."""
     bright, whole = light.max(axis=2), coverage >= SEEN_WHOLE
     breathe()
-    outside = np.where(whole, 0.0, bright)
+    outside = np.where((coverage <= beside) | ~whole & (bright > DAZZLING * lamp), bright, 0.0)
     if outside.max(initial=0.0) <= lamp:
         return np.zeros(bright.shape, dtype=bool)
     outside, inside = (_brightest(part) for part in (outside, np.where(whole, bright, 0.0)))

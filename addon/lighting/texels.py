@@ -79,7 +79,8 @@ def _texels(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: 
                                             len(kernel) // 2, faces != "MATTE",
                                             min(white, LAMP) if faces != "SHINING" else np.inf)
     filtered = filled(alone, known, needed)
-    sharp = _sharpened(filtered, kernel, white)
+    # what is white in a pixel that is covered in part is brighter by itself
+    sharp = _sharpened(filtered, kernel, (white / coverage.clip(SEEN_PARTLY, 1.0))[..., None])
     breathe()
     # inside a lamp, from where it does not reach what is beside, it is as bright as it is
     lamp = ~grown(filtered < white, LAMP_RIM)
@@ -132,8 +133,9 @@ def _unfiltered(picture: np.ndarray, kernel: np.ndarray) -> np.ndarray:
     return found
 
 
-def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndarray:
-    """Texels, none below zero, that show the picture, and something white where that is brighter than white."""
+def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: np.ndarray) -> np.ndarray:
+    """Texels, none below zero, that show the picture, and something white where that is brighter than what is `white`
+    (height, width, 1) in each pixel."""
     capped = np.minimum(picture, white)
     breathe()
     exact = _unfiltered(capped, kernel)
@@ -152,13 +154,14 @@ def _sharpened(picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndar
     breathe()
     for row in np.flatnonzero(bright.any(axis=(1, 2))):
         breathe()
-        lit = np.where(inside[row], np.minimum(picture[row], INSIDE_LAMPS * white), np.maximum(first[row], white))
+        lit = np.where(inside[row], np.minimum(picture[row], INSIDE_LAMPS * white[row]),
+                       np.maximum(first[row], white[row]))
         first[row, bright[row]] = lit[bright[row]]
-    first[around] = _brightened(first[around], capped[around], kernel, white)
+    first[around] = _brightened(first[around], capped[around], kernel, white[around])
     return first
 
 
-def _brightened(texels: np.ndarray, picture: np.ndarray, kernel: np.ndarray, white: float) -> np.ndarray:
+def _brightened(texels: np.ndarray, picture: np.ndarray, kernel: np.ndarray, white: np.ndarray) -> np.ndarray:
     """Texels that show the picture more nearly without going below zero, as they would have to around lamps; what is
     to be white may be whiter.
 

@@ -158,6 +158,25 @@ def test_a_bright_strip_along_a_frame_is_no_lamp_beside_it(room):
     assert found[6:, 5:8].min() > 0.9 and found[:2, 5:8].max() < 0.1
 
 
+def test_a_bright_rim_of_what_a_result_shows_is_no_lamp_beside_it(room):
+    """As light from behind makes it: a quarter of a pixel wide and eight times white, in pixels that are covered in
+    part, and dark on both sides. Over the bare mirror the texels show the picture again, as nearly as one a pixel
+    can."""
+    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    fine, (height, width) = 8, (16, 32)
+    across = np.broadcast_to(np.arange(fine * width), (fine * height, fine * width))
+    covered, bare = (across >= 76).astype(float), 0.15
+    shown = np.where(across < 76, bare, np.where(across < 78, 8.0, 0.1))
+    light, coverage = (_in_pixels(picture, fine) for picture in (shown, covered))
+    found = finished(texels.texels_of(light.astype(np.float32)[..., None].repeat(3, axis=2),
+                                      coverage.astype(np.float32), texels.pixel_kernel("BLACKMAN_HARRIS", 1.5),
+                                      white=1.0))
+    between = np.interp((across[0] + 0.5) / fine, np.arange(width) + 0.5, found[8, :, 0])
+    again = _in_pixels(covered * between + (1.0 - covered) * bare, fine)
+    off = np.minimum(again, 1.0) - np.minimum(light, 1.0)
+    assert light[8, 9] > 1.0 and np.abs(off[8, 6:26]).max() < 0.35
+
+
 def _in_pixels(picture: np.ndarray, fine: int) -> np.ndarray:
     """A picture of so many places a pixel through Cycles' filter of 1.5 pixels, in closed form."""
     at = (np.arange(3 * fine) + 0.5) / (3 * fine)
