@@ -66,11 +66,12 @@ def only_the_picture(render: bpy.types.RenderSettings) -> None:
 
 
 def show_mirrors(results: list, back: ExitStack) -> None:
-    """Let mirrors be seen in the place of results, until the stack takes that back."""
+    """Let mirrors be seen in the place of results, be it that the camera else sees none, until the stack takes that
+    back."""
     for result in results:
         back.callback(setattr, result, "hide_render", result.hide_render)
         result.hide_render = True
         mirror = result.reflection_mesh.mirror
-        if mirror is not None and mirror.reflection_mesh.camera_hidden:
+        if mirror is not None and not mirror.visible_camera:
             back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
             mirror.visible_camera = True

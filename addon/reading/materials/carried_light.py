@@ -13,7 +13,8 @@ BY_VALUES = {"BLACKBODY", "BRIGHTCONTRAST", "CLAMP", "COMBINE_COLOR", "COMBRGB",
              "MAPPING", "MAP_RANGE", "MATH", "MIX", "MIX_RGB", "REROUTE", "RGB", "RGBTOBW", "SEPARATE_COLOR", "SEPRGB",
              "SEPXYZ", "VALTORGB", "VALUE", "VECTOR_ROTATE", "VECT_MATH", "VERTEX_COLOR", "WAVELENGTH"}
 """Nodes that tell a colour by what is plugged in, and by colours of the mesh."""
-BY_VECTOR = {"TEX_BRICK", "TEX_CHECKER", "TEX_GABOR", "TEX_GRADIENT", "TEX_MAGIC", "TEX_NOISE", "TEX_VORONOI", "TEX_WAVE"}
+BY_VECTOR = {"TEX_BRICK", "TEX_CHECKER", "TEX_GABOR", "TEX_GRADIENT", "TEX_MAGIC", "TEX_NOISE", "TEX_VORONOI",
+             "TEX_WAVE"}
 """Textures that lie by the object itself where nothing is plugged in."""
 EVERYWHERE = {"GEOMETRY", "VIEW_LAYER"}
 

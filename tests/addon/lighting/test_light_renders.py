@@ -32,6 +32,36 @@ def test_light_is_one_render_of_the_mirrors_window(blank, room, monkeypatch, mir
     assert all(bounces == 0 for *_, bounces in asked[1:])
 
 
+def test_a_mirror_that_the_camera_does_not_see_lights_its_result_all_the_same(blank, room):
+    """As one that is hidden by hand, so that the result alone is seen; it stays hidden."""
+    wall = scene_of(blank, "UV", "Tint")
+    reference, other = picture(room), picture(room, seed=7)
+    wall.visible_camera = False
+    result = parts.generate()
+    assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
+    assert not wall.visible_camera
+    # of the mirror itself nothing is seen beside the result
+    inside = np.abs(_without(room, result) - picture(room)).max(axis=2) > 0.02
+    inside = _inner(inside)
+    assert inside.sum() > 500
+    lit, noise = (np.sqrt(((shown - reference)[inside]**2).mean()) for shown in (picture(room), other))
+    assert lit < max(10.0**(-38.0 / 20.0), 1.2 * noise)
+
+
+def _without(room, result: bpy.types.Object) -> np.ndarray:
+    result.hide_render = True
+    try:
+        return picture(room)
+    finally:
+        result.hide_render = False
+
+
+def _inner(mask: np.ndarray) -> np.ndarray:
+    """The pixels of a mask (height, width) all of whose neighbours are of it."""
+    padded = np.pad(mask, 1)
+    return np.lib.stride_tricks.sliding_window_view(padded, (3, 3)).all(axis=(2, 3))
+
+
 def test_light_waits_no_longer_for_the_world_than_its_light_needs(blank, room, monkeypatch):
     """Cycles maps the light of the world for each render anew."""
     scene_of(blank)

@@ -8,9 +8,9 @@ from lamp_scenes import SIZE, link, picture, plain_scene, psnr
 
 BOTH = ((0.9, 0.2, 0.1, 1.0), (0.1, 0.3, 0.9, 1.0))
 # a node and the output that is asked
-ASKED = {"ray": ("LightPath", "Is Camera Ray"), "side": ("NewGeometry", "Backfacing"), "object": ("ObjectInfo", "Random"),
-         "place": ("NewGeometry", "Position"), "Generated": ("TexCoord", "Generated"),
-         "instance": ("Attribute", "Fac")}
+ASKED = {"ray": ("LightPath", "Is Camera Ray"), "side": ("NewGeometry", "Backfacing"),
+         "object": ("ObjectInfo", "Random"), "place": ("NewGeometry", "Position"), 
+         "Generated": ("TexCoord", "Generated"), "of the object": ("Attribute", "Fac")}
 CARRIED = {"UV": ("TexCoord", "UV"), "colours": ("VertexColor", "Color"), "attribute": ("Attribute", "Color")}
 
 
@@ -28,7 +28,8 @@ def emitting(kind: str) -> bpy.types.Material:
     name, output = (ASKED | CARRIED)[kind]
     asked, mixed = tree.nodes.new(f"ShaderNode{name}"), tree.nodes.new("ShaderNodeMix")
     if name == "Attribute":
-        asked.attribute_name, asked.attribute_type = ("warmth", "OBJECT") if kind == "instance" else ("Shade", "GEOMETRY")
+        of_object = kind == "of the object"
+        asked.attribute_name, asked.attribute_type = ("warmth", "OBJECT") if of_object else ("Shade", "GEOMETRY")
     mixed.data_type = "RGBA"
     mixed.inputs[6].default_value, mixed.inputs[7].default_value = BOTH
     link(tree, asked.outputs[output], mixed.inputs[0])

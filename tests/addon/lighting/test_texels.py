@@ -144,8 +144,8 @@ def test_a_lamp_thinner_than_a_pixel_beside_a_result_is_no_part_of_it(room, face
 
 
 def test_a_bright_strip_along_a_frame_is_no_lamp_beside_it(room):
-    """Overexposed and three pixels wide, of which the middle one alone is covered whole and, by its noise, a little less
-    bright than those beside; its end is dark, and so is what the bare mirror shows."""
+    """Overexposed and three pixels wide, of which the middle one alone is covered whole and, by its noise, a little
+    less bright than those beside; its end is dark, and so is what the bare mirror shows."""
     texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
     coverage, opacity, own = np.zeros((16, 20)), np.ones((16, 20)), np.full((16, 20), 1.5)
     coverage[:, 5], coverage[:, 6], coverage[:, 7] = 0.9, 1.0, 0.8
