@@ -1,6 +1,8 @@
 """What the corners of several meshes show, in as few layers as they have names."""
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 from .placed_values import Part, PlacedValues
@@ -9,23 +11,39 @@ from .read_meshes import Placed
 
 
 def join_layers(placed: list[Placed]) -> Layers:
-    """The layers of the meshes at the corners of all triangles: values (m, 3, c)."""
-    active_uv = next((item.mesh.active_uv for item in placed if item.mesh.active_uv), "")
-    active_colour = next((item.mesh.active_colour for item in placed if item.mesh.active_colour), "")
+    """The layers of the meshes at the corners of all triangles: values (m, 3, c).
+
+    The active one has of each mesh its own active one. Where that has the first one's name on a mesh of which another
+    is active, materials may ask for both, and it is a layer of its own.
+    """
+    active_uv, active_colour = (_active(placed, *kind) for kind in (("uv_maps", "active_uv"),
+                                                                     ("colours", "active_colour")))
     return Layers(
-        {name: _uv_map(placed, name, name == active_uv) for name in _names(placed, "uv_maps")},
-        {name: _colour(placed, name, name == active_colour) for name in _names(placed, "colours")},
+        {name: _uv_map(placed, name, name == active_uv) for name in _names(placed, "uv_maps", active_uv)},
+        {name: _colour(placed, name, name == active_colour) for name in _names(placed, "colours", active_colour)},
         {name: _numbers(placed, name) for name in _names(placed, "numbers")}, active_uv, active_colour)
 
 
-def _names(placed: list[Placed], kind: str) -> list:
-    return list(dict.fromkeys(name for item in placed for name in getattr(item.mesh, kind)))
+def _active(placed: list[Placed], kind: str, active: str) -> str:
+    """The name of the active layer of a kind, "" where there is none."""
+    found = next((getattr(item.mesh, active) for item in placed if getattr(item.mesh, active)), "")
+    if any(found in getattr(item.mesh, kind) and getattr(item.mesh, active) != found for item in placed):
+        taken = {name for some in ("uv_maps", "colours", "numbers") for name in _names(placed, some)}
+        others = (f"{found} Active {number}" for number in itertools.count(1))
+        found = next(name for name in others if name not in taken)
+    return found
+
+
+def _names(placed: list[Placed], kind: str, active: str = "") -> list:
+    """The names of all layers of a kind, and that of the active one."""
+    names = dict.fromkeys(name for item in placed for name in getattr(item.mesh, kind))
+    return list(names | {active: None} if active else names)
 
 
 def _uv_map(placed: list[Placed], name: str, active: bool) -> PlacedValues:
-    """Values (m, 3, 2); a mesh without the active map shows its own active one, one without any other map zeros."""
+    """Values (m, 3, 2): in the active map a mesh shows its own active one; one without a map shows zeros."""
     def values(part: Part) -> np.ndarray | float:
-        known = part.mesh.uv_maps.get(name, part.mesh.uv_maps.get(part.mesh.active_uv) if active else None)
+        known = part.mesh.uv_maps.get(part.mesh.active_uv if active else name)
         return 0.0 if known is None else known[part.corners]
     return PlacedValues(placed, (3, 2), np.float32, values)
 
@@ -33,7 +51,7 @@ def _uv_map(placed: list[Placed], name: str, active: bool) -> PlacedValues:
 def _colour(placed: list[Placed], name: str, active: bool) -> tuple:
     """Type and values (m, 3, 4), as `_uv_map`; where meshes differ in type the colours are kept as floats."""
     def entry(mesh) -> tuple:
-        return mesh.colours.get(name, mesh.colours.get(mesh.active_colour) if active else None) or (None, None)
+        return mesh.colours.get(mesh.active_colour if active else name) or (None, None)
 
     def values(part: Part) -> np.ndarray | float:
         known = entry(part.mesh)[1]

@@ -9,7 +9,7 @@ from lamp_scenes import SIZE, link, picture, plain_scene, psnr
 BOTH = ((0.9, 0.2, 0.1, 1.0), (0.1, 0.3, 0.9, 1.0))
 # a node and the output that is asked
 ASKED = {"ray": ("LightPath", "Is Camera Ray"), "side": ("NewGeometry", "Backfacing"),
-         "object": ("ObjectInfo", "Random"), "place": ("NewGeometry", "Position"), 
+         "object": ("ObjectInfo", "Random"), "place": ("NewGeometry", "Position"),
          "Generated": ("TexCoord", "Generated"), "of the object": ("Attribute", "Fac")}
 CARRIED = {"UV": ("TexCoord", "UV"), "colours": ("VertexColor", "Color"), "attribute": ("Attribute", "Color")}
 

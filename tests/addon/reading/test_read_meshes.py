@@ -259,6 +259,27 @@ def test_layers_of_several_objects(blank, room):
     assert np.allclose(scene.uv_maps["Other"][order[0]], 0.0)
 
 
+def test_the_active_layers_are_each_objects_own(blank, room):
+    """Also where it has one of the name that is active on another: materials may ask for either."""
+    first = parts.add_triangle("First", [(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    second = parts.add_triangle("Second", [(0, 0, 1), (1, 0, 1), (0, 1, 1)], uv=((5, 5), (6, 5), (5, 6)))
+    baked = second.data.uv_layers.new(name="Baked")
+    baked.uv.foreach_set("vector", np.array([8, 8, 9, 8, 8, 9], dtype=np.float32))
+    baked.active_render = True
+    for triangle, names in ((first, "A"), (second, "AB")):
+        for value, name in enumerate(names, 1):
+            shade = triangle.data.color_attributes.new(name, "FLOAT_COLOR", "POINT")
+            shade.data.foreach_set("color", np.full(12, 0.1 * value, dtype=np.float32))
+        triangle.data.color_attributes.render_color_index = len(names) - 1
+    scene = read_scene(room, first, second)
+    one, other = np.argsort(scene.source_object)
+    assert np.allclose(scene.uv_maps[scene.active_uv][one], [(0, 0), (1, 0), (0, 1)])
+    assert np.allclose(scene.uv_maps[scene.active_uv][other], [(8, 8), (9, 8), (8, 9)])
+    assert np.allclose(scene.uv_maps["UVMap"][other], [(5, 5), (6, 5), (5, 6)])
+    shown, named = scene.colours[scene.active_colour][1], scene.colours["A"][1]
+    assert np.allclose(shown[one], 0.1) and np.allclose(shown[other], 0.2) and np.allclose(named[other], 0.1)
+
+
 def test_a_scale_of_zero_keeps_its_normals(blank, room):
     plane = parts.add("plane", "Flat")
     plane.scale.z = 0.0
