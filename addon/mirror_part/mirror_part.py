@@ -8,12 +8,13 @@ import bpy
 
 from .. import compat
 from ..lamps import ShownLamp, lamp_light
-from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, surface_shader
+from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, sends_light, surface_shader
 from ..writing import NORMAL
 from ..writing.nodes.copied_nodes import copied
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
 from .layer_weights import layer_weights_as_fresnel
+from .metal_colour import metal_colour
 from .mirror_coordinates import BACK, MirrorCoordinates
 from .several_materials import by_material
 
@@ -105,7 +106,7 @@ class MirrorPart(ShaderBuilder):
         if shader.type in GLOSSY:
             tint = given(shader.inputs.get("Color") or shader.inputs["Base Color"])
             if shader.type == "BSDF_METALLIC":
-                tint = self.at_grazing(tint)
+                tint = metal_colour(self, tint, given(shader.inputs["Edge Tint"]))
             return self.glow(self.blended("MULTIPLY", 1.0, tint, self.lit))
         if shader.type == "BSDF_PRINCIPLED":
             return self.principled(shader)
@@ -146,9 +147,11 @@ class MirrorPart(ShaderBuilder):
     def below_coat(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
         """Light by the reflection of what is below the coat, over what else that is."""
         metallic = given(shader.inputs["Metallic"])
-        metal = None if metallic == 0.0 else self.at_grazing(given(shader.inputs["Base Color"]))
+        metal = None if metallic == 0.0 else metal_colour(
+            self, *(given(shader.inputs[name]) for name in ("Base Color", "Specular Tint")))
         if metallic == 1.0:
-            return self.glow(self.blended("MULTIPLY", 1.0, metal, self.lit))
+            own = self.glow(self.blended("MULTIPLY", 1.0, metal, self.lit))
+            return self.added(own, self.shining(shader)) if sends_light(shader) else own
         glass = self.dielectric(shader)
         coat = self.blended("MULTIPLY", 1.0, given(shader.inputs["Specular Tint"]), glass)
         reflected = coat if metal is None else self.blended("MIX", metallic, coat, metal)
@@ -158,18 +161,12 @@ class MirrorPart(ShaderBuilder):
         rest = rest if metal is None else self.mixed(metallic, rest, None)
         return self.added(self.glow(self.blended("MULTIPLY", 1.0, reflected, self.lit)), rest)
 
-    def at_grazing(self, tint) -> bpy.types.NodeSocket:
-        """The colour of a metal by the angle.
-
-        C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994, as the Principled BSDF has it with
-        a white edge tint.
-        """
-        facing = self.add("ShaderNodeLayerWeight")
-        facing.inputs["Blend"].default_value = 0.5
-        fifth = self.add("ShaderNodeMath", operation="POWER")
-        fifth.inputs[1].default_value = 5.0
-        self.feed(facing.outputs["Facing"], fifth.inputs[0])
-        return self.blended("MIX", fifth.outputs[0], tint, (1.0, 1.0, 1.0, 1.0))
+    def shining(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
+        """The light of a Principled BSDF's own."""
+        glow = self.add("ShaderNodeEmission")
+        for name, socket in (("Emission Color", "Color"), ("Emission Strength", "Strength")):
+            self.feed(given(shader.inputs[name]), glow.inputs[socket])
+        return glow.outputs[0]
 
     def dielectric(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
         """How much a Principled BSDF that is no metal reflects, by the angle."""

@@ -13,10 +13,11 @@ LIGHT = {"EMISSION": ("Strength", "Color"), "BSDF_PRINCIPLED": ("Emission Streng
 def glows(material: bpy.types.Material | None) -> bool:
     """Whether a material may send light of its own, be it no more than a part of what is seen of it."""
     return (material is not None and compat.uses_nodes(material)
-            and any(map(_sends_light, all_nodes(material.node_tree))))
+            and any(map(sends_light, all_nodes(material.node_tree))))
 
 
-def _sends_light(node: bpy.types.Node) -> bool:
+def sends_light(node: bpy.types.Node) -> bool:
+    """Whether a node is a shader that has light of its own."""
     if node.type not in LIGHT:
         return False
     strength, colour = (node.inputs[name] for name in LIGHT[node.type])

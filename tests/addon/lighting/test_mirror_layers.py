@@ -94,3 +94,31 @@ def test_its_look_stays_on_a_curved_mirror(blank, room, monkeypatch, paint, face
         parts.select(ball)
         parts.generate()
         assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
+@pytest.mark.parametrize("kind", ["emission", "edge", "Metallic BSDF"])
+def test_a_metal_that_shines_or_has_an_edge_tint_does_so_in_light_on_objects(blank, room, kind):
+    scene_of(blank)
+    ball = _ball(blank.scene, "metal")
+    if kind == "Metallic BSDF" and not hasattr(bpy.types, "ShaderNodeBsdfMetallic"):
+        pytest.skip("This Blender has none.")
+    made = principled("Metal", (0.9, 0.5, 0.4), Metallic=1.0, Roughness=0.0)
+    shader = shader_of(made)
+    if kind == "emission":
+        shader.inputs["Emission Color"].default_value = (0.1, 0.3, 0.1, 1.0)
+        shader.inputs["Emission Strength"].default_value = 1.0
+    elif kind == "edge":
+        shader.inputs["Specular Tint"].default_value = (0.1, 0.3, 0.9, 1.0)
+    else:
+        tree = made.node_tree
+        metal = tree.nodes.new("ShaderNodeBsdfMetallic")
+        metal.inputs["Base Color"].default_value = (0.9, 0.5, 0.4, 1.0)
+        metal.inputs["Edge Tint"].default_value = (0.1, 0.3, 0.9, 1.0)
+        metal.inputs["Roughness"].default_value = 0.0
+        link(tree, metal.outputs[0], tree.get_output_node("ALL").inputs[0])
+    ball.data.materials.clear()
+    ball.data.materials.append(made)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    assert bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS") == {"FINISHED"}
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
