@@ -9,6 +9,7 @@ import bpy
 from .cycles_pictures import with_cycles
 
 MOST_SEED = 2**31  # before which Blender's numbers end
+SEEN = {"visible_camera": True, "is_shadow_catcher": False}  # what a camera sees as it is
 
 
 @contextmanager
@@ -66,12 +67,13 @@ def only_the_picture(render: bpy.types.RenderSettings) -> None:
 
 
 def show_mirrors(results: list, back: ExitStack) -> None:
-    """Let mirrors be seen in the place of results, be it that the camera else sees none, until the stack takes that
-    back."""
+    """Let mirrors be seen in the place of results, be it that the camera else sees none, or nothing but shadows on
+    them, until the stack takes that back."""
     for result in results:
         back.callback(setattr, result, "hide_render", result.hide_render)
         result.hide_render = True
         mirror = result.reflection_mesh.mirror
-        if mirror is not None and not mirror.visible_camera:
-            back.callback(setattr, mirror, "visible_camera", mirror.visible_camera)
-            mirror.visible_camera = True
+        for name, seen in SEEN.items() if mirror is not None else ():
+            if getattr(mirror, name) != seen:
+                back.callback(setattr, mirror, name, not seen)
+                setattr(mirror, name, seen)

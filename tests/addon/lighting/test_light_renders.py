@@ -32,14 +32,16 @@ def test_light_is_one_render_of_the_mirrors_window(blank, room, monkeypatch, mir
     assert all(bounces == 0 for *_, bounces in asked[1:])
 
 
-def test_a_mirror_that_the_camera_does_not_see_lights_its_result_all_the_same(blank, room):
-    """As one that is hidden by hand, so that the result alone is seen; it stays hidden."""
+@pytest.mark.parametrize(("name", "value"), [
+    ("visible_camera", False), pytest.param("is_shadow_catcher", True, marks=pytest.mark.slow)])
+def test_a_mirror_that_is_not_seen_as_it_is_lights_its_result_all_the_same(blank, room, name, value):
+    """As one that is hidden by hand, so that the result alone is seen; it stays that."""
     wall = scene_of(blank, "UV", "Tint")
     reference, other = picture(room), picture(room, seed=7)
-    wall.visible_camera = False
+    setattr(wall, name, value)
     result = parts.generate()
     assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
-    assert not wall.visible_camera
+    assert getattr(wall, name) == value
     # of the mirror itself nothing is seen beside the result
     inside = np.abs(_without(room, result) - picture(room)).max(axis=2) > 0.02
     inside = _inner(inside)
