@@ -75,7 +75,7 @@ def charts_of(results: list, view: View, scene: DiffuseScene, parts: list, sides
                 break
         elif max(one.max() for one in scaled) * np.ptp(corners) < 1.0:
             raise ReflectionError("The reflected objects have more triangles than a map of their light has room for: "
-                                  "light the reflection in the picture.")
+                                  "choose Light: Picture.")
         else:
             least = scale
         # what has to be fine depends on how fine the finest is, and so what it takes does not go by squares

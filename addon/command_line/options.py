@@ -36,23 +36,28 @@ class Names(argparse.Action):
         setattr(namespace, self.dest, told)
 
 
-def add_settings(parser: argparse.ArgumentParser, of_farms: bool = False) -> None:
-    """The options for what a reflection is made by; `of_farms`: numbers may be empty."""
+def add_settings(parser: argparse.ArgumentParser, only: tuple[str, ...] = SETTINGS, of_farms: bool = False) -> None:
+    """The options for what is made by settings, `only` for these; `of_farms`: numbers may be empty."""
     real, whole = (number, whole_number) if of_farms else (float, int)
-    parser.add_argument("--tolerance", type=real, metavar="PIXELS", help="how far off a point may be")
-    parser.add_argument("--placement", choices=[item[0] for item in PLACEMENTS], help="where the reflection lies")
-    parser.add_argument("--method", choices=[item[0] for item in METHODS], help="what the reflection is made of")
-    parser.add_argument("--depth", type=whole, metavar="BOUNCES", help="followed from mirror to mirror")
-    parser.add_argument("--memory", type=real, metavar="GB",
-                        help="what would need more is worked out more coarsely, or refused")
-    parser.add_argument("--hidden-faces", action=argparse.BooleanOptionalAction,
-                        help="also the faces that nearer ones hide whole")
+    asked = {
+        "tolerance": {"type": real, "metavar": "PIXELS", "help": "how far off a point may be"},
+        "placement": {"choices": [item[0] for item in PLACEMENTS], "help": "where the reflection lies"},
+        "method": {"choices": [item[0] for item in METHODS], "help": "what the reflection is made of"},
+        "depth": {"type": whole, "metavar": "BOUNCES", "help": "how many mirrors are followed, one after another"},
+        "memory": {"type": real, "metavar": "GB", "help": "what would need more is worked out more coarsely, or "
+                   "refused"},
+        "hidden_faces": {"action": argparse.BooleanOptionalAction, "help": "also the faces that nearer ones hide "
+                         "whole"},
+    }
+    for name in only:
+        asked[name]["help"] += " (else as the file has it)"
+        parser.add_argument(f"--{name.replace('_', '-')}", **asked[name])
 
 
 def add_light(parser: argparse.ArgumentParser, option: str) -> None:
     """The option for where light is kept."""
     parser.add_argument(option, dest="kind", choices=[item[0] for item in LIGHTS],
-                        help="light of the picture, or light that stays with the objects")
+                        help="light of the picture, or light that stays with the objects (else as the file has it)")
 
 
 def add_own(parser: argparse.ArgumentParser) -> None:

@@ -6,6 +6,7 @@ import os
 import sys
 import time
 from contextlib import nullcontext
+from dataclasses import replace
 
 import bpy
 
@@ -64,7 +65,8 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
     generate = verbs.add_parser("generate", help="generate the reflections and save the file")
     add_settings(generate)
-    generate.add_argument("--attributes", choices=[item[0] for item in ATTRIBUTES], help="what points and faces know")
+    generate.add_argument("--attributes", choices=[item[0] for item in ATTRIBUTES],
+                          help="what points and faces know (else as the file has it)")
     _add_participants(generate)
     generate.add_argument("--light", type=int, nargs="?", const=FILES, default=0, metavar="N",
                           help="light them too, with N samples per pixel (else the file's)")
@@ -72,7 +74,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_output(generate)
     generate.set_defaults(work=_generate)
     light = verbs.add_parser("light", help="let the reflections look as the mirrors do, and save the file")
-    light.add_argument("--samples", type=int, metavar="N", help="samples per pixel")
+    light.add_argument("--samples", type=int, metavar="N", help="samples per pixel (else the file's)")
     add_light(light, "--kind")
     light.add_argument("--every", action="store_true", help="also those that look right as they are, for glTF and USD")
     _add_output(light)
@@ -98,9 +100,7 @@ def _add_caustics(verb: argparse.ArgumentParser) -> None:
     _add_participants(verb)
     verb.add_argument("--eyes", type=int, metavar="N",
                       help="places on each lamp that its light comes from (else as before, or 1)")
-    verb.add_argument("--tolerance", type=float, metavar="PIXELS", help="how far off a point may be")
-    verb.add_argument("--depth", type=int, metavar="BOUNCES", help="followed from mirror to mirror")
-    verb.add_argument("--memory", type=float, metavar="GB", help="what the work may take")
+    add_settings(verb, ("tolerance", "depth", "memory"))
     add_own(verb)
     _add_output(verb)
     verb.set_defaults(work=_caustics)
@@ -109,14 +109,14 @@ def _add_caustics(verb: argparse.ArgumentParser) -> None:
 def _add_anamorphosis(verb: argparse.ArgumentParser) -> None:
     _add_participants(verb)
     verb.add_argument("--target", choices=[item[0] for item in TARGETS], default="COPY",
-                      help="on copies that are cut, or on the objects themselves")
-    verb.add_argument("--fills", choices=[item[0] for item in FRAMES], default="CAMERA", help="what the picture fills")
+                      help="on copies that are cut, or on the objects themselves (COPY)")
+    verb.add_argument("--fills", choices=[item[0] for item in FRAMES], default="CAMERA",
+                      help="what the picture fills (CAMERA)")
     verb.add_argument("--picture", type=text, metavar="FILE", help="image file, or image of the file, for the copies")
     verb.add_argument("--print", dest="sheet", type=text, metavar="FILE",
                       help="save the sheet, if it is one, as .png or .svg")
     verb.add_argument("--dpi", type=float, default=DPI, help=f"dots per inch of the print ({DPI:g})")
-    verb.add_argument("--tolerance", type=float, metavar="PIXELS", help="how far off a point may be")
-    verb.add_argument("--memory", type=float, metavar="GB", help="what the work may take")
+    add_settings(verb, ("tolerance", "memory"))
     _add_output(verb)
     verb.set_defaults(work=_mirror_uvs)
 
@@ -138,6 +138,8 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     started = time.perf_counter()
     wanted, chosen = Wanted(context.scene, given(options)), _chosen(context, options)
     outcome = announced(generation(context, chosen, wanted, preview=True))
+    if options.light:
+        outcome = replace(outcome, unlit=[])   # their light comes next
     told = [*outcome.news, *outcome.remarks, *scene_shortcomings(context, chosen, wanted),
             outcome.summary(time.perf_counter() - started)]
     if options.light:

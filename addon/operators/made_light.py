@@ -73,7 +73,7 @@ def light_on_objects(context: bpy.types.Context, lit: list, view: View, samples:
     """Bake the objects that `lit` show; returns what lets them show it."""
     if not can_be_baked(lit):
         raise ReflectionError("A reflection of points, or of objects that have been deleted, or one that knows only "
-                              "what is seen, has no light on objects: light it in the picture.")
+                              "what is seen, has no light on objects: choose Light: Picture.")
     is_seen = seen_in(context)
     sources = [obj for obj in dict.fromkeys(entry.object for result in lit for entry in result.reflection_mesh.sources)
                if is_seen(obj)]

@@ -44,7 +44,8 @@ class Wanted:
         try:
             return Settings(**values)
         except ValueError as error:
-            raise ReflectionError(str(error)) from error
+            # its name here, not that of the core's argument
+            raise ReflectionError(str(error).replace("maximum_memory", "memory")) from error
 
     def samples(self, mirrors: Iterable) -> int:
         """Of light that is rendered once for all of these mirrors: the most that one of them asks for."""

@@ -79,7 +79,8 @@ class Settings:
         if depth is None or not 1 <= depth <= _MOST:
             raise ValueError("The depth must be a whole number of bounces, at least 1.")
         if depth > 1 and self.method == "POINTS":
-            raise ValueError("Points follow one bounce only; set the depth (bounces) to 1 or choose another method.")
+            raise ValueError("Points follow one bounce only: set Bounces (depth) to 1, or let Made Of (method) be "
+                             "faces.")
         if faces is None or not 1 <= faces <= _MOST:
             raise ValueError("The maximum_faces must be a whole number of faces, at least 1.")
         if not memory > 0.0:

@@ -101,9 +101,9 @@ CHOICE = {
     "that object from the camera.":
         "'{}' steht vor dem virtuellen Bild hinter diesem Spiegel und würde es verdecken; wähle die Lage "
         "Geschichtet, oder blende das Objekt für die Kamera aus.",
-    "Points follow one bounce only; set the depth (bounces) to 1 or choose another method.":
-        "Punkte folgen nur von einem Spiegel; stelle die Tiefe auf 1, oder lasse die Spiegelung aus Flächen "
-        "bestehen.",
+    "Points follow one bounce only: set Bounces (depth) to 1, or let Made Of (method) be faces.":
+        "Punkte zeigen nur, was ein einziger Spiegel zeigt: stelle die Tiefe auf 1, oder lasse die Spiegelung aus "
+        "Flächen bestehen.",
     "The faces of '{}' do not know what they show: generate it again, with all attributes.":
         "Die Flächen von '{}' wissen nicht, was sie zeigen: erzeuge sie neu, mit allen Attributen.",
 }
@@ -112,16 +112,14 @@ LIGHT = {
     "The render was cancelled: nothing has changed.": "Das Rendern wurde abgebrochen: nichts hat sich geändert.",
     "Cycles is not available: enable the add-on 'Cycles Render Engine' in the preferences.":
         "Cycles fehlt: schalte das Add-on 'Cycles Render Engine' in den Einstellungen ein.",
-    "The reflected objects have more triangles than a map of their light has room for: light the reflection in the "
-    "picture.":
-        "Die gespiegelten Objekte haben mehr Dreiecke, als eine Karte ihres Lichts fasst: beleuchte die Spiegelung "
-        "im Bild.",
+    "The reflected objects have more triangles than a map of their light has room for: choose Light: Picture.":
+        "Die gespiegelten Objekte haben mehr Dreiecke, als eine Karte ihres Lichts fasst: wähle Licht: Bild.",
     "'{}' shows an object that is hidden now: show it, or generate the reflection again.":
         "'{}' zeigt ein Objekt, das jetzt ausgeblendet ist: zeige es, oder erzeuge die Spiegelung neu.",
     "A reflection of points, or of objects that have been deleted, or one that knows only what is seen, has no light "
-    "on objects: light it in the picture.":
+    "on objects: choose Light: Picture.":
         "Eine Spiegelung aus Punkten, von gelöschten Objekten, oder die nur weiß, was zu sehen ist, hat kein Licht "
-        "auf Objekten: beleuchte sie im Bild.",
+        "auf Objekten: wähle Licht: Bild.",
     "There is no lamp: add one (Add > Light) or show it in the viewport and in renders.":
         "Es gibt keine Lampe: füge eine hinzu (Hinzufügen > Licht), oder zeige sie in der Ansicht und im Render.",
     "No camera is selected: select the cameras, or bake what the scene's own one sees.":

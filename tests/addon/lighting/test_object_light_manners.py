@@ -125,7 +125,7 @@ def test_it_is_saved_with_the_file(blank, tmp_path):
 def test_points_are_not_lit_so(blank):
     scene_of(blank)
     parts.generate(method="POINTS")
-    with pytest.raises(RuntimeError, match="light it in the picture"):
+    with pytest.raises(RuntimeError, match="choose Light: Picture"):
         light(1)
 
 
