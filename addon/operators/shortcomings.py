@@ -91,7 +91,7 @@ def better_of_points(name: str, result: ReflectionMesh) -> list[str]:
     few = len(result.triangles) < max(MANY, result.counts.get("mirror_pixels", 0))
     if few or result.bounces.max() > 1:
         return []
-    return [f"{name}: What it shows is finer than its pixels; with Made Of > Points it takes about a third of the "
+    return [f"{name}: What it shows is finer than its pixels; with Made Of > Points it takes about half of the "
             "time."]
 
 

@@ -108,8 +108,8 @@ KEPT = {
     "the colours of materials have changed": "die Farben von Materialien haben sich geändert",
     "mirrors have been shown or hidden": "Spiegel wurden ein- oder ausgeblendet",
     "the lamps or the world have changed": "die Lampen oder die Welt haben sich geändert",
-    "{}: What it shows is finer than its pixels; with Made Of > Points it takes about a third of the time.":
-        "{}: Was er zeigt, ist feiner als seine Pixel; mit Besteht aus > Punkte dauert es etwa ein Drittel so lange.",
+    "{}: What it shows is finer than its pixels; with Made Of > Points it takes about half of the time.":
+        "{}: Was er zeigt, ist feiner als seine Pixel; mit Besteht aus > Punkte dauert es etwa halb so lange.",
     "The frames show what the view layer '{}' sees, and '{}' shows them too: bake all view layers that are "
     "rendered, for a sequence each.":
         "Die Einzelbilder zeigen, was die Ansichtsebene '{}' sieht, und '{}' zeigt sie auch: backe alle "
@@ -170,12 +170,12 @@ LACKS = {
     "shaders send light back in another way than diffuse: its light may have another colour.":
         "Die Farbe von '{}' ist nicht überall bekannt, wo sie nach etwas fragt, das nur das Objekt selbst weiß, oder "
         "seine Shader Licht anders als diffus zurückwerfen: sein Licht kann eine andere Farbe haben.",
-    "The nodes of '{}' tell more than one colour and one strength: its light counts as if the rest were plugged off.":
+    "The nodes of '{}' tell more than one colour and one strength: its light counts as if the rest were unplugged.":
         "Die Nodes von '{}' sagen mehr als eine Farbe und eine Stärke: sein Licht zählt, als wäre der Rest abgezogen.",
-    "Light ends at '{}', though some of it would go through: it does so where one number tells how much, and for two "
-    "such sheets.":
-        "Licht endet bei '{}', obwohl ein Teil hindurchginge: das tut es, wo eine Zahl sagt, wie viel, und bei zwei "
-        "solchen Schichten.",
+    "Light ends at '{}', though some of it would go through: give it an Alpha without a texture; of different ones no "
+    "more than two count.":
+        "Licht endet bei '{}', obwohl ein Teil hindurchginge: gib ihm ein Alpha ohne Textur; von verschiedenen zählen "
+        "höchstens zwei.",
     "The mirror '{}' is coarse and shaded smooth: Cycles bends its normals, and throws more light than is here; give "
     "it more faces, or shade it flat.":
         "Der Spiegel '{}' ist grob und weich schattiert: Cycles biegt seine Normalen, und wirft mehr Licht als hier; "
@@ -185,9 +185,9 @@ LACKS = {
         "Die Lampe '{}' ist geschert: Spiegel werfen, was sie von ihr zeigen, während Cycles direkt mit mehr oder "
         "weniger als dem beleuchtet; wende die Skalierung ihres übergeordneten Objekts an.",
     "A mirror's colour that changes over it in a way that only the mirror knows, or that light meets after another "
-    "mirror, counts as one: plug it off to choose which.":
+    "mirror, counts as one colour: unplug it to choose which.":
         "Die Farbe eines Spiegels, die sich über ihn auf eine Weise ändert, die nur der Spiegel kennt, oder auf die "
-        "Licht nach einem anderen Spiegel trifft, zählt als eine: ziehe sie ab, um zu wählen, welche.",
+        "Licht nach einem anderen Spiegel trifft, zählt als eine einzige: ziehe sie ab, um zu wählen, welche.",
     "Cycles followed {}, and {} or more of light have to be passed: Light Paths > Max Bounces > "
     "Transparent is {} until the light is cleared.":
         "Cycles folgte durch {}, und {} oder mehr vom Licht sind zu durchqueren: Lichtpfade > "

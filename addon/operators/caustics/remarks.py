@@ -24,20 +24,20 @@ def remarks_on(prepared: list[Caustic], unknown: list) -> list[str]:
     for lamp in dict.fromkeys(made.lamp for made in prepared):
         if lamp.type == "LIGHT" and not light_of_nodes(lamp.data)[1]:
             remarks.append(f"The nodes of '{lamp.name}' tell more than one colour and one strength: its light counts "
-                           "as if the rest were plugged off.")
+                           "as if the rest were unplugged.")
         if is_sheared(lamp):
             remarks.append(f"The lamp '{lamp.name}' is sheared: mirrors throw what they show of it, while Cycles "
                            "lights directly with more or less than that; apply the scale of its parent.")
     if not all(made.plain for made in prepared):
         remarks.append("A mirror's colour that changes over it in a way that only the mirror knows, or that light "
-                       "meets after another mirror, counts as one: plug it off to choose which.")
+                       "meets after another mirror, counts as one colour: unplug it to choose which.")
     return remarks
 
 
 def remarks_on_taking(scene: DiffuseScene, surfaces: dict[bpy.types.Object, MirrorSurface]) -> list[str]:
     """Where light ends in the scene that would go on, and which mirrors, whose `surfaces` are told, are coarse."""
-    return [*(f"Light ends at '{material.name}', though some of it would go through: it does so where one number tells "
-              "how much, and for two such sheets." for material in let_through(scene)),
+    return [*(f"Light ends at '{material.name}', though some of it would go through: give it an Alpha without a "
+              "texture; of different ones no more than two count." for material in let_through(scene)),
             *(f"The mirror '{mirror.name}' is coarse and shaded smooth: Cycles bends its normals, and throws more "
               "light than is here; give it more faces, or shade it flat." for mirror, surface in surfaces.items()
               if _bends(surface.mesh) > COARSE)]

@@ -22,7 +22,8 @@ NOISE = 5.0      # times the standard error of Cycles' pictures
 FOUND = 3        # of the brightest pixels of its noise: where a lamp is found by so few of its rays they tell nothing
 BESIDE = 2       # pixels round the mirror, in which it still shows the lamp
 # where a result is told to lack what this has
-TOLD = ("counts as one", "not known all over", "Light ends at", "is coarse and shaded smooth", "of light are missing")
+TOLD = ("counts as one", "not known all over", "Light ends at", "is coarse and shaded smooth",
+        "of the light that the mirror throws is missing")
 DARK = "throws none of the lamp's light"
 
 
