@@ -61,6 +61,15 @@ def test_the_manual_tells_of_every_option(room):
     assert told == there
 
 
+def test_the_manual_names_all_that_there_is_to_choose(blank):
+    told = set(re.findall(r"`([A-Z]+)`", (DOCS / "manual.md").read_text(encoding="utf-8")))
+    kept = list(bpy.context.scene.reflection_mesh.bl_rna.properties)
+    roles = bpy.data.objects.new("Any", None).reflection_mesh.bl_rna.properties["role"]
+    asked = [entry for operator in OPERATORS.values() for entry in properties(operator).values()]
+    assert {item.identifier for entry in [*kept, *asked, roles] if entry.type == "ENUM"
+            for item in entry.enum_items} - told == set()
+
+
 def test_the_command_line_has_what_the_manual_says(room, capsys):
     run = room("addon.command_line").run
     for name, ofs, _, _, options in rows("manual.md", "Option", "Of"):
