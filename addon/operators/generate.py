@@ -163,14 +163,14 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
 
     preview: bpy.props.BoolProperty(name="Preview", default=False, options={"SKIP_SAVE"},
                                     description="Until it is lit, show the colours of what is reflected in the "
-                                    "mirror's tint, untouched by lamps: on where the operator is invoked")
+                                    "mirror's tint, untouched by lamps: on where a button is pressed")
     attributes: option("attributes")
     collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
                                     description="A new result goes into the collection Reflections, instead of those "
-                                    "of its mirror: on where the operator is invoked")
+                                    "of its mirror: on where a button is pressed")
     select_alone: bpy.props.BoolProperty(name="Select Alone", default=False, options={"SKIP_SAVE"},
-                                         description="Only the result is selected afterwards: on where the operator "
-                                         "is invoked")
+                                         description="Only the result is selected afterwards: on where a button is "
+                                         "pressed")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -6,9 +6,9 @@ OPERATORS = {
     "Make what each mirror shows as an object of its own, as the scene's camera sees it":
         "Macht aus dem, was jeder Spiegel zeigt, ein eigenes Objekt, wie die Kamera der Szene es sieht",
     "Preview": "Vorschau",
-    "Until it is lit, show the colours of what is reflected in the mirror's tint, untouched by lamps: on where the "
-    "operator is invoked": "Zeigt, bis sie beleuchtet ist, die Farben des Gespiegelten in der Tönung des Spiegels, "
-        "von Lampen unberührt: an, wenn der Operator aufgerufen wird",
+    "Until it is lit, show the colours of what is reflected in the mirror's tint, untouched by lamps: on where a "
+    "button is pressed": "Zeigt, bis sie beleuchtet ist, die Farben des Gespiegelten in der Tönung des Spiegels, "
+        "von Lampen unberührt: an, wo ein Knopf gedrückt wird",
     "Attributes": "Attribute",
     "What the points and faces of a reflection know": "Was Punkte und Flächen einer Spiegelung wissen",
     "All": "Alles",
@@ -19,12 +19,12 @@ OPERATORS = {
     "Only what is seen: positions, materials, and what these read: about a third smaller":
         "Nur was zu sehen ist: Orte, Materialien, und was diese lesen: etwa ein Drittel kleiner",
     "In a Collection": "In einer Sammlung",
-    "A new result goes into the collection Reflections, instead of those of its mirror: on where the operator is "
-    "invoked": "Ein neues Ergebnis kommt in die Sammlung Reflections, statt in die seines Spiegels: an, wenn der "
-        "Operator aufgerufen wird",
+    "A new result goes into the collection Reflections, instead of those of its mirror: on where a button is pressed":
+        "Ein neues Ergebnis kommt in die Sammlung Reflections, statt in die seines Spiegels: an, wo ein Knopf "
+        "gedrückt wird",
     "Select Alone": "Allein auswählen",
-    "Only the result is selected afterwards: on where the operator is invoked":
-        "Danach ist allein das Ergebnis ausgewählt: an, wenn der Operator aufgerufen wird",
+    "Only the result is selected afterwards: on where a button is pressed":
+        "Danach ist allein das Ergebnis ausgewählt: an, wo ein Knopf gedrückt wird",
     "Light Reflection": "Spiegelung beleuchten",
     "Let the reflections look as the mirrors do, with the scene's lamps, materials and the mirrors' own tint":
         "Lässt die Spiegelungen aussehen wie die Spiegel, mit Lampen und Materialien der Szene und der Tönung der "
