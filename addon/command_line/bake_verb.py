@@ -106,6 +106,9 @@ def _check(options: argparse.Namespace) -> None:
         raise ReflectionError("Light takes no less than 0 samples: raise --light.")
     if options.eyes is not None and options.eyes < 1:
         raise ReflectionError("Light comes from one place of each lamp at least: raise --eyes.")
+    if options.eyes is not None and options.what != "CAUSTICS":
+        raise ReflectionError("Only light that mirrors throw comes from places on lamps: add --what CAUSTICS, or leave "
+                              "--eyes out.")
     if options.jobs < 1:
         raise ReflectionError("Frames are baked by one process at least: raise --jobs.")
 

@@ -23,7 +23,7 @@ from ..operators.light_remarks import unlike_the_mirror
 from ..operators.mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
 from ..operators.print_sheet import DPI, check_print, printing
 from ..operators.shortcomings import other_meshes, scene_shortcomings
-from ..reading import Participants, choose, with_copies
+from ..reading import Participants, choose, shown_by, visible, with_copies
 from ..settings import ATTRIBUTES, Wanted
 from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
@@ -124,7 +124,8 @@ def _add_anamorphosis(verb: argparse.ArgumentParser) -> None:
 def _add_participants(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--mirror", type=text, nargs="+", default=[], metavar="NAME",
                       help="mirror objects (else by selection and role, as in the window)")
-    verb.add_argument("--diffuse", type=text, nargs="+", default=[], metavar="NAME", help="reflected objects")
+    verb.add_argument("--diffuse", type=text, nargs="+", default=[], metavar="NAME",
+                      help="reflected objects (else, of mirrors that are named, whatever is there)")
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
@@ -216,8 +217,8 @@ def _chosen(context: bpy.types.Context, options: argparse.Namespace) -> Particip
     """The objects named, or those that the selection and the roles choose."""
     if not (options.mirror or options.diffuse):
         return choose(context)
-    if not (options.mirror and options.diffuse):
-        raise core.ReflectionError("Name both: the mirrors with --mirror and the objects to reflect with --diffuse.")
+    if not options.mirror:
+        raise core.ReflectionError("Name the mirrors too, with --mirror.")
     objects = context.view_layer.objects
     missing = [name for name in options.mirror + options.diffuse if name not in objects]
     if missing:
@@ -225,7 +226,10 @@ def _chosen(context: bpy.types.Context, options: argparse.Namespace) -> Particip
     both = set(options.mirror) & set(options.diffuse)
     if both:
         raise core.ReflectionError(f"'{min(both)}' is named both as a mirror and as reflected: name it once.")
-    return Participants([objects[name] for name in options.mirror], [objects[name] for name in options.diffuse], [])
+    mirrors = [objects[name] for name in options.mirror]
+    if not options.diffuse:
+        return visible(context, mirrors, shown_by(context, mirrors))
+    return Participants(mirrors, [objects[name] for name in options.diffuse], [])
 
 
 def register() -> None:

@@ -51,6 +51,7 @@ from .roles import (
     rendered_in,
     says_mirror,
     seen_in,
+    shown_by,
     visible,
 )
 
@@ -62,4 +63,5 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "looked_through", "materials_of", "materials_shown", "may_have_faces", "moves", "nothing_to_reflect",
            "numbers", "participants", "read_meshes", "read_mirror", "read_mirrors", "read_scene", "read_view",
            "register", "render_size", "rendered_alone", "rendered_collections", "rendered_in", "rendered_otherwise",
-           "results_of", "says_mirror", "seen_in", "unregister", "vectors", "visible", "with_copies", "without_surface"]
+           "results_of", "says_mirror", "seen_in", "shown_by", "unregister", "vectors", "visible", "with_copies",
+           "without_surface"]

@@ -77,16 +77,19 @@ def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list,
         mirrors = [obj for obj in objects if says_mirror(obj) and is_seen(obj)]
     if mirrors:
         # what is a mirror without any doubt is meant, and the roles say what it shows
-        said = [obj for obj in explicit if obj.reflection_mesh.role == "DIFFUSE" and obj not in mirrors]
-        return mirrors, said or (_others_seen(context, objects, mirrors) if all_seen else [])
+        return mirrors, shown_by(context, mirrors, all_seen)
     return _by_role(explicit, None)
 
 
-def _others_seen(context: bpy.types.Context, objects: list, mirrors: list) -> list:
-    """What the mirrors show of the objects that are there now, or at other frames."""
+def shown_by(context: bpy.types.Context, mirrors: list, all_seen: bool = True) -> list:
+    """What mirrors show that are chosen alone: what is said to be reflected, else, where that is `all_seen`, whatever
+    is there now or at other frames."""
+    others = [obj for obj in context.view_layer.objects if can_take_part(obj) and obj not in mirrors]
+    said = [obj for obj in others if obj.reflection_mesh.role == "DIFFUSE"]
+    if said or not all_seen:
+        return said
     is_seen = _seen_at_times(context)
-    return [obj for obj in objects if obj not in mirrors and is_seen(obj)
-            and (obj.visible_glossy or comes_and_goes(obj))]
+    return [obj for obj in others if is_seen(obj) and (obj.visible_glossy or comes_and_goes(obj))]
 
 
 def says_mirror(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | None], bool] = is_mirror) -> bool:

@@ -81,9 +81,29 @@ def test_objects_by_name(saved, room, tmp_path):
     assert faces_in(output) > 0
 
 
+def test_a_mirror_named_alone_shows_what_is_there(saved, room, tmp_path):
+    """But what is hidden: the faces are those of the two objects that are seen, by their names."""
+    for obj in bpy.data.objects:
+        obj.reflection_mesh.role = "AUTO"
+    hidden = bpy.data.objects["Box"].copy()
+    hidden.name, hidden.hide_render = "Hidden", True
+    bpy.context.scene.collection.objects.link(hidden)
+    hidden.location.z += 1.0
+    others = [obj.name for obj in bpy.data.objects if obj.type == "MESH" and obj.name not in {"Mirror", "Hidden"}]
+    bpy.ops.wm.save_mainfile()
+    shown = []
+    for number, words in enumerate(([], ["--diffuse", *others])):
+        output = tmp_path / f"named {number}.blend"
+        bpy.ops.wm.open_mainfile(filepath=str(saved))
+        assert room("addon.command_line").run(["generate", "--mirror", "Mirror", *words, "--output", str(output)]) == 0
+        shown.append(faces_in(output))
+    assert shown[0] == shown[1] > 0
+
+
 @pytest.mark.parametrize("case", [
     (["generate", "--mirror", "Mirror", "--diffuse", "Nothing"], 1, "no object 'Nothing'"),
-    (["generate", "--mirror", "Mirror"], 1, "Name both"),
+    (["generate", "--diffuse", "Mirror"], 1, "Name the mirrors too"),
+    (["bake", "--eyes", "4", "--output", "{folder}/frames"], 1, "add --what CAUSTICS"),
     (["generate", "--mirror", "Mirror", "--diffuse", "Mirror"], 1, "named both"),
     (["generate", "--tolerance", "0"], 1, "tolerance"),
     (["generate", "--tolerance", "nan"], 1, "tolerance"),
