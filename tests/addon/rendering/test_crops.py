@@ -12,7 +12,7 @@ SIZE = (224, 540)
 LOW, HIGH = ((0, 0), (31, 7), (62, 100), (124, 448)), ((31, 100), (62, 448), (160, 448), (224, 540))
 
 
-@pytest.mark.parametrize(("low", "high"), zip(LOW, HIGH))
+@pytest.mark.parametrize(("low", "high"), list(zip(LOW, HIGH)))
 def test_a_part_of_the_picture_is_that_part(blank, room, low, high):
     """A plane before the camera shines as bright as its place in the picture says."""
     scene, rendering = bpy.context.scene, room("addon.rendering")
