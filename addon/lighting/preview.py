@@ -22,6 +22,7 @@ from ..mirror_part import (
 )
 from ..reading.materials import (
     asked_attributes,
+    feeding,
     is_mirror,
     one_output,
     reflecting_materials,
@@ -207,12 +208,8 @@ class _Source(ShaderBuilder):
 
     def forget_unused(self, kept: set) -> None:
         """Remove those of the nodes, but for some that are `kept`, which nothing shows."""
-        shown, open_ = set(), [node for node in self.tree.nodes if node.type == "OUTPUT_MATERIAL"]
-        while open_:
-            node = open_.pop()
-            if node not in shown:
-                shown.add(node)
-                open_ += [link.from_node for socket in node.inputs for link in socket.links]
+        outputs = [node for node in self.tree.nodes if node.type == "OUTPUT_MATERIAL"]
+        shown = {*outputs, *feeding(*outputs)}
         for node in [node for node in self.tree.nodes if node not in kept and node not in shown]:
             self.tree.nodes.remove(node)
 

@@ -7,6 +7,7 @@ import numpy as np
 from ....core import CausticMesh
 from ...faults import AllOrNothing
 from ...reading import DiffuseScene, all_nodes, materials_of, read_scene
+from ...reading.materials import feeding
 from ...writing import Attribute
 from ...writing.nodes.copied_nodes import copied
 from ..receiver_places import MARK, NORMAL, PLACES, asked_by, show_by_places, stored, uv
@@ -54,7 +55,7 @@ def _colour_group(texture: Texture, whole: AllOrNothing) -> bpy.types.NodeTree:
     output, colour = group.nodes.new("NodeGroupOutput"), texture.plugged_in
     if colour is None:  # any more
         return group
-    made = copied([colour.node, *_behind(colour.node)], group)
+    made = copied([colour.node, *feeding(colour.node)], group)
     group.links.new(made[colour.node].outputs[list(colour.node.outputs).index(colour)], output.inputs[0])
     show_by_places(group, whole, {name: _attribute(name) for name in _asked(texture)})
     return group
@@ -144,18 +145,5 @@ def _asked(texture: Texture) -> set[str]:
 
 def _nodes(node: bpy.types.Node) -> list[bpy.types.Node]:
     """A node, those that feed it, and those of the groups among them."""
-    found = [node, *_behind(node)]
+    found = [node, *feeding(node)]
     return found + [inner for one in found if one.type == "GROUP" for inner in all_nodes(one.node_tree)]
-
-
-def _behind(node: bpy.types.Node) -> list[bpy.types.Node]:
-    """The nodes that feed a node, and those that feed these."""
-    found: list[bpy.types.Node] = []
-    left = [node]
-    while left:
-        for socket in left.pop().inputs:
-            for link in socket.links:
-                if link.from_node not in found:
-                    found.append(link.from_node)
-                    left.append(link.from_node)
-    return found

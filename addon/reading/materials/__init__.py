@@ -1,7 +1,7 @@
 """What nodes of materials say: mirrors, what lets light through or has its own, and what nodes there are."""
 from .carried_light import emits_alike
 from .dielectric import index_of, upright
-from .material_nodes import all_nodes, asked_attributes, one_output, shown_output
+from .material_nodes import all_nodes, asked_attributes, feeding, one_output, shown_output
 from .materials_of import (
     all_fog,
     materials_of,
@@ -26,8 +26,8 @@ from .own_light import glows, sends_light
 from .surface_shaders import surface_shaders
 from .transparency import transparency
 
-__all__ = ["MIRRORS", "SHARP_ROUGHNESS", "all_fog", "all_nodes", "asked_attributes", "emits", "emits_alike", "fog_of",
-           "glows", "has_sharp_coat", "index_of", "is_clear", "is_exact", "is_fog", "is_mirror", "is_opaque",
+__all__ = ["MIRRORS", "SHARP_ROUGHNESS", "all_fog", "all_nodes", "asked_attributes", "emits", "emits_alike", "feeding",
+           "fog_of", "glows", "has_sharp_coat", "index_of", "is_clear", "is_exact", "is_fog", "is_mirror", "is_opaque",
            "is_sharp", "materials_of", "materials_on_faces", "materials_shown", "one_output", "own_materials",
            "reflecting_materials", "sends_light", "shines", "shown_output", "surface_shader", "surface_shaders",
            "transparency", "upright"]

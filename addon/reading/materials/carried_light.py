@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import bpy
 
-from .material_nodes import all_nodes
+from .material_nodes import all_nodes, feeding
 from .mirror_materials import emits, surface_shader
 
 BY_VALUES = {"BLACKBODY", "BRIGHTCONTRAST", "CLAMP", "COMBINE_COLOR", "COMBRGB", "COMBXYZ", "CURVE_FLOAT",
@@ -38,12 +38,7 @@ def _is_carried(node: bpy.types.Node) -> bool:
 
 
 def _behind(node: bpy.types.Node) -> Iterator[bpy.types.Node]:
-    """The nodes that feed a node, and those that feed these, with all that is in groups."""
-    left, seen = [node], {node}
-    while left:
-        for source in (link.from_node for socket in left.pop().inputs for link in socket.links):
-            if source not in seen:
-                seen.add(source)
-                left.append(source)
-                yield source
-                yield from all_nodes(source.node_tree) if source.type == "GROUP" else ()
+    """The nodes that feed a node, with all that is in groups."""
+    for source in feeding(node):
+        yield source
+        yield from all_nodes(source.node_tree) if source.type == "GROUP" else ()

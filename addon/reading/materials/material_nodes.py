@@ -16,6 +16,18 @@ def all_nodes(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.Node]:
     return _nodes(tree, set())
 
 
+def feeding(*nodes: bpy.types.Node) -> list[bpy.types.Node]:
+    """The nodes that feed some nodes, and those that feed these."""
+    found: dict[bpy.types.Node, None] = {}
+    left = list(nodes)
+    while left:
+        for source in [link.from_node for socket in left.pop().inputs for link in socket.links]:
+            if source not in found:
+                found[source] = None
+                left.append(source)
+    return list(found)
+
+
 def shown_output(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
     """The node at which the tree of a material, a lamp or a world ends: Cycles', where engines have their own; None
     where there is none."""
