@@ -20,7 +20,7 @@ class Coat:
     ----------
     factor : float
     ior : float
-        Where it is none of 0, the share is what a dielectric of this refractive index reflects.
+        Where it is none of 0, the share is as much of what a dielectric of this refractive index reflects.
     from_within : bool
         Whether the inverse index counts at backs, as of what light meets from within.
     facing : float
@@ -29,6 +29,8 @@ class Coat:
         Whether it is what all that leaves.
     opacity : float
         How opaque the material is: all of it counts as much.
+    within : Coat, optional
+        What is left to all of it, where it is mixed itself.
     """
 
     factor: float = 1.0
@@ -37,16 +39,18 @@ class Coat:
     facing: float = 0.0
     rest: bool = False
     opacity: float = 1.0
+    within: Coat | None = None
 
     def at(self, cosine: np.ndarray) -> np.ndarray:
         """The share by the cosine of the angle of incidence, negative at backs."""
         share, c = np.full(cosine.shape, self.factor), np.clip(np.abs(cosine), 0.0, 1.0)
         if self.ior:
             inside = (cosine < 0.0) & self.from_within
-            share = _reflectance(np.where(inside, 1.0 / self.ior, self.ior), c)
+            share = self.factor * _reflectance(np.where(inside, 1.0 / self.ior, self.ior), c)
         elif self.facing:
             share = 1.0 - c**self.facing
-        return self.opacity * (1.0 - share if self.rest else share)
+        share = self.opacity * (1.0 - share if self.rest else share)
+        return share if self.within is None else share * self.within.at(cosine)
 
 
 def _reflectance(ior: np.ndarray, c: np.ndarray) -> np.ndarray:
@@ -96,6 +100,17 @@ def gloss_of(shader: bpy.types.Node | None) -> Gloss | None:
     # Schlick's formula is linear in the colour, and near to a dielectric's
     both = metallic * _colour(shader, "Base Color") + (1.0 - metallic) * upright(shader) * tint
     return Gloss(both, WHOLE, True, known and _plain(shader, "Base Color"))
+
+
+def layers_of(shader: bpy.types.Node) -> tuple[Coat, Coat | None, bool] | None:
+    """What a Principled BSDF's coat leaves to what is below, what it mirrors itself where that is sharp, and whether
+    both are known all over; None where there is no coat."""
+    weight, rough, index = (shader.inputs[name].default_value for name in BY_COAT)
+    if not weight > 0.0:
+        return None if _plain(shader, "Coat Weight") else (WHOLE, None, False)
+    over = Coat(weight, ior=max(index, LEAST))
+    known = _plain(shader, *BY_COAT, "Coat Tint") and min(shader.inputs["Coat Tint"].default_value[:3]) >= 1.0
+    return replace(over, rest=True), over if rough <= SHARP_ROUGHNESS else None, known
 
 
 def as_opaque(coat: Coat, shader: bpy.types.Node) -> tuple[Coat, bool]:

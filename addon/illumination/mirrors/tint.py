@@ -7,8 +7,9 @@ import bpy
 import numpy as np
 
 from ... import compat
-from ...reading.materials import MIRRORS, is_mirror, is_sharp, surface_shader
-from .coat import WHOLE, Coat, as_opaque, gloss_of, share_of
+from ...reading.materials import FULL_METALLIC, MIRRORS, is_mirror, shown_output
+from .coat import WHOLE, Coat, as_opaque, gloss_of, layers_of
+from .lobes import Lobe, lobes_of
 
 F82 = 1.0 / 7.0  # cosine of the angle at which the edge tint is given
 
@@ -45,6 +46,8 @@ class Tint:
         How much of the light the mirror sends back where it is mixed with something else.
     texture : Texture, optional
         Where the colour alone changes over the material, what tells it.
+    more : tuple of Tint
+        What else the material is mixed or coated of that mirrors: all of it adds up.
     """
 
     colour: np.ndarray
@@ -53,49 +56,35 @@ class Tint:
     constant: bool
     coat: Coat = WHOLE
     texture: Texture | None = None
+    more: tuple[Tint, ...] = ()
 
     @classmethod
     def of(cls, mirror: bpy.types.Object) -> Tint:
         """Of the mirror's first reflecting material; white where it has none."""
         materials = [slot.material for slot in mirror.material_slots if slot.material is not None]
-        reflecting = (one for one in materials if is_mirror(one) or (
-            compat.uses_nodes(one) and (_coated(one) or gloss_of(surface_shader(one.node_tree)))))
-        return cls.of_material(next(reflecting, None))
+        return cls.of_material(next((one for one in materials if is_mirror(one) or has_mirrors(one)), None))
 
     @classmethod
     def of_material(cls, material: bpy.types.Material | None) -> Tint:
         """Of a mirror's material; white where it mirrors nothing, as far as its nodes tell."""
         white = np.ones(3)
-        if material is None:
-            return cls(white, white, False, True)
-        if not compat.uses_nodes(material):
-            return (cls(np.array(material.diffuse_color[:3], dtype=np.float64), white, True, True)
-                    if is_mirror(material) else cls(white, white, False, True))
-        shader, coat, known = (surface_shader(material.node_tree), WHOLE, True) if is_mirror(material) else (
-            _coated(material) or (None, WHOLE, True))
-        if shader is None:
-            lacquer = surface_shader(material.node_tree)
-            gloss = gloss_of(lacquer)
-            if gloss is None:
-                return cls(white, white, False, True)
-            coat, known = as_opaque(gloss.coat, lacquer)
-            return cls(gloss.colour, white, gloss.metal, gloss.known and known, coat)
-        metal = shader.type in {"BSDF_PRINCIPLED", "BSDF_METALLIC"}
-        edge = {"BSDF_PRINCIPLED": "Specular Tint", "BSDF_METALLIC": "Edge Tint"}.get(shader.type)
-        sockets = [shader.inputs.get("Base Color") or shader.inputs.get("Color"), shader.inputs.get(edge or "")]
-        colours = [white if socket is None else np.array(socket.default_value[:3], dtype=np.float64)
-                   for socket in sockets]
-        linked = [socket is not None and socket.is_linked for socket in sockets]
-        coat, opaque = as_opaque(coat, shader)
-        known = known and opaque and not linked[1] and getattr(shader, "fresnel_type", "F82") == "F82"
-        texture = Texture(material, shader.name, sockets[0].identifier) if known and linked[0] else None
-        return cls(*colours, metal, known and not linked[0], coat, texture)
+        if material is not None and not compat.uses_nodes(material) and is_mirror(material):
+            return cls(np.array(material.diffuse_color[:3], dtype=np.float64), white, True, True)
+        found = _tints_of(material)
+        if len(found) < 2:
+            return found[0] if found else cls(white, white, False, True)
+        # of several the texture of one is known, if all others are one colour
+        first = next((one for one in found if not one.constant), found[0])
+        more = tuple(one for one in found if one is not first)
+        plain = all(one.constant for one in more)
+        return replace(first, constant=first.constant and plain, more=more, texture=first.texture if plain else None)
 
     def same(self, other: Tint) -> bool:
         """Whether both make the same of light."""
         return (np.array_equal(self.colour, other.colour) and np.array_equal(self.edge, other.edge)
                 and (self.fresnel, self.constant, self.coat, self.texture)
-                == (other.fresnel, other.constant, other.coat, other.texture))
+                == (other.fresnel, other.constant, other.coat, other.texture)
+                and len(self.more) == len(other.more) and all(map(Tint.same, self.more, other.more)))
 
     def at(self, cosine: np.ndarray) -> np.ndarray:
         """What is left of red, green and blue, (..., 3), where light meets the mirror at `cosine` (...), negative at
@@ -109,24 +98,61 @@ class Tint:
             schlick = self.colour + (1.0 - self.colour) * (1.0 - F82)**5
             fall = schlick * (7.0 / (1.0 - F82)**6) * (1.0 - self.edge)
             left = self.colour + (1.0 - self.colour) * grazing**5 - fall * (1.0 - grazing) * grazing**6
-        return self.coat.at(cosine)[..., None] * np.clip(left, 0.0, 1.0)
+        own = self.coat.at(cosine)[..., None] * np.clip(left, 0.0, 1.0)
+        return sum((one.at(cosine) for one in self.more), own)
 
     def by_colour(self, cosine: np.ndarray) -> np.ndarray:
         """By how much what is left, (..., 3), grows with the colour, of which it is linear."""
-        white, black = (replace(self, colour=np.full(3, value)).at(cosine) for value in (1.0, 0.0))
+        white, black = (replace(self, colour=np.full(3, value), more=()).at(cosine) for value in (1.0, 0.0))
         return white - black
 
 
-def _coated(material: bpy.types.Material) -> tuple[bpy.types.Node, Coat, bool] | None:
-    """The mirror that a material mixes with something else, its share, and whether that is known; None where it mixes
-    none."""
-    mixed = surface_shader(material.node_tree)
-    if mixed is None or mixed.type != "MIX_SHADER":
-        return None
-    factor, *both = mixed.inputs
-    for place, socket in enumerate(both):
-        shader = socket.links[0].from_node if socket.is_linked else None
-        if shader is not None and shader.type in MIRRORS and is_sharp(shader):
-            share, known = share_of(factor)
-            return shader, replace(share, rest=place == 0), known
-    return None
+def has_mirrors(material: bpy.types.Material | None) -> bool:
+    """Whether any shader of a material's nodes mirrors sharply."""
+    return bool(_tints_of(material))
+
+
+def _tints_of(material: bpy.types.Material | None) -> list[Tint]:
+    """Those of all that mirrors sharply in a material's nodes."""
+    output = shown_output(material.node_tree) if material is not None and compat.uses_nodes(material) else None
+    lobes = [] if output is None else lobes_of(output.inputs["Surface"])
+    return [tint for lobe in lobes for tint in _tints_of_lobe(material, lobe)]
+
+
+def _tints_of_lobe(material: bpy.types.Material, lobe: Lobe) -> list[Tint]:
+    """That of what a shader is, and that of its coat."""
+    shader, white = lobe.shader, np.ones(3)
+    layers = layers_of(shader) if shader.type == "BSDF_PRINCIPLED" and lobe.is_sharp else None
+    below, over, known = layers or (WHOLE, None, True)
+    below, over = (None if one is None else replace(one, within=lobe.share) for one in (below, over))
+    below, opaque = as_opaque(below, shader)
+    known = lobe.known and known and opaque
+    coats = [] if over is None else [Tint(white, white, False, known, as_opaque(over, shader)[0])]
+    if lobe.is_sharp and (shader.type in MIRRORS or _is_metal(lobe)):
+        return [_of_metal(material, lobe, below, known), *coats]
+    gloss = gloss_of(shader)
+    if gloss is None:
+        return coats
+    return [Tint(gloss.colour, white, gloss.metal, gloss.known and known, replace(gloss.coat, within=below)), *coats]
+
+
+def _is_metal(lobe: Lobe) -> bool:
+    if lobe.shader.type != "BSDF_PRINCIPLED":
+        return False
+    metallic, known = lobe.told("Metallic")
+    return known and bool(metallic >= FULL_METALLIC)
+
+
+def _of_metal(material: bpy.types.Material, lobe: Lobe, coat: Coat, known: bool) -> Tint:
+    """That of a Glossy, a Metallic or a metallic Principled BSDF."""
+    shader, white = lobe.shader, np.ones(3)
+    metal = shader.type in {"BSDF_PRINCIPLED", "BSDF_METALLIC"}
+    base = "Base Color" if "Base Color" in shader.inputs else "Color"
+    edge = {"BSDF_PRINCIPLED": "Specular Tint", "BSDF_METALLIC": "Edge Tint"}.get(shader.type)
+    colour, plain = lobe.told(base)
+    tint, plain_edge = (white, True) if edge is None else lobe.told(edge)
+    known = known and plain_edge and getattr(shader, "fresnel_type", "F82") == "F82"
+    # nodes within groups are not found by their names
+    texture = Texture(material, shader.name, shader.inputs[base].identifier) if (
+        known and not plain and not lobe.groups) else None
+    return Tint(colour, tint, metal, known and plain, coat, texture)

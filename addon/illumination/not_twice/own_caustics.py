@@ -13,7 +13,8 @@ import bpy
 from ... import compat
 from ...faults import AllOrNothing
 from ...reading import is_mirror, link_state
-from ...reading.materials import MIRRORS, all_nodes, is_sharp
+from ...reading.materials import MIRRORS, all_nodes, is_sharp, surface_shaders
+from ..mirrors import has_mirrors
 from .glint import forget_lost_glints, glint_of, hide_from_mirror, show_in_mirror
 
 
@@ -23,7 +24,15 @@ def makes_own_caustics(materials: list) -> tuple[bool, bool]:
     whole = [is_mirror(material) for material in materials]
     sharp = (node for material in materials if compat.uses_nodes(material) for node in all_nodes(material.node_tree)
              if node.type in {*MIRRORS, "BSDF_PRINCIPLED", "BSDF_GLASS"})
-    return any(whole) or any(map(is_sharp, sharp)), bool(whole) and all(whole)
+    alone = (mirroring or _mirrors_alone(material) for mirroring, material in zip(whole, materials))
+    own = any(whole) or any(map(is_sharp, sharp)) or any(map(has_mirrors, materials))
+    return own, bool(whole) and all(alone)
+
+
+def _mirrors_alone(material: bpy.types.Material | None) -> bool:
+    """Whether a material is mixed, added or grouped of nothing but shaders that no light goes into."""
+    shaders = surface_shaders(material.node_tree) if material is not None and compat.uses_nodes(material) else []
+    return bool(shaders) and all(shader.type in MIRRORS for shader in shaders)
 
 
 def leave_out_own_caustics(scene: bpy.types.Scene, lamp: bpy.types.Object, mirror: bpy.types.Object,

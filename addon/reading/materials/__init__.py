@@ -11,6 +11,7 @@ from .materials_of import (
     reflecting_materials,
 )
 from .mirror_materials import (
+    FULL_METALLIC,
     MIRRORS,
     SHARP_ROUGHNESS,
     emits,
@@ -26,8 +27,8 @@ from .own_light import glows, sends_light
 from .surface_shaders import surface_shaders
 from .transparency import transparency
 
-__all__ = ["MIRRORS", "SHARP_ROUGHNESS", "all_fog", "all_nodes", "asked_attributes", "emits", "emits_alike", "feeding",
-           "fog_of", "glows", "has_sharp_coat", "index_of", "is_clear", "is_exact", "is_fog", "is_mirror", "is_opaque",
-           "is_sharp", "materials_of", "materials_on_faces", "materials_shown", "one_output", "own_materials",
-           "reflecting_materials", "sends_light", "shines", "shown_output", "surface_shader", "surface_shaders",
-           "transparency", "upright"]
+__all__ = ["FULL_METALLIC", "MIRRORS", "SHARP_ROUGHNESS", "all_fog", "all_nodes", "asked_attributes", "emits",
+           "emits_alike", "feeding", "fog_of", "glows", "has_sharp_coat", "index_of", "is_clear", "is_exact", "is_fog",
+           "is_mirror", "is_opaque", "is_sharp", "materials_of", "materials_on_faces", "materials_shown", "one_output",
+           "own_materials", "reflecting_materials", "sends_light", "shines", "shown_output", "surface_shader",
+           "surface_shaders", "transparency", "upright"]

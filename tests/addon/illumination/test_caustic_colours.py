@@ -72,7 +72,62 @@ def by_layer_weight(output: str = "Fresnel", blend: float = 0.4) -> bpy.types.Ma
     return made
 
 
+def two_mirrors(kind: str, *, grouped: bool = False, factor: float = 0.3) -> bpy.types.Material:
+    """A red mirror and a green one, mixed or added; in a group that is given its first colour and its roughness."""
+    made = paint("Two", "GLOSSY", (0.6, 0.1, 0.1))
+    tree = made.node_tree
+    end = tree.get_output_node("ALL").inputs["Surface"]
+    if grouped:
+        inner = bpy.data.node_groups.new("Chrome", "ShaderNodeTree")
+        for name, side, sort in (("Paint", "INPUT", "Color"), ("Rough", "INPUT", "Float"), ("Out", "OUTPUT", "Shader")):
+            inner.interface.new_socket(name, in_out=side, socket_type=f"NodeSocket{sort}")
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = inner
+        node.inputs["Paint"].default_value = (0.6, 0.1, 0.1, 1.0)
+        tree.links.new(node.outputs[0], end)
+        tree, end = inner, inner.nodes.new("NodeGroupOutput").inputs[0]
+    both, *mirrors = (tree.nodes.new(f"ShaderNode{name}") for name in (kind, "BsdfAnisotropic", "BsdfAnisotropic"))
+    for mirror, colour, socket in zip(mirrors, ((0.6, 0.1, 0.1), (0.1, 0.3, 0.05)), both.inputs[-2:], strict=True):
+        mirror.inputs["Roughness"].default_value, mirror.inputs["Color"].default_value = 0.0, (*colour, 1.0)
+        tree.links.new(mirror.outputs[0], socket)
+    if grouped:
+        given = tree.nodes.new("NodeGroupInput")
+        mirrors[0].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+        mirrors[0].inputs["Roughness"].default_value = 0.5
+        tree.links.new(given.outputs["Paint"], mirrors[0].inputs["Color"])
+        tree.links.new(given.outputs["Rough"], mirrors[0].inputs["Roughness"])
+    if kind == "MixShader":
+        both.inputs[0].default_value = factor
+    tree.links.new(both.outputs[0], end)
+    return made
+
+
+def half_of(material: bpy.types.Material) -> bpy.types.Material:
+    """Mixed with black by halves."""
+    tree = material.node_tree
+    end = tree.get_output_node("ALL").inputs["Surface"]
+    both, ground = tree.nodes.new("ShaderNodeMixShader"), tree.nodes.new("ShaderNodeBsdfDiffuse")
+    ground.inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+    tree.links.new(end.links[0].from_socket, both.inputs[1])
+    tree.links.new(ground.outputs[0], both.inputs[2])
+    tree.links.new(both.outputs[0], end)
+    return material
+
+
+def lacquered(rough: float, metallic: float = 1.0) -> bpy.types.Material:
+    return shader_alone("ShaderNodeBsdfPrincipled", **{
+        "Base Color": (0.7, 0.3, 0.02, 1.0) if metallic else (0.0, 0.0, 0.0, 1.0), "Metallic": metallic,
+        "Coat Weight": 0.8, "Coat Roughness": rough, "Coat IOR": 1.8})
+
+
 NOT_METAL = {
+    "mirrors added": lambda: two_mirrors("AddShader"),
+    "mirrors mixed": lambda: two_mirrors("MixShader"),
+    "mirrors in a group": lambda: two_mirrors("AddShader", grouped=True),
+    "mix in a mix": lambda: half_of(two_mirrors("MixShader", grouped=True)),
+    "water in a mix": lambda: half_of(coated()),
+    "lacquered metal": lambda: lacquered(0.0),
+    "lacquered lacquer": lambda: lacquered(0.0, metallic=0.0),
     "glass": lambda: shader_alone("ShaderNodeBsdfGlass", IOR=1.6),
     "pane": lambda: shader_alone("ShaderNodeBsdfPrincipled", **{"Transmission Weight": 1.0, "Metallic": 0.0}),
     "lacquer": lambda: shader_alone("ShaderNodeBsdfPrincipled", **{
@@ -101,6 +156,19 @@ def test_what_is_no_metal_sends_back_what_cycles_says(blank, room, tmp_path, kin
     tint = room("addon.illumination").Tint.of(mirror)
     found = tint.at(np.full((1, 3), np.cos(angle) * (-1.0 if behind else 1.0)))[0, 0]
     assert tint.constant and np.allclose(found, seen, rtol=0.05, atol=0.004)
+
+
+@pytest.mark.parametrize("grouped", [False, True])
+def test_cycles_caustics_of_mixed_mirrors_are_left_out(blank, capfd, grouped):
+    """As far as nothing of them is lit, which would be dark without the lamp: that is told."""
+    floor, mirror, lamp = scene_of(shadow_soft_size=0.1)
+    for material, alone in ((two_mirrors("MixShader", grouped=grouped), True),
+                            (half_of(two_mirrors("AddShader", grouped=grouped)), False)):
+        mirror.data.materials[0] = material
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+        assert (lamp.light_linking.receiver_collection is not None) == alone
+        assert ("which is lit as well as it mirrors" in capfd.readouterr().out) == (not alone)
+        assert bpy.ops.reflection_mesh.clear() == {"FINISHED"}
 
 
 def test_light_that_meets_water_from_below_is_thrown_as_such(blank):
