@@ -18,8 +18,8 @@ def play_caustics(context: bpy.types.Context, player: Player, name: str, pair: t
     whole.after(forget_added_light, [material for obj in results_with(context, *pair)[:1]
                                      for material in obj.data.materials])
     obj = caustics_object(context, name, pair, sources, whole)
-    made = stains(textured(pair[0]), whole)
-    materials = [adds_light(material_of(*entry), made, whole)[0]
+    made, unseen = stains(textured(pair[0]), whole), not all(source.visible_camera for source in sources)
+    materials = [adds_light(material_of(*entry), made, whole, unseen)[0]
                  for entry in player.materials or [("", "")]]
     show_frames(obj, player, materials, whole)
     obj.reflection_mesh.faces = 0

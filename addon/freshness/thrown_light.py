@@ -102,8 +102,15 @@ def _origin(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.type
     # what is hidden gives no light
     numbers += "" if seen_in(context)(lamp) else " hidden"
     return LightOrigin(digests.digest_of(depsgraph, [mirror]) + colours_of([mirror]), numbers,
-                       digests.digest_of_shown(depsgraph, sources) + materials_of(sources) + colours_of(sources),
+                       digests.digest_of_shown(depsgraph, sources) + materials_of(sources) + colours_of(sources)
+                       + _unseen(sources),
                        digests.digest_of(depsgraph, around), _settings(context, mirror))
+
+
+def _unseen(sources: list) -> str:
+    """Which of what is lit the camera does not see."""
+    unseen = [number for number, obj in enumerate(sources) if obj is not None and not obj.visible_camera]
+    return f" unseen {unseen}" if unseen else ""
 
 
 def _settings(context: bpy.types.Context, mirror: bpy.types.Object) -> dict:

@@ -10,7 +10,7 @@ from ...core import CausticMesh, breathe
 from ...core.geometry import areas
 from ..reading import DiffuseScene
 from ..writing import Attribute, Edges, MeshArrays, shown_layers
-from .caustic_material import LIGHT
+from .caustic_material import LIGHT, UNSEEN
 from .light_sources import Eye
 from .mirrors import MirrorPart, Tint, mirror_attributes
 from .receiver_places import PLACES, places_asked
@@ -76,11 +76,18 @@ def caustic_arrays(lit: list[tuple[Eye, MirrorPart, CausticMesh]], scene: Diffus
     known = {"Generated": scene.generated, "Object": scene.own_places}
     own += tuple(Attribute(PLACES[name], "FLOAT_VECTOR", "CORNER", np.matmul(weights, known[name][source]))
                  for name in places_asked(scene.materials))
-    own += mirror_attributes(_by_later_mirrors(parts, share), places.tints, places.mirror)
+    own += _unseen(scene, source) + mirror_attributes(_by_later_mirrors(parts, share), places.tints, places.mirror)
     shown = shown_layers(scene, own, "CORNER", lambda values: np.matmul(weights, values[source]))
     breathe()
     return MeshArrays(origin, (positions - origin).astype(np.float32), triangles.astype(np.int32), own + shown,
                       scene.materials, edges=Edges.of(triangles))
+
+
+def _unseen(scene: DiffuseScene, source: np.ndarray) -> tuple[Attribute, ...]:
+    """Which faces light what the camera does not see, by the triangles (m,) that they light; none where it sees all."""
+    seen = np.array([obj.visible_camera for obj in scene.sources])
+    return () if seen.all() else (
+        Attribute(UNSEEN, "FLOAT", "FACE", (~seen[scene.source_object[source]]).astype(np.float32)),)
 
 
 def _by_later_mirrors(parts: list[tuple[MirrorPart, np.ndarray, CausticMesh]],

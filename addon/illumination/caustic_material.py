@@ -17,13 +17,16 @@ from .receiver_places import MARK, asks_for_more, forget_groups, show_by_places
 
 LIGHT = "caustic_light"
 """The attribute with red, green and blue of the light, in W/m2."""
+UNSEEN = "lit_unseen"
+"""The attribute with 1 on faces that light what the camera does not see, where there are any."""
 
 
 def adds_light(receiver: bpy.types.Material | None, stains: list[tuple[Tint, bpy.types.NodeTree]],
-               whole: AllOrNothing) -> tuple[bpy.types.Material, bool]:
+               whole: AllOrNothing, unseen: bool = False) -> tuple[bpy.types.Material, bool]:
     """A material that is transparent and emits what the receiver's diffuse colour sends back of the light, and whether
     it knows that colour all over: it is read from the nodes of the receiver, of which it has a copy.
-    The light is that of a mirror with `stains`, textured tints and the groups that tell their colours."""
+    The light is that of a mirror with `stains`, textured tints and the groups that tell their colours; some of what is
+    lit may be `unseen` by the camera."""
     name = f"{receiver.name if receiver else 'Default'} Caustics"
     found = DiffuseColour(GREY if receiver is None else tuple(receiver.diffuse_color))
     if receiver is None or not compat.uses_nodes(receiver):
@@ -42,7 +45,9 @@ def adds_light(receiver: bpy.types.Material | None, stains: list[tuple[Tint, bpy
         found = DiffuseColour() if output is None else diffuse_colour(tree, output.inputs["Surface"], whole)
         found = replace(found, known=found.known and not (found.by_nodes and strange))
     material[MARK] = True
-    _show(tree, found, _thrown(tree, stains))
+    strength = _show(tree, found, _thrown(tree, stains))
+    if unseen:
+        _hide_from_camera(tree, strength)
     material.surface_render_method = "BLENDED"
     material.use_transparency_overlap = True
     material.use_backface_culling = False
@@ -97,9 +102,10 @@ def _thrown(tree: bpy.types.NodeTree, stains: list[tuple[Tint, bpy.types.NodeTre
     return light
 
 
-def _show(tree: bpy.types.NodeTree, sent: DiffuseColour, light: bpy.types.NodeSocket) -> None:
+def _show(tree: bpy.types.NodeTree, sent: DiffuseColour, light: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
     """Let a tree emit its colour times the light's, times a share, over pi, and show what lies behind; to the side that
-    is lit alone, or the receiver would be lit by what it sends back."""
+    is lit alone, or the receiver would be lit by what it sends back.
+    The socket that tells how strong that is."""
     share = sent.share
 
     def add(kind: str, place: tuple[float, float]) -> bpy.types.Node:
@@ -133,4 +139,14 @@ def _show(tree: bpy.types.NodeTree, sent: DiffuseColour, light: bpy.types.NodeSo
     tree.links.new(emission.outputs["Emission"], both.inputs[0])
     tree.links.new(clear.outputs["BSDF"], both.inputs[1])
     tree.links.new(both.outputs["Shader"], output.inputs["Surface"])
+    return emission.inputs["Strength"]
+
+
+def _hide_from_camera(tree: bpy.types.NodeTree, strength: bpy.types.NodeSocket) -> None:
+    """Let nothing be emitted to the camera by faces that light what it does not see; mirrors show these."""
+    build = ShaderBuilder(tree)
+    asked = build.add("ShaderNodeLightPath").outputs["Is Camera Ray"]
+    dark = build.calculated("MULTIPLY", asked, build.add("ShaderNodeAttribute", attribute_name=UNSEEN).outputs["Fac"])
+    build.feed(build.calculated("MULTIPLY", strength.links[0].from_socket, build.calculated("SUBTRACT", 1.0, dark)),
+               strength)
 

@@ -9,7 +9,7 @@ from mathutils import Matrix
 
 from ..faults import AllOrNothing, keep_data, keep_object
 from ..writing import RAYS, MeshArrays, new_beside, write_mesh
-from .caustic_material import adds_light, forget_added_light
+from .caustic_material import UNSEEN, adds_light, forget_added_light
 from .mirrors import stains
 
 SHOWN_BY = {"visible_glossy", "visible_transmission"}
@@ -72,6 +72,9 @@ def caustics_object(context: bpy.types.Context, name: str, pair: tuple, sources:
         for rays in RAYS:
             setattr(obj, rays, rays in SHOWN_BY)
         obj.lineart.usage = "EXCLUDE"
+    # compositors find the light of a lamp in its group
+    whole.undo(setattr, obj, "lightgroup", obj.lightgroup)
+    obj.lightgroup = pair[1].lightgroup
     record = obj.reflection_mesh
     record.role, (record.mirror, record.lamp) = "CAUSTICS", pair
     record.sources.clear()
@@ -98,11 +101,12 @@ def write_caustics(context: bpy.types.Context, made: Caustic, whole: AllOrNothin
             if [entry.material for entry in obj.reflection_mesh.materials] == made.arrays.materials]
     obj = caustics_object(context, made.name, (made.mirror, made.lamp), made.sources, whole)
     materials, unknown, colours = [], [], stains(made.textured, whole)
+    unseen = any(one.name == UNSEEN for one in made.arrays.attributes)
     for receiver in made.arrays.materials:
-        if keep_materials and not made.textured and kept and len(kept[0]) == len(made.arrays.materials):
+        if keep_materials and not (made.textured or unseen) and kept and len(kept[0]) == len(made.arrays.materials):
             materials = kept[0]
             break
-        material, known = adds_light(receiver, colours, whole)
+        material, known = adds_light(receiver, colours, whole, unseen)
         materials.append(material)
         if not known:
             unknown.append(receiver)
