@@ -20,7 +20,7 @@ from .light_sources import (
     radiance_of,
     rays_meet,
 )
-from .mirrors import MirrorColours, MirrorPart, Tint, parts_of, places_on_mirror, stains, textured
+from .mirrors import MirrorColours, MirrorPart, Tint, is_bumped, parts_of, places_on_mirror, stains, textured
 from .not_twice import (
     bring_back_abandoned,
     bring_back_own_caustics,
@@ -39,8 +39,8 @@ from .write_caustics import Caustic, caustics_object, places_kept, results_with,
 __all__ = ["Caustic", "Eye", "MirrorColours", "MirrorPart", "MirrorPlaces", "NO_LAMP", "NoLight", "Receiving", "Tint",
            "adds_light", "blockers_of", "blocking", "bring_back_abandoned", "bring_back_layers",
            "bring_back_own_caustics", "caustic_arrays", "caustics_object", "chosen_lamps", "eyes_of", "follow_lamp",
-           "follow_layers", "forget_added_light", "is_glint", "is_mesh_lamp", "is_met", "is_sheared", "leave_out",
-           "leave_out_own_caustics", "leaves_out", "leaves_out_any", "let_lamps_light_mirrors", "let_through",
-           "light_alone", "light_of_nodes", "makes_own_caustics", "meant_lamps", "parts_of", "places_kept",
-           "places_on_mirror", "radiance_of", "raises_layers", "rays_meet", "receiving", "results_with", "stains",
-           "textured", "write_caustics"]
+           "follow_layers", "forget_added_light", "is_bumped", "is_glint", "is_mesh_lamp", "is_met", "is_sheared",
+           "leave_out", "leave_out_own_caustics", "leaves_out", "leaves_out_any", "let_lamps_light_mirrors",
+           "let_through", "light_alone", "light_of_nodes", "makes_own_caustics", "meant_lamps", "parts_of",
+           "places_kept", "places_on_mirror", "radiance_of", "raises_layers", "rays_meet", "receiving", "results_with",
+           "stains", "textured", "write_caustics"]

@@ -6,8 +6,11 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from ...reading.materials import SHARP_ROUGHNESS
+from ... import compat
+from ...reading.materials import SHARP_ROUGHNESS, shown_output
 from .coat import WHOLE, Coat, share_of
+
+BENT = ("Normal", "Coat Normal")
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,14 @@ def lobes_of(socket: bpy.types.NodeSocket, share: Coat = WHOLE, known: bool = Tr
     part, told = share_of(_outside(factor, groups)[0])
     return [lobe for place, one in enumerate(both)
             for lobe in lobes_of(one, replace(part, rest=place == 0, within=share), known and told, groups)]
+
+
+def is_bumped(material: bpy.types.Material | None) -> bool:
+    """Whether the nodes of a material bend the normals of its surface, or move that."""
+    output = shown_output(material.node_tree) if material is not None and compat.uses_nodes(material) else None
+    return output is not None and (output.inputs["Displacement"].is_linked or any(
+        lobe.shader.inputs[name].is_linked for lobe in lobes_of(output.inputs["Surface"])
+        for name in BENT if name in lobe.shader.inputs))
 
 
 def _outside(socket: bpy.types.NodeSocket, groups: tuple) -> tuple[bpy.types.NodeSocket, tuple]:

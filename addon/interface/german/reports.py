@@ -180,6 +180,10 @@ LACKS = {
     "it more faces, or shade it flat.":
         "Der Spiegel '{}' ist grob und weich schattiert: Cycles biegt seine Normalen, und wirft mehr Licht als hier; "
         "gib ihm mehr Flächen, oder schattiere ihn flach.",
+    "The material of '{}' bends its normals or displaces it, which the light that it throws does not follow: model "
+    "that, as by a Displace modifier.":
+        "Das Material von '{}' biegt dessen Normalen oder verschiebt seine Fläche, und das Licht, das es wirft, folgt "
+        "dem nicht: modelliere das, etwa mit einem Verschieben-Modifikator.",
     "The lamp '{}' is sheared: mirrors throw what they show of it, while Cycles lights directly with more or less than "
     "that; apply the scale of its parent.":
         "Die Lampe '{}' ist geschert: Spiegel werfen, was sie von ihr zeigen, während Cycles direkt mit mehr oder "

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ....core import CausticMesh, TriangleMesh
-from ...illumination import Caustic, is_sheared, let_through, light_of_nodes
+from ...illumination import Caustic, is_bumped, is_sheared, let_through, light_of_nodes
 from ...reading import DiffuseScene, MirrorSurface
 from ..shortcomings import MISSED, MISSING, bounds_hit
 
@@ -35,12 +35,16 @@ def remarks_on(prepared: list[Caustic], unknown: list) -> list[str]:
 
 
 def remarks_on_taking(scene: DiffuseScene, surfaces: dict[bpy.types.Object, MirrorSurface]) -> list[str]:
-    """Where light ends in the scene that would go on, and which mirrors, whose `surfaces` are told, are coarse."""
+    """Where light ends in the scene that would go on, and which mirrors, whose `surfaces` are told, are coarse
+    or bumped by their materials."""
     return [*(f"Light ends at '{material.name}', though some of it would go through: give it an Alpha without a "
               "texture; of different ones no more than two count." for material in let_through(scene)),
             *(f"The mirror '{mirror.name}' is coarse and shaded smooth: Cycles bends its normals, and throws more "
               "light than is here; give it more faces, or shade it flat." for mirror, surface in surfaces.items()
-              if _bends(surface.mesh) > COARSE)]
+              if _bends(surface.mesh) > COARSE),
+            *(f"The material of '{mirror.name}' bends its normals or displaces it, which the light that it throws does "
+              "not follow: model that, as by a Displace modifier." for mirror, surface in surfaces.items()
+              if any(map(is_bumped, surface.materials)))]
 
 
 def shortcomings_of_light(name: str, lit: list[CausticMesh]) -> list[str]:

@@ -1,4 +1,5 @@
-"""A coarse mirror that is shaded smooth throws less than Cycles, which bends its normals (docs/caustics.md): told."""
+"""What of a mirror its light does not follow, and Cycles does (docs/caustics.md), is told: normals that Cycles bends on
+a coarse mirror that is shaded smooth, and those that its material bends."""
 from __future__ import annotations
 
 import bpy
@@ -18,3 +19,27 @@ def test_it_is_told_where_cycles_throws_much_more(blank, capfd, faces, smooth, t
     parts.select(floor, lamp, ring)
     assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
     assert ("The mirror 'Ring' is coarse" in capfd.readouterr().out) == told
+
+
+@pytest.mark.parametrize("bent", ["", "Normal", "Displacement", "grouped", "unused"])
+def test_normals_that_the_material_bends_are_told(blank, capfd, bent):
+    floor, mirror, lamp = scene_of()
+    tree = mirror.active_material.node_tree
+    end = tree.get_output_node("ALL").inputs
+    if bent == "grouped":
+        group = bpy.data.node_groups.new("Chrome", "ShaderNodeTree")
+        group.interface.new_socket("Out", in_out="OUTPUT", socket_type="NodeSocketShader")
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = group
+        tree.links.new(node.outputs[0], end["Surface"])
+        tree, end = group, group.nodes.new("NodeGroupOutput").inputs
+        tree.links.new(tree.nodes.new("ShaderNodeBsdfAnisotropic").outputs[0], end[0])
+    kind = "ShaderNodeDisplacement" if bent == "Displacement" else "ShaderNodeBump"
+    bump = tree.nodes.new(kind).outputs[0] if bent else None
+    if bent == "Displacement":
+        tree.links.new(bump, end["Displacement"])
+    elif bent in {"Normal", "grouped"}:
+        shader = next(node for node in tree.nodes if node.type == "BSDF_GLOSSY")
+        tree.links.new(bump, shader.inputs["Normal"])
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert ("bends its normals or displaces it" in capfd.readouterr().out) == (bent not in {"", "unused"})
