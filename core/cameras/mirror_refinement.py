@@ -82,12 +82,9 @@ class _Edges:
     Attributes
     ----------
     ends : (e, 2) int64
-    pixels : (c, 2) float64
-        Of all corners of the cameras.
-    lengths : (e,) float64
-        In pixels.
-    given : (3, e) float64
-        Unit rays halfway, from those of the ends.
+    pixels : (c, 2) float64, of all corners of the cameras
+    lengths : (e,) float64, in pixels
+    given : (3, e) float64, unit rays halfway, from those of the ends
     turns : (3, e) float64
         From these to the true rays; zero where they are no more than what unit vectors are rounded by.
     """

@@ -22,19 +22,14 @@ class Cameras:
 
     Attributes
     ----------
-    corners : (n, 3) int64
-        Each camera's corners, indices into the columns below.
+    corners : (n, 3) int64, each camera's corners, indices into the columns below
     face : (n,) int64
         The mirror triangle that the camera lies on.
         After several bounces, the chain of mirror triangles.
-    places : (3, c) float64
-        Where the eye sees the corners on the mirror, in world space.
-    rays : (3, c) float64
-        R, reflected rays of the corners, as long as the whole way from the eye.
-    origins : (3, c) float64
-        V, where the rays leave the last mirror: the places themselves where there is but one.
-    mirror_map : ReflectionMap
-        The true map that the rays were taken from.
+    places : (3, c) float64, where the eye sees the corners on the mirror, in world space
+    rays : (3, c) float64, R, reflected rays of the corners, as long as the whole way from the eye
+    origins : (3, c) float64, V, where the rays leave the last mirror: the places themselves where there is but one
+    mirror_map : ReflectionMap, the true map that the rays were taken from
     """
 
     corners: np.ndarray

@@ -45,23 +45,16 @@ class LitFaces:
     Attributes
     ----------
     triangles : (m, 3) int64
-    points : (3, n) float64
-        Of the vertices, on the receivers.
-    face : (m,) int64
-        Of the map.
-    normal : (3, m) float64
-        Unit normal of the receiver.
-    source : (m,) int64
-        Triangle of the receivers.
-    origin : (m,) int64
-        The face of the reflection that each is a part of.
-    on_side : (m, 3) bool
-        Which of the sides 01, 12, 20 lie on a side of their receiver's triangle.
+    points : (3, n) float64, of the vertices, on the receivers
+    face : (m,) int64, of the map
+    normal : (3, m) float64, unit normal of the receiver
+    source : (m,) int64, triangle of the receivers
+    origin : (m,) int64, the face of the reflection that each is a part of
+    on_side : (m, 3) bool, which of the sides 01, 12, 20 lie on a side of their receiver's triangle
     beside : (m, 3) float64
         Their light that falls beyond the sides 01, 12, 20, for those that are straight in the lamp's picture are curves
         on the receiver; negative where it ends before them. Not a number until it has been asked for.
-    light : Corners
-        Of the corners.
+    light : Corners, of the corners
     """
 
     triangles: np.ndarray

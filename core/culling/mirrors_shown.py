@@ -15,14 +15,10 @@ class MirrorsShown:
 
     Attributes
     ----------
-    faces : (f,) bool
-        Which faces of the map may show a mirror in any of the cameras.
-    plainly : (f,) bool
-        Which of them may show more of one than rises above them by the rounding of single precision.
-    cameras : Cameras
-        Those of which all mirrors are known.
-    start : (n + 1,) int64
-        Camera i may show triangle[start[i]:start[i + 1]].
+    faces : (f,) bool, which faces of the map may show a mirror in any of the cameras
+    plainly : (f,) bool, which of them may show more of one than rises above them by the rounding of single precision
+    cameras : Cameras, those of which all mirrors are known
+    start : (n + 1,) int64, camera i may show triangle[start[i]:start[i + 1]]
     triangle : (p,) int64
     """
 

@@ -52,10 +52,8 @@ class Crowds:
 
     Attributes
     ----------
-    dense : int
-        Cameras in pixels in which rays are less work.
-    given_up : int
-        Cameras beyond the limits.
+    dense : int, cameras in pixels in which rays are less work
+    given_up : int, cameras beyond the limits
     """
 
     def __init__(self, met: SceneAndMirrors, limits: Limits, last: bool) -> None:
@@ -144,10 +142,8 @@ class Filled:
     candidates : Candidates
     corner_face : (k, 3) int64
         Of the last k cameras, which lie in whole squares: the mirror's triangle that each of their corners lies on.
-    rays : int
-        That were traced.
-    pixels : int
-        That they have filled with the diffuse scene.
+    rays : int, that were traced
+    pixels : int, that they have filled with the diffuse scene
     less : bool
         Whether that is less than was asked for: more coarsely than the tolerance, or instead of all of the geometry.
     """

@@ -122,8 +122,7 @@ class Descent:
 
     Attributes
     ----------
-    standing : (v,) int64
-        For each vertex of the mesh the one that stands for it.
+    standing : (v,) int64, for each vertex of the mesh the one that stands for it
     """
 
     def __init__(self, walk: Walk, tree: VertexTree, least: float, part: np.ndarray | None = None) -> None:

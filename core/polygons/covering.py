@@ -29,10 +29,8 @@ class Overlaps(ColumnArrays):
 
     Attributes
     ----------
-    candidates : Candidates
-        Their outlines are those that bound the overlap.
-    mirror : (p,) bool
-        Triangles of mirrors.
+    candidates : Candidates, their outlines are those that bound the overlap
+    mirror : (p,) bool, triangles of mirrors
     ends : (p,) bool
         Of these, those of which an outline, or the line in which they pass through the camera's own, may lie in it.
     """

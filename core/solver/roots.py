@@ -17,16 +17,12 @@ class Roots(ColumnArrays):
 
     Attributes
     ----------
-    cubic : (m,) int64
-        Which cubic.
-    value : (m,) float64
-        At least 0, and at most 1 where reversed.
-    reversed : (m,) bool
-        Whether the root is 1 / `value`.
+    cubic : (m,) int64, which cubic
+    value : (m,) float64, at least 0, and at most 1 where reversed
+    reversed : (m,) bool, whether the root is 1 / `value`
     sign : (m,) int8
         Sign of the cubic's derivative by s at the root, 0 where rounding cannot tell it from a multiple root.
-    error : (m,) float64
-        Bound on the error of `value`, to first order in the unit roundoff.
+    error : (m,) float64, bound on the error of `value`, to first order in the unit roundoff
     spread : (m,) float64
         How far from `value` the separate roots may lie that count as one multiple root; `error` for a simple one.
     """

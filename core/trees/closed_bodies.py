@@ -32,16 +32,11 @@ class ClosedBodies:
     Attributes
     ----------
     mesh : TriangleMesh
-    border : (v,) int64
-        Vertices at which the surface ends, or turns its other side.
-    part : (v,) int64
-        The part of the mesh that each vertex is of: what hangs together by vertices in one place.
-    body : (m,) int64
-        The body that each triangle bounds, -1 for none.
-    outward : (m,) float64
-        1 where its normal points out of the body that it bounds, 0 where it bounds none.
-    low, high : (3, k) float64
-        The boxes round the bodies along the directions of `FRAME`.
+    border : (v,) int64, vertices at which the surface ends, or turns its other side
+    part : (v,) int64, the part of the mesh that each vertex is of: what hangs together by vertices in one place
+    body : (m,) int64, the body that each triangle bounds, -1 for none
+    outward : (m,) float64, 1 where its normal points out of the body that it bounds, 0 where it bounds none
+    low, high : (3, k) float64, the boxes round the bodies along the directions of `FRAME`
     """
 
     mesh: TriangleMesh

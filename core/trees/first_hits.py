@@ -27,12 +27,9 @@ class Hits:
 
     Attributes
     ----------
-    triangle : (n,) int64
-        -1 where a ray meets none.
-    distance : (n,) float64
-        In lengths of the direction, infinite where none.
-    intersections, nodes : int
-        Tests of a ray against a triangle and against a box.
+    triangle : (n,) int64, -1 where a ray meets none
+    distance : (n,) float64, in lengths of the direction, infinite where none
+    intersections, nodes : int, tests of a ray against a triangle and against a box
     """
 
     triangle: np.ndarray

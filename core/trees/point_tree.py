@@ -23,10 +23,8 @@ class PointPairs:
     camera, vertex : (p,) int64
     stood : (p,) float64
         Radius of the sphere round the vertices that this one stands for, 0 where it stands for itself alone.
-    visited : int
-        Tests of a cone against a node.
-    covered : (v,) bool
-        Vertices of the mesh in nodes of which one stands for all.
+    visited : int, tests of a cone against a node
+    covered : (v,) bool, vertices of the mesh in nodes of which one stands for all
     """
 
     camera: np.ndarray

@@ -25,12 +25,9 @@ class Shafts:
     Attributes
     ----------
     cones : Cones
-    places, rays : (3, k) float64
-        The rays, of unit length, that the corners leave, those of one shaft side by side.
-    start : (n,) int64
-        Where those of each shaft begin.
-    reach : float
-        How far away the shafts are to be close round their rays, in scene units.
+    places, rays : (3, k) float64, the rays, of unit length, that the corners leave, those of one shaft side by side
+    start : (n,) int64, where those of each shaft begin
+    reach : float, how far away the shafts are to be close round their rays, in scene units
     """
 
     cones: Cones

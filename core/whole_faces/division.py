@@ -30,13 +30,10 @@ class Division:
     Attributes
     ----------
     patch : Patch
-    tolerance : float
-        Pixels that edges inside a surface may stray.
+    tolerance : float, pixels that edges inside a surface may stray
     sinking : Sinking
-    virtual : bool
-        Faces are drawn at the virtual image's depth.
-    most : int
-        Pieces that there may be.
+    virtual : bool, faces are drawn at the virtual image's depth
+    most : int, pieces that there may be
     """
 
     patch: Patch

@@ -30,12 +30,9 @@ class Merged:
 
     Attributes
     ----------
-    images : Images
-        Of the scene's vertices; those that others stand for have none.
-    triangles : (m, 3) int64
-        The scene's triangles between the vertices that stand for their corners.
-    left : (k,) int64, rising
-        Those that have an area still, one of several in the same place.
+    images : Images, of the scene's vertices; those that others stand for have none
+    triangles : (m, 3) int64, the scene's triangles between the vertices that stand for their corners
+    left : (k,) int64, rising, those that have an area still, one of several in the same place
     """
 
     images: Images

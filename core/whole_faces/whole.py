@@ -36,20 +36,14 @@ class WholeFaces:
     ----------
     positions : (n, 3) float64, of the scene's vertices
     patch : Patch
-    images : Images
-        Of the scene's vertices, and behind them of nodes that its triangles were split at.
-    merged : (m, 3) int64, optional
-        The scene's triangles as they are drawn together, where some are.
-    pieces : Pieces
-        Of all triangles.
+    images : Images, of the scene's vertices, and behind them of nodes that its triangles were split at
+    merged : (m, 3) int64, optional, the scene's triangles as they are drawn together, where some are
+    pieces : Pieces, of all triangles
     drawn, left : (f,) bool
         Which of the pieces are drawn, and which are left for the cameras of the patch; nearer ones hide the others.
-    hidden : int
-        How many are hidden, of these and of pieces that are not told.
-    straying : (2, e) float64
-        By how many pixels edges stray, and over how many.
-    limited : int
-        Edges that were not split since there would be too many pieces.
+    hidden : int, how many are hidden, of these and of pieces that are not told
+    straying : (2, e) float64, by how many pixels edges stray, and over how many
+    limited : int, edges that were not split since there would be too many pieces
     """
 
     positions: np.ndarray
