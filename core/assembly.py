@@ -178,8 +178,7 @@ def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np
     ----------
     seen, last : (3, n) float64
         Where the eye sees the nodes, and where the light met the last mirror on its way to them.
-    corners : (3, 3, f) float64
-        Of the sources' triangles, component and corner first.
+    corners : (3, 3, f) float64, of the sources' triangles, component and corner first
     """
     away = doubled_areas(mirror_map.view.pixels(seen.T)[nodes]) < 0.0
     breathe()

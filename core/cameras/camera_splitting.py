@@ -22,12 +22,9 @@ def split_cameras(cameras: Cameras,
 
     Returns
     -------
-    cameras : Cameras
-        Those in the picture.
-    parent : (m,) int64
-        The camera that each lies in.
-    new : (m,) bool
-        Whether it is only a part of its parent.
+    cameras : Cameras, those in the picture
+    parent : (m,) int64, the camera that each lies in
+    new : (m,) bool, whether it is only a part of its parent
     """
     ends, first, edge = shared_edges(cameras.corners)
     chosen = np.zeros(len(ends), dtype=bool)

@@ -38,16 +38,13 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
 
     Parameters
     ----------
-    reach : float
-        Distance of the farthest diffuse point from the mirror, in scene units.
-    maximum : int
-        No more than about this many cameras are made.
+    reach : float, distance of the farthest diffuse point from the mirror, in scene units
+    maximum : int, no more than about this many cameras are made
 
     Returns
     -------
     cameras : Cameras
-    limited : bool
-        Whether the bound on depth or count stopped the refinement.
+    limited : bool, whether the bound on depth or count stopped the refinement
     """
     cameras = cameras.select(in_picture(cameras))
     finished: list[Cameras] = []

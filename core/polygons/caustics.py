@@ -24,8 +24,7 @@ def split_at_caustics(cameras: Cameras, frames: SceneFrames, nodes: Nodes,
     Returns
     -------
     nodes, faces
-    cut : int
-        How many edges were cut.
+    cut : int, how many edges were cut
     """
     mirror_map = cameras.mirror_map
     folding = np.flatnonzero(may_fold(cameras)[faces.camera])

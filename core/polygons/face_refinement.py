@@ -52,10 +52,8 @@ class FaceRefinement:
         Returns
         -------
         nodes, faces
-        left : (2, e) float64
-            The displacements estimated on the edges that stay, and the lengths of these, in pixels.
-        limited : int
-            Edges that the bound on depth or count left unsplit.
+        left : (2, e) float64, the displacements estimated on the edges that stay, and the lengths of these, in pixels
+        limited : int, edges that the bound on depth or count left unsplit
         """
         finished: list[Faces] = []
         left: list[np.ndarray] = []

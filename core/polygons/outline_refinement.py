@@ -28,12 +28,9 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
 
     Returns
     -------
-    candidates : Candidates
-        The pairs that may really overlap, and that no mirror hides from the whole of their camera.
-    open_ : (n,) bool
-        Cameras too small to be split in which some outline still does.
-    limited : int
-        Edges of cameras that the bound on depth or count left unsplit.
+    candidates : Candidates, the pairs that may really overlap, and that no mirror hides from the whole of their camera
+    open_ : (n,) bool, cameras too small to be split in which some outline still does
+    limited : int, edges of cameras that the bound on depth or count left unsplit
     """
     cameras, frames = candidates.cameras, candidates.frames
     parts, open_ = [], np.zeros(len(cameras), dtype=bool)

@@ -67,10 +67,8 @@ class FrontImages:
 
         Parameters
         ----------
-        face : (k,) int64
-            That each piece is a part of.
-        pixels : (k, 3, 2) float64
-            Where its corners are seen.
+        face : (k,) int64, that each piece is a part of
+        pixels : (k, 3, 2) float64, where its corners are seen
         """
         hidden = np.zeros((len(face), 4), dtype=bool)
         asked = np.flatnonzero(self.several[face])

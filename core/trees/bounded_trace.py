@@ -86,10 +86,8 @@ def bounded_trace(tree: SceneTree, cones: Cones | Shafts, bound: Bound,
     tree : SceneTree
     cones : Cones or Shafts
     bound : Bound
-    asked : callable, optional
-        Which pairs (p,) of a cone and a triangle count.
-    family : (n,) int64, optional
-        Rising: cones of one family lie close together.
+    asked : callable, optional, which pairs (p,) of a cone and a triangle count
+    family : (n,) int64, optional, rising: cones of one family lie close together
     """
     worth, most = bound.worth, bound.most
     wanted, visits = np.ones(len(worth), dtype=bool), VISITS_OF_A_PAIR * most

@@ -46,10 +46,8 @@ def first_hits(tree: BoxTree, origins: np.ndarray, directions: np.ndarray, *, le
     Parameters
     ----------
     origins, directions : (3, n) float64
-    least : float
-        Hits nearer than this are the surface that the ray starts on.
-    limit : (n,) float64, optional
-        Hits from this distance on do not count.
+    least : float, hits nearer than this are the surface that the ray starts on
+    limit : (n,) float64, optional, hits from this distance on do not count
     asked : callable, optional
         Which pairs (p,) of a ray and a triangle count; not, for one, those of a ray and what it starts on.
     """

@@ -30,16 +30,13 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
 
     Parameters
     ----------
-    again : callable
-        The candidates among pairs of a camera and a column, asked for the pieces of cameras that were cut.
+    again : callable, the candidates among pairs of a camera and a column, asked for the pieces of cameras that were cut
 
     Returns
     -------
     candidates : Candidates
-    crowd : (n,) bool
-        Cameras too crowded to be looked at again.
-    count, left : int
-        How many were cut, and how many were not, or not along all outlines.
+    crowd : (n,) bool, cameras too crowded to be looked at again
+    count, left : int, how many were cut, and how many were not, or not along all outlines
     """
     cameras, frames = candidates.cameras, candidates.frames
     found, left = _hidden_closely(candidates)

@@ -118,15 +118,11 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, re
     Parameters
     ----------
     cameras : Cameras
-    eligible : (n,) bool
-        Cameras that are triangles of the mirror whole, and show no mirror.
-    met : SceneAndMirrors
-        With a scene of triangles.
-    reach : float
-        Length of the longest path that there may be, in scene units.
+    eligible : (n,) bool, cameras that are triangles of the mirror whole, and show no mirror
+    met : SceneAndMirrors, with a scene of triangles
+    reach : float, length of the longest path that there may be, in scene units
     settings : Settings
-    most : int
-        Pieces that there may be.
+    most : int, pieces that there may be
 
     Returns
     -------
