@@ -20,6 +20,7 @@ from ..geometry import (
     dot,
     following,
     norm,
+    numbered,
     parent_side,
     shared_edges,
     split,
@@ -102,8 +103,7 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, la
             break
         asked = np.concatenate((asked, beside))
         middles = Corners.joined([middles, more])
-        place = np.full(len(faces), -1)
-        place[asked] = np.arange(len(asked))
+        place = numbered(len(faces), asked)
         faces, parent = _split(faces, edge, chosen, (place, middles, np.concatenate((points, more_points), axis=2)))
         new = marked.any(axis=1)[parent]
     asked = np.flatnonzero(np.isnan(faces.beside).any(axis=1))
@@ -195,7 +195,7 @@ def _split(faces: LitFaces, edge: np.ndarray, chosen: np.ndarray,
     where each face (m,) has them, their light, and where they are."""
     place, light, points = middles
     parent, local = split(chosen[edge])
-    vertex = np.cumsum(chosen) - 1 + faces.points.shape[1]
+    vertex = numbered(len(chosen), chosen, faces.points.shape[1])
     # of two faces the first tells where their side's middle is
     row, side = np.nonzero(chosen[edge] & (place >= 0)[:, None])
     _, first = np.unique(edge[row, side], return_index=True)

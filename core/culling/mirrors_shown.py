@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import groups, in_order, ranges
+from ..geometry import groups, in_order, mask, numbered, ranges
 
 
 @dataclass(frozen=True)
@@ -33,14 +33,11 @@ class MirrorsShown:
            given_up: np.ndarray) -> MirrorsShown:
         """Of pairs of a camera and a triangle, some `plainly` seen (p,); the cameras `given_up` (n,) may show any."""
         camera, triangle = pairs
-        told = []
-        for chosen in (camera, camera[plainly]):
-            told.append(np.zeros(int(cameras.face.max(initial=-1)) + 1, dtype=bool))
-            told[-1][cameras.face[chosen]] = True
-            told[-1][cameras.face[given_up]] = True
-        kept, number = cameras.select(~given_up), np.cumsum(~given_up) - 1
+        any_, last = np.flatnonzero(given_up), int(cameras.face.max(initial=-1))
+        faces, plain = (mask(last + 1, cameras.face[np.append(chosen, any_)]) for chosen in (camera, camera[plainly]))
+        kept, number = cameras.select(~given_up), numbered(len(given_up), ~given_up)
         count = np.bincount(number[camera], minlength=len(kept))
-        return cls(told[0], told[1], kept, np.append(0, np.cumsum(count)), triangle[in_order(camera)])
+        return cls(faces, plain, kept, np.append(0, np.cumsum(count)), triangle[in_order(camera)])
 
     @classmethod
     def unknown(cls, cameras: Cameras) -> MirrorsShown:

@@ -22,7 +22,7 @@ from ..cameras import (
     pixels_of,
 )
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, distinct
+from ..geometry import SceneFrames, distinct, numbered
 from ..support import crowded
 from ..trees import Bound, Touching
 from ..views import LampView
@@ -94,7 +94,7 @@ class Crowds:
         crowd |= self.dense_in(cameras, np.where(crowd, 0.0, load))
         self._cameras.append(cameras.select(crowd))
         if crowd.any():
-            candidates = candidates.on(cameras.select(~crowd), np.where(crowd, -1, np.cumsum(~crowd) - 1))
+            candidates = candidates.on(cameras.select(~crowd), numbered(len(crowd), ~crowd))
         return candidates
 
     def dense_in(self, cameras: Cameras, load: np.ndarray) -> np.ndarray:

@@ -33,9 +33,8 @@ def straying(cameras: Cameras, frames: SceneFrames, face: np.ndarray, uv: np.nda
     point : (3, e) float64, what is truly seen there
     s : (e,) float64, how far along its ray
     """
-    parts = []
-    for part in portions(max(len(column), 1), EDGES_AT_ONCE):
-        parts.append(_straying(cameras, frames, face[part], uv[:, part], column[part], shown[:, part]))
+    parts = [_straying(cameras, frames, face[part], uv[:, part], column[part], shown[:, part])
+             for part in portions(max(len(column), 1), EDGES_AT_ONCE)]
     drift, error, point, s = (np.concatenate(side, axis=-1) for side in zip(*parts))
     return drift, error, point, s
 

@@ -1,7 +1,7 @@
 """What solving a cubic gives: its positive roots, each with bounds on its error."""
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -33,7 +33,3 @@ class Roots(ColumnArrays):
     sign: np.ndarray
     error: np.ndarray
     spread: np.ndarray
-
-    def of(self, cubics: np.ndarray) -> Roots:
-        """The same with each cubic k called `cubics[k]`."""
-        return replace(self, cubic=cubics[self.cubic])

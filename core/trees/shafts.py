@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import across, columns, dot, norm, unit
+from ..geometry import across, columns, dot, mask, norm, unit
 from .cones import Cones
 
 ROUNDING = 1e-12  # of the lengths that planes are made of
@@ -62,9 +62,7 @@ class Shafts:
             for corner in corners[left].T:
                 beyond &= dot(own, positions.take(corner, axis=0).T) > own[3]
             left = left[~beyond]
-        held = np.zeros(len(shaft), dtype=bool)
-        held[left] = True
-        return held
+        return mask(len(shaft), left)
 
     @cached_property
     def planes(self) -> list[np.ndarray]:

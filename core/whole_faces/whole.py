@@ -7,7 +7,7 @@ import numpy as np
 
 from ..cameras import Cameras, picture_areas
 from ..culling import SceneAndMirrors, ScenePieces
-from ..geometry import TriangleMesh, norm, rows
+from ..geometry import TriangleMesh, mask, norm, rows
 from ..patches import Patch, speck
 from ..support import FACE_SHARE, TOGETHER, Settings, breathe
 from ..trees import Cones, SceneTree
@@ -60,11 +60,10 @@ class WholeFaces:
     def scene_pieces(self) -> ScenePieces:
         """What is left to the cameras of the patch."""
         pieces, patch, points = self.pieces.select(self.left), self.patch, self.images.point
-        on_patch, open_ = (np.zeros(len(patch.mirror_map.surface), dtype=bool) for _ in range(2))
-        on_patch[patch.face] = True
         low, high, unknown = _boxes(patch, self.images, pieces.nodes)
         cells = patch.border.with_boxes(low[:, ~unknown], high[:, ~unknown])
-        open_[patch.face[_seeing(patch, points[:, pieces.nodes[:, unknown]])]] = True
+        seeing = _seeing(patch, points[:, pieces.nodes[:, unknown]])
+        on_patch, open_ = (mask(len(patch.mirror_map.surface), face) for face in (patch.face, patch.face[seeing]))
         positions = np.concatenate((self.positions, (points[:, len(self.positions):] + patch.eye).T))
         return ScenePieces(TriangleMesh(positions, pieces.nodes.T), pieces.source, on_patch, cells, open_, self.merged)
 
@@ -105,9 +104,7 @@ def _seeing(patch: Patch, corners: np.ndarray) -> np.ndarray:
         getattr(cones, field.name)[..., turning] = getattr(probed, field.name)
     positions = np.ascontiguousarray(corners.transpose(2, 1, 0)).reshape(-1, 3)
     tree = SceneTree.of_ordered(TriangleMesh(positions, np.arange(len(positions)).reshape(-1, 3)))
-    seeing = np.zeros(len(patch), dtype=bool)
-    seeing[tree.trace(cones)[0]] = True
-    return seeing
+    return mask(len(patch), tree.trace(cones)[0])
 
 
 @np.errstate(all="ignore")  # what is too large or too small to be told has no image, and is left
