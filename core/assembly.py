@@ -93,8 +93,8 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
     if len(part):
         source, column = distinct(sources[part])
         frames = SceneFrames.of(met, source)
-        own = np.maximum(frames.weights(np.repeat(column, 3), points[:, nodes[part].ravel()]), 0.0)
-        weights[part] = (own / own.sum(axis=0)).T.reshape(-1, 3, 3)
+        own = frames.weights_within(np.repeat(column, 3), points[:, nodes[part].ravel()])
+        weights[part] = own.T.reshape(-1, 3, 3)
     return {
         "triangles": vertex_of[nodes], "reflected_position": point.T, "mirror_position": place.T,
         "path_length": norm(point - place), "image_parity": np.ones(len(new), dtype=np.int8),
@@ -119,7 +119,7 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     seen, point = nodes.place[:, used], nodes.point[:, used]
     column = np.repeat(faces.column, 3)
     breathe()
-    weights = _weights(frames, column, np.take(point, corner, axis=1))
+    weights = frames.weights_within(column, np.take(point, corner, axis=1))
     triangles, vertex, point = _on_sources(triangles, column, weights, point, frames, met)
     used, seen = used[vertex], seen[:, vertex]
     breathe()
@@ -178,8 +178,7 @@ def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np
     ----------
     seen, last : (3, n) float64
         Where the eye sees the nodes, and where the light met the last mirror on its way to them.
-    corners : (3, 3, f) float64
-        Of the sources' triangles, component and corner first.
+    corners : (3, 3, f) float64, of the sources' triangles, component and corner first
     """
     away = doubled_areas(mirror_map.view.pixels(seen.T)[nodes]) < 0.0
     breathe()
@@ -204,15 +203,6 @@ def _on_whole_triangles(frames: SceneFrames, faces: Faces, met: SceneAndMirrors)
         return frames, faces
     source, column = distinct(met.sources(frames.triangle[faces.column]))
     return SceneFrames.of(met, source), replace(faces, column=column)
-
-
-def _weights(frames: SceneFrames, column: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Barycentric coordinates (3, k) of points (3, k) on triangles of the scene, or of their rims beside them."""
-    weights = frames.weights(column, points)
-    breathe()
-    weights = np.maximum(weights, 0.0)
-    weights /= weights.sum(axis=0)
-    return weights
 
 
 def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, point: np.ndarray, frames: SceneFrames,

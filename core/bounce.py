@@ -34,12 +34,10 @@ class Task:
 
     Attributes
     ----------
-    met : SceneAndMirrors
-        What rays may meet.
+    met : SceneAndMirrors, what rays may meet
     settings : Settings
     limits : Limits
-    last : bool
-        Light which meets a mirror goes no further.
+    last : bool, light which meets a mirror goes no further
     progress : Progress
     """
 
@@ -65,8 +63,7 @@ class Bounce:
     frames : SceneFrames
     nodes : Nodes
     faces : Faces
-    left : (2, e) float64
-        Displacements estimated on the edges, and the lengths of the edges, in pixels.
+    left : (2, e) float64, displacements estimated on the edges, and the lengths of the edges, in pixels
     corner_face : (k, 3) int64
         Of the last k cameras, which span triangles of the mirror: the one that each of their corners lies on.
     """

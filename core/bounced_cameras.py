@@ -16,8 +16,7 @@ def bounced_cameras(bounce: Bounce, met: SceneAndMirrors) -> Cameras:
 
     Returns
     -------
-    cameras : Cameras
-        On the map of one bounce more; their faces are the chains of triangles that are seen.
+    cameras : Cameras, on the map of one bounce more; their faces are the chains of triangles that are seen
     """
     frames, nodes, faces, before = bounce.frames, bounce.nodes, bounce.faces, bounce.cameras.mirror_map
     triangle = frames.triangle[faces.column] - met.diffuse

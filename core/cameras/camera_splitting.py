@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import columns, cross, dot, groups, shared_edges, split, unit
+from ..geometry import columns, cross, dot, groups, mask, numbered, shared_edges, split, unit
 from ..support import portions
 from .reflection_map import ReflectionMap
 from .three_ray_cameras import Cameras
@@ -22,16 +22,12 @@ def split_cameras(cameras: Cameras,
 
     Returns
     -------
-    cameras : Cameras
-        Those in the picture.
-    parent : (m,) int64
-        The camera that each lies in.
-    new : (m,) bool
-        Whether it is only a part of its parent.
+    cameras : Cameras, those in the picture
+    parent : (m,) int64, the camera that each lies in
+    new : (m,) bool, whether it is only a part of its parent
     """
     ends, first, edge = shared_edges(cameras.corners)
-    chosen = np.zeros(len(ends), dtype=bool)
-    chosen[edge[marked]] = True
+    chosen = mask(len(ends), edge[marked])
     cameras, parent = split_at(cameras, chosen, edge, *edge_middles(cameras, ends[chosen], first[chosen]))
     seen = in_picture(cameras)
     return cameras.select(seen), parent[seen], chosen[edge].any(axis=1)[parent[seen]]
@@ -51,7 +47,7 @@ def split_at(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np
              rays: np.ndarray) -> tuple[Cameras, np.ndarray]:
     """Cameras split at the `middles` (3, k) of the k `marked` of e edges, which have rays and their origins, and the
     camera that each lies in; `edge` (n, 3) are the cameras' edges."""
-    new = np.cumsum(marked) - 1 + cameras.places.shape[1]
+    new = numbered(len(marked), marked, cameras.places.shape[1])
     parent, local = split(marked[edge])
     six = np.concatenate((cameras.corners, new[edge]), axis=1)[parent]
     return cameras.replaced(np.take_along_axis(six, local, axis=1), cameras.face[parent], middles, origins,

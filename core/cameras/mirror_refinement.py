@@ -13,11 +13,11 @@ angle.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..geometry import columns, dot, norm, shared_edges, unit
+from ..geometry import columns, dot, mask, norm, shared_edges, unit
 from ..support import BESIDE_EDGES
 from ..views import LampView
 from .camera_splitting import edge_middles, in_picture, shares_in_picture, split_at
@@ -38,16 +38,13 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
 
     Parameters
     ----------
-    reach : float
-        Distance of the farthest diffuse point from the mirror, in scene units.
-    maximum : int
-        No more than about this many cameras are made.
+    reach : float, distance of the farthest diffuse point from the mirror, in scene units
+    maximum : int, no more than about this many cameras are made
 
     Returns
     -------
     cameras : Cameras
-    limited : bool
-        Whether the bound on depth or count stopped the refinement.
+    limited : bool, whether the bound on depth or count stopped the refinement
     """
     cameras = cameras.select(in_picture(cameras))
     finished: list[Cameras] = []
@@ -71,8 +68,8 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
                               *(of_all[:, marked] for of_all in (middles, origins, rays)))
         cameras = cameras.select(in_picture(cameras))
     parts = [*finished, cameras]
-    return Cameras(np.concatenate([part.corners for part in parts]), np.concatenate([part.face for part in parts]),
-                   cameras.places, cameras.rays, cameras.origins, cameras.mirror_map), limited
+    return replace(cameras, corners=np.concatenate([part.corners for part in parts]),
+                   face=np.concatenate([part.face for part in parts])), limited
 
 
 @dataclass(frozen=True)
@@ -82,12 +79,9 @@ class _Edges:
     Attributes
     ----------
     ends : (e, 2) int64
-    pixels : (c, 2) float64
-        Of all corners of the cameras.
-    lengths : (e,) float64
-        In pixels.
-    given : (3, e) float64
-        Unit rays halfway, from those of the ends.
+    pixels : (c, 2) float64, of all corners of the cameras
+    lengths : (e,) float64, in pixels
+    given : (3, e) float64, unit rays halfway, from those of the ends
     turns : (3, e) float64
         From these to the true rays; zero where they are no more than what unit vectors are rounded by.
     """
@@ -117,8 +111,7 @@ def _marked(cameras: Cameras, edges: _Edges, edge: np.ndarray, reach: float, tol
     marked |= _parted(cameras, edges)
     # slivers of lifted rays: nothing to be exact about
     asked = np.flatnonzero(marked[edge].any(axis=1))
-    worth = np.zeros(len(marked), dtype=bool)
-    worth[edge[asked[~beyond_horizon(cameras.select(asked))]]] = True
+    worth = mask(len(marked), edge[asked[~beyond_horizon(cameras.select(asked))]])
     return marked & worth
 
 

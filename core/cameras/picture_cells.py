@@ -20,12 +20,9 @@ class PictureCells:
 
     Attributes
     ----------
-    low : (2,) float64
-        The corner of the grid, in pixels.
-    side : float
-        Pixels along a side of a cell.
-    before : (height + 1, width + 1) int64
-        How many marked cells lie before each row and column.
+    low : (2,) float64, the corner of the grid, in pixels
+    side : float, pixels along a side of a cell
+    before : (height + 1, width + 1) int64, how many marked cells lie before each row and column
     """
 
     low: np.ndarray

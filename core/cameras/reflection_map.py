@@ -25,16 +25,11 @@ class ReflectionMap(ABC):
 
     Attributes
     ----------
-    view : View
-        Who looks.
-    bounce : int
-        How many mirrors light has met when it leaves the last one: 1 for what the eye sees in the mirror.
-    parallel : bool
-        Every face sends all its rays along one direction; the map jumps between faces.
-    orthographic : bool
-        Rays are unit vectors, and s is a length.
-    grazing : (m,) bool
-        Faces on which some ray may be lifted.
+    view : View, who looks
+    bounce : int, how many mirrors light has met when it leaves the last one: 1 for what the eye sees in the mirror
+    parallel : bool, every face sends all its rays along one direction; the map jumps between faces
+    orthographic : bool, rays are unit vectors, and s is a length
+    grazing : (m,) bool, faces on which some ray may be lifted
     """
 
     view: View

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import dot, doubled_areas, edge_lengths, following, next_corner, split
+from ..geometry import dot, doubled_areas, edge_lengths, following, mask, next_corner, split
 from ..support import portions
 from ..views import LampView
 from .camera_splitting import split_cameras
@@ -105,7 +105,6 @@ def _cut(cameras: Cameras) -> Cameras:
     six = np.concatenate((corners, np.full_like(corners, -1)), axis=1)
     six[row, 3 + side] = np.arange(len(row)) + cameras.places.shape[1]
     parent, local = split(crossed)
-    whole = np.ones(len(cameras), dtype=bool)
-    whole[near] = False
+    whole = ~mask(len(cameras), near)
     return cameras.replaced(np.concatenate((cameras.corners[whole], six[parent[:, None], local])),
                             np.concatenate((cameras.face[whole], cameras.face[near[parent]])), low, *leaving)

@@ -6,11 +6,11 @@ same normal are shared, so that neighbouring cameras are continuous across their
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..geometry import TriangleMesh, borders, connected, following, solid_angles
+from ..geometry import TriangleMesh, borders, connected, following, numbered, solid_angles
 from ..views import View
 from .mirror_map import MirrorMap
 from .reflection_map import ReflectionMap
@@ -22,19 +22,14 @@ class Cameras:
 
     Attributes
     ----------
-    corners : (n, 3) int64
-        Each camera's corners, indices into the columns below.
+    corners : (n, 3) int64, each camera's corners, indices into the columns below
     face : (n,) int64
         The mirror triangle that the camera lies on.
         After several bounces, the chain of mirror triangles.
-    places : (3, c) float64
-        Where the eye sees the corners on the mirror, in world space.
-    rays : (3, c) float64
-        R, reflected rays of the corners, as long as the whole way from the eye.
-    origins : (3, c) float64
-        V, where the rays leave the last mirror: the places themselves where there is but one.
-    mirror_map : ReflectionMap
-        The true map that the rays were taken from.
+    places : (3, c) float64, where the eye sees the corners on the mirror, in world space
+    rays : (3, c) float64, R, reflected rays of the corners, as long as the whole way from the eye
+    origins : (3, c) float64, V, where the rays leave the last mirror: the places themselves where there is but one
+    mirror_map : ReflectionMap, the true map that the rays were taken from
     """
 
     corners: np.ndarray
@@ -48,7 +43,7 @@ class Cameras:
         return len(self.face)
 
     def select(self, chosen: np.ndarray) -> Cameras:
-        return Cameras(self.corners[chosen], self.face[chosen], self.places, self.rays, self.origins, self.mirror_map)
+        return replace(self, corners=self.corners[chosen], face=self.face[chosen])
 
     def replaced(self, corners: np.ndarray, face: np.ndarray, places: np.ndarray, origins: np.ndarray,
                  rays: np.ndarray) -> Cameras:
@@ -146,8 +141,7 @@ def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.nda
     face = corner_face[first]
     places = mirror_map.places(face, uv)
     # each begins at its lowest corner in x, y, z, so that splitting does not depend on how the triangle was listed
-    rank = np.empty(len(first), dtype=np.int64)
-    rank[np.lexsort(places[::-1])] = np.arange(len(first))
+    rank = numbered(len(first), np.lexsort(places[::-1]))
     corners = shared.reshape(-1, 3)
     turn = (np.argmin(rank[corners], axis=1)[:, None] + np.arange(3)) % 3
     return Cameras(np.take_along_axis(corners, turn, axis=1), faces, places, mirror_map.rays(face, uv),

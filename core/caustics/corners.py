@@ -32,19 +32,13 @@ class Corners(ColumnArrays):
 
     Attributes
     ----------
-    uv : (2, 3, m) float64
-        Where on the map's face, as [coordinate, corner, face].
-    irradiance : (3, m) float64
-        Infinite on a caustic.
+    uv : (2, 3, m) float64, where on the map's face, as [coordinate, corner, face]
+    irradiance : (3, m) float64, infinite on a caustic
     turned : (3, m) float64
-    cosine : (b, 3, m) float64
-        At each of the mirrors, the first one first; negative at the back of its triangle.
-    place : (3, 3, m) float64
-        Where on the first mirror, as [component, corner, face].
-    side : (3, m) float64
-        1 where the front of the receiver is lit, -1 where its back is.
-    arrived : (3, m) bool
-        Whether the ray really comes there.
+    cosine : (b, 3, m) float64, at each of the mirrors, the first one first; negative at the back of its triangle
+    place : (3, 3, m) float64, where on the first mirror, as [component, corner, face]
+    side : (3, m) float64, 1 where the front of the receiver is lit, -1 where its back is
+    arrived : (3, m) bool, whether the ray really comes there
     """
 
     uv: np.ndarray

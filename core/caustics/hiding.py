@@ -28,8 +28,7 @@ class Sides:
     ----------
     of : callable
         Whether any of them lies above planes n . x = h of normals (n, 3) and heights (n,), and whether any lies below.
-    count : int
-        How many of them are asked of each plane.
+    count : int, how many of them are asked of each plane
     """
 
     of: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]

@@ -110,8 +110,7 @@ def _weights(receivers: TriangleMesh, source: np.ndarray, corners: np.ndarray) -
     """Barycentric coordinates (m, 3, 3) of corners in their source triangles, none negative."""
     ends = [columns(rows(receivers.positions), corner)[:, None] for corner in receivers.triangles[source].T]
     places, (seen, column) = corners.transpose(2, 1, 0), distinct(source)
-    weights = np.maximum(SceneFrames.of(receivers, seen).weights(column, places), 0.0)
-    weights /= weights.sum(axis=0)
+    weights = SceneFrames.of(receivers, seen).weights_within(column, places)
     # beside a sliver that tells little of where along it a corner lies
     for one, other in ((0, 1), (1, 2), (2, 0)):
         breathe()

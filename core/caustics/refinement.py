@@ -20,6 +20,7 @@ from ..geometry import (
     dot,
     following,
     norm,
+    numbered,
     parent_side,
     shared_edges,
     split,
@@ -45,23 +46,16 @@ class LitFaces:
     Attributes
     ----------
     triangles : (m, 3) int64
-    points : (3, n) float64
-        Of the vertices, on the receivers.
-    face : (m,) int64
-        Of the map.
-    normal : (3, m) float64
-        Unit normal of the receiver.
-    source : (m,) int64
-        Triangle of the receivers.
-    origin : (m,) int64
-        The face of the reflection that each is a part of.
-    on_side : (m, 3) bool
-        Which of the sides 01, 12, 20 lie on a side of their receiver's triangle.
+    points : (3, n) float64, of the vertices, on the receivers
+    face : (m,) int64, of the map
+    normal : (3, m) float64, unit normal of the receiver
+    source : (m,) int64, triangle of the receivers
+    origin : (m,) int64, the face of the reflection that each is a part of
+    on_side : (m, 3) bool, which of the sides 01, 12, 20 lie on a side of their receiver's triangle
     beside : (m, 3) float64
         Their light that falls beyond the sides 01, 12, 20, for those that are straight in the lamp's picture are curves
         on the receiver; negative where it ends before them. Not a number until it has been asked for.
-    light : Corners
-        Of the corners.
+    light : Corners, of the corners
     """
 
     triangles: np.ndarray
@@ -109,8 +103,7 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, la
             break
         asked = np.concatenate((asked, beside))
         middles = Corners.joined([middles, more])
-        place = np.full(len(faces), -1)
-        place[asked] = np.arange(len(asked))
+        place = numbered(len(faces), asked)
         faces, parent = _split(faces, edge, chosen, (place, middles, np.concatenate((points, more_points), axis=2)))
         new = marked.any(axis=1)[parent]
     asked = np.flatnonzero(np.isnan(faces.beside).any(axis=1))
@@ -202,7 +195,7 @@ def _split(faces: LitFaces, edge: np.ndarray, chosen: np.ndarray,
     where each face (m,) has them, their light, and where they are."""
     place, light, points = middles
     parent, local = split(chosen[edge])
-    vertex = np.cumsum(chosen) - 1 + faces.points.shape[1]
+    vertex = numbered(len(chosen), chosen, faces.points.shape[1])
     # of two faces the first tells where their side's middle is
     row, side = np.nonzero(chosen[edge] & (place >= 0)[:, None])
     _, first = np.unique(edge[row, side], return_index=True)

@@ -24,8 +24,7 @@ class Candidates(ColumnArrays):
     Attributes
     ----------
     cameras : Cameras
-    frames : SceneFrames
-        Of all triangles that some camera may see.
+    frames : SceneFrames, of all triangles that some camera may see
     camera : (p,) int64
     column : (p,) int64, the triangle's column in the frames
     sides : (3, 3, p) float64, entry [j, i]: barycentric coordinate j, times b and the sign of b, at camera corner i

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import groups, in_order, ranges
+from ..geometry import groups, in_order, mask, numbered, ranges
 
 
 @dataclass(frozen=True)
@@ -15,14 +15,10 @@ class MirrorsShown:
 
     Attributes
     ----------
-    faces : (f,) bool
-        Which faces of the map may show a mirror in any of the cameras.
-    plainly : (f,) bool
-        Which of them may show more of one than rises above them by the rounding of single precision.
-    cameras : Cameras
-        Those of which all mirrors are known.
-    start : (n + 1,) int64
-        Camera i may show triangle[start[i]:start[i + 1]].
+    faces : (f,) bool, which faces of the map may show a mirror in any of the cameras
+    plainly : (f,) bool, which of them may show more of one than rises above them by the rounding of single precision
+    cameras : Cameras, those of which all mirrors are known
+    start : (n + 1,) int64, camera i may show triangle[start[i]:start[i + 1]]
     triangle : (p,) int64
     """
 
@@ -37,14 +33,11 @@ class MirrorsShown:
            given_up: np.ndarray) -> MirrorsShown:
         """Of pairs of a camera and a triangle, some `plainly` seen (p,); the cameras `given_up` (n,) may show any."""
         camera, triangle = pairs
-        told = []
-        for chosen in (camera, camera[plainly]):
-            told.append(np.zeros(int(cameras.face.max(initial=-1)) + 1, dtype=bool))
-            told[-1][cameras.face[chosen]] = True
-            told[-1][cameras.face[given_up]] = True
-        kept, number = cameras.select(~given_up), np.cumsum(~given_up) - 1
+        any_, last = np.flatnonzero(given_up), int(cameras.face.max(initial=-1))
+        faces, plain = (mask(last + 1, cameras.face[np.append(chosen, any_)]) for chosen in (camera, camera[plainly]))
+        kept, number = cameras.select(~given_up), numbered(len(given_up), ~given_up)
         count = np.bincount(number[camera], minlength=len(kept))
-        return cls(told[0], told[1], kept, np.append(0, np.cumsum(count)), triangle[in_order(camera)])
+        return cls(faces, plain, kept, np.append(0, np.cumsum(count)), triangle[in_order(camera)])
 
     @classmethod
     def unknown(cls, cameras: Cameras) -> MirrorsShown:

@@ -30,8 +30,7 @@ class SceneAndMirrors:
 
     Attributes
     ----------
-    tree : SceneTree or PointTree
-        Of the diffuse scene.
+    tree : SceneTree or PointTree, of the diffuse scene
     positions : (n, 3) float64
     triangles : (m, 3) int64
     diffuse : int
@@ -39,17 +38,12 @@ class SceneAndMirrors:
         others are the mirrors'.
     pieces : ScenePieces, optional
         What is left to the cameras of a patch; their triangles are numbered behind those of the scene.
-    surface : MirrorSurface
-        Of the mirrors.
-    reflecting : (k,) bool
-        Which triangles of the mirrors reflect; the others only hide what lies behind them.
-    given : (k,) int64
-        The triangle that each of the mirrors' was before they were put in order.
+    surface : MirrorSurface, of the mirrors
+    reflecting : (k,) bool, which triangles of the mirrors reflect; the others only hide what lies behind them
+    given : (k,) int64, the triangle that each of the mirrors' was before they were put in order
     mirror_tree : SceneTree
-    mirror_corners : (3, m, 3) float64
-        Of the mirrors' triangles, as [component, triangle, corner].
-    size : float
-        Of the mirrors: the longest side of the box round them, in scene units.
+    mirror_corners : (3, m, 3) float64, of the mirrors' triangles, as [component, triangle, corner]
+    size : float, of the mirrors: the longest side of the box round them, in scene units
     """
 
     def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh,

@@ -28,8 +28,7 @@ class ScenePieces:
         The scene's triangles between the vertices that stand for their corners, where small parts have been drawn
         together: pieces are pieces of these.
     on_patch : (m,) bool, the mirror's triangles on which nothing but these pieces is left to show
-    cells : PictureCells
-        Where in the picture on the patch pieces are seen.
+    cells : PictureCells, where in the picture on the patch pieces are seen
     open : (m,) bool, triangles of the patch on which pieces may be seen elsewhere too
     """
 

@@ -22,7 +22,7 @@ from ..cameras import (
     pixels_of,
 )
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import SceneFrames, distinct
+from ..geometry import SceneFrames, distinct, numbered
 from ..support import crowded
 from ..trees import Bound, Touching
 from ..views import LampView
@@ -52,10 +52,8 @@ class Crowds:
 
     Attributes
     ----------
-    dense : int
-        Cameras in pixels in which rays are less work.
-    given_up : int
-        Cameras beyond the limits.
+    dense : int, cameras in pixels in which rays are less work
+    given_up : int, cameras beyond the limits
     """
 
     def __init__(self, met: SceneAndMirrors, limits: Limits, last: bool) -> None:
@@ -96,7 +94,7 @@ class Crowds:
         crowd |= self.dense_in(cameras, np.where(crowd, 0.0, load))
         self._cameras.append(cameras.select(crowd))
         if crowd.any():
-            candidates = candidates.on(cameras.select(~crowd), np.where(crowd, -1, np.cumsum(~crowd) - 1))
+            candidates = candidates.on(cameras.select(~crowd), numbered(len(crowd), ~crowd))
         return candidates
 
     def dense_in(self, cameras: Cameras, load: np.ndarray) -> np.ndarray:
@@ -144,10 +142,8 @@ class Filled:
     candidates : Candidates
     corner_face : (k, 3) int64
         Of the last k cameras, which lie in whole squares: the mirror's triangle that each of their corners lies on.
-    rays : int
-        That were traced.
-    pixels : int
-        That they have filled with the diffuse scene.
+    rays : int, that were traced
+    pixels : int, that they have filled with the diffuse scene
     less : bool
         Whether that is less than was asked for: more coarsely than the tolerance, or instead of all of the geometry.
     """

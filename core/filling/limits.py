@@ -28,28 +28,19 @@ class Limits:
 
     Attributes
     ----------
-    cameras : int
-        Of a bounce, before its outlines are refined.
-    pairs : int
-        Of cones and triangles that touch.
-    candidates : int
-        Of cameras and triangles that overlap.
-    work : int
-        Candidates, each counted once more for every four mirrors that may hide it.
+    cameras : int, of a bounce, before its outlines are refined
+    pairs : int, of cones and triangles that touch
+    candidates : int, of cameras and triangles that overlap
+    work : int, candidates, each counted once more for every four mirrors that may hide it
     faces : int
-    rays : int
-        Through crowded cameras.
-    square : float
-        Pixels: the side of the squares through which these rays go, where their number allows it.
+    rays : int, through crowded cameras
+    square : float, in pixels, the side of the squares through which these rays go, where their number allows it
     dense : float
         Work in such a square, from which on a ray through it shows all that is to be seen there; infinite where all of
         the geometry is asked for.
-    bounced : int
-        Cameras of a later bounce.
-    pieces : int
-        Of the scene's triangles, whole faces among them.
-    memory : int
-        Bytes of arrays beside those of the meshes.
+    bounced : int, cameras of a later bounce
+    pieces : int, of the scene's triangles, whole faces among them
+    memory : int, bytes of arrays beside those of the meshes
     """
 
     cameras: int

@@ -21,12 +21,9 @@ class SquareGrid:
 
     Attributes
     ----------
-    low : (2,) float64
-        Where the first one begins, in pixels.
-    side : float
-        In pixels.
-    size : (width, height)
-        In squares.
+    low : (2,) float64, where the first one begins, in pixels
+    side : float, in pixels
+    size : (width, height), in squares
     """
 
     low: np.ndarray

@@ -26,10 +26,8 @@ def missed_probes(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, met: 
 
     Parameters
     ----------
-    mirror_position : (n, 3) float64
-        Places of the vertices on the mirror.
-    triangles : (m, 3) int64
-        The faces.
+    mirror_position : (n, 3) float64, places of the vertices on the mirror
+    triangles : (m, 3) int64, the faces
     """
     low, step = _lattice(view, mirror)
     y, x = np.divmod(np.arange(ACROSS * ACROSS), ACROSS)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..cameras import Cameras, pixels_of, places_at, true_rays, with_pieces
 from ..culling import SceneAndMirrors
-from ..geometry import groups
+from ..geometry import groups, mask
 from .picture_squares import ASIDE, first_side, in_squares
 from .shown_triangles import shown_triangles
 from .whole_squares import WholeSquares
@@ -37,8 +37,7 @@ def _round_middles(cells: Cameras, some: np.ndarray, spots: np.ndarray) -> tuple
     of this, and the cell between them another place of it than the ray in its middle."""
     places, holds = places_at(cells.select(some), spots)
     some, places = some[holds], places[:, holds]
-    rest = np.ones(len(cells), dtype=bool)
-    rest[some] = False
+    rest = ~mask(len(cells), some)
     cell, own = np.append(np.flatnonzero(rest), np.tile(some, 3)), cells.corners[some]
     middle = cells.places.shape[1] + np.arange(len(some))
     round_it = [np.column_stack((own[:, start], own[:, end], middle)) for start, end in ((0, 1), (1, 2), (2, 0))]

@@ -41,15 +41,11 @@ class WholeSquares:
     before : (height + 1, width + 1) int64
         How many squares in which nothing more is to be shown lie before each row and column.
     corners : (m, 3) int64
-    face : (m,) int64
-        The mirror's triangle that the square's middle lies on.
-    triangle : (m,) int64
-        The diffuse triangle that they show.
+    face : (m,) int64, the mirror's triangle that the square's middle lies on
+    triangle : (m,) int64, the diffuse triangle that they show
     places, origins, rays : (3, c) float64
-    corner_face : (c,) int64
-        The mirror's triangles that the corners lie on.
-    traced : int
-        Rays.
+    corner_face : (c,) int64, the mirror's triangles that the corners lie on
+    traced : int, rays
     """
 
     grid: SquareGrid
@@ -108,10 +104,8 @@ class Holders:
 
     Attributes
     ----------
-    at_corners : (height + 1, width + 1) int32
-        The camera at the corners of the squares, -1 where there is none.
-    in_middles : (height, width) int32
-        That in their middles.
+    at_corners : (height + 1, width + 1) int32, the camera at the corners of the squares, -1 where there is none
+    in_middles : (height, width) int32, that in their middles
     inner : (n,) int64
         The squares, row after row, that the cameras cover, all over one part of the mirror: nine places of each lie in
         cameras, between those side by side the mirror does not leap, and it does not rise at the sides.

@@ -7,6 +7,7 @@ from .adjacency import borders, connected, corners_beyond
 from .canonical_order import TURNS, Order, ordered
 from .column_arrays import ColumnArrays
 from .distinct import distinct, first_of, in_order
+from .marked import mask, numbered
 from .near_triangles import meeting
 from .scene_frames import SceneFrames, falling
 from .subdivision import (
@@ -42,9 +43,8 @@ from .vectors import (
 )
 
 __all__ = ["ColumnArrays", "Order", "SceneFrames", "TURNS", "TriangleMesh", "across", "area_normals", "areal", "areas",
-           "between",
-           "borders", "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas",
+           "between", "borders", "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas",
            "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area",
-           "in_order", "largest", "meeting", "next_corner", "norm", "ordered", "others", "parent_side",
-           "ranges", "rows", "shared_edges", "shares", "smallest", "solid_angles", "solve", "split",
+           "in_order", "largest", "mask", "meeting", "next_corner", "norm", "numbered", "ordered", "others",
+           "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest", "solid_angles", "solve", "split",
            "spread_directions", "unit"]

@@ -23,12 +23,9 @@ class Order:
 
     Attributes
     ----------
-    vertex : (n,) int64
-        The given vertex that each ordered one is.
-    triangle : (m,) int64
-        The given triangle that each ordered one is.
-    first : (m,) int64
-        The corner of the given triangle that the ordered one begins with.
+    vertex : (n,) int64, the given vertex that each ordered one is
+    triangle : (m,) int64, the given triangle that each ordered one is
+    first : (m,) int64, the corner of the given triangle that the ordered one begins with
     """
 
     vertex: np.ndarray

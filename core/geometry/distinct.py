@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..support import breathe
+from .marked import mask
 
 DENSE = 8  # times the keys: numbers up to so many are marked in a table
 
@@ -18,8 +19,7 @@ def distinct(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     if most > DENSE * len(key):
         values, _, group = first_of(key)
         return values, group
-    table = np.zeros(most + 1, dtype=bool)
-    table[key] = True
+    table = mask(most + 1, key)
     breathe()
     number = np.cumsum(table)
     number -= 1

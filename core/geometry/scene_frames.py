@@ -77,6 +77,12 @@ class SceneFrames:
         first, second, _ = self.coordinates(column, points)
         return np.stack((first, second, 1.0 - first - second))
 
+    def weights_within(self, column: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """The same, none negative: points beside their triangles as on their rims."""
+        weights = np.maximum(self.weights(column, points), 0.0)
+        weights /= weights.sum(axis=0)
+        return weights
+
     def distance(self, column: np.ndarray, places: np.ndarray, rays: np.ndarray) -> np.ndarray:
         """s at which the rays Q + s R, (3, n) each, meet the planes of the frames: far away, but not infinitely far,
         where they are parallel."""

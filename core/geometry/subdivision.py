@@ -47,13 +47,11 @@ def split(marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
     Parameters
     ----------
-    marked : (n, 3) bool
-        Whether the edges 01, 12 and 20 of each triangle get a middle.
+    marked : (n, 3) bool, whether the edges 01, 12 and 20 of each triangle get a middle
 
     Returns
     -------
-    parent : (m,) int64
-        The triangle that each child lies in; unmarked triangles are their own only child.
+    parent : (m,) int64, the triangle that each child lies in; unmarked triangles are their own only child
     local : (m, 3) int64
         The child's corners in its parent: 0 1 2 the parent's corners, 3 4 5 the middles of its edges 01, 12, 20.
     """

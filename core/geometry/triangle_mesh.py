@@ -9,6 +9,7 @@ import numpy as np
 
 from ..support import LARGEST, numbers, portions, whole_numbers
 from .adjacency import corners_beyond
+from .marked import mask
 from .subdivision import next_corner
 from .vectors import cross, largest, norm, rows
 
@@ -131,9 +132,7 @@ class TriangleMesh:
     @cached_property
     def used(self) -> np.ndarray:
         """The vertices, rising, that triangles name."""
-        named = np.zeros(len(self.positions), dtype=bool)
-        named[self.triangles] = True
-        return np.flatnonzero(named)
+        return np.flatnonzero(mask(len(self.positions), self.triangles))
 
     @cached_property
     def place_of(self) -> np.ndarray:

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import groups, next_corner, shared_edges
+from ..geometry import ColumnArrays, groups, next_corner, shared_edges
 from ..support import breathe
 
 
 @dataclass(frozen=True)
-class Borders:
+class Borders(ColumnArrays):
     """Sides (b) that one face alone has: which side of which `face` it is, and from which vertex to which it goes."""
 
     face: np.ndarray
@@ -27,12 +27,7 @@ class Borders:
         face, side = np.divmod(first, 3)
         start, end = triangles.ravel()[first], triangles[face, next_corner(side)]
         known = np.isfinite(pixels[start]).all(axis=1) & np.isfinite(pixels[end]).all(axis=1)
-        return cls(face[known], side[known], start[known], end[known])
-
-    def of_faces(self, among: np.ndarray) -> Borders:
-        """Those of the faces `among` (m,) bool."""
-        some = among[self.face]
-        return Borders(self.face[some], self.side[some], self.start[some], self.end[some])
+        return cls(face, side, start, end).select(known)
 
     def ends(self) -> tuple[np.ndarray, np.ndarray]:
         """Vertices of the borders, each with every face that it ends a side of."""

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..geometry import dot, doubled_areas, edge_lengths, in_order, next_corner, ranges
+from ..geometry import dot, doubled_areas, edge_lengths, in_order, mask, next_corner, ranges
 from ..result import ReflectionMesh
 from .borders import Borders
 from .joined_places import SAME
@@ -36,16 +36,14 @@ def with_sides_split(mesh: ReflectionMesh, surfaces: Surfaces,
     if not right.any():
         return mesh, np.zeros_like(among)
     run, triangles = run[right[run]], triangles[right[run]]
-    rest = np.ones(len(mesh.triangles), dtype=bool)
-    rest[parent[right]] = False
+    rest = ~mask(len(mesh.triangles), parent[right])
     kept = np.concatenate((np.flatnonzero(rest), parent[run]))
     order = in_order(kept)
     arrays = mesh.of_faces(kept[order])
     arrays["source_weights"] = np.concatenate(
         (mesh.source_weights[rest], _weights(mesh, parent[run], side[run], triangles)))[order]
     # what was not split may be on another side
-    again = np.zeros(len(mesh.triangles), dtype=bool)
-    again[parent[~right]] = True
+    again = mask(len(mesh.triangles), parent[~right])
     waiting = np.concatenate((again[rest], np.ones(len(run), dtype=bool)))
     split = replace(mesh, triangles=np.concatenate((mesh.triangles[rest], triangles))[order], **arrays)
     return split, waiting[order]
@@ -56,7 +54,7 @@ def _on_sides(mesh: ReflectionMesh, surfaces: Surfaces, among: np.ndarray) -> tu
     from its start to its end: ends of borders of other faces, which show the surface going on."""
     borders, pixels = Borders.of(mesh.triangles, surfaces.pixels), surfaces.pixels
     vertex, holder = borders.ends()
-    borders = borders.of_faces(among)
+    borders = borders.select(among[borders.face])
     row, line, along = beside(pixels[vertex], pixels[borders.start], pixels[borders.end])
     length = lengths(pixels[borders.end] - pixels[borders.start])
     inner = np.flatnonzero((along > SAME) & (along < length[line] - SAME))

@@ -24,16 +24,13 @@ class Patch:
 
     Attributes
     ----------
-    cameras : Cameras
-        Those of the triangles.
-    mirror_map : MirrorMap
-        The cameras'.
+    cameras : Cameras, those of the triangles
+    mirror_map : MirrorMap, the cameras'
     face : (k,) int64, the mirror's triangles, rising
     across : (k, 3) int64, the triangle of the patch beyond the side opposite to each corner, -1 at its border
     shape : (18, k) float64
         Place of the first corner from the eye, the ways from it to the other two, and the same of the normals.
-    border : PictureCells
-        What lies near the border.
+    border : PictureCells, what lies near the border
     """
 
     cameras: Cameras

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import columns, dot, norm, unit
+from ..geometry import columns, dot, mask, norm, unit
 from ..support import portions
 from ..trees import Cones, StandIns, VertexTree, along_curve
 from .patch import Patch
@@ -122,8 +122,7 @@ class Descent:
 
     Attributes
     ----------
-    standing : (v,) int64
-        For each vertex of the mesh the one that stands for it.
+    standing : (v,) int64, for each vertex of the mesh the one that stands for it
     """
 
     def __init__(self, walk: Walk, tree: VertexTree, least: float, part: np.ndarray | None = None) -> None:
@@ -179,8 +178,7 @@ class Descent:
         tree = self.tree
         for level, node, scale in self._small:
             held, run = tree.held(level, node)
-            some = np.zeros(len(node), dtype=bool)
-            some[run[asked[self.standing[held]]]] = True
+            some = mask(len(node), run[asked[self.standing[held]]])
             held, node, scale = held[some[run]], node[some], scale[some]
             self.standing[held] = held
             while len(node):

@@ -24,14 +24,10 @@ class Beams:
 
     Attributes
     ----------
-    frame : (4, 3, n) float64
-        The middle of the camera, and the frame's three directions.
-    places, rays : (3, 3, n) float64
-        Entry [k, i]: component k of corner i in the frame.
-    across : (n,) float64
-        The largest part of a ray across the axis.
-    size : (n,) float64
-        Radius of the camera.
+    frame : (4, 3, n) float64, the middle of the camera, and the frame's three directions
+    places, rays : (3, 3, n) float64, entry [k, i]: component k of corner i in the frame
+    across : (n,) float64, the largest part of a ray across the axis
+    size : (n,) float64, radius of the camera
     """
 
     frame: np.ndarray

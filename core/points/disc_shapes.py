@@ -24,21 +24,15 @@ def picture_ellipses(view: View, seen: tuple, s: np.ndarray, normal: np.ndarray,
 
     Parameters
     ----------
-    seen : tuple
-        What `MirrorMap.linearise` tells along `ALONG_UV` where on the mirror the middles are seen.
-    s : (n,) float64
-        How far along the rays they lie.
-    normal : (3, n) float64
-        Unit normal of the circle's plane; zero where it faces the ray.
-    reach : (n,) float64
-        Radius of the circle, in scene units.
+    seen : tuple, what `MirrorMap.linearise` tells along `ALONG_UV` where on the mirror the middles are seen
+    s : (n,) float64, how far along the rays they lie
+    normal : (3, n) float64, unit normal of the circle's plane; zero where it faces the ray
+    reach : (n,) float64, radius of the circle, in scene units
 
     Returns
     -------
-    axes : (2, 2, n) float64
-        [x or y, longer or shorter], at right angles, between `SMALLEST` and `LARGEST`.
-    wanted : (n,) float64
-        Length of the longer one without the bound above.
+    axes : (2, 2, n) float64, [x or y, longer or shorter], at right angles, between `SMALLEST` and `LARGEST`
+    wanted : (n,) float64, length of the longer one without the bound above
     """
     place, ray, moves = seen
     (a, b), (c, d) = ([dot(gradient, move) for move, _ in moves] for gradient in view.pixel_gradients(place))
@@ -77,16 +71,13 @@ def flat_discs(view: View, axes: np.ndarray, slope: np.ndarray | None,
     Parameters
     ----------
     axes : (2, 2, n) float64, from `picture_ellipses`
-    slope : (3, n) float64 or None
-        Normals of the planes to lie in; None for discs that face the eye.
-    positions : (3, n) float64
-        Where the middles of the ellipses are drawn.
+    slope : (3, n) float64 or None, normals of the planes to lie in; None for discs that face the eye
+    positions : (3, n) float64, where the middles of the ellipses are drawn
 
     Returns
     -------
     axes : (n, 2, 3) float64
-    radius : (n,) float64
-        The longer half axis as the eye sees it.
+    radius : (n,) float64, the longer half axis as the eye sees it
     """
     ahead = unit(view.directions(positions.T).T)
     depth = 1.0 if view.orthographic else view.depths(positions.T)

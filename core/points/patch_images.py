@@ -25,10 +25,8 @@ def images_on_patch(patch: Patch, tree: PointTree,
     Returns
     -------
     images : PointImages
-    stood_for : (v,) bool
-        Vertices of which another one is looked for.
-    counts : dict
-        Nodes visited, vertices looked for, both together, images found.
+    stood_for : (v,) bool, vertices of which another one is looked for
+    counts : dict, nodes visited, vertices looked for, both together, images found
     """
     walk = Walk(patch)
     descent, wanted = Descent(walk, tree, SMALL), 0

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import MirrorMap
-from ..geometry import ColumnArrays
+from ..geometry import ColumnArrays, mask
 from ..polygons import repeated
 
 
@@ -43,8 +43,6 @@ class PointImages(ColumnArrays):
 
     def with_others(self, others: PointImages, mirror_map: MirrorMap, count: int) -> PointImages:
         """These images, each of another one of `count` vertices, and the others that are none of them."""
-        seen_twice = np.zeros(count, dtype=bool)
-        seen_twice[others.vertex] = True
-        twice = seen_twice[self.vertex]
+        twice = mask(count, others.vertex)[self.vertex]
         return PointImages.joined((self.select(~twice),
                                    PointImages.joined((self.select(twice), others)).once(mirror_map)))

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras import Cameras, may_fold
-from ..geometry import SceneFrames, following, shared_edges
+from ..geometry import SceneFrames, following, mask, numbered, shared_edges
 from ..support import portions
 from .polygon_corners import Nodes
 from .triangulation import Faces
@@ -24,8 +24,7 @@ def split_at_caustics(cameras: Cameras, frames: SceneFrames, nodes: Nodes,
     Returns
     -------
     nodes, faces
-    cut : int
-        How many edges were cut.
+    cut : int, how many edges were cut
     """
     mirror_map = cameras.mirror_map
     folding = np.flatnonzero(may_fold(cameras)[faces.camera])
@@ -43,12 +42,10 @@ def split_at_caustics(cameras: Cameras, frames: SceneFrames, nodes: Nodes,
     owner = owner[cut]
     at = _zero(mirror_map, frames, face[owner], column[owner], nodes.place[:, start[owner]],
                nodes.place[:, end[owner]])
-    new = np.full(len(ends), -1)
-    new[cut] = np.arange(cut.sum()) + len(nodes.distance)
+    new = numbered(len(ends), cut, len(nodes))
     children, _ = chosen.split(new[edge])
-    resting = np.ones(len(faces), dtype=bool)
-    resting[folding] = False
-    return nodes.joined((nodes, Nodes(*at))), Faces.joined([faces.select(resting), children]), int(cut.sum())
+    resting = faces.select(~mask(len(faces), folding))
+    return nodes.joined((nodes, Nodes(*at))), Faces.joined([resting, children]), int(cut.sum())
 
 
 def _magnification(mirror_map, frames, face, column, place) -> np.ndarray:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..cameras import Cameras
 from ..culling import Candidates, SceneAndMirrors, overlapping
-from ..geometry import ColumnArrays, SceneFrames, dot, largest, smallest
+from ..geometry import ColumnArrays, SceneFrames, dot, largest, mask, smallest
 from ..support import portions
 from .clipping import clip
 from .convex_polygons import Line, scene_edges
@@ -29,10 +29,8 @@ class Overlaps(ColumnArrays):
 
     Attributes
     ----------
-    candidates : Candidates
-        Their outlines are those that bound the overlap.
-    mirror : (p,) bool
-        Triangles of mirrors.
+    candidates : Candidates, their outlines are those that bound the overlap
+    mirror : (p,) bool, triangles of mirrors
     ends : (p,) bool
         Of these, those of which an outline, or the line in which they pass through the camera's own, may lie in it.
     """
@@ -45,18 +43,15 @@ class Overlaps(ColumnArrays):
     def of(cls, cameras: Cameras, frames: SceneFrames, pairs: tuple[np.ndarray, np.ndarray],
            met: SceneAndMirrors) -> Overlaps:
         """The overlaps among pairs of a camera and a column of the frames."""
-        (camera, column), parts = pairs, []
-        for part in portions(max(len(camera), 1), PAIRS_AT_ONCE):
-            parts.append(_overlaps(overlapping(cameras, frames, camera[part], column[part]), met))
-        return cls.joined(parts)
+        camera, column = pairs
+        return cls.joined([_overlaps(overlapping(cameras, frames, camera[part], column[part]), met)
+                           for part in portions(max(len(camera), 1), PAIRS_AT_ONCE)])
 
     def in_sight(self, last: bool) -> Candidates:
         """Those that mirrors do not surely hide from the whole of their camera, and of the mirrors, at the `last`
         bounce, those alone that may hide something."""
         count = len(self.candidates.cameras)
-        beside = np.zeros(count, dtype=bool)
-        beside[self.candidates.camera[self.mirror]] = True
-        asked = np.flatnonzero(beside[self.candidates.camera])
+        asked = np.flatnonzero(mask(count, self.candidates.camera[self.mirror])[self.candidates.camera])
         if not len(asked):
             return self.candidates
         seen = self.select(asked)
@@ -82,8 +77,7 @@ class Overlaps(ColumnArrays):
         np.minimum.at(nearest, mirrors.camera[fills], far[fills])
         np.maximum.at(farthest, mirrors.camera, far)
         # where no mirror ends, what the middle meets goes on all over the camera
-        closed = np.zeros(count, dtype=bool)
-        closed[mirrors.camera[middle]] = True
+        closed = mask(count, mirrors.camera[middle])
         closed[mirrors.camera[self.ends[self.mirror]]] = False
         return np.where(closed, np.minimum(nearest, farthest), nearest)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras, ReflectionMap
-from ..geometry import SceneFrames, columns, dot, largest, norm, shared_edges, smallest
+from ..geometry import SceneFrames, columns, dot, largest, mask, norm, numbered, shared_edges, smallest
 from ..support import breathe
 from ..views import View
 from .polygon_corners import Nodes
@@ -52,10 +52,8 @@ class FaceRefinement:
         Returns
         -------
         nodes, faces
-        left : (2, e) float64
-            The displacements estimated on the edges that stay, and the lengths of these, in pixels.
-        limited : int
-            Edges that the bound on depth or count left unsplit.
+        left : (2, e) float64, the displacements estimated on the edges that stay, and the lengths of these, in pixels
+        limited : int, edges that the bound on depth or count left unsplit
         """
         finished: list[Faces] = []
         left: list[np.ndarray] = []
@@ -72,8 +70,7 @@ class FaceRefinement:
                 finished.append(faces)
                 return nodes, Faces.joined(finished), np.concatenate((*left, strayed), axis=1), int(marked.sum())
             left.append(strayed[:, ~chosen])
-            new = np.full(len(ends), -1)
-            new[choice] = np.arange(marked.sum()) + len(nodes.distance)
+            new = numbered(len(ends), choice, len(nodes))
             nodes = nodes.joined((nodes, Nodes(*middle_nodes)))
             pixels = np.concatenate((pixels, self._view.pixels(middle_nodes[0].T)))
             faces, done = faces.split(new[edge])
@@ -101,14 +98,11 @@ class FaceRefinement:
         uv = self._map.coordinates(mirror_face, place)
         drift, error, point, distance = straying(self.cameras, self.frames, mirror_face, uv, column, shown)
         breathe()
-        worth = np.zeros(len(ends), dtype=bool)
-        worth[edge[~self.beyond[faces.camera] & self._in_picture(pixels, faces.nodes)]] = True
+        worth = mask(len(ends), edge[~self.beyond[faces.camera] & self._in_picture(pixels, faces.nodes)])
         drift, error = (np.where(worth[open_], value, 0.0) for value in (drift, error))
         length = np.sqrt(((columns(pixels.T, a) - columns(pixels.T, b))**2).sum(axis=0))
         # outlines are judged by pixels covered, interiors by displacement: an outline must be twice as straight
-        outline = np.zeros(len(ends), dtype=bool)
-        outline[edge[faces.on_scene_edge]] = True
-        outline = outline[open_]
+        outline = mask(len(ends), edge[faces.on_scene_edge])[open_]
         left = np.minimum(error, length)
         chosen = (np.minimum(np.where(outline, 2.0 * drift, error), length) > tolerance) & (length > SHORTEST_EDGE)
         breathe()

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..cameras import Cameras, beyond_horizon, split_cameras
 from ..culling import Candidates, SceneAndMirrors, inherited
-from ..geometry import columns, distinct, doubled_areas, edge_lengths
+from ..geometry import columns, distinct, doubled_areas, edge_lengths, mask
 from ..support import ENDING_SHARE
 from .covering import Overlaps
 
@@ -28,12 +28,9 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
 
     Returns
     -------
-    candidates : Candidates
-        The pairs that may really overlap, and that no mirror hides from the whole of their camera.
-    open_ : (n,) bool
-        Cameras too small to be split in which some outline still does.
-    limited : int
-        Edges of cameras that the bound on depth or count left unsplit.
+    candidates : Candidates, the pairs that may really overlap, and that no mirror hides from the whole of their camera
+    open_ : (n,) bool, cameras too small to be split in which some outline still does
+    limited : int, edges of cameras that the bound on depth or count left unsplit
     """
     cameras, frames = candidates.cameras, candidates.frames
     parts, open_ = [], np.zeros(len(cameras), dtype=bool)
@@ -53,9 +50,8 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
         now = np.full(before, -1)
         now[parent[~new]] = np.flatnonzero(~new)
         open_ = open_[parent] & ~new
-        child, splitting = np.flatnonzero(new), np.zeros(before, dtype=bool)
-        splitting[parent[child]] = True
-        own = np.flatnonzero((camera >= 0) & splitting[camera])
+        child = np.flatnonzero(new)
+        own = np.flatnonzero((camera >= 0) & mask(before, parent[child])[camera])
         pairs = inherited(camera[own], column[own], parent[child], child)
         candidates = Overlaps.of(cameras, frames, pairs, met).in_sight(last)
         camera = np.where(camera >= 0, now[camera], -1)

@@ -22,24 +22,19 @@ def straying(cameras: Cameras, frames: SceneFrames, face: np.ndarray, uv: np.nda
 
     Parameters
     ----------
-    column : (e,) int64
-        Of the `frames`: the diffuse triangle that is drawn.
-    shown : (3, e) float64
-        The point of it that is drawn there.
+    column : (e,) int64, of the `frames`: the diffuse triangle that is drawn
+    shown : (3, e) float64, the point of it that is drawn there
 
     Returns
     -------
     drift, error : (e,) float64
         Pixels between the place where `shown` is drawn and where it is truly seen, and as much of them as an eye could
         tell inside a face.
-    point : (3, e) float64
-        What is truly seen there.
-    s : (e,) float64
-        How far along its ray.
+    point : (3, e) float64, what is truly seen there
+    s : (e,) float64, how far along its ray
     """
-    parts = []
-    for part in portions(max(len(column), 1), EDGES_AT_ONCE):
-        parts.append(_straying(cameras, frames, face[part], uv[:, part], column[part], shown[:, part]))
+    parts = [_straying(cameras, frames, face[part], uv[:, part], column[part], shown[:, part])
+             for part in portions(max(len(column), 1), EDGES_AT_ONCE)]
     drift, error, point, s = (np.concatenate(side, axis=-1) for side in zip(*parts))
     return drift, error, point, s
 

@@ -35,8 +35,7 @@ class Faces(ColumnArrays):
         Returns
         -------
         children : Faces
-        whole : (m, 3) bool
-            Which of their edges are whole edges of their parents.
+        whole : (m, 3) bool, which of their edges are whole edges of their parents
         """
         parent, local = split(middle >= 0)
         six = np.concatenate((self.nodes, middle), axis=1)[parent]
@@ -53,10 +52,8 @@ def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Face
 
     Parameters
     ----------
-    node_of : (k,) int64
-        Node of each polygon corner.
-    pixels : (n, 2) float64
-        Picture positions of the nodes.
+    node_of : (k,) int64, node of each polygon corner
+    pixels : (n, 2) float64, picture positions of the nodes
     """
     size, polygon = polygons.size, polygons.polygon
     start, length = polygons.start[:-1][polygon], size[polygon]

@@ -69,8 +69,7 @@ def vertex_images(candidates: Candidates) -> tuple[VertexImages, dict]:
     Returns
     -------
     images : VertexImages
-    counts : dict
-        Pairs solved, roots found, images kept.
+    counts : dict, pairs solved, roots found, images kept
     """
     cameras, frames = candidates.cameras, candidates.frames
     positions = frames.positions
@@ -93,10 +92,8 @@ def images_of_pairs(cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
     Returns
     -------
     images : VertexImages
-    counts : dict
-        Pairs solved, roots found.
-    pair : (n,) int64
-        The pair that each image was found in.
+    counts : dict, pairs solved, roots found
+    pair : (n,) int64, the pair that each image was found in
     """
     view, mirror_map = cameras.view, cameras.mirror_map
     corners = cameras.corners[camera]

@@ -26,16 +26,12 @@ class FrontImages:
 
     Attributes
     ----------
-    width, height : int
-        Of the picture.
-    face : (width x height,) int64
-        The nearest, along the rows from below; -1 where there is none.
-    plane : (m, 3) float64
-        Coefficients of x, y and 1 in pixels.
+    width, height : int, of the picture
+    face : (width x height,) int64, the nearest, along the rows from below; -1 where there is none
+    plane : (m, 3) float64, coefficients of x, y and 1 in pixels
     nearness : (m, 3) float64
         Of the faces' corners: the inverse distance, or, in orthographic views, what is left of the longest one.
-    several : (m,) bool
-        Whether the triangle of the scene that a face shows has other images.
+    several : (m,) bool, whether the triangle of the scene that a face shows has other images
     """
 
     width: int
@@ -71,10 +67,8 @@ class FrontImages:
 
         Parameters
         ----------
-        face : (k,) int64
-            That each piece is a part of.
-        pixels : (k, 3, 2) float64
-            Where its corners are seen.
+        face : (k,) int64, that each piece is a part of
+        pixels : (k, 3, 2) float64, where its corners are seen
         """
         hidden = np.zeros((len(face), 4), dtype=bool)
         asked = np.flatnonzero(self.several[face])

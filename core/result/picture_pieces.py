@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import ColumnArrays, connected, distinct, doubled_areas, edge_lengths, following, split
+from ..geometry import ColumnArrays, connected, distinct, doubled_areas, edge_lengths, following, numbered, split
 from ..support import breathe, portions
 from ..views import View
 from .hidden_images import FrontImages
@@ -153,9 +153,7 @@ def _images(view: View, mesh: ReflectionMesh) -> np.ndarray:
     area = np.abs(doubled_areas(view.pixels(mesh.positions)[mesh.triangles]))
     breathe()
     of_parts = np.bincount(part, np.where(np.isfinite(area), area, 0.0))
-    rank = np.empty(len(of_parts), dtype=np.int64)
-    rank[np.argsort(-of_parts, kind="stable")] = np.arange(len(of_parts))
-    return rank[part]
+    return numbered(len(of_parts), np.argsort(-of_parts, kind="stable"))[part]
 
 
 def _in_picture(pixels: np.ndarray, view: View) -> np.ndarray:

@@ -16,14 +16,10 @@ def holders(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np
 
     Parameters
     ----------
-    owner : (k,) int64
-        Triangle that each piece lies in.
-    corners : (k, 3, 3) float64
-        Barycentric coordinates of the piece's corners there.
-    face : (n,) int64
-        Triangle that each point lies in.
-    points : (n, 3) float64
-        Its barycentric coordinates there.
+    owner : (k,) int64, triangle that each piece lies in
+    corners : (k, 3, 3) float64, barycentric coordinates of the piece's corners there
+    face : (n,) int64, triangle that each point lies in
+    points : (n, 3) float64, its barycentric coordinates there
     """
     point, piece = _near(owner, corners[:, :, 1:], face, points[:, 1:])
     breathe()

@@ -21,11 +21,9 @@ def place(view: View, places: np.ndarray, path_length: np.ndarray, placement: st
 
     Parameters
     ----------
-    path_length : (n,) float64
-        Of the whole way behind the mirror, in scene units.
+    path_length : (n,) float64, of the whole way behind the mirror, in scene units
     placement : {'LAYERED', 'SURFACE', 'VIRTUAL'}
-    reach : float
-        Length of a path over which the layers of an orthographic view spread at least.
+    reach : float, length of a path over which the layers of an orthographic view spread at least
     """
     if placement == "SURFACE" or not len(path_length):
         return places

@@ -38,21 +38,16 @@ def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray,
     ----------
     vertices, rays : (n, 3, 3) float64
     points : (n, 3) float64
-    lengths_of : function of places and velocities
-        `common_lengths` or `own_lengths`.
+    lengths_of : function of places and velocities, `common_lengths` or `own_lengths`
 
     Returns
     -------
-    pair : (m,) int64
-        Of each image, in no order, but rising in distance for each pair.
+    pair : (m,) int64, of each image, in no order, but rising in distance for each pair
     distance : (m,) float64
     weights : (m, 3) float64
-    sign : (m,) int8
-        Of the cubic's derivative.
-    side : (m,) float64
-        Positive where the rays leave on the side of the triangle's normal by its winding.
-    doubtful : (n,) bool
-        Pairs that were left out.
+    sign : (m,) int8, of the cubic's derivative
+    side : (m,) float64, positive where the rays leave on the side of the triangle's normal by its winding
+    doubtful : (n,) bool, pairs that were left out
     """
     still, moving = cubic.differences(vertices, rays, points)
     lengths = lengths_of(still, moving)

@@ -1,6 +1,8 @@
 """Images in doubtful pairs: the closest look, with bounds for each pair alone, whatever its cubic."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..geometry import cross, dot
@@ -52,7 +54,7 @@ def doubtful_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
         pairs = np.unique(roots.cubic[rough])
         sharpen(pairs)
         again, degenerate[pairs] = monotone_roots(cubics[:, pairs], bounds[:, pairs], reach[0][pairs], reach[1][pairs])
-        roots = roots.joined((roots.select(~np.isin(roots.cubic, pairs)), again.of(pairs)))
+        roots = roots.joined((roots.select(~np.isin(roots.cubic, pairs)), replace(again, cubic=pairs[again.cubic])))
     roots = roots.select(~_may_have_met(roots, cubics, bounds))
     with np.errstate(divide="ignore"):
         distance = np.where(roots.reversed, 1.0 / roots.value, roots.value) * (speed / length)[roots.cubic]

@@ -24,15 +24,13 @@ def monotone_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray
 
     Parameters
     ----------
-    coefficients, bounds : (4, n) float64
-        c0 to c3, and bounds on their absolute errors.
+    coefficients, bounds : (4, n) float64, c0 to c3, and bounds on their absolute errors
     low, high : (n,) float64
 
     Returns
     -------
     roots : Roots
-    degenerate : (n,) bool
-        Cubics that rounding cannot tell from zero; they have no roots here.
+    degenerate : (n,) bool, cubics that rounding cannot tell from zero; they have no roots here
 
     References
     ----------

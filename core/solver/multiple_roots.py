@@ -48,12 +48,9 @@ def merged(roots: Roots, slot: np.ndarray, ends: np.ndarray, flat: np.ndarray, c
 
     Parameters
     ----------
-    slot : (m,) int64
-        The interval that each root was found in.
-    ends : (4, n) float64
-        Of the intervals.
-    flat : (2, n) bool
-        Whether the extrema may be zero.
+    slot : (m,) int64, the interval that each root was found in
+    ends : (4, n) float64, of the intervals
+    flat : (2, n) bool, whether the extrema may be zero
     c, bounds : (4, n) float64
     """
     k = np.flatnonzero((roots.cubic[1:] == roots.cubic[:-1]) & (slot[1:] == slot[:-1] + 1))

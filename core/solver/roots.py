@@ -1,7 +1,7 @@
 """What solving a cubic gives: its positive roots, each with bounds on its error."""
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,16 +17,12 @@ class Roots(ColumnArrays):
 
     Attributes
     ----------
-    cubic : (m,) int64
-        Which cubic.
-    value : (m,) float64
-        At least 0, and at most 1 where reversed.
-    reversed : (m,) bool
-        Whether the root is 1 / `value`.
+    cubic : (m,) int64, which cubic
+    value : (m,) float64, at least 0, and at most 1 where reversed
+    reversed : (m,) bool, whether the root is 1 / `value`
     sign : (m,) int8
         Sign of the cubic's derivative by s at the root, 0 where rounding cannot tell it from a multiple root.
-    error : (m,) float64
-        Bound on the error of `value`, to first order in the unit roundoff.
+    error : (m,) float64, bound on the error of `value`, to first order in the unit roundoff
     spread : (m,) float64
         How far from `value` the separate roots may lie that count as one multiple root; `error` for a simple one.
     """
@@ -37,7 +33,3 @@ class Roots(ColumnArrays):
     sign: np.ndarray
     error: np.ndarray
     spread: np.ndarray
-
-    def of(self, cubics: np.ndarray) -> Roots:
-        """The same with each cubic k called `cubics[k]`."""
-        return replace(self, cubic=cubics[self.cubic])

@@ -39,17 +39,13 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray,
 
     Parameters
     ----------
-    c : (4, n) float64
-        Coefficients c0 to c3.
-    bounds : (4, n) float64
-        Bounds on their absolute errors.
-    noise : function of cubics (m,) and values (m,)
-        Bound on the error of these cubics' values there, rounding included.
+    c : (4, n) float64, coefficients c0 to c3
+    bounds : (4, n) float64, bounds on their absolute errors
+    noise : function of cubics (m,) and values (m,), bound on the error of these cubics' values there, rounding included
 
     Returns
     -------
-    uncertain : (n,) bool
-        Cubics of which that cannot be said; they have no roots here.
+    uncertain : (n,) bool, cubics of which that cannot be said; they have no roots here
     roots : Roots
 
     References

@@ -21,12 +21,9 @@ class Bound:
 
     Attributes
     ----------
-    most : int
-        Pairs of cones (n) and triangles.
-    worth : (n,) float64
-        Of cones that meet too much, those are given up first that meet the most for their worth.
-    enough : (n,) float64, optional
-        Triangles, to be tested at a time, from which on a cone is full.
+    most : int, pairs of cones (n) and triangles
+    worth : (n,) float64, of cones that meet too much, those are given up first that meet the most for their worth
+    enough : (n,) float64, optional, triangles, to be tested at a time, from which on a cone is full
     """
 
     most: int
@@ -48,12 +45,9 @@ class Touching:
     Attributes
     ----------
     cone, triangle : (p,) int64
-    visited : int
-        Tests of a cone against a node.
-    given_up : (n,) bool
-        Cones that meet too much of all that may be found; no pair of them is among these.
-    full : (n,) bool
-        Cones that meet more than is worth looking at; no pair of them is among these either.
+    visited : int, tests of a cone against a node
+    given_up : (n,) bool, cones that meet too much of all that may be found; no pair of them is among these
+    full : (n,) bool, cones that meet more than is worth looking at; no pair of them is among these either
     """
 
     cone: np.ndarray
@@ -92,10 +86,8 @@ def bounded_trace(tree: SceneTree, cones: Cones | Shafts, bound: Bound,
     tree : SceneTree
     cones : Cones or Shafts
     bound : Bound
-    asked : callable, optional
-        Which pairs (p,) of a cone and a triangle count.
-    family : (n,) int64, optional
-        Rising: cones of one family lie close together.
+    asked : callable, optional, which pairs (p,) of a cone and a triangle count
+    family : (n,) int64, optional, rising: cones of one family lie close together
     """
     worth, most = bound.worth, bound.most
     wanted, visits = np.ones(len(worth), dtype=bool), VISITS_OF_A_PAIR * most

@@ -29,15 +29,11 @@ class BoxTree:
     ----------
     middle : (3,) float64
         Of the mesh; boxes and triangles below are relative to it, which keeps their digits far from the origin.
-    size : float
-        Half the diagonal of the box around the mesh.
+    size : float, half the diagonal of the box around the mesh
     low, high : (3, n) float64
-    child : (n,) int64
-        The first of a node's two children, which lie side by side; -1 for a leaf.
-    start, count : (n,) int64
-        A leaf's run in `order`.
-    order : (t,) int64
-        Triangles of the mesh, leaf after leaf.
+    child : (n,) int64, the first of a node's two children, which lie side by side; -1 for a leaf
+    start, count : (n,) int64, a leaf's run in `order`
+    order : (t,) int64, triangles of the mesh, leaf after leaf
     frames : (12, t) float64
         Of the triangles in that order: an affine map in which the triangle's plane is z = 0 and x and y are the
         barycentric coordinates of its second and third corner; rows x, y, z, four entries each (D. Baldwin, M. Weber,

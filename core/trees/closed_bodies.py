@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, borders, columns, connected, cross, dot, rows, solid_angles
+from ..geometry import TriangleMesh, borders, columns, connected, cross, dot, mask, numbered, rows, solid_angles
 from ..support import portions
 from ..views import Covered, View
 from .cones import Cones
@@ -32,16 +32,11 @@ class ClosedBodies:
     Attributes
     ----------
     mesh : TriangleMesh
-    border : (v,) int64
-        Vertices at which the surface ends, or turns its other side.
-    part : (v,) int64
-        The part of the mesh that each vertex is of: what hangs together by vertices in one place.
-    body : (m,) int64
-        The body that each triangle bounds, -1 for none.
-    outward : (m,) float64
-        1 where its normal points out of the body that it bounds, 0 where it bounds none.
-    low, high : (3, k) float64
-        The boxes round the bodies along the directions of `FRAME`.
+    border : (v,) int64, vertices at which the surface ends, or turns its other side
+    part : (v,) int64, the part of the mesh that each vertex is of: what hangs together by vertices in one place
+    body : (m,) int64, the body that each triangle bounds, -1 for none
+    outward : (m,) float64, 1 where its normal points out of the body that it bounds, 0 where it bounds none
+    low, high : (3, k) float64, the boxes round the bodies along the directions of `FRAME`
     """
 
     mesh: TriangleMesh
@@ -60,9 +55,8 @@ class ClosedBodies:
         ends = borders(places, len(mesh.positions))[mesh.places]
         border = np.flatnonzero(ends)
         part = connected(places)
-        closed = np.ones(int(part.max(initial=-1)) + 1, dtype=bool)
-        closed[part[ends[triangles].any(axis=1)]] = False
-        number = np.where(closed, np.cumsum(closed) - 1, -1)
+        closed = ~mask(int(part.max(initial=-1)) + 1, part[ends[triangles].any(axis=1)])
+        number = numbered(len(closed), closed)
         body = number[part] if len(part) else part
         part_of = np.zeros(len(mesh.positions), dtype=np.int64)
         part_of[triangles.ravel()] = np.repeat(part, 3)
@@ -178,6 +172,4 @@ def _overlapping(spots: np.ndarray, corner: np.ndarray, body: np.ndarray, facing
     last = np.append(first, len(line))[1:] - 1
     wrong = inside < 0.0
     wrong[last] |= inside[last] != 0.0
-    found = np.zeros(count, dtype=bool)
-    found[owner[order[wrong]]] = True
-    return found
+    return mask(count, owner[order[wrong]])

@@ -27,12 +27,9 @@ class Hits:
 
     Attributes
     ----------
-    triangle : (n,) int64
-        -1 where a ray meets none.
-    distance : (n,) float64
-        In lengths of the direction, infinite where none.
-    intersections, nodes : int
-        Tests of a ray against a triangle and against a box.
+    triangle : (n,) int64, -1 where a ray meets none
+    distance : (n,) float64, in lengths of the direction, infinite where none
+    intersections, nodes : int, tests of a ray against a triangle and against a box
     """
 
     triangle: np.ndarray
@@ -49,10 +46,8 @@ def first_hits(tree: BoxTree, origins: np.ndarray, directions: np.ndarray, *, le
     Parameters
     ----------
     origins, directions : (3, n) float64
-    least : float
-        Hits nearer than this are the surface that the ray starts on.
-    limit : (n,) float64, optional
-        Hits from this distance on do not count.
+    least : float, hits nearer than this are the surface that the ray starts on
+    limit : (n,) float64, optional, hits from this distance on do not count
     asked : callable, optional
         Which pairs (p,) of a ray and a triangle count; not, for one, those of a ray and what it starts on.
     """

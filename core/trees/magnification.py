@@ -22,12 +22,9 @@ class Magnification:
 
     Attributes
     ----------
-    still, mixed, moving : (3, n) float64
-        Entries 00, 01, 11 of A0'A0, A0'A1 + A1'A0 and A1'A1.
-    along : (2, n) float64
-        Lengths of the parts of A0 and A1 along the axis.
-    speed : (n,) float64
-        The least |R| of the camera's rays.
+    still, mixed, moving : (3, n) float64, entries 00, 01, 11 of A0'A0, A0'A1 + A1'A0 and A1'A1
+    along : (2, n) float64, lengths of the parts of A0 and A1 along the axis
+    speed : (n,) float64, the least |R| of the camera's rays
     """
 
     still: np.ndarray

@@ -28,18 +28,13 @@ class NodeTree:
 
     Attributes
     ----------
-    mesh : TriangleMesh
-        The scene in its canonical order, which all that follows names.
-    given : Order
-        Where its parts are in the mesh that was given.
-    depth : int
-        The leaves are the 2**depth nodes of the last level.
+    mesh : TriangleMesh, the scene in its canonical order, which all that follows names
+    given : Order, where its parts are in the mesh that was given
+    depth : int, the leaves are the 2**depth nodes of the last level
     spheres : list of (4, 2**level) float64
         Centre and radius around what each node of each level holds; a radius of -inf where that is nothing.
-    leaf_start : (2**depth + 1,) int64
-        Leaf i holds order[leaf_start[i]:leaf_start[i + 1]].
-    order : (n,) int64
-        Triangles or vertices, leaf after leaf; triangles without an area are left out.
+    leaf_start : (2**depth + 1,) int64, leaf i holds order[leaf_start[i]:leaf_start[i + 1]]
+    order : (n,) int64, triangles or vertices, leaf after leaf; triangles without an area are left out
     """
 
     mesh: TriangleMesh

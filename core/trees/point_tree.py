@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, columns, cross, following, ordered, rows, unit
+from ..geometry import TriangleMesh, columns, cross, following, mask, ordered, rows, unit
 from .cones import Cones
 from .magnification import Magnification
 from .node_tree import along_curve
@@ -23,10 +23,8 @@ class PointPairs:
     camera, vertex : (p,) int64
     stood : (p,) float64
         Radius of the sphere round the vertices that this one stands for, 0 where it stands for itself alone.
-    visited : int
-        Tests of a cone against a node.
-    covered : (v,) bool
-        Vertices of the mesh in nodes of which one stands for all.
+    visited : int, tests of a cone against a node
+    covered : (v,) bool, vertices of the mesh in nodes of which one stands for all
     """
 
     camera: np.ndarray
@@ -125,6 +123,4 @@ def _surface(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     # of several assignments to one vertex the last, the largest, stays
     order = np.argsort(side[areal])
     reach[vertex[order].ravel()] = np.repeat(side[areal][order], 3) / np.sqrt(3.0)
-    used = np.zeros(count, dtype=bool)
-    used[vertex.ravel()] = True
-    return np.flatnonzero(used), unit(normal), reach
+    return np.flatnonzero(mask(count, vertex)), unit(normal), reach

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..geometry import Order, TriangleMesh, columns, dot, in_order, largest, ordered, ranges, rows, shares
+from ..geometry import Order, TriangleMesh, columns, dot, in_order, largest, mask, ordered, ranges, rows, shares
 from ..support import breathe, portions
 from .box_tree import BoxTree
 from .closed_bodies import ClosedBodies
@@ -65,9 +65,7 @@ class SceneTree(NodeTree):
         low, high, spheres_of_each = _boxes_and_spheres(mesh)
         areal = np.flatnonzero(mesh.areal)
         breathe()
-        some = np.zeros(len(mesh.positions), dtype=bool)
-        some[mesh.triangles[areal].ravel()] = True
-        used = np.flatnonzero(some)
+        used = np.flatnonzero(mask(len(mesh.positions), mesh.triangles[areal]))
         leaf_of_vertex = np.zeros(len(mesh.positions), dtype=np.int64)
         depth, curve = depth_for(len(used), BUCKET), used
         if len(used):

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import across, columns, dot, norm, unit
+from ..geometry import across, columns, dot, mask, norm, unit
 from .cones import Cones
 
 ROUNDING = 1e-12  # of the lengths that planes are made of
@@ -25,12 +25,9 @@ class Shafts:
     Attributes
     ----------
     cones : Cones
-    places, rays : (3, k) float64
-        The rays, of unit length, that the corners leave, those of one shaft side by side.
-    start : (n,) int64
-        Where those of each shaft begin.
-    reach : float
-        How far away the shafts are to be close round their rays, in scene units.
+    places, rays : (3, k) float64, the rays, of unit length, that the corners leave, those of one shaft side by side
+    start : (n,) int64, where those of each shaft begin
+    reach : float, how far away the shafts are to be close round their rays, in scene units
     """
 
     cones: Cones
@@ -65,9 +62,7 @@ class Shafts:
             for corner in corners[left].T:
                 beyond &= dot(own, positions.take(corner, axis=0).T) > own[3]
             left = left[~beyond]
-        held = np.zeros(len(shaft), dtype=bool)
-        held[left] = True
-        return held
+        return mask(len(shaft), left)
 
     @cached_property
     def planes(self) -> list[np.ndarray]:

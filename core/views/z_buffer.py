@@ -24,12 +24,9 @@ class Drawn:
 
     Attributes
     ----------
-    triangle : (n,) int64
-        -1 where there is none.
-    weights : (3, n) float64
-        Barycentric coordinates, zero where there is none.
-    depth : (n,) float64
-        Distance from the eye's plane, infinite where there is none.
+    triangle : (n,) int64, -1 where there is none
+    weights : (3, n) float64, barycentric coordinates, zero where there is none
+    depth : (n,) float64, distance from the eye's plane, infinite where there is none
     """
 
     triangle: np.ndarray

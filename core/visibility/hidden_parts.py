@@ -50,8 +50,7 @@ class HiddenParts(ColumnArrays):
     eye : (q,) float64
         How far the eye is from the plane, in the units of the last function; in orthographic views, how fast one
         comes nearer to the plane on the way to the eye.
-    camera, column : (q,) int64
-        The triangle's column in the frames.
+    camera, column : (q,) int64, the triangle's column in the frames
     """
 
     parts: ConvexPolygons

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..culling import Candidates, SceneAndMirrors
-from ..geometry import between, columns, dot, groups, in_order, largest, others, ranges, shares, smallest
+from ..geometry import between, columns, dot, groups, in_order, largest, mask, others, ranges, shares, smallest
 from ..polygons import Line, Lines, Polygons, clip, divide, scene_edges
 
 MOST_PIECES = 1 << 20  # what is not cut along all outlines is hidden or not by its middle
@@ -26,9 +26,7 @@ def cut_behind_mirrors(met: SceneAndMirrors, polygons: Polygons) -> tuple[Polygo
     mirror = np.flatnonzero(met.are_mirrors(candidates))
     if not len(mirror):
         return polygons, 0, 0
-    touched = np.zeros(len(candidates.cameras), dtype=bool)
-    touched[candidates.camera[mirror]] = True
-    asked = touched[polygons.camera]
+    asked = mask(len(candidates.cameras), candidates.camera[mirror])[polygons.camera]
     if not asked.any():
         return polygons, 0, 0
     pieces, many = _along_outlines(_outlines(met, candidates.select(mirror)), polygons.select(asked))

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..cameras import Cameras
-from ..geometry import largest, rows, shares, smallest
+from ..geometry import largest, mask, rows, shares, smallest
 from ..views import Covered, box, planes
 
 SAMPLES = 256  # across the wider side of the picture
@@ -74,8 +74,7 @@ class DepthGrid:
             seen = nearness + grid._margin(nearness) >= grid.nearest.ravel()[pixel]
             shows[camera[seen]], hides[camera[~seen]] = True, True
         hides = (inside[corners] & grid._hides(spots, order)).all(axis=0) & (hides | ~shows)
-        corner_seen = np.zeros(cameras.places.shape[1], dtype=bool)
-        corner_seen[cameras.corners[shows | ~hides]] = True
+        corner_seen = mask(cameras.places.shape[1], cameras.corners[shows | ~hides])
         return grid, corner_seen[cameras.corners].any(axis=1)
 
     @property

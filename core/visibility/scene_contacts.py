@@ -12,7 +12,7 @@ import numpy as np
 
 from ..cameras import Cameras, picture_areas
 from ..culling import Candidates, inherited
-from ..geometry import TriangleMesh, distinct, largest, meeting, norm, rows, smallest
+from ..geometry import TriangleMesh, distinct, largest, mask, meeting, norm, numbered, rows, smallest
 from ..result import DEPTH, GAP
 from ..support import crowded, portions
 from .hidden_parts import DEEPER, MOST_HIDING, HiddenParts
@@ -30,16 +30,13 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
 
     Parameters
     ----------
-    again : callable
-        The candidates among pairs of a camera and a column, asked for the pieces of cameras that were cut.
+    again : callable, the candidates among pairs of a camera and a column, asked for the pieces of cameras that were cut
 
     Returns
     -------
     candidates : Candidates
-    crowd : (n,) bool
-        Cameras too crowded to be looked at again.
-    count, left : int
-        How many were cut, and how many were not, or not along all outlines.
+    crowd : (n,) bool, cameras too crowded to be looked at again
+    count, left : int, how many were cut, and how many were not, or not along all outlines
     """
     cameras, frames = candidates.cameras, candidates.frames
     found, left = _hidden_closely(candidates)
@@ -56,12 +53,9 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
         return candidates, np.zeros(given, dtype=bool), 0, left
     whole = shown.copy()
     whole[cut] = False
-    now, before = np.full(given, -1), int(whole.sum())
-    now[whole] = np.arange(before)
-    is_cut = np.zeros(given, dtype=bool)
-    is_cut[cut] = True
+    now, before = numbered(given, whole), int(whole.sum())
     # what else may be seen in a camera is asked of its pieces
-    asked = np.flatnonzero(is_cut[candidates.camera])
+    asked = np.flatnonzero(mask(given, cut)[candidates.camera])
     camera, column = candidates.camera[asked], candidates.column[asked]
     crowd, piece = np.zeros(len(cameras), dtype=bool), before + np.arange(len(parent))
     crowd[piece] = crowded(np.bincount(camera, minlength=given)[parent], picture_areas(cameras.select(piece)),

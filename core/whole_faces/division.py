@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import distinct, doubled_areas, edge_numbers, next_corner
+from ..geometry import distinct, doubled_areas, edge_numbers, mask, next_corner, numbered
 from ..patches import Patch
 from ..support import DOUBT_SHARE, WHOLE_OUTLINE_SHARE, breathe
 from .images import Images
@@ -30,13 +30,10 @@ class Division:
     Attributes
     ----------
     patch : Patch
-    tolerance : float
-        Pixels that edges inside a surface may stray.
+    tolerance : float, pixels that edges inside a surface may stray
     sinking : Sinking
-    virtual : bool
-        Faces are drawn at the virtual image's depth.
-    most : int
-        Pieces that there may be.
+    virtual : bool, faces are drawn at the virtual image's depth
+    most : int, pieces that there may be
     """
 
     patch: Patch
@@ -71,8 +68,7 @@ class Division:
             one, other = pieces.nodes[side, face], pieces.nodes[next_corner(side), face]
             count = len(images)
             keys, edge = distinct(edge_numbers(one, other, count))
-            over = np.zeros(len(keys), dtype=bool)
-            over[edge[~whole(self.patch, images, pieces)[face]]] = True
+            over = mask(len(keys), edge[~whole(self.patch, images, pieces)[face]])
             breathe()
             outline = _outlines(images, pieces, face, edge, len(keys))
             ends = keys // count, keys % count
@@ -84,8 +80,7 @@ class Division:
                 limited = len(middles)
                 finished.append(pieces)
                 break
-            new = np.full(len(keys), -1)
-            new[marked] = count + np.arange(len(middles))
+            new = numbered(len(keys), marked, count)
             images = Images.joined((images, middles))
             breathe()
             middle = np.full(pieces.nodes.shape, -1)

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry import mask
 from ..patches import Patch
 from ..support import breathe
 from ..views import box
@@ -23,8 +24,7 @@ def shown_or_behind(images: Images, pieces: Pieces, outward: np.ndarray | None) 
     away = np.flatnonzero(turned_away(images, pieces, outward[pieces.source]))
     low, high = box(images.pixel[:, pieces.nodes[:, away]])
     away = away[(high - low).max(axis=0) < SMALL]
-    shown = np.ones(len(pieces), dtype=bool)
-    shown[away] = False
+    shown = ~mask(len(pieces), away)
     return pieces.select(shown), pieces.nodes[:, away]
 
 
@@ -37,10 +37,9 @@ def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: np.
     found = np.flatnonzero(found[0] & found[1] & found[2])
     found = found[~_beyond(patch, images, pieces.nodes[:, found])]
     breathe()
-    drawn, left = np.zeros(len(pieces), dtype=bool), np.ones(len(pieces), dtype=bool)
-    drawn[shown] = True
-    left[shown] = False
-    drawn &= np.isin(np.arange(len(pieces)), found)
+    drawn = mask(len(pieces), shown)
+    left = ~drawn
+    drawn &= mask(len(pieces), found)
     nodes = np.concatenate((pieces.nodes[:, found], behind), axis=1)
     solid = np.zeros(nodes.shape[1], dtype=bool)
     solid[:len(found)] = drawn[found]

@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..geometry import ColumnArrays
+from ..geometry import ColumnArrays, mask
 from ..patches import Patch, find, jacobians
 from ..support import portions
 
@@ -66,11 +66,8 @@ class Images(ColumnArrays):
 
     def moved(self, patch: Patch, *nodes: np.ndarray) -> Images:
         """The same images; how those of all these nodes move is worked out and kept, once for each."""
-        asked = np.zeros(len(self), dtype=bool)
-        for some in nodes:
-            asked[some] = True
-        asked &= self.found & np.isnan(self.moving[0, 0])
-        chosen = np.flatnonzero(asked)
+        asked = np.logical_or.reduce([mask(len(self), some) for some in nodes])
+        chosen = np.flatnonzero(asked & self.found & np.isnan(self.moving[0, 0]))
         self.moving[:, :, chosen] = jacobians(patch, self.member[chosen], self.uv[:, chosen], self.distance[chosen])
         return self
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import distinct, rows
+from ..geometry import distinct, mask, rows
 from ..result import DEPTH, GAP
 from ..support import INSIDE
 from ..views import Covered
@@ -83,8 +83,7 @@ def _hidden(solid: np.ndarray, covered: Covered, corners: np.ndarray, order: np.
     grid of this size."""
     front, own = np.full(size[0] * size[1], -1.0), solid[covered.face]
     np.maximum.at(front, covered.pixel[own], covered.order[own])
-    shown = np.zeros(len(solid), dtype=bool)
-    shown[covered.face[covered.order >= front[covered.pixel]]] = True
+    shown = mask(len(solid), covered.face[covered.order >= front[covered.pixel]])
     # what is seen in no pixel's middle may be seen beside it
     doubtful = np.flatnonzero(~shown)
     touched = Covered.of(corners[:, :, doubtful], order[:, doubtful], size, True)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import TriangleMesh, areal, columns, cross, dot, doubled_areas, groups, norm, rows
+from ..geometry import TriangleMesh, areal, columns, cross, dot, doubled_areas, groups, mask, norm, rows
 from ..patches import Descent, Patch, Walk
 from ..support import TOGETHER_AT_OUTLINES, breathe, portions
 from ..trees import SceneTree
@@ -30,12 +30,9 @@ class Merged:
 
     Attributes
     ----------
-    images : Images
-        Of the scene's vertices; those that others stand for have none.
-    triangles : (m, 3) int64
-        The scene's triangles between the vertices that stand for their corners.
-    left : (k,) int64, rising
-        Those that have an area still, one of several in the same place.
+    images : Images, of the scene's vertices; those that others stand for have none
+    triangles : (m, 3) int64, the scene's triangles between the vertices that stand for their corners
+    left : (k,) int64, rising, those that have an area still, one of several in the same place
     """
 
     images: Images
@@ -62,9 +59,8 @@ class Merged:
         images.put(new, Images.near(patch, columns(points, new), images.member[near], columns(images.uv, near),
                                     images.distance[near]))
         standing = alone
-        triangles, moved = columns(standing, mesh.triangles), np.zeros(len(own), dtype=bool)
-        moved[standing[standing != own]] = True
-        corner = columns(moved, triangles.T)
+        triangles = columns(standing, mesh.triangles)
+        corner = columns(mask(len(own), standing[standing != own]), triangles.T)
         asked = np.flatnonzero((corner[0] | corner[1] | corner[2]) & mesh.areal)
         breathe()
         left = mesh.areal.copy()
@@ -144,6 +140,4 @@ def _distinct(mesh: TriangleMesh, images: Images, triangles: np.ndarray) -> np.n
     front = doubled_areas(images.pixel[:, triangles[kept]].transpose(1, 2, 0)) < 0.0
     kept = np.concatenate((kept[front], kept[~front]))
     first, _ = groups(*np.sort(triangles[kept], axis=1).T)
-    found = np.zeros(len(triangles), dtype=bool)
-    found[kept[first]] = True
-    return found
+    return mask(len(triangles), kept[first])

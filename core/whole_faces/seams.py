@@ -25,11 +25,9 @@ class Seamed:
 
     Attributes
     ----------
-    place, point : (3, n) float64
-        Of the faces' own nodes, in world space.
+    place, point : (3, n) float64, of the faces' own nodes, in world space
     same : (n,) int64, the node of the cameras' faces that each of them is, or -1
-    nodes : (f, 3) int64
-        Own nodes, and numbered behind them the nodes of the cameras' faces.
+    nodes : (f, 3) int64, own nodes, and numbered behind them the nodes of the cameras' faces
     source : (f,) int64, the scene's triangle that each lies in
     split : (f,) bool, whether it is a part of that triangle only
     mirror_face : (f,) int64, the mirror's triangle that each lies on, -1 where these are several

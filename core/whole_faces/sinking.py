@@ -25,10 +25,8 @@ class Sinking:
     Attributes
     ----------
     patch : Patch
-    layered : bool
-        Whether they are apart at all.
-    size, reach : float
-        Of an orthographic view: what is seen of the mirror, and the longest path.
+    layered : bool, whether they are apart at all
+    size, reach : float, of an orthographic view: what is seen of the mirror, and the longest path
     """
 
     patch: Patch

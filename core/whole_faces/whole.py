@@ -7,7 +7,7 @@ import numpy as np
 
 from ..cameras import Cameras, picture_areas
 from ..culling import SceneAndMirrors, ScenePieces
-from ..geometry import TriangleMesh, norm, rows
+from ..geometry import TriangleMesh, mask, norm, rows
 from ..patches import Patch, speck
 from ..support import FACE_SHARE, TOGETHER, Settings, breathe
 from ..trees import Cones, SceneTree
@@ -36,20 +36,14 @@ class WholeFaces:
     ----------
     positions : (n, 3) float64, of the scene's vertices
     patch : Patch
-    images : Images
-        Of the scene's vertices, and behind them of nodes that its triangles were split at.
-    merged : (m, 3) int64, optional
-        The scene's triangles as they are drawn together, where some are.
-    pieces : Pieces
-        Of all triangles.
+    images : Images, of the scene's vertices, and behind them of nodes that its triangles were split at
+    merged : (m, 3) int64, optional, the scene's triangles as they are drawn together, where some are
+    pieces : Pieces, of all triangles
     drawn, left : (f,) bool
         Which of the pieces are drawn, and which are left for the cameras of the patch; nearer ones hide the others.
-    hidden : int
-        How many are hidden, of these and of pieces that are not told.
-    straying : (2, e) float64
-        By how many pixels edges stray, and over how many.
-    limited : int
-        Edges that were not split since there would be too many pieces.
+    hidden : int, how many are hidden, of these and of pieces that are not told
+    straying : (2, e) float64, by how many pixels edges stray, and over how many
+    limited : int, edges that were not split since there would be too many pieces
     """
 
     positions: np.ndarray
@@ -66,11 +60,10 @@ class WholeFaces:
     def scene_pieces(self) -> ScenePieces:
         """What is left to the cameras of the patch."""
         pieces, patch, points = self.pieces.select(self.left), self.patch, self.images.point
-        on_patch, open_ = (np.zeros(len(patch.mirror_map.surface), dtype=bool) for _ in range(2))
-        on_patch[patch.face] = True
         low, high, unknown = _boxes(patch, self.images, pieces.nodes)
         cells = patch.border.with_boxes(low[:, ~unknown], high[:, ~unknown])
-        open_[patch.face[_seeing(patch, points[:, pieces.nodes[:, unknown]])]] = True
+        seeing = _seeing(patch, points[:, pieces.nodes[:, unknown]])
+        on_patch, open_ = (mask(len(patch.mirror_map.surface), face) for face in (patch.face, patch.face[seeing]))
         positions = np.concatenate((self.positions, (points[:, len(self.positions):] + patch.eye).T))
         return ScenePieces(TriangleMesh(positions, pieces.nodes.T), pieces.source, on_patch, cells, open_, self.merged)
 
@@ -111,9 +104,7 @@ def _seeing(patch: Patch, corners: np.ndarray) -> np.ndarray:
         getattr(cones, field.name)[..., turning] = getattr(probed, field.name)
     positions = np.ascontiguousarray(corners.transpose(2, 1, 0)).reshape(-1, 3)
     tree = SceneTree.of_ordered(TriangleMesh(positions, np.arange(len(positions)).reshape(-1, 3)))
-    seeing = np.zeros(len(patch), dtype=bool)
-    seeing[tree.trace(cones)[0]] = True
-    return seeing
+    return mask(len(patch), tree.trace(cones)[0])
 
 
 @np.errstate(all="ignore")  # what is too large or too small to be told has no image, and is left
@@ -124,15 +115,11 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, re
     Parameters
     ----------
     cameras : Cameras
-    eligible : (n,) bool
-        Cameras that are triangles of the mirror whole, and show no mirror.
-    met : SceneAndMirrors
-        With a scene of triangles.
-    reach : float
-        Length of the longest path that there may be, in scene units.
+    eligible : (n,) bool, cameras that are triangles of the mirror whole, and show no mirror
+    met : SceneAndMirrors, with a scene of triangles
+    reach : float, length of the longest path that there may be, in scene units
     settings : Settings
-    most : int
-        Pieces that there may be.
+    most : int, pieces that there may be
 
     Returns
     -------
