@@ -40,7 +40,9 @@ def tolerance(scratch: Path) -> list[Path]:
 
 
 def placement(scratch: Path) -> list[Path]:
-    return [_tile(scratch / f"{name}.png", beside=True, placement=name) for name in ("LAYERED", "SURFACE", "VIRTUAL")]
+    # from beside, what the camera does not see is missed
+    return [_tile(scratch / f"{name}.png", beside=True, placement=name, hidden_faces=True)
+            for name in ("LAYERED", "SURFACE", "VIRTUAL")]
 
 
 def made_of(scratch: Path) -> list[Path]:

@@ -91,7 +91,9 @@ def _room(name: str):
 @contextmanager
 def _nothing_filled() -> Iterator[None]:
     """Leave the step `filling` out of the method: what it would fill stays as clipping left it."""
-    with mock.patch.object(_room("core.filling").Crowds, "filled", lambda crowds, candidates: (candidates, 0, 0)):
+    crowds = _room("core.filling.crowds")
+    with mock.patch.object(crowds.Crowds, "filled", lambda _, candidates: crowds.Filled(
+            candidates, np.zeros((0, 3), dtype=np.int64), 0, 0, False)):
         yield
 
 

@@ -21,7 +21,7 @@ from tools import extension_zip
 SAMPLES = extension_zip.ROOT / "sample_blends"
 PANEL, GAP = 480, 6
 LIT = ("room", "bathroom", "pond")
-OWN_PICTURES = (*LIT, "anamorphosis", "pool", "sunlight", "dish")
+OWN_PICTURES = (*LIT, "anamorphosis", "pool", "ring", "sunlight", "dish")
 
 
 def main(folder: Path) -> None:
