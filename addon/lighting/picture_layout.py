@@ -12,7 +12,7 @@ import numpy as np
 from ...core import View
 from ..faults import Steps
 from ..reading.materials import glows
-from ..writing import UV_MAP, light_layer, place_of
+from ..writing import light_layer, light_points, place_of
 from .window import Window
 
 COLOUR = "Reflection Light Colour"
@@ -104,8 +104,7 @@ def _write_spots(mesh: bpy.types.Mesh, spots: np.ndarray) -> None:
         layer.uv.foreach_set("vector", spots[corners].astype(np.float32).reshape(-1))
         layer.active = layer.active_render = True
     else:
-        known = mesh.attributes.get(UV_MAP) or mesh.attributes.new(UV_MAP, "FLOAT2", "POINT")
-        known.data.foreach_set("vector", spots.astype(np.float32).reshape(-1))
+        light_points(mesh).data.foreach_set("vector", spots.astype(np.float32).reshape(-1))
 
 
 def shining_slots(result: bpy.types.Object) -> set[int]:

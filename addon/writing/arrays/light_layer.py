@@ -1,5 +1,6 @@
 """The UV map by which a result shows light, and the images that it shows."""
 import bpy
+import numpy as np
 
 UV_MAP = "Reflection Light"
 
@@ -12,6 +13,24 @@ def light_layer(mesh: bpy.types.Mesh) -> bpy.types.MeshUVLoopLayer:
         mesh.uv_layers.remove(mesh.uv_layers[len(mesh.uv_layers) - 1])
         layer = mesh.uv_layers.new(name=UV_MAP, do_init=False)
     return layer
+
+
+def light_points(mesh: bpy.types.Mesh) -> bpy.types.Attribute:
+    """The map of loose points, as an attribute that their discs have at their corners.
+
+    It takes the place of the first map, which goes behind all others: Blender 5 lets discs show the map of that place.
+    """
+    known = mesh.attributes.get(UV_MAP)
+    if known is not None:
+        return known
+    first = next((entry.name for entry in mesh.attributes if entry.data_type == "FLOAT2"), None)
+    if first is None:
+        return mesh.attributes.new(UV_MAP, "FLOAT2", "POINT")
+    values = np.empty(2 * len(mesh.vertices), dtype=np.float32)
+    mesh.attributes[first].data.foreach_get("vector", values)
+    mesh.attributes[first].name = UV_MAP
+    mesh.attributes.new(first, "FLOAT2", "POINT").data.foreach_set("vector", values)
+    return mesh.attributes[UV_MAP]
 
 
 def images_of(material: bpy.types.Material) -> list[bpy.types.Image]:

@@ -6,6 +6,7 @@ import math
 import bpy
 
 from ...faults import AllOrNothing
+from ..arrays import UV_MAP as LIGHT
 from .node_builder import Builder
 
 MODIFIER = "Reflection Points"
@@ -84,6 +85,25 @@ def _draw_discs(tree: bpy.types.NodeTree, uv_maps: list) -> None:
     geometry = materials.outputs["Geometry"]
     for attribute in FACE_NUMBERS:
         geometry = builder.moved(geometry, attribute, "INT", "INT", "FACE")
+    # the first map is what solid view and exporters take: that of light, where there is light
+    geometry = _where_known(builder, points, LIGHT, geometry)
     for attribute in uv_maps:
         geometry = builder.moved(geometry, attribute, "FLOAT_VECTOR", "FLOAT2", "CORNER")
     builder.join(geometry, builder.add("NodeGroupOutput").inputs[0])
+
+
+def _where_known(builder: Builder, points: bpy.types.NodeSocket, uv_map: str,
+                 geometry: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+    """A UV map moved to the corners of `geometry` where the points have it; without it, `geometry` as it is."""
+    known = builder.add("GeometryNodeInputNamedAttribute", data_type="FLOAT_VECTOR")
+    known.inputs["Name"].default_value = uv_map
+    # of the first point, since a switch of geometry takes one value and not one a point
+    first = builder.add("GeometryNodeSampleIndex", data_type="BOOLEAN", domain="POINT")
+    builder.join(points, first.inputs["Geometry"])
+    builder.join(known.outputs["Exists"], next(socket for socket in first.inputs
+                                               if socket.name == "Value" and socket.enabled))
+    choice = builder.add("GeometryNodeSwitch", input_type="GEOMETRY")
+    builder.join(first.outputs[0], choice.inputs["Switch"])
+    builder.join(geometry, choice.inputs["False"])
+    builder.join(builder.moved(geometry, uv_map, "FLOAT_VECTOR", "FLOAT2", "CORNER"), choice.inputs["True"])
+    return choice.outputs["Output"]

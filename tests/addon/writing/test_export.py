@@ -248,3 +248,45 @@ def test_eight_maps_leave_room_for_the_light(blank, room):
     assert result.data.uv_layers.active.name == "Reflection Light"
     floor_again()
     assert len(result.data.uv_layers) == 8 and result.data.uv_layers.active.name == "Reflection Light"
+
+
+def scan_before_a_floor_mirror(context: bpy.types.Context, options: dict) -> bpy.types.Object:
+    """The board as a dense scan, shown by points."""
+    floor_mirror(context, checks(), lamp=True)
+    dense = bpy.data.objects["Board"].modifiers.new("Dense", "SUBSURF")
+    dense.subdivision_type, dense.levels, dense.render_levels = "SIMPLE", 7, 7
+    bpy.ops.reflection_mesh.clear()
+    parts.select(bpy.data.objects["Board"], bpy.data.objects["Floor"])
+    return parts.generate(method="POINTS", **options)
+
+
+@pytest.mark.parametrize("attributes", ["ALL", "SHOWN"])
+def test_discs_show_their_light_in_solid_view_and_in_usd(blank, room, tmp_path, attributes):
+    """The map that is taken where none is named is the light's, as with faces; before they are lit, the source's."""
+    result = scan_before_a_floor_mirror(blank, {"attributes": attributes})
+
+    def shown() -> list[str]:
+        mesh = bpy.data.meshes.new_from_object(result.evaluated_get(bpy.context.evaluated_depsgraph_get()))
+        return [layer.name for layer in mesh.uv_layers if layer.active and layer.active_render]
+    assert shown() == ["UVMap"]
+    bpy.ops.reflection_mesh.light(samples=16)
+    assert shown() == ["Reflection Light"]
+    # of both maps each has its own values still
+    assert np.ptp(parts.attribute(result, "UVMap")) == pytest.approx(1.0, abs=0.1)
+    seen = picture_of(room, [result])
+    assert differs_by(seen, picture_brought_back(room, result, "usdc", tmp_path)) < 0.02
+    bpy.ops.reflection_mesh.light(samples=1)
+    assert shown() == ["Reflection Light"]
+    bpy.context.scene.camera.location.x += 0.3     # where the light fits no more
+    parts.generate(method="POINTS", attributes=attributes)
+    assert shown() == ["UVMap"]
+
+
+def test_discs_that_are_made_a_mesh_go_out_by_gltf_with_their_light(blank, room, tmp_path):
+    """Its exporter leaves modifiers out, or an object's own materials."""
+    result = scan_before_a_floor_mirror(blank, {})
+    bpy.ops.reflection_mesh.light(samples=16)
+    seen = picture_of(room, [result])
+    parts.select(result)
+    bpy.ops.object.convert(target="MESH")
+    assert differs_by(seen, picture_brought_back(room, bpy.context.object, "glb", tmp_path)) < 0.02
