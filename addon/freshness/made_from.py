@@ -121,7 +121,8 @@ def difference(made: Origin, now: Origin) -> str:
         return "the mirror has changed"
     if made.sources != now.sources:
         return "a reflected object has changed"
-    if made.materials not in (None, now.materials):
+    # those that have other names and are made of the same are renamed ones
+    if made.materials not in (None, now.materials) and made.colours != now.colours:
         return "materials have been exchanged"
     # of both the other way round there is nothing that anybody would see
     if now.through and made.through is False:

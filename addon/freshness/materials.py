@@ -37,7 +37,10 @@ def materials_of(objects: list) -> str:
 def colours_of(objects: list) -> str:
     """A digest of what the materials of objects are made of."""
     told = blake2b(digest_size=SIZE)
-    for material in [material for obj in objects for material in shown_by(obj) if material is not None]:
+    for material in [material for obj in objects for material in shown_by(obj)]:
+        if material is None:
+            told.update(b"none")
+            continue
         if material.session_uid not in _colours:
             _colours[material.session_uid] = repr(list(made_of(material, COLOURS))).encode()
         told.update(_colours[material.session_uid])

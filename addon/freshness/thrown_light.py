@@ -13,7 +13,7 @@ from ..illumination import blocking, is_glint, light_of_nodes, radiance_of
 from ..reading import Participants, seen_in
 from . import digests
 from .made_from import COARSE, LONGEST, settings_of
-from .materials import colours_of, materials_of
+from .materials import colours_of
 
 NUMBERS = {"FLOAT", "INT", "BOOLEAN", "ENUM"}
 ASKED = ("tolerance", "depth")  # settings that light depends on
@@ -102,8 +102,7 @@ def _origin(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.type
     # what is hidden gives no light
     numbers += "" if seen_in(context)(lamp) else " hidden"
     return LightOrigin(digests.digest_of(depsgraph, [mirror]) + colours_of([mirror]), numbers,
-                       digests.digest_of_shown(depsgraph, sources) + materials_of(sources) + colours_of(sources)
-                       + _unseen(sources),
+                       digests.digest_of_shown(depsgraph, sources) + colours_of(sources) + _unseen(sources),
                        digests.digest_of(depsgraph, around), _settings(context, mirror))
 
 

@@ -129,6 +129,18 @@ def test_exchanged_materials_make_it_stale(scene, room):
     assert "materials" in told(room, scene.result)
 
 
+def test_renamed_materials_do_not_make_it_stale(scene, room):
+    green = parts.material("Green", "DIFFUSE")
+    scene.leaf.data.materials.append(green)
+    assert bpy.ops.reflection_mesh.update() == {"FINISHED"}
+    green.name = "Grass"
+    assert told(room, scene.result) == ""
+    scene.leaf.material_slots[0].material = parts.material("Lamp", "EMISSION")
+    assert told(room, scene.result) == "materials have been exchanged"
+    scene.leaf.material_slots[0].material = None
+    assert told(room, scene.result) == "materials have been exchanged"
+
+
 @pytest.mark.parametrize("change", ["value", "ramp", "link", "tint", "nothing"])
 def test_previews_go_stale_with_colours(scene, room, change):
     green, glass = parts.material("Green", "DIFFUSE"), parts.material("Glass", "GLOSSY")

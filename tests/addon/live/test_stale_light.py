@@ -45,6 +45,12 @@ def test_lamps_materials_and_settings_count(scene, told):  # noqa: F811
         assert word in told(scene.light)
         generated(scene)
         assert told(scene.light) == ""
+    white = parts.material("White", "DIFFUSE")
+    scene.floor.data.materials.append(white)
+    assert "lit" in told(scene.light)
+    generated(scene)
+    white.name = "Chalk"
+    assert told(scene.light) == ""
     for obj in (scene.lamp, scene.mirror, scene.floor, scene.wall):
         obj.name = f"Another {obj.name}"
     assert told(scene.light) == ""
