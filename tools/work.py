@@ -30,7 +30,7 @@ OWN = 1000  # vertices: no more than the scene has
 
 def runs(names: list[str]) -> list[tuple]:
     """(title, knob, prediction, run) of each line of the table."""
-    lines = []
+    lines: list[tuple] = []
     for name in names:
         rival = METHODS[name]
         if name == "MORPHING":

@@ -183,7 +183,7 @@ def _simple(c, which, rank, bracket, rising):
     low, high, bits = low << extra, high << extra, bits + extra
     root = (low + high) >> 1
     f0, f1, f2, f3 = c[0] << 3 * bits, c[1] << 2 * bits, c[2] << bits, c[3]
-    parts = np.arange(len(root)), root, low, high, rising, f0, f1, f2, f3
+    parts = [np.arange(len(root)), root, low, high, rising, f0, f1, f2, f3]
     while len(parts[0]):
         at, x, low, high, side, f0, f1, f2, f3 = parts
         value = ((f3 * x + f2) * x + f1) * x + f0

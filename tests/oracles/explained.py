@@ -60,6 +60,9 @@ class Verdict:
 class Looked:
     """Moments with the bounds that go with them."""
 
+    multiplicity: np.ndarray  # of exact roots alone, as `sign`
+    sign: np.ndarray
+
     def __init__(self, exact, pair, numerator, shift):
         self.pair, self.numerator, self.shift = pair, numerator, shift
         self.at = at = exact.at(pair, numerator, shift)

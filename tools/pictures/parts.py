@@ -168,8 +168,8 @@ def _save(path: Path, pictures: list[tuple[str, Image.Image]], box: tuple) -> No
 
 def _filled_box(before: Image.Image, after: Image.Image, truth: Image.Image) -> list[tuple]:
     """The square of `CLOSE` pixels in which `after` is nearer to the truth by most; none where nothing changed."""
-    before, after, truth = (np.asarray(picture, dtype=np.float64) for picture in (before, after, truth))
-    gain = (np.abs(before - truth) - np.abs(after - truth)).sum(axis=2)
+    was, now, true = (np.asarray(picture, dtype=np.float64) for picture in (before, after, truth))
+    gain = (np.abs(was - true) - np.abs(now - true)).sum(axis=2)
     if not gain.any():
         return []
     row, column = np.unravel_index(np.argmax(uniform_filter(gain, CLOSE)), gain.shape)

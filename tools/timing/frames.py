@@ -59,10 +59,10 @@ def _measured(count: int, options: argparse.Namespace) -> list:
         told._tell(None)
         anew.append(_generated(options.method))
     del cycles[0]
-    seconds, kept, anew = [wall for _, wall in kept], [own for own, _ in kept], [own for own, _ in anew]
-    own, from_scratch, mine, theirs = map(statistics.median, (kept, anew, seconds, cycles))
-    return [count, own, from_scratch, from_scratch / own, *sizes._spread(anew, kept), mine, theirs, theirs / mine,
-            *sizes._spread(cycles, seconds), keeping.held_bytes() / 1e6]
+    walls, owns, all_anew = [wall for _, wall in kept], [own for own, _ in kept], [own for own, _ in anew]
+    own, from_scratch, mine, theirs = (statistics.median(taken) for taken in (owns, all_anew, walls, cycles))
+    return [count, own, from_scratch, from_scratch / own, *sizes._spread(all_anew, owns), mine, theirs, theirs / mine,
+            *sizes._spread(cycles, walls), keeping.held_bytes() / 1e6]
 
 
 def _generated(method: str) -> tuple[float, float]:

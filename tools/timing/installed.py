@@ -10,7 +10,7 @@ from tools import extension_zip
 from tools.quietly import quietly
 
 
-def measured_installed(sizes: Iterable[int], measure: Callable[[int], tuple]) -> list[tuple]:
+def measured_installed(sizes: Iterable[int], measure: Callable[[int], list]) -> list[list]:
     """What `measure` tells of each size while the extension is installed from its zip, into a place of its own."""
     rows = []
     with tempfile.TemporaryDirectory(prefix="reflection_mesh_") as scratch:

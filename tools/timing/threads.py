@@ -23,10 +23,10 @@ import numpy as np  # noqa: E402
 
 import core  # noqa: E402
 from core.cameras import MirrorMap, in_picture, three_ray_cameras, visible_triangles  # noqa: E402
-from core.culling import SceneAndMirrors, SceneTree  # noqa: E402
+from core.culling import SceneAndMirrors  # noqa: E402
+from core.filling import Crowds, Limits  # noqa: E402
 from core.geometry import SceneFrames, distinct  # noqa: E402
 from core.polygons import Overlaps, covering  # noqa: E402
-from core.trees import Cones  # noqa: E402
 from tools.measure import print_table  # noqa: E402
 from tools.timing.turns import _scene  # noqa: E402
 
@@ -69,10 +69,11 @@ def _pairs(name: str) -> tuple:
     view, mirror, scene = _scene(core, name)
     cameras = three_ray_cameras(MirrorMap(view, mirror), mirror, visible_triangles(view, mirror))
     cameras = cameras.select(in_picture(cameras))
-    met = SceneAndMirrors(SceneTree.build(scene), mirror)
-    camera, triangle, _ = met.tree.trace(Cones.around(cameras))
-    seen, column = distinct(triangle)
-    return cameras, SceneFrames.of(met, seen), met, (np.resize(camera, PAIRS), np.resize(column, PAIRS))
+    met = SceneAndMirrors(core.SceneTree.build(scene), mirror)
+    limits = Limits.of(core.Settings(), view.resolution[0] * view.resolution[1], len(met.triangles))
+    found = met.diffuse_in(cameras, Crowds(met, limits, True).bound(cameras))
+    seen, column = distinct(found.triangle)
+    return cameras, SceneFrames.of(met, seen), met, (np.resize(found.cone, PAIRS), np.resize(column, PAIRS))
 
 
 def _whole(name: str, threads: Executor, processes: Executor, options: argparse.Namespace) -> tuple:

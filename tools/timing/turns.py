@@ -57,6 +57,7 @@ def _worker(checkout: Path) -> subprocess.Popen:
 def _asked(worker: subprocess.Popen, name: str) -> tuple[float, ...]:
     """Processor seconds that a scene took, and its faces."""
     print(name, file=worker.stdin, flush=True)
+    assert worker.stdout is not None  # a pipe, as asked for
     answer = worker.stdout.readline().split()
     if not answer:
         raise SystemExit(f"The scene {name} could not be reflected; see the error above.")
