@@ -14,7 +14,7 @@ from ..writing.nodes.copied_nodes import copied
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
 from .layer_weights import layer_weights_as_fresnel
-from .metal_colour import metal_colour
+from .metal_colour import conductor_colour, metal_colour
 from .mirror_coordinates import BACK, MirrorCoordinates
 from .several_materials import by_material
 
@@ -104,10 +104,7 @@ class MirrorPart(ShaderBuilder):
     def shown(self, shader: bpy.types.Node) -> bpy.types.NodeSocket | None:
         """What a shader node becomes: light where it is glossy, itself where it is not."""
         if shader.type in GLOSSY:
-            tint = given(shader.inputs.get("Color") or shader.inputs["Base Color"])
-            if shader.type == "BSDF_METALLIC":
-                tint = metal_colour(self, tint, given(shader.inputs["Edge Tint"]))
-            return self.glow(self.blended("MULTIPLY", 1.0, tint, self.lit))
+            return self.glow(self.blended("MULTIPLY", 1.0, self.gloss(shader), self.lit))
         if shader.type == "BSDF_PRINCIPLED":
             return self.principled(shader)
         if shader.type in {"MIX_SHADER", "ADD_SHADER"}:
@@ -117,6 +114,16 @@ class MirrorPart(ShaderBuilder):
                 if part is not None:
                     self.tree.links.new(part, socket)
         return shader.outputs[0]
+
+    def gloss(self, shader: bpy.types.Node):
+        """The colour of a glossy shader, a socket or a colour."""
+        if shader.type != "BSDF_METALLIC":
+            return given(shader.inputs["Color"])
+        # there is one kind alone before Blender 4.5
+        by_index = getattr(shader, "fresnel_type", "F82") == "PHYSICAL_CONDUCTOR"
+        colour, names = (conductor_colour, ("IOR", "Extinction")) if by_index else (
+            metal_colour, ("Base Color", "Edge Tint"))
+        return colour(self, *(given(shader.inputs[name]) for name in names))
 
     def principled(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
         """Light by the reflection of a Principled BSDF and of its coat, over what else it is; clear where that is."""

@@ -44,6 +44,8 @@ class Tint:
         Whether the material is one colour all over, as far as its nodes tell.
     coat : Coat
         How much of the light the mirror sends back where it is mixed with something else.
+    conductor : tuple of two (3,) float64, optional
+        The refractive index and the extinction coefficient of a metal that is told by these instead.
     texture : Texture, optional
         Where the colour alone changes over the material, what tells it.
     more : tuple of Tint
@@ -55,6 +57,7 @@ class Tint:
     fresnel: bool
     constant: bool
     coat: Coat = WHOLE
+    conductor: tuple[np.ndarray, np.ndarray] | None = None
     texture: Texture | None = None
     more: tuple[Tint, ...] = ()
 
@@ -82,6 +85,7 @@ class Tint:
     def same(self, other: Tint) -> bool:
         """Whether both make the same of light."""
         return (np.array_equal(self.colour, other.colour) and np.array_equal(self.edge, other.edge)
+                and np.array_equal(np.ravel(self.conductor), np.ravel(other.conductor))
                 and (self.fresnel, self.constant, self.coat, self.texture)
                 == (other.fresnel, other.constant, other.coat, other.texture)
                 and len(self.more) == len(other.more) and all(map(Tint.same, self.more, other.more)))
@@ -90,10 +94,15 @@ class Tint:
         """What is left of red, green and blue, (..., 3), where light meets the mirror at `cosine` (...), negative at
         its back.
 
-        N. Hoffman, "Fresnel Equations Considered Harmful", MAM 2019.
+        N. Hoffman, "Fresnel Equations Considered Harmful", MAM 2019; of conductors M. Pharr, G. Humphreys,
+        "Physically Based Rendering", 2nd edition, section 8.2.1.
         """
         left = np.broadcast_to(self.colour, (*cosine.shape, 3))
-        if self.fresnel:
+        if self.conductor is not None:
+            (index, extinction), straight = self.conductor, np.clip(np.abs(cosine), 0.0, 1.0)[..., None]
+            size, bend = index**2 + extinction**2, 2.0 * index * straight
+            left = 0.5 * sum((whole - bend) / (whole + bend) for whole in (size * straight**2 + 1.0, size + straight**2))
+        elif self.fresnel:
             grazing = (1.0 - np.clip(np.abs(cosine), 0.0, 1.0))[..., None]
             schlick = self.colour + (1.0 - self.colour) * (1.0 - F82)**5
             fall = schlick * (7.0 / (1.0 - F82)**6) * (1.0 - self.edge)
@@ -146,13 +155,16 @@ def _is_metal(lobe: Lobe) -> bool:
 def _of_metal(material: bpy.types.Material, lobe: Lobe, coat: Coat, known: bool) -> Tint:
     """That of a Glossy, a Metallic or a metallic Principled BSDF."""
     shader, white = lobe.shader, np.ones(3)
+    if getattr(shader, "fresnel_type", "F82") == "PHYSICAL_CONDUCTOR":
+        (index, plain), (extinction, plain_too) = lobe.told("IOR"), lobe.told("Extinction")
+        return Tint(white, white, True, known and plain and plain_too, coat, (index, extinction))
     metal = shader.type in {"BSDF_PRINCIPLED", "BSDF_METALLIC"}
     base = "Base Color" if "Base Color" in shader.inputs else "Color"
     edge = {"BSDF_PRINCIPLED": "Specular Tint", "BSDF_METALLIC": "Edge Tint"}.get(shader.type)
     colour, plain = lobe.told(base)
     tint, plain_edge = (white, True) if edge is None else lobe.told(edge)
-    known = known and plain_edge and getattr(shader, "fresnel_type", "F82") == "F82"
+    known = known and plain_edge
     # nodes within groups are not found by their names
     texture = Texture(material, shader.name, shader.inputs[base].identifier) if (
         known and not plain and not lobe.groups) else None
-    return Tint(colour, tint, metal, known and plain, coat, texture)
+    return Tint(colour, tint, metal, known and plain, coat, texture=texture)

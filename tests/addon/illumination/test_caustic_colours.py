@@ -114,6 +114,16 @@ def half_of(material: bpy.types.Material) -> bpy.types.Material:
     return material
 
 
+def conductor() -> bpy.types.Material:
+    """Gold, by its index (M. Polyanskiy, refractiveindex.info, at 640, 540 and 450 nm)."""
+    material = shader_alone("ShaderNodeBsdfMetallic")
+    node = next(one for one in material.node_tree.nodes if one.type == "BSDF_METALLIC")
+    node.fresnel_type = "PHYSICAL_CONDUCTOR"
+    for name, values in (("IOR", (0.18, 0.42, 1.47)), ("Extinction", (3.4, 2.35, 1.95)), ("Roughness", 0.0)):
+        node.inputs[name].default_value = values
+    return material
+
+
 def lacquered(rough: float, metallic: float = 1.0) -> bpy.types.Material:
     return shader_alone("ShaderNodeBsdfPrincipled", **{
         "Base Color": (0.7, 0.3, 0.02, 1.0) if metallic else (0.0, 0.0, 0.0, 1.0), "Metallic": metallic,
@@ -143,6 +153,8 @@ NOT_METAL = {
     "facing more": lambda: by_layer_weight("Facing", 0.8),
     "open": lambda: shader_alone("ShaderNodeBsdfPrincipled", **{
         "Base Color": (0.9, 0.5, 0.2, 1.0), "Metallic": 1.0, "Alpha": 0.3})}
+if hasattr(bpy.types, "ShaderNodeBsdfMetallic"):  # from Blender 4.3 on
+    NOT_METAL["conductor"] = conductor
 
 
 # what is metal and glass in parts is met from outside

@@ -96,11 +96,11 @@ def test_its_look_stays_on_a_curved_mirror(blank, room, monkeypatch, paint, face
         assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
-@pytest.mark.parametrize("kind", ["emission", "edge", "Metallic BSDF"])
+@pytest.mark.parametrize("kind", ["emission", "edge", "Metallic BSDF", "conductor"])
 def test_a_metal_that_shines_or_has_an_edge_tint_does_so_in_light_on_objects(blank, room, kind):
     scene_of(blank)
     ball = _ball(blank.scene, "metal")
-    if kind == "Metallic BSDF" and not hasattr(bpy.types, "ShaderNodeBsdfMetallic"):
+    if kind in {"Metallic BSDF", "conductor"} and not hasattr(bpy.types, "ShaderNodeBsdfMetallic"):
         pytest.skip("Blender has the Metallic BSDF from 4.3 on.")
     made = principled("Metal", (0.9, 0.5, 0.4), Metallic=1.0, Roughness=0.0)
     shader = shader_of(made)
@@ -115,6 +115,10 @@ def test_a_metal_that_shines_or_has_an_edge_tint_does_so_in_light_on_objects(bla
         metal.inputs["Base Color"].default_value = (0.9, 0.5, 0.4, 1.0)
         metal.inputs["Edge Tint"].default_value = (0.1, 0.3, 0.9, 1.0)
         metal.inputs["Roughness"].default_value = 0.0
+        if kind == "conductor":
+            metal.fresnel_type = "PHYSICAL_CONDUCTOR"
+            metal.inputs["IOR"].default_value = (0.18, 0.42, 1.47)  # gold's
+            metal.inputs["Extinction"].default_value = (3.4, 2.35, 1.95)
         link(tree, metal.outputs[0], tree.get_output_node("ALL").inputs[0])
     ball.data.materials.clear()
     ball.data.materials.append(made)
