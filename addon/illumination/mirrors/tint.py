@@ -101,7 +101,7 @@ class Tint:
         if self.conductor is not None:
             (index, extinction), straight = self.conductor, np.clip(np.abs(cosine), 0.0, 1.0)[..., None]
             size, bend = index**2 + extinction**2, 2.0 * index * straight
-            left = 0.5 * sum((whole - bend) / (whole + bend) for whole in (size * straight**2 + 1.0, size + straight**2))
+            left = 0.5 * sum((one - bend) / (one + bend) for one in (size * straight**2 + 1.0, size + straight**2))
         elif self.fresnel:
             grazing = (1.0 - np.clip(np.abs(cosine), 0.0, 1.0))[..., None]
             schlick = self.colour + (1.0 - self.colour) * (1.0 - F82)**5
