@@ -1,0 +1,78 @@
+"""Save Sheet to Print: transparency and the picture that is printed."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from mirror_maps import decoded, write
+
+
+@pytest.fixture
+def wall(blank) -> bpy.types.Object:
+    """A square sheet before a flat wall mirror at y = 1 that sees it whole; both are selected, the mirror is active."""
+    sheet = parts.add("plane", "Sheet", size=2.0, location=(0.0, -1.0, 0.3), rotation=(0.9, 0.0, 0.0))
+    parts.select(sheet, parts.add_wall_mirror())
+    return sheet
+
+
+def image_of(pixels: np.ndarray, name: str = "Picture", is_float: bool = False) -> bpy.types.Image:
+    """An image of this file with straight alpha, from (h, w, 4)."""
+    image = bpy.data.images.new(name, pixels.shape[1], pixels.shape[0], alpha=True, float_buffer=is_float)
+    image.pixels.foreach_set(pixels.astype(np.float32).ravel())
+    return image
+
+
+def printed(copy: bpy.types.Object, tmp_path: Path) -> np.ndarray:
+    """Pixels (h, w, 3) of the print of a copy at 100 pixels a metre."""
+    bpy.context.view_layer.objects.active = copy
+    path = tmp_path / "sheet.png"
+    assert bpy.ops.reflection_mesh.print_sheet(filepath=str(path), dpi=2.54) == {"FINISHED"}
+    return decoded(path.read_bytes())[0]
+
+
+def test_what_is_clear_has_no_colour_that_edges_mix_in(wall, tmp_path):
+    """A red disc on clear black is red on white, and nowhere darker."""
+    y, x = np.mgrid[:16, :16] - 7.5
+    disc = np.zeros((16, 16, 4))
+    disc[np.hypot(x, y) < 5.0] = (1.0, 0.0, 0.0, 1.0)
+    shown = printed(write(picture=image_of(disc).name, frame="WHOLE"), tmp_path)
+    assert (shown[..., 1] < 10).any() and (shown[..., 0] == 255).all() and (shown[..., 1] == shown[..., 2]).all()
+
+
+def filed(tmp_path: Path, name: str, kind: str, pixels: np.ndarray, is_float: bool) -> bpy.types.Image:
+    """An image that was saved to a file and loaded from there."""
+    image = image_of(pixels, name, is_float)
+    image.filepath_raw, image.file_format = str(tmp_path / name), kind
+    image.save()
+    bpy.data.images.remove(image)
+    return bpy.data.images.load(str(tmp_path / name))
+
+
+@pytest.mark.parametrize("mode", ["STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE"])
+@pytest.mark.parametrize("kind", ["PNG", "OPEN_EXR"])
+def test_pictures_are_read_times_alpha_whatever_blender_makes_of_their_alpha(blank, room, tmp_path, kind, mode):
+    """Against what the file has in it: bytes, or light in single precision."""
+    colours, alpha = np.array((0.6, 0.3, 0.1)), 0.4
+    image = filed(tmp_path, "picture", kind, np.broadcast_to((*colours, alpha), (4, 4, 4)), kind != "PNG")
+    image.colorspace_settings.name = "sRGB" if kind == "PNG" else "Linear Rec.709"
+    image.alpha_mode = "CHANNEL_PACKED"
+    image.reload()
+    image.pixels[0]
+    in_file = np.array(image.pixels[:3], dtype=np.float64)
+    image.alpha_mode = mode
+    image.reload()
+    if mode == "NONE":
+        alpha = 1.0
+    if mode == "PREMUL":
+        in_file = in_file / alpha
+    if kind == "PNG":
+        in_file = np.minimum(in_file, 1.0)
+    else:
+        in_file = np.clip(in_file, 0.0, 1.0)
+        in_file = np.where(in_file <= 0.0031308, 12.92 * in_file, 1.055 * in_file**(1.0 / 2.4) - 0.055)
+    found = room("addon.anamorphosis").pixels_of(image)
+    assert found.shape == (4, 4, 4)
+    assert np.allclose(found, (*(in_file * alpha), alpha), atol=0.005)
