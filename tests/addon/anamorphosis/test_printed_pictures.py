@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from mirror_maps import decoded, write
+from mirror_maps import corner_places, decoded, seen_of, uv_of, write
 
 
 @pytest.fixture
@@ -76,3 +76,18 @@ def test_pictures_are_read_times_alpha_whatever_blender_makes_of_their_alpha(bla
     found = room("addon.anamorphosis").pixels_of(image)
     assert found.shape == (4, 4, 4)
     assert np.allclose(found, (*(in_file * alpha), alpha), atol=0.005)
+
+
+@pytest.mark.parametrize("aspect", [(1.0, 1.0), (2.0, 1.0), (1.0, 1.5)])
+def test_a_picture_keeps_its_proportions_whatever_the_shape_of_pixels(wall, room, aspect):
+    """Against the closed form: a picture twice as wide as high fills a box of that shape of what the eye sees."""
+    render = bpy.context.scene.render
+    render.pixel_aspect_x, render.pixel_aspect_y = aspect
+    copy = write(picture=image_of(np.ones((8, 16, 4))).name, frame="WHOLE", tolerance=0.25)
+    seen = np.repeat(seen_of(copy), 3)
+    view = room("addon.reading").read_view(bpy.context)
+    pixels = view.pixels((corner_places(copy) * (1.0, -1.0, 1.0) + (0.0, 2.0, 0.0))[seen])
+    uv = np.column_stack((uv_of(copy)[seen], np.ones(seen.sum())))
+    (across, _), (_, up), _ = np.linalg.lstsq(uv, pixels, rcond=None)[0]
+    # the box is of whole pixels
+    assert across * aspect[0] / (up * aspect[1]) == pytest.approx(2.0, rel=0.03)
