@@ -91,3 +91,49 @@ def test_a_picture_keeps_its_proportions_whatever_the_shape_of_pixels(wall, room
     (across, _), (_, up), _ = np.linalg.lstsq(uv, pixels, rcond=None)[0]
     # the box is of whole pixels
     assert across * aspect[0] / (up * aspect[1]) == pytest.approx(2.0, rel=0.03)
+
+
+def shown_by(material: bpy.types.Material, image: bpy.types.Image, uv_map: str | None) -> None:
+    """Let a material emit an image by a UV map: none is that of renders."""
+    tree = material.node_tree
+    look = tree.nodes.new("ShaderNodeTexImage")
+    look.image = image
+    if uv_map is not None:
+        place = tree.nodes.new("ShaderNodeUVMap")
+        place.uv_map = uv_map
+        tree.links.new(place.outputs["UV"], look.inputs["Vector"])
+    tree.links.new(look.outputs["Color"], tree.nodes["Emission"].inputs["Color"])
+
+
+@pytest.mark.parametrize("uv_map", ["UVMap", None])
+def test_a_picture_that_lies_by_another_map_is_not_printed_by_the_mirrors(wall, tmp_path, uv_map):
+    material = parts.material("Wood")
+    wall.data.materials.append(material)
+    shown_by(material, image_of(np.ones((4, 4, 4)), "Grain"), uv_map)
+    parts.select(write())
+    assert "no picture by its UV map 'Mirror UV'" in parts.refusal(bpy.ops.reflection_mesh.print_sheet,
+                                                                   filepath=str(tmp_path / "sheet.png"))
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("how", ["Mirror UV", "rendered", "unused too"])
+def test_the_picture_that_is_shown_by_the_mirrors_map_is_printed(wall, tmp_path, how):
+    """Green, beside a red one that is shown by the object's own map, or by none at all."""
+    red, green = (image_of(np.broadcast_to(colour, (4, 4, 4)), name)
+                  for name, colour in (("Red", (1, 0, 0, 1)), ("Green", (0, 1, 0, 1))))
+    other, material = parts.material("Other"), parts.material("Painted")
+    for entry in (other, material):
+        wall.data.materials.append(entry)
+    shown_by(other, red, "UVMap")
+    if how == "unused too":
+        shown_by(material, red, "Mirror UV")    # its place is taken:
+    shown_by(material, green, None if how == "rendered" else "Mirror UV")
+    wall.data.polygons[0].material_index = 1
+    copy = write(frame="WHOLE")
+    copy.data.materials.clear()
+    for entry in (other, material):
+        copy.data.materials.append(entry)
+    if how == "rendered":
+        copy.data.uv_layers["Mirror UV"].active_render = True
+    shown = printed(copy, tmp_path)
+    assert (shown[..., 0] < 10).any() and (shown[..., 1] == 255).all()
