@@ -25,8 +25,9 @@ ROLES = (
     ("REFLECTION", "Reflection", "This object is a reflection that was generated"),
     ("CAUSTICS", "Caustics", "This object is light thrown by a mirror that was generated"),
 )
+# what ties objects of a library together: an override of them all must stay tied to its own ones
 OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
-
+GROWING = OVERRIDABLE | {"USE_INSERTION"}
 
 
 def _begin_own(self, context: bpy.types.Context) -> None:
@@ -42,13 +43,13 @@ def _after_role(_record, _context: bpy.types.Context) -> None:
 class ReflectionSource(bpy.types.PropertyGroup):
     """One diffuse object of a result."""
 
-    object: PointerProperty(name="Object", type=bpy.types.Object)
+    object: PointerProperty(name="Object", type=bpy.types.Object, override=OVERRIDABLE)
 
 
 class ReflectionMaterial(bpy.types.PropertyGroup):
     """One material of a result, as it was generated."""
 
-    material: PointerProperty(name="Material", type=bpy.types.Material)
+    material: PointerProperty(name="Material", type=bpy.types.Material, override=OVERRIDABLE)
 
 
 class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
@@ -59,18 +60,21 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
                        default="AUTO", override=OVERRIDABLE, update=_after_role)
     own_settings: BoolProperty(name="Own Settings", description="This mirror has settings of its own; else the scene's "
                                "hold for it", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
-    mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object)
-    lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object)
+    mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object,
+                            override=OVERRIDABLE)
+    lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object,
+                          override=OVERRIDABLE)
     eyes: IntProperty(name="Lamp Places", description="On how many places of its lamp these caustics come from")
     keeps_own: BoolProperty(name="Keeps Cycles' Own", description="Cycles adds caustics of its own to these: that was "
                             "asked for")
     sources: CollectionProperty(name="Sources", description="The objects that this reflection shows",
-                                type=ReflectionSource)
+                                type=ReflectionSource, override=GROWING)
     camera: PointerProperty(name="Camera", description="The camera that this reflection is right for; none: the "
-                            "scene's", type=bpy.types.Object)
+                            "scene's", type=bpy.types.Object, override=OVERRIDABLE)
     aside: BoolVectorProperty(name="Aside", size=2, description="Hidden in renders, and in the viewport, while another "
-                              "camera looks that has reflections of its own")
-    window: BoolProperty(name="Window", description="Its mirror is a window where this reflection's camera looks")
+                              "camera looks that has reflections of its own", override=OVERRIDABLE)
+    window: BoolProperty(name="Window", description="Its mirror is a window where this reflection's camera looks",
+                         override=OVERRIDABLE)
     origin: FloatVectorProperty(name="Origin", size=3, description="Where it was generated, in world space")
     basis: FloatVectorProperty(name="Basis", size=16, description="Its own transform when it was generated; zero where "
                                "that is not known")
@@ -79,9 +83,10 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     landmark_places: FloatVectorProperty(name="Landmark Places", size=12, description="Where these were generated, in "
                                          "its own space")
     later_materials: CollectionProperty(name="Later Materials", type=ReflectionMaterial,
-                                        description="The materials of the mirrors that it is seen by after its own")
+                                        description="The materials of the mirrors that it is seen by after its own",
+                                        override=GROWING)
     materials: CollectionProperty(name="Materials", type=ReflectionMaterial,
-                                  description="The materials of its mesh when it was generated")
+                                  description="The materials of its mesh when it was generated", override=GROWING)
     estimated_error: FloatProperty(name="Estimated Error", description="99th percentile of the displacement, in pixels")
     seconds: FloatProperty(name="Seconds", description="Time that it took to generate, this mirror's share")
     counts: StringProperty(name="Counts", description="How much of each part of the method was needed, as JSON")
@@ -94,17 +99,19 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     light: StringProperty(name="Light", description="How the light that this reflection shows was made, as JSON; empty "
                           "where it has none")
     light_material: PointerProperty(name="Light Material", description="What shows this reflection its light",
-                                    type=bpy.types.Material)
+                                    type=bpy.types.Material, override=OVERRIDABLE)
     light_map: PointerProperty(name="Light Map", description="Where the triangles of the objects lie in light that "
                                "stays with them; none where this reflection shows light of a picture",
-                               type=bpy.types.Mesh)
-    light_stale: BoolProperty(name="Stale Light", description="The scene has changed since this light was made")
+                               type=bpy.types.Mesh, override=OVERRIDABLE)
+    light_stale: BoolProperty(name="Stale Light", description="The scene has changed since this light was made",
+                              override=OVERRIDABLE)
     mirror_uv_source: PointerProperty(name="Copy Of", description="The object that this one, cut along what a mirror "
-                                      "shows of it, stands in for", type=bpy.types.Object)
+                                      "shows of it, stands in for", type=bpy.types.Object, override=OVERRIDABLE)
     mirror_uv_picture: PointerProperty(name="Mirror Picture", description="What shows a picture on this copy",
-                                       type=bpy.types.Material)
+                                       type=bpy.types.Material, override=OVERRIDABLE)
     camera_hidden: BoolProperty(name="Hidden from the Camera",
-                                description="This mirror is a window to its virtual image, until that is cleared")
+                                description="This mirror is a window to its virtual image, until that is cleared",
+                                override=OVERRIDABLE)
 
 
 class ReflectionScene(SettingsOfScene, bpy.types.PropertyGroup):

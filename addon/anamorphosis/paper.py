@@ -2,12 +2,15 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 
 import bpy
 
 from ...core import ReflectionError
 from .. import compat
 from ..faults import AllOrNothing
+from ..reading import all_nodes
+from ..reading.materials import feeding, shown_output
 from .sheet_arrays import UV_MAP
 
 WHITE = (0.8, 0.8, 0.8, 1.0)    # as light as paper is
@@ -63,7 +66,34 @@ def paper_with(image: bpy.types.Image, whole: AllOrNothing) -> bpy.types.Materia
 
 
 def picture_of(obj: bpy.types.Object) -> bpy.types.Image | None:
-    """The picture that the paper of an object shows; None where it has none, or somebody has changed that."""
-    materials = [slot.material for slot in obj.material_slots if slot.material and slot.material.node_tree]
-    return next((node.image for material in materials for node in material.node_tree.nodes
-                 if node.type == "TEX_IMAGE" and node.image is not None), None)
+    """The picture that the materials of an object show by the map of its mirror; None where they show none by it."""
+    trees = [slot.material.node_tree for slot in obj.material_slots
+             if slot.material is not None and compat.uses_nodes(slot.material)]
+    rendered = next((layer.name for layer in obj.data.uv_layers if layer.active_render), "")
+    return next((node.image for tree in trees for node in _shown(tree)
+                 if node.type == "TEX_IMAGE" and not node.mute and node.image is not None
+                 and _map_of(node, rendered) == UV_MAP), None)
+
+
+def _shown(tree: bpy.types.NodeTree) -> Iterator[bpy.types.Node]:
+    """The nodes on which it hangs what a material shows."""
+    output = shown_output(tree)
+    for node in feeding(output) if output is not None else ():
+        yield node
+        if node.type == "GROUP":
+            yield from all_nodes(node.node_tree)
+
+
+def _map_of(node: bpy.types.Node, rendered: str) -> str:
+    """The name of the UV map that an image lies by as it is, `rendered` that of renders; empty where it is none."""
+    socket = node.inputs["Vector"]
+    while socket.is_linked and socket.links[0].from_node.type == "REROUTE":
+        socket = socket.links[0].from_node.inputs[0]
+    if not socket.is_linked:
+        return rendered
+    source = socket.links[0].from_node
+    if source.type == "UVMAP":
+        return source.uv_map or rendered
+    if source.type == "ATTRIBUTE":
+        return source.attribute_name
+    return rendered if source.type == "TEX_COORD" and socket.links[0].from_socket.name == "UV" else ""

@@ -36,14 +36,13 @@ def print_size(sheet: FlatSheet, dpi: float) -> tuple[int, int]:
 
 
 def printed(sheet: FlatSheet, picture: np.ndarray, dpi: float) -> Steps[np.ndarray]:
-    """The sheet with `picture` (h, w, 4) float32 on it, (height, width, 3) uint8 from the highest row down, white where
-    the mirror does not show it; yields (fraction, stage)."""
+    """The sheet with `picture` on it, as `pixels_of` gives it, (height, width, 3) uint8 from the highest row down,
+    white where the mirror does not show it; yields (fraction, stage)."""
     width, height = print_size(sheet, dpi)
     corners, uv = sheet.corners[sheet.seen] / INCH * dpi * FINER, sheet.uv[sheet.seen]
     low, high = corners[:, :, 1].min(axis=1), corners[:, :, 1].max(axis=1)
     # clear beside it
-    framed = np.pad(picture, ((1, 1), (1, 1), (0, 0)), mode="edge")
-    framed[[0, -1], :, 3] = framed[:, [0, -1], 3] = 0.0
+    framed = np.pad(picture, ((1, 1), (1, 1), (0, 0)))
     rows = max(1, AT_ONCE // (FINER * FINER * width))
     pixels = np.empty((height, width, 3), dtype=np.uint8)
     for start in range(0, height, rows):
@@ -74,7 +73,7 @@ def _band(corners: np.ndarray, uv: np.ndarray, framed: np.ndarray, width: int, r
 
 def _looked_up(framed: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Colours (n, 3) on white at `uv` (n, 2), between the centres of the pixels, of a picture in a frame of one pixel,
-    (h + 2, w + 2, 4)."""
+    (h + 2, w + 2, 4), its colours times its alpha: what is clear has no colour to mix in."""
     height, width = framed.shape[0] - 2, framed.shape[1] - 2
     place = np.clip(uv * (width, height) + 0.5, 0.0, (width + 0.999, height + 0.999))
     corner = np.floor(place)
@@ -84,7 +83,7 @@ def _looked_up(framed: np.ndarray, uv: np.ndarray) -> np.ndarray:
     below, above = (_between(texels.take(row, axis=0), texels.take(row + 1, axis=0), right)
                     for row in (first, first + width + 2))
     shown = _between(below, above, up)
-    return np.clip(_between(np.float32(1.0), shown[:, :3], shown[:, 3:]), 0.0, 1.0)
+    return np.clip(shown[:, :3] + (1.0 - shown[:, 3:]), 0.0, 1.0)
 
 
 def _between(start: np.ndarray, end: np.ndarray, share: np.ndarray) -> np.ndarray:
@@ -96,16 +95,23 @@ def _between(start: np.ndarray, end: np.ndarray, share: np.ndarray) -> np.ndarra
 
 
 def pixels_of(image: bpy.types.Image) -> np.ndarray:
-    """(height, width, 4) float32 as a screen shows them, rows from below."""
+    """(height, width, 4) float32, rows from below: colours as a screen shows them times alpha, and alpha."""
     width, height = image.size
     pixels = np.empty(width * height * 4, dtype=np.float32)
     image.pixels.foreach_get(pixels)
     pixels = pixels.reshape(height, width, 4)
+    colours, alpha = pixels[..., :3], pixels[..., 3:]
+    if image.alpha_mode == "NONE":
+        alpha[:] = 1.0
     if image.is_float:
+        if image.alpha_mode in {"STRAIGHT", "PREMUL"}:
+            # however they lie in the file, Blender holds those of single precision times alpha, and bytes without
+            np.divide(colours, alpha, out=colours, where=alpha > 0.0)
         # IEC 61966-2-1
-        light = np.clip(pixels[..., :3], 0.0, 1.0)
-        pixels[..., :3] = np.where(light <= 0.0031308, 12.92 * light,
-                                   1.055 * np.maximum(light, 0.0031308)**(1.0 / 2.4) - 0.055)
+        light = np.clip(colours, 0.0, 1.0)
+        colours[:] = np.where(light <= 0.0031308, 12.92 * light,
+                              1.055 * np.maximum(light, 0.0031308)**(1.0 / 2.4) - 0.055)
+    colours *= alpha
     return pixels
 
 

@@ -199,7 +199,7 @@ def _lit(context: bpy.types.Context, results: list, samples: int | None, kind: s
     started = time.perf_counter()
     wanted = Wanted(context.scene, given(argparse.Namespace(), light_samples=samples, light_kind=kind))
     lit = announced(lighting_groups(context, wanted.lights(with_copies(context, results)), every))
-    return "\n".join([*unlike_the_mirror(context.scene, lit), lighting_summary(lit, time.perf_counter() - started)])
+    return "\n".join([*unlike_the_mirror(context, lit), lighting_summary(lit, time.perf_counter() - started)])
 
 
 def _path_to_save(options: argparse.Namespace) -> str:

@@ -29,7 +29,12 @@ def _is_there(item: bpy.types.ID) -> bool:
 
 
 def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
-    """Let `whole` bring back where a result stands, what it knows and which materials it shows."""
+    """Let `whole` bring back where a result stands, what it knows and which materials it shows.
+
+    A library override is an object of this file from then on: Blender takes no entries out of an override's lists.
+    """
+    if obj.override_library is not None:
+        obj.make_local(clear_liboverride=True)
     matrix, place = obj.matrix_world.copy(), {name: tuple(getattr(obj, name)) for name in PLACE}
     record = obj.reflection_mesh
     known = {name: getattr(record, name) for name in RECORD}

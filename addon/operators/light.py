@@ -145,7 +145,7 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
             for group, _, kind in lights)
         self.show_used(wanted, [result.reflection_mesh.mirror for result in results])
         # what is told last stays in the status bar
-        for sentence in [summary(lit, time.perf_counter() - started), *advice, *unlike_the_mirror(context.scene, lit)]:
+        for sentence in [summary(lit, time.perf_counter() - started), *advice, *unlike_the_mirror(context, lit)]:
             tell(self, {"INFO"}, sentence)
 
 

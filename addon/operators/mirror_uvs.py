@@ -24,7 +24,7 @@ from ..anamorphosis import (
     write_own_map,
 )
 from ..faults import AllOrNothing, SteppedOperator, Steps, one_or_more, part, tell_done
-from ..reading import Participants, choose, read_mirror, read_scene, read_view
+from ..reading import Participants, choose, read_mirror, read_scene, read_view, with_square_pixels
 from ..settings import UsesSettings, Wanted, option
 from . import polls
 from .shortcomings import left_out
@@ -97,7 +97,8 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
     yield 0.0, "Reading the scene"
     with AllOrNothing() as whole:
         image = load_picture(choices.picture, whole) if choices.picture else None
-        view, mirror = read_view(context), chosen.mirrors[0]
+        # pictures are of square pixels, whatever those of renders are
+        view, mirror = with_square_pixels(read_view(context), context.scene.render), chosen.mirrors[0]
         # a copy that was made before is made anew from what it was copied from
         sources = list(dict.fromkeys(source_of(context, obj) for obj in chosen.diffuse))
         with shown(context, [obj for obj in sources if obj not in chosen.diffuse]):

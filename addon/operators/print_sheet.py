@@ -7,7 +7,7 @@ import bpy
 
 from ...core import ReflectionError, in_steps
 from .. import compat
-from ..anamorphosis import encoded, flat_sheet, load_picture, picture_of, pixels_of, print_size, printed
+from ..anamorphosis import UV_MAP, encoded, flat_sheet, load_picture, picture_of, pixels_of, print_size, printed
 from ..faults import AllOrNothing, BrowsingOperator, Steps, part, tell
 from ..files import check_place, staged
 from . import polls
@@ -39,7 +39,7 @@ def printing(context: bpy.types.Context, obj: bpy.types.Object | None, path: str
     with AllOrNothing() as whole:
         image = load_picture(picture, whole) if picture else picture_of(obj)
         if image is None:
-            raise ReflectionError(f"'{obj.name}' shows no picture: choose one to print.")
+            raise ReflectionError(f"'{obj.name}' shows no picture by its UV map '{UV_MAP}': choose one to print.")
         pixels = yield from part(printed(sheet, pixels_of(image), dpi), 0.05, 0.75)
         svg = path.lower().endswith(".svg")
         data = yield from part(in_steps(lambda: encoded(pixels, sheet, dpi, svg)), 0.8, 0.15, "Packing the picture")

@@ -25,7 +25,7 @@ from .metaballs import is_part
 from .moves import moves
 from .not_reflected import has_fog, in_background_set, rendered_alone, without_surface
 from .nothing_seen import NothingSeen
-from .read_view import NO_CAMERA, read_view, render_size
+from .read_view import NO_CAMERA, read_view, render_size, with_square_pixels
 from .rendered_otherwise import rendered_otherwise
 from .results import (
     RESULTS,
@@ -64,4 +64,4 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "numbers", "participants", "read_meshes", "read_mirror", "read_mirrors", "read_scene", "read_view",
            "register", "render_size", "rendered_alone", "rendered_collections", "rendered_in", "rendered_otherwise",
            "results_of", "says_mirror", "seen_in", "shown_by", "unregister", "vectors", "visible", "with_copies",
-           "without_surface"]
+           "with_square_pixels", "without_surface"]

@@ -1,11 +1,14 @@
 """Scene camera -> `core.View`: lens, shift, sensor fit, pixel aspect and resolution of the render."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 
 from ...core import ReflectionError, View
 
+LARGEST_SIDE = 1 << 16  # pixels of a view
 NO_CAMERA = "The scene has no camera: add one (Add > Camera) and make it the scene's camera."
 
 
@@ -41,6 +44,14 @@ def read_view(context: bpy.types.Context, size: tuple[int, int] | None = None) -
     placement[:3, :3] /= length
     placement[3] = 0.0, 0.0, 0.0, 1.0
     return View(placement, np.array(projection, dtype=np.float64), (width, height))
+
+
+def with_square_pixels(view: View, render: bpy.types.RenderSettings) -> View:
+    """What `view`, a picture of pixels of the shape that `render` has, sees in square ones, no side of them longer."""
+    sides = np.array((render.pixel_aspect_x, render.pixel_aspect_y))
+    size = np.array(view.resolution) * sides / sides.min()
+    size *= min(1.0, LARGEST_SIDE / size.max())
+    return replace(view, resolution=tuple(max(1, round(side)) for side in size.tolist()))
 
 
 def render_size(scene: bpy.types.Scene) -> tuple[int, int]:

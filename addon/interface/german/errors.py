@@ -225,7 +225,8 @@ PRINTS = {
     "map '{}'.":
         "Ein Bild kommt nur auf Kopien: wähle Eine Kopie, oder gib dem Objekt ein Material, das das Bild nach der "
         "UV-Karte '{}' zeigt.",
-    "'{}' shows no picture: choose one to print.": "'{}' zeigt kein Bild: wähle eines zum Drucken.",
+    "'{}' shows no picture by its UV map '{}': choose one to print.":
+        "'{}' zeigt kein Bild nach seiner UV-Map '{}': wähle eines zum Drucken.",
     "'{}' has no area to print: clear its scale, or choose another object.":
         "'{}' hat keinen Flächeninhalt zum Drucken: setze die Skalierung zurück, oder wähle ein anderes Objekt.",
     "'{}' is neither a .png nor a .svg file: name one of them.": "'{}' ist weder .png noch .svg: nenne eines davon.",

@@ -20,6 +20,10 @@ DONE = {
     "choose Light: Objects to keep it while things move.":
         "So viele Objekte werden gespiegelt, dass ihr Licht nur für dieses Bild gemacht ist: backe Einzelbilder für "
         "eine Animation, oder wähle Licht: Objekte, damit es bleibt, während sich etwas bewegt.",
+    "With Placement: Virtual, what {} would show beside what is reflected, as the sky, lamps or itself, is not seen: "
+    "choose Layered to see it.":
+        "In der Lage Virtuell ist nicht zu sehen, was {} neben dem Gespiegelten zeigen würde, wie Himmel, Lampen oder "
+        "sich selbst: wähle die Lage Geschichtet, um es zu sehen.",
     "The matte part of {} is lit where the reflection lies: choose Placement: Layered, or Light: Picture for a still.":
         "Der matte Teil von {} wird beleuchtet, wo die Spiegelung liegt: wähle die Lage Geschichtet, oder für ein "
         "Standbild Licht: Bild.",

@@ -2,15 +2,13 @@
 changes."""
 from __future__ import annotations
 
-import struct
-import zlib
 from pathlib import Path
 
 import bpy
 import numpy as np
 import parts
 import pytest
-from mirror_maps import UV_MAP, corner_places, doubled, seen_of, uv_of, write
+from mirror_maps import UV_MAP, corner_places, decoded, doubled, seen_of, uv_of, write
 
 # corners of pieces of one triangle, as parts of two of its sides
 SLIVERS = np.array((
@@ -198,18 +196,6 @@ def ramp(tmp_path: Path) -> str:
     image.save()
     bpy.data.images.remove(image)
     return str(tmp_path / "ramp.png")
-
-
-def decoded(data: bytes) -> tuple[np.ndarray, tuple]:
-    """Pixels (h, w, 3) and pHYs of a PNG of 8-bit colour without filters."""
-    chunks, at = {}, 8
-    while at < len(data):
-        size, = struct.unpack(">I", data[at:at + 4])
-        chunks[data[at + 4:at + 8]] = data[at + 8:at + 8 + size]
-        at += 12 + size
-    width, height = struct.unpack(">II", chunks[b"IHDR"][:8])
-    rows = np.frombuffer(zlib.decompress(chunks[b"IDAT"]), np.uint8).reshape(height, -1)
-    return rows[:, 1:].reshape(height, width, 3), struct.unpack(">IIB", chunks[b"pHYs"])
 
 
 def test_the_print_is_the_sheet_in_its_size(wall, room, tmp_path):

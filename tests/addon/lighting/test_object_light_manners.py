@@ -166,3 +166,22 @@ def test_where_mirrors_shadow_their_own_matte_part_that_is_said(blank, capsys, m
     parts.generate(placement=placement)
     light(1)
     assert ("The matte part of 'Mirror' is lit where the reflection lies" in capsys.readouterr().out) == told
+
+
+@pytest.mark.parametrize(("placement", "wide", "told"), [
+    ("VIRTUAL", False, True), ("VIRTUAL", True, False), ("LAYERED", False, False)])
+def test_what_a_window_does_not_show_any_more_is_said(blank, capsys, placement, wide, told):
+    """The sky that a curved mirror shows beside a wall, where the wall does not fill it."""
+    scene_of(blank)
+    ball = parts.add("uv_sphere", "Ball", radius=0.5, location=(0.0, 0.5, 1.0))
+    ball.data.materials.append(bpy.data.objects["Mirror"].active_material)
+    ball.reflection_mesh.role = "MIRROR"
+    for name in ("Mirror", "Floor"):
+        bpy.data.objects.remove(bpy.data.objects[name])
+    around = [bpy.data.objects["Box"]]
+    if wide:
+        around.append(parts.add("uv_sphere", "Room", radius=20.0))
+    parts.select(*around, ball)
+    parts.generate(placement=placement)
+    light(1)
+    assert ("what 'Ball' would show beside what is reflected" in capsys.readouterr().out) == told

@@ -1,6 +1,9 @@
 """Maps written for mirrors, read back as arrays."""
 from __future__ import annotations
 
+import struct
+import zlib
+
 import bpy
 import numpy as np
 
@@ -40,3 +43,15 @@ def doubled(corners: np.ndarray) -> np.ndarray:
     """Twice the areas (n,) of triangles (n, 3, 2)."""
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+
+def decoded(data: bytes) -> tuple[np.ndarray, tuple]:
+    """Pixels (h, w, 3) and pHYs of a PNG of 8-bit colour without filters."""
+    chunks, at = {}, 8
+    while at < len(data):
+        size, = struct.unpack(">I", data[at:at + 4])
+        chunks[data[at + 4:at + 8]] = data[at + 8:at + 8 + size]
+        at += 12 + size
+    width, height = struct.unpack(">II", chunks[b"IHDR"][:8])
+    rows = np.frombuffer(zlib.decompress(chunks[b"IDAT"]), np.uint8).reshape(height, -1)
+    return rows[:, 1:].reshape(height, width, 3), struct.unpack(">IIB", chunks[b"pHYs"])
