@@ -87,7 +87,7 @@ def reading_caustics(context: bpy.types.Context, chosen: Participants, lamps: li
     surfaces, faceless = read_mirrors(depsgraph, chosen.mirrors)
     dark, pairs = ([pair for pair in pairs if (pair[0] in surfaces) == there] for there in (False, True))
     places = {mirror: MirrorPlaces(textured(mirror), places_on_mirror(depsgraph, mirror)) for mirror in surfaces}
-    scene = read_scene(depsgraph, chosen.diffuse)
+    scene = read_scene(depsgraph, chosen.diffuse, unmirrored=True)
     receivers = {mirror: receiving(scene, surface.mesh) for mirror, surface in surfaces.items()}
     standing = blocking(context, chosen)
     blockers = {lamp: blockers_of(depsgraph, [obj for obj in standing if obj != lamp]) for lamp in lamps}
