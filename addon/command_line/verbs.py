@@ -164,7 +164,7 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
 def _caustics(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
     started = time.perf_counter()
-    chosen, lamps = _chosen(context, options), chosen_lamps(context)
+    chosen, lamps = _chosen(context, options, unmirrored=True), chosen_lamps(context)
     wanted = Wanted(context.scene, given(options))
     asked = asked_again(context, chosen, lamps, wanted, (options.eyes, options.leave_out))
     thrown = announced(throwing(context, chosen, lamps, asked))
@@ -213,10 +213,10 @@ def _path_to_save(options: argparse.Namespace) -> str:
     return path
 
 
-def _chosen(context: bpy.types.Context, options: argparse.Namespace) -> Participants:
-    """The objects named, or those that the selection and the roles choose."""
+def _chosen(context: bpy.types.Context, options: argparse.Namespace, unmirrored: bool = False) -> Participants:
+    """The objects named, or those that the selection and the roles choose, `unmirrored` as `choose` has it."""
     if not (options.mirror or options.diffuse):
-        return choose(context)
+        return choose(context, unmirrored=unmirrored)
     if not options.mirror:
         raise core.ReflectionError("Name the mirrors too, with --mirror.")
     objects = context.view_layer.objects
@@ -228,7 +228,7 @@ def _chosen(context: bpy.types.Context, options: argparse.Namespace) -> Particip
         raise core.ReflectionError(f"'{min(both)}' is named both as a mirror and as reflected: name it once.")
     mirrors = [objects[name] for name in options.mirror]
     if not options.diffuse:
-        return visible(context, mirrors, shown_by(context, mirrors))
+        return visible(context, mirrors, shown_by(context, mirrors, unmirrored=unmirrored), unmirrored)
     return Participants(mirrors, [objects[name] for name in options.diffuse], [])
 
 

@@ -93,8 +93,8 @@ class Surroundings:
     def of(cls, depsgraph: bpy.types.Depsgraph, mirrors: list, sources: list,
            blockers: TriangleMesh | None) -> Surroundings:
         surfaces = [read_mirror(depsgraph, mirror) for mirror in mirrors]
-        return cls([surface.mesh for surface in surfaces], MirrorColours.of(surfaces), read_scene(depsgraph, sources),
-                   blockers)
+        return cls([surface.mesh for surface in surfaces], MirrorColours.of(surfaces),
+                   read_scene(depsgraph, sources, unmirrored=True), blockers)
 
     def rays(self, ends: TriangleMesh, tracer: Callable = by_boxes, body: TriangleMesh | None = None) -> LightRays:
         """The rays of one of the lamp's places, which end on a mesh; a lamp that is one may hide with its `body`."""

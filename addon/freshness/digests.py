@@ -43,12 +43,13 @@ def digest_of(depsgraph: bpy.types.Depsgraph, objects: list) -> str:
     return _digest(depsgraph, {obj: index for index, obj in enumerate(objects)}, lambda instance: True)
 
 
-def digest_of_shown(depsgraph: bpy.types.Depsgraph, objects: list) -> str:
-    """As `digest_of`, of what mirrors show of `objects`: nothing that renders hide, or that glossy rays do not meet."""
+def digest_of_shown(depsgraph: bpy.types.Depsgraph, objects: list, unmirrored: bool = False) -> str:
+    """As `digest_of`, of what mirrors show of `objects`: nothing that renders hide, or that glossy rays do not meet;
+    that too, on which mirrors throw light, where `unmirrored` is said."""
     rendered = rendered_in(depsgraph.view_layer)
-    owner_of = {obj: index for index, obj in enumerate(objects) if obj.visible_glossy and rendered(obj)}
+    owner_of = {obj: index for index, obj in enumerate(objects) if (unmirrored or obj.visible_glossy) and rendered(obj)}
     return _digest(depsgraph, owner_of, lambda instance: not instance.is_instance or (
-        is_rendered(instance) and instance.object.original.visible_glossy))
+        is_rendered(instance) and (unmirrored or instance.object.original.visible_glossy)))
 
 
 def _digest(depsgraph: bpy.types.Depsgraph, owner_of: dict, counts: Callable) -> str:

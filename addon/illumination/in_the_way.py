@@ -22,7 +22,7 @@ def blockers_of(depsgraph: bpy.types.Depsgraph, objects: list) -> core.TriangleM
     if not objects:
         return None
     try:
-        scene = read_scene(depsgraph, objects)
+        scene = read_scene(depsgraph, objects, unmirrored=True)
     except core.ReflectionError:
         return None
     opaque = np.array([is_opaque(material) for material in scene.materials])[scene.material]

@@ -170,7 +170,8 @@ def light_groups(context: bpy.types.Context) -> list[Group]:
     groups, is_seen = [], seen_in(context)
     for sources, pairs in found.items():
         try:
-            chosen = visible(context, list(dict.fromkeys(mirror for mirror, _ in pairs)), list(sources))
+            mirrors = list(dict.fromkeys(mirror for mirror, _ in pairs))
+            chosen = visible(context, mirrors, list(sources), unmirrored=True)
         except NothingSeen:
             chosen = None
         lamps = list(dict.fromkeys(lamp for _, lamp in pairs))

@@ -40,24 +40,25 @@ def participants(context: bpy.types.Context) -> tuple[list, list]:
     return chosen.mirrors, chosen.diffuse
 
 
-def choose(context: bpy.types.Context, all_seen: bool = True) -> Participants:
+def choose(context: bpy.types.Context, all_seen: bool = True, unmirrored: bool = False) -> Participants:
     """As `participants`, with the objects that were left out because they are hidden.
 
     The selection decides by role. Where it gives no mirror or no diffuse object, the mirrors and sources of the results
     in it, and of the mirrors in it that have results, take part; else the objects of the view layer whose role is
     explicit. Where nothing is selected and no object is said to be a mirror, those take part that their materials say
     are. Mirrors that are selected alone or found so, where no object is said to be reflected, show `all_seen`: whatever
-    is there, as mirrors do; without that, nothing.
+    is there, as mirrors do; without that, nothing. What is hidden from glossy rays mirrors do not show, and throw light
+    on: it takes part where `unmirrored` is said.
     """
-    mirrors, diffuse = candidates(context, all_seen)
+    mirrors, diffuse = candidates(context, all_seen, unmirrored)
     active = context.view_layer.objects.active
     if not mirrors and active is not None and active.reflection_mesh.role in RESULTS and is_gone(
             active.reflection_mesh.mirror):
         raise ReflectionError(f"The mirror of '{active.name}' is gone: clear it, or select another mirror.")
-    return visible(context, mirrors, diffuse)
+    return visible(context, mirrors, diffuse, unmirrored)
 
 
-def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list, list]:
+def candidates(context: bpy.types.Context, all_seen: bool = True, unmirrored: bool = False) -> tuple[list, list]:
     """The mirrors and the diffuse objects that `choose` chooses from, hidden ones among them."""
     # materials that Geometry Nodes give are known of what is evaluated
     context.evaluated_depsgraph_get()
@@ -77,19 +78,19 @@ def candidates(context: bpy.types.Context, all_seen: bool = True) -> tuple[list,
         mirrors = [obj for obj in objects if says_mirror(obj) and is_seen(obj)]
     if mirrors:
         # what is a mirror without any doubt is meant, and the roles say what it shows
-        return mirrors, shown_by(context, mirrors, all_seen)
+        return mirrors, shown_by(context, mirrors, all_seen, unmirrored)
     return _by_role(explicit, None)
 
 
-def shown_by(context: bpy.types.Context, mirrors: list, all_seen: bool = True) -> list:
+def shown_by(context: bpy.types.Context, mirrors: list, all_seen: bool = True, unmirrored: bool = False) -> list:
     """What mirrors show that are chosen alone: what is said to be reflected, else, where that is `all_seen`, whatever
-    is there now or at other frames."""
+    is there now or at other frames; with what is hidden from glossy rays where `unmirrored` is said."""
     others = [obj for obj in context.view_layer.objects if can_take_part(obj) and obj not in mirrors]
     said = [obj for obj in others if obj.reflection_mesh.role == "DIFFUSE"]
     if said or not all_seen:
         return said
     is_seen = _seen_at_times(context)
-    return [obj for obj in others if is_seen(obj) and (obj.visible_glossy or comes_and_goes(obj))]
+    return [obj for obj in others if is_seen(obj) and (unmirrored or obj.visible_glossy or comes_and_goes(obj))]
 
 
 def says_mirror(obj: bpy.types.Object, is_one: Callable[[bpy.types.Material | None], bool] = is_mirror) -> bool:
@@ -133,8 +134,9 @@ def _by_role(objects: list, active: bpy.types.Object | None) -> tuple[list, list
     return mirrors, [obj for obj in objects if obj not in reflecting]
 
 
-def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Participants:
-    """Those of the candidates that are seen, in the viewport and in renders.
+def visible(context: bpy.types.Context, mirrors: list, diffuse: list, unmirrored: bool = False) -> Participants:
+    """Those of the candidates that are seen, in the viewport and in renders; and in mirrors, but where `unmirrored` is
+    said.
 
     Raises
     ------
@@ -147,7 +149,7 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list) -> Partici
     # mirrors show what glossy rays meet, as in Cycles
     hidden = [obj for obj in mirrors if not is_seen(obj)]
     there = set(context.scene.objects)
-    unseen = [obj for obj in diffuse if not (is_seen(obj) and obj.visible_glossy)]
+    unseen = [obj for obj in diffuse if not (is_seen(obj) and (unmirrored or obj.visible_glossy))]
     out = {*hidden, *unseen}
     seen = Participants([obj for obj in mirrors if obj not in out], [obj for obj in diffuse if obj not in out],
                         hidden + unseen, [obj for obj in unseen if obj in there and not is_seen(obj)])

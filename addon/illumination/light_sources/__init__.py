@@ -4,6 +4,7 @@ In come objects; out come eyes that look where light goes, with their power in C
 """
 from .area_lamps import is_sheared, rays_meet
 from .eye import Eye
+from .instanced_lamps import instancers_of_lamps
 from .lamps import (
     GLINT,
     NO_LAMP,
@@ -17,5 +18,6 @@ from .lamps import (
 )
 from .mesh_lamps import EMISSION, is_mesh_lamp, radiance_of
 
-__all__ = ["EMISSION", "Eye", "GLINT", "NO_LAMP", "NoLight", "chosen_lamps", "eyes_of", "is_glint", "is_mesh_lamp",
-           "is_met", "is_sheared", "light_of_nodes", "meant_lamps", "radiance_of", "rays_meet"]
+__all__ = ["EMISSION", "Eye", "GLINT", "NO_LAMP", "NoLight", "chosen_lamps", "eyes_of", "instancers_of_lamps",
+           "is_glint", "is_mesh_lamp", "is_met", "is_sheared", "light_of_nodes", "meant_lamps", "radiance_of",
+           "rays_meet"]

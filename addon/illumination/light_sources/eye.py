@@ -33,6 +33,8 @@ class Eye:
         Of a mesh that is taken as one place: its triangles' normals, as long as their area.
     body : core.TriangleMesh, optional
         What of the lamp itself may stand before this place.
+    soft : (3,) float64 and float, optional
+        Middle and radius of a point or spot lamp with a soft falloff, where that counts.
     """
 
     lamp: Lamp
@@ -42,13 +44,14 @@ class Eye:
     cone: tuple[float, float]
     facets: np.ndarray | None = None
     body: TriangleMesh | None = None
+    soft: tuple[np.ndarray, float] | None = None
 
     @property
     def shining(self) -> Lamp:
         """The lamp with its pattern."""
-        if self.kind in {"POINT", "SUN"} and self.facets is None:
+        if self.kind in {"POINT", "SUN"} and self.facets is None and self.soft is None:
             return self.lamp
-        if self.facets is not None:
+        if self.facets is not None or self.kind == "POINT":
             return replace(self.lamp, pattern=self.share)
         if self.kind == "SPOT":
             axis, half, least = self._drawn_cone()
@@ -72,20 +75,28 @@ class Eye:
         if self.facets is not None:
             return self._seen_area(places)
         if self.kind in {"POINT", "SUN"}:
-            return np.ones(places.shape[:-1])
+            return self._softly(places)
         way = places - self.lamp.place
         own = way @ self.axes
         ahead = -own[..., 2] / np.maximum(np.linalg.norm(own if self.kind == "SPOT" else way, axis=-1), 1e-300)
         if self.kind == "SPOT":
             # the blend is Cycles' smoothstep (`spot_light_attenuation` of its kernel)
             t = np.clip((ahead - self.cone[0]) / self.cone[1], 0.0, 1.0)
-            return t * t * (3.0 - 2.0 * t)
+            return t * t * (3.0 - 2.0 * t) * self._softly(places)
         cosine = np.maximum(ahead, 0.0)
         if self.cone[0] <= 0.0:
             return cosine
         # a spread below 180 degrees (`area_light_spread_attenuation` of Cycles' kernel)
         tangent = np.sqrt(np.maximum(1.0 - cosine**2, 0.0)) / np.maximum(cosine, 1e-12)
         return cosine * np.maximum(1.0 - self.cone[0] * tangent, 0.0) * self.cone[1]
+
+    def _softly(self, places: np.ndarray) -> np.ndarray:
+        """How much of what its middle would send a disc sends that faces each of `places` (..., 3)."""
+        if self.soft is None:
+            return np.ones(places.shape[:-1])
+        middle, radius = self.soft
+        squared = ((places - middle)**2).sum(axis=-1)
+        return squared / (squared + radius**2)
 
     def _seen_area(self, places: np.ndarray) -> np.ndarray:
         """The area of the mesh as it is seen from `places` (..., 3): a way through a convex one meets two triangles
@@ -109,3 +120,9 @@ def across(way: np.ndarray) -> np.ndarray:
     first = np.cross(way, other)
     first /= np.linalg.norm(first)
     return np.stack((first, np.cross(way, first)), axis=1)
+
+
+def facing(way: np.ndarray) -> np.ndarray:
+    """Three unit vectors at right angles, as columns (3, 3), the last one along a way (3,)."""
+    first, second = across(way).T
+    return np.stack((first, second, np.cross(first, second)), axis=1)

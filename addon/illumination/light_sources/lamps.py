@@ -15,8 +15,9 @@ from ...reading import seen_in
 from ...reading.materials import shown_output
 from .area_lamps import across_area, disc, rays_meet, spread_of
 from .constant_nodes import constant, plain
-from .eye import Eye, across
+from .eye import Eye, facing
 from .mesh_lamps import eyes_of_mesh, is_mesh_lamp
+from .round_lamps import ball, falls_softly
 
 NO_LAMP = "There is no lamp: add one (Add > Light) or show it in the viewport and in renders."
 FLAT = 1e-9  # volume that unit axes span: with less they lie in a plane
@@ -116,7 +117,7 @@ def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, 
         if not eyes:
             raise NoLight(f"The lamp '{lamp.name}' gives no light to the mirror: raise the strength of its emission.")
         return eyes
-    axes, place, cone = matrix[:3, :3] / length, matrix[:3, 3], (0.0, 0.0)
+    axes, place, cone, soft = matrix[:3, :3] / length, matrix[:3, 3], (0.0, 0.0), None
     power = _strength(data)
     if not (power > 0.0).any():
         raise NoLight(f"The lamp '{lamp.name}' gives no light: raise its power.")
@@ -132,14 +133,18 @@ def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, 
     else:
         radius = data.shadow_soft_size
         power = power / np.pi * _of_size(data, np.pi * radius**2, 0.25)
-        # a ball looks like a disc, as bright everywhere
-        offsets = radius * disc(count) @ across(towards.mean(axis=0) - place).T
+        way = towards.mean(axis=0) - place
+        if falls_softly(data, place, towards):
+            soft = place, radius
+            # rays that just meet a disc that faces where they start pass its middle that near
+            radius /= np.sqrt(1.0 + radius**2 / max(way @ way, 1e-300))
+        offsets = radius * ball(count) @ facing(way).T
     if data.type == "SPOT":
         half = np.cos(0.5 * data.spot_size)
         cone = half, max((1.0 - half) * data.spot_blend, 1e-6)
         # the cone lies in the lamp's own space: scale draws it out
         axes = np.linalg.inv(matrix[:3, :3]).T
-    return [Eye(Lamp(place + offset), power / count, axes, data.type, cone) for offset in offsets]
+    return [Eye(Lamp(place + offset), power / count, axes, data.type, cone, soft=soft) for offset in offsets]
 
 
 def _has_volume(axes: np.ndarray) -> bool:

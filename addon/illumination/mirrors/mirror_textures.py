@@ -39,7 +39,7 @@ def textured(mirror: bpy.types.Object) -> list[Tint]:
 
 def places_on_mirror(depsgraph: bpy.types.Depsgraph, mirror: bpy.types.Object) -> DiffuseScene | None:
     """The mirror with its coordinates, where any of its tints is textured."""
-    return read_scene(depsgraph, [mirror]) if textured(mirror) else None
+    return read_scene(depsgraph, [mirror], unmirrored=True) if textured(mirror) else None
 
 
 def stains(tints: list[Tint], whole: AllOrNothing) -> list[tuple[Tint, bpy.types.NodeTree]]:

@@ -188,6 +188,9 @@ LACKS = {
     "that, as by a Displace modifier.":
         "Das Material von '{}' biegt dessen Normalen oder verschiebt seine Fläche, und das Licht, das es wirft, folgt "
         "dem nicht: modelliere das, etwa mit einem Verschieben-Modifikator.",
+    "No light is thrown of the lamps that '{}' instances: make them real (Object > Apply > Make Instances Real).":
+        "Das Licht der Lampen, die '{}' instanziiert, wird nicht geworfen: mache sie real (Objekt > Anwenden > "
+        "Instanzen real machen).",
     "The lamp '{}' is sheared: mirrors throw what they show of it, while Cycles lights directly with more or less than "
     "that; apply the scale of its parent.":
         "Die Lampe '{}' ist geschert: Spiegel werfen, was sie von ihr zeigen, während Cycles direkt mit mehr oder "

@@ -123,7 +123,7 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
         raise core.ReflectionError(IN_OBJECT_MODE)
     if not writes_usd():
         raise core.ReflectionError(NO_USD)
-    mirrors, diffuse = candidates(context)
+    mirrors, diffuse = candidates(context, unmirrored=bool(plan.lamps))
     if not (mirrors and diffuse):
         choose(context)     # which says what is missing
     for one, other in combinations(mirrors, 2):

@@ -87,7 +87,7 @@ class ThrownLight:
         lacks = self.lacks.setdefault(context.scene.frame_current, [])
         self.receivers, self.layers = {}, 0
         try:
-            chosen = visible(context, self._mirrors, self.diffuse)
+            chosen = visible(context, self._mirrors, self.diffuse, unmirrored=True)
             if lamps:
                 asked = Asked(self.places, of_each(plan.settings), False)
                 thrown = yield from throwing(context, chosen, lamps, asked)
@@ -124,7 +124,7 @@ def pairs_of(mirrors: list, lamps: tuple) -> dict:
 def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) -> tuple[list, list]:
     """Let the caustics of the file play a sequence, all or none of them; the objects, and sentences on what is left
     out."""
-    mirrors, diffuse = candidates(context)
+    mirrors, diffuse = candidates(context, unmirrored=True)
     pairs, scene = pairs_of(mirrors, plan.lamps), context.scene
     lit = [obj for obj in diffuse if obj not in plan.lamps]
     before = left_out_before(context, list(pairs.values())) if plan.leave_out is None else {}

@@ -14,6 +14,7 @@ from ...illumination import (
     Receiving,
     blockers_of,
     blocking,
+    instancers_of_lamps,
     parts_of,
     places_on_mirror,
     receiving,
@@ -21,7 +22,7 @@ from ...illumination import (
 )
 from ...reading import DiffuseScene, MirrorSurface, Participants, read_mirrors, read_scene
 from ..shortcomings import left_out
-from .remarks import remarks_on_taking
+from .remarks import remarks_on_instances, remarks_on_taking
 
 IN_OBJECT_MODE = "Caustics are generated in Object Mode: leave the present mode first."
 NOTHING_LIT = "Light falls on nothing but lamps: select what it is to fall on, or give it the role Reflected."
@@ -87,7 +88,7 @@ def reading_caustics(context: bpy.types.Context, chosen: Participants, lamps: li
     surfaces, faceless = read_mirrors(depsgraph, chosen.mirrors)
     dark, pairs = ([pair for pair in pairs if (pair[0] in surfaces) == there] for there in (False, True))
     places = {mirror: MirrorPlaces(textured(mirror), places_on_mirror(depsgraph, mirror)) for mirror in surfaces}
-    scene = read_scene(depsgraph, chosen.diffuse)
+    scene = read_scene(depsgraph, chosen.diffuse, unmirrored=True)
     receivers = {mirror: receiving(scene, surface.mesh) for mirror, surface in surfaces.items()}
     standing = blocking(context, chosen)
     blockers = {lamp: blockers_of(depsgraph, [obj for obj in standing if obj != lamp]) for lamp in lamps}
@@ -96,4 +97,5 @@ def reading_caustics(context: bpy.types.Context, chosen: Participants, lamps: li
         origins[pair] = light_record(context, *pair, sources)
         yield 0.0, "Reading the scene"
     return CausticScene(depsgraph, pairs, dark, surfaces, places, receivers, blockers, scene, sources, origins,
-                        left_out(context, chosen.hidden) + faceless, remarks_on_taking(scene, surfaces))
+                        [*left_out(context, chosen.hidden), *faceless,
+                         *remarks_on_instances(instancers_of_lamps(context))], remarks_on_taking(scene, surfaces))

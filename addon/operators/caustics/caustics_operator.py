@@ -44,7 +44,7 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Opera
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
-        chosen, wanted, lamps = choose(context), self.wanted(context), chosen_lamps(context)
+        chosen, wanted, lamps = choose(context, unmirrored=True), self.wanted(context), chosen_lamps(context)
         given = [getattr(self, name) if self.properties.is_property_set(name) else None for name in AS_BEFORE]
         asked = asked_again(context, chosen, lamps, wanted, tuple(given))
         thrown = yield from throwing(context, chosen, lamps, asked)

@@ -34,6 +34,12 @@ def remarks_on(prepared: list[Caustic], unknown: list) -> list[str]:
     return remarks
 
 
+def remarks_on_instances(instancers: list[bpy.types.Object]) -> list[str]:
+    """On objects that instance lamps."""
+    return [f"No light is thrown of the lamps that '{obj.name}' instances: make them real (Object > Apply > Make "
+            "Instances Real)." for obj in instancers]
+
+
 def remarks_on_taking(scene: DiffuseScene, surfaces: dict[bpy.types.Object, MirrorSurface]) -> list[str]:
     """Where light ends in the scene that would go on, and which mirrors, whose `surfaces` are told, are coarse
     or bumped by their materials."""

@@ -80,15 +80,16 @@ class MirrorSurface:
     materials: list
 
 
-def read_scene(depsgraph: bpy.types.Depsgraph, objects: list) -> DiffuseScene:
-    """The diffuse `objects` joined in world space.
+def read_scene(depsgraph: bpy.types.Depsgraph, objects: list, unmirrored: bool = False) -> DiffuseScene:
+    """The diffuse `objects` joined in world space; with instances that are hidden from glossy rays, and so from
+    mirrors, where `unmirrored` is said.
 
     Raises
     ------
     ReflectionError
         Where they have no faces, `NothingSeen`, or a coordinate is not a finite number.
     """
-    return join_scene(read_meshes(depsgraph, objects, mirror=False), objects)
+    return join_scene(read_meshes(depsgraph, objects, mirror=False, unmirrored=unmirrored), objects)
 
 
 def join_scene(placed: list[Placed], objects: list) -> DiffuseScene:

@@ -110,11 +110,12 @@ def is_rendered(instance: bpy.types.DepsgraphObjectInstance) -> bool:
                                      or alone and instance.parent.instance_type == "NONE")
 
 
-def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool,
-                known: Callable | None = None) -> list[Placed]:
+def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, known: Callable | None = None,
+                unmirrored: bool = False) -> list[Placed]:
     """Each distinct mesh of `objects`, modifiers applied, with every place where it or an instance of it stands.
 
-    Instances count as their instancer: an object that instances others owns them. Of a `mirror`
+    Instances count as their instancer: an object that instances others owns them; those that are hidden from glossy
+    rays are not read where mirrors show `objects`, but where these are a `mirror` or `unmirrored`. Of a `mirror`
     only its shape is read, and its normals must be numbers. What has been read before may be `known`: asked for with
     the name of a mesh, the `session_uid` of all that it depends on, and how to read it.
 
@@ -133,7 +134,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool,
         if owner is None:
             continue
         if instance.is_instance and not (is_rendered(instance) and _takes_part(original)
-                                         and (mirror or original.visible_glossy)):
+                                         and (mirror or unmirrored or original.visible_glossy)):
             continue
         materials = tuple(slot.material.original if slot.material else None for slot in evaluated.material_slots)
         key = (evaluated.data.as_pointer(), materials)

@@ -90,6 +90,17 @@ def test_a_lamp_that_goes_out_and_several_materials(thrown, room, tmp_path):
         assert_same(told, frame, "Mirror Caustics", wanted)
 
 
+def test_what_mirrors_do_not_show_is_lit(thrown, room, tmp_path):
+    """Of a floor that is hidden from glossy rays frames had no light."""
+    bpy.data.objects["Floor"].visible_glossy = False
+    bpy.ops.wm.save_mainfile(compress=False)
+    assert bake(room, "--what", "CAUSTICS", "--output", tmp_path / "out", "--frames", "2") == 0
+    told = played(tmp_path / "out" / "scene caustics.blend", [2], tmp_path / "played", ["Mirror Caustics"])
+    bpy.ops.wm.open_mainfile(filepath=str(thrown))
+    bpy.data.objects["Floor"].visible_glossy = True
+    assert_same(told, 2, "Mirror Caustics", expected(2, "Mirror Caustics"))
+
+
 def test_reflections_and_light_play_in_one_file(thrown, room, tmp_path):
     """The second is baked with the file that plays the first."""
     out = tmp_path / "out"

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from caustic_scene import paint, rendered, scene_of
+from caustic_scene import add_lamp, paint, rendered, scene_of
 
 
 def instanced(obj: bpy.types.Object, kind: str) -> bpy.types.Object:
@@ -156,3 +156,23 @@ def _watts() -> np.ndarray:
     area = np.empty(len(mesh.polygons), dtype=np.float32)
     mesh.polygons.foreach_get("area", area)
     return each * area
+
+
+def test_lamps_in_instances_are_told(blank, capfd):
+    """Of these no light is thrown, and nothing said so."""
+    floor, mirror, lamp = scene_of()
+    rig, other = bpy.data.collections.new("Rig"), add_lamp("Other", "POINT", (-0.9, -0.3, 1.5))
+    bpy.context.scene.collection.objects.unlink(other)
+    rig.objects.link(other)
+    instance = bpy.data.objects.new("Rig Instance", None)
+    instance.instance_type, instance.instance_collection = "COLLECTION", rig
+    bpy.context.scene.collection.objects.link(instance)
+    for chosen, told in (((floor, lamp, mirror), False), ((floor, lamp, instance, mirror), True),
+                         ((floor, mirror), True)):
+        parts.select(*chosen)
+        assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+        assert ("lamps that 'Rig Instance' instances" in capfd.readouterr().out) is told
+    other.hide_render = True
+    blank.view_layer.update()
+    assert bpy.ops.reflection_mesh.caustics("EXEC_DEFAULT") == {"FINISHED"}
+    assert "Rig Instance" not in capfd.readouterr().out

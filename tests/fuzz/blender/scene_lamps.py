@@ -18,6 +18,7 @@ def built_with_lamps(seed: int) -> Scene:
     rng = np.random.default_rng((seed, 15))
     centre = scene.mirrors[0].matrix_world.translation
     names = [_lamp(rng, f"Lamp{number}", Vector(centre)) for number in range(chosen(rng, [1, 1, 2]))]
+    names += _switched(np.random.default_rng((seed, 41)))
     render = bpy.context.scene
     render.render.engine = chosen(rng, ["CYCLES", "CYCLES", "BLENDER_WORKBENCH"])
     if render.render.engine == "CYCLES":
@@ -27,6 +28,20 @@ def built_with_lamps(seed: int) -> Scene:
     bpy.context.view_layer.update()
     names += [f"{name} {value}" for name, value in options.items()]
     return Scene(", ".join((scene.name, *names)), options, scene.mirrors)
+
+
+def _switched(rng: np.random.Generator) -> list[str]:
+    """Switch what says how a lamp's light falls off, and what mirrors show; told in words."""
+    told = []
+    for data in bpy.data.lights:
+        if data.type in {"POINT", "SPOT"} and rng.random() < 0.3:
+            data.use_soft_falloff = False
+            told.append("hard falloff")
+    for obj in bpy.context.scene.objects:
+        if obj.type == "MESH" and rng.random() < 0.1:
+            obj.visible_glossy = False
+            told.append(f"{obj.name} in no mirror")
+    return told
 
 
 def _lamp(rng: np.random.Generator, name: str, centre: Vector) -> str:
