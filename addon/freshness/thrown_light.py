@@ -102,7 +102,8 @@ def _origin(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.type
     # what is hidden gives no light
     numbers += "" if seen_in(context)(lamp) else " hidden"
     return LightOrigin(digests.digest_of(depsgraph, [mirror]) + colours_of([mirror]), numbers,
-                       digests.digest_of_shown(depsgraph, sources, unmirrored=True) + colours_of(sources) + _unseen(sources),
+                       digests.digest_of_shown(depsgraph, sources, unmirrored=True) + colours_of(sources)
+                       + _unseen(sources),
                        digests.digest_of(depsgraph, around), _settings(context, mirror))
 
 
