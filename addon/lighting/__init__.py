@@ -1,4 +1,5 @@
 """Light on reflections: what Cycles shows in their mirrors, rendered once, on the faces that show it."""
+from .density import make_denser, needed_density
 from .light_material import new_export_image, new_image, new_material
 from .light_scene import light_scene, paper_white_of, white_of
 from .lit_results import (
@@ -16,6 +17,6 @@ from .texels import beside_lamps, is_overexposed, pixel_kernel, texels_of
 from .window import Window, on_the_mirror
 
 __all__ = ["Window", "beside_lamps", "dull_objects", "forget_light", "forget_previews", "is_lit", "is_overexposed",
-           "is_plain", "keep_light", "light_lines", "light_scene", "needs_light", "new_export_image", "new_image",
-           "new_material", "on_the_mirror", "paper_white_of", "pixel_kernel", "show_light", "show_object_light",
-           "show_previews", "shows_preview", "texels_of", "white_of"]
+           "is_plain", "keep_light", "light_lines", "light_scene", "make_denser", "needed_density", "needs_light",
+           "new_export_image", "new_image", "new_material", "on_the_mirror", "paper_white_of", "pixel_kernel",
+           "show_light", "show_object_light", "show_previews", "shows_preview", "texels_of", "white_of"]

@@ -75,14 +75,14 @@ def _spilt(light: np.ndarray, coverage: np.ndarray, lamp: float, beside: float) 
     outside = np.where((coverage <= beside) | ~whole & (bright > DAZZLING * lamp), bright, 0.0)
     if outside.max(initial=0.0) <= lamp:
         return np.zeros(bright.shape, dtype=bool)
-    outside, inside = (_brightest(part) for part in (outside, np.where(whole, bright, 0.0)))
+    outside, inside = (brightest(part) for part in (outside, np.where(whole, bright, 0.0)))
     near = (outside > lamp) & (outside > SPILT * inside)
     breathe()
     within, told = continued(bright[..., None], whole & ~near, near, 2 * SPREAD + 1)
     return near & (bright > np.where(told, SPILT * within[..., 0], lamp))
 
 
-def _brightest(bright: np.ndarray) -> np.ndarray:
+def brightest(bright: np.ndarray) -> np.ndarray:
     """The brightest of all pixels (height, width) as near as a filter reaches."""
     for axis in (0, 1):
         breathe()

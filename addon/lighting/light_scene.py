@@ -50,10 +50,11 @@ class LightScene:
     alone: bool
     exact: bool
 
-    def light(self, samples: int) -> Renders[np.ndarray]:
-        """What the mirrors show in the window, (height, width, 4) float32 in linear light from the lowest row up; where
-        they are alone, with how much of each pixel they cover, else with nothing in the fourth place."""
-        self.scene.cycles.samples = samples
+    def light(self, samples: int, density: int = 1) -> Renders[np.ndarray]:
+        """What the mirrors show in the window, (height, width, 4) float32 in linear light from the lowest row up, with
+        as many `samples` for `density` x `density` texels; where they are alone, with how much of each they cover, else
+        with nothing in the fourth place."""
+        self.scene.cycles.samples = max(samples // density**2, 1)
         # to filter albedo and normals first takes twice as long as all else that the denoiser does
         denoise(self.scene.cycles, "NONE" if self.exact and samples >= STEADY_SAMPLES else "ACCURATE")
         self.scene.render.film_transparent = self.alone

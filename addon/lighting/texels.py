@@ -13,7 +13,7 @@ import numpy as np
 from ...core import breathe, in_steps
 from ..faults import Steps, part
 from ..rendering import grown
-from .borders import LAMP, SEEN_PARTLY, UNSEEN, filled, without_what_lies_beside
+from .borders import LAMP, SEEN_PARTLY, UNSEEN, brightest, filled, without_what_lies_beside
 
 REACH = 3           # texels around the covered ones that filters and interpolation may ask for
 FINE = 512          # places across a pixel at which its filter is summed
@@ -64,11 +64,13 @@ def is_overexposed(light: np.ndarray, coverage: np.ndarray, white: float) -> boo
     return bool((light > white * share)[coverage > UNSEEN].any())
 
 
-def beside_lamps(coverage: np.ndarray, shining: np.ndarray) -> np.ndarray:
+def beside_lamps(coverage: np.ndarray, shining: np.ndarray, light: np.ndarray, white: float) -> np.ndarray:
     """What of a `coverage` (height, width) is left without the part that faces that are `shining` have in it. What
     they reach, and what they may reach unnoticed, since few samples fall where the filter ends, counts as hardly
-    covered: it is shown as what lies around it, for a hundredth of a lamp is brighter."""
-    return np.minimum(coverage - shining, np.where(grown(shining > 0.0, 1), SEEN_PARTLY, 1.0)).clip(0.0)
+    covered where by `light` (height, width, 3) they are many times as bright as paper, which is `white`: it is shown as
+    what lies around it, for a hundredth of a lamp is brighter. What is less bright can be taken away."""
+    lamps = brightest(np.where(shining > UNSEEN, light.max(axis=2), 0.0)) > LAMP * white
+    return np.minimum(coverage - shining, np.where(grown(shining > 0.0, 1) & lamps, SEEN_PARTLY, 1.0)).clip(0.0)
 
 
 def _texels(light: np.ndarray, coverage: np.ndarray, kernel: np.ndarray, white: float,

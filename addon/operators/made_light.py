@@ -16,6 +16,8 @@ from ..lighting import (
     is_overexposed,
     is_plain,
     light_scene,
+    make_denser,
+    needed_density,
     new_export_image,
     new_image,
     new_material,
@@ -33,6 +35,7 @@ from ..reading.materials import reflecting_materials
 from ..rendering import shown_while
 
 NAME = "Reflection Light"
+RENDERING = "Cycles renders the light"
 
 
 def light_in_picture(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing,
@@ -41,22 +44,27 @@ def light_in_picture(context: bpy.types.Context, lit: list, view: View, samples:
     window = Window.around(view, np.concatenate([on_the_mirror(result) for result in lit]))
     if window is None:
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
+    white = white_of(context.scene)
     with light_scene(context, lit, window) as scene:
-        light = yield from shown_while(scene.light(samples), 0.02, "Cycles renders the light")
+        density = yield from shown_while(needed_density(scene, window, samples, white), 0.02, RENDERING)
+        make_denser(scene, window, density)
+        light = yield from shown_while(scene.light(samples, density), 0.04, RENDERING)
         coverage, shining = yield from shown_while(scene.coverage(), 0.9, "Cycles renders what reflections cover")
     # what was clear for a while counts as changed only now
     context.view_layer.update()
     cycles = context.scene.cycles
     kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
-    opacity = light[..., 3] if scene.alone else None
-    white = white_of(context.scene)
-    texels = yield from part(texels_of(light[..., :3], coverage, kernel, white, opacity), 0.93, 0.04)
+    light, opacity = light[..., :3], light[..., 3] if scene.alone else None
+    paper_white = paper_white_of(context.scene)
+    # a part of a pixel is brighter where that is to be white
+    white *= density**2
+    texels = yield from part(texels_of(light, coverage, kernel, white, opacity), 0.93, 0.04)
     image, apart = (yield from part(new_image(NAME, texels, whole), 0.97, 0.01)), None
-    if lamps_apart and is_overexposed(light[..., :3], shining, paper_white_of(context.scene)):
+    if lamps_apart and is_overexposed(light, shining, paper_white):
         # what shines ends where its faces do, however bright it is: between texels it could not
         apart = []
-        for name, part_of in (("Matte", beside_lamps(coverage, shining)), ("Shining", shining)):
-            found = yield from part(texels_of(light[..., :3], part_of, kernel, white, opacity, name.upper()), 0.98,
+        for name, part_of in (("Matte", beside_lamps(coverage, shining, light, paper_white)), ("Shining", shining)):
+            found = yield from part(texels_of(light, part_of, kernel, white, opacity, name.upper()), 0.98,
                                     0.005)
             apart.append((yield from part(new_image(f"{NAME} {name}", found, whole), 0.985, 0.0)))
     export_image = yield from part(new_export_image(f"{NAME} Export", texels, whole), 0.99, 0.01)
