@@ -12,9 +12,8 @@ from .lit_results import (
     show_object_light,
 )
 from .needs_light import is_plain, needs_light
+from .picture import Window, beside_lamps, is_overexposed, on_the_mirror, pixel_kernel, texels_of
 from .preview import forget_previews, show_previews, shows_preview
-from .texels import beside_lamps, is_overexposed, pixel_kernel, texels_of
-from .window import Window, on_the_mirror
 
 __all__ = ["Window", "beside_lamps", "dull_objects", "forget_light", "forget_previews", "is_lit", "is_overexposed",
            "is_plain", "keep_light", "light_lines", "light_scene", "make_denser", "needed_density", "needs_light",

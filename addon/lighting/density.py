@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from ..rendering import Renders, crop_to, rendering
 from .light_scene import LightScene
-from .window import Window
+from .picture import Window
 
 DENSE = 2
 MOST_TEXELS = 1 << 21       # sharpening takes some 200 bytes for each

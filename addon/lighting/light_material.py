@@ -12,7 +12,7 @@ from .. import compat
 from ..faults import AllOrNothing, Steps, part, remove_new
 from ..files import open_exr
 from ..writing import UV_MAP, images_of, show_unblurred
-from .picture_layout import SHINING
+from .picture import SHINING
 
 WRITING = "Writing"
 

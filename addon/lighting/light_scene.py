@@ -27,9 +27,8 @@ from ..rendering import (
 )
 from .clear_air import clear_air, is_of_fog
 from .cutting import cut_through
-from .picture_layout import shining_slots
+from .picture import Window, on_the_mirror, shining_slots
 from .standing_before import standing_before
-from .window import Window, on_the_mirror
 
 COVERAGE_SAMPLES = 64  # where a result ends; elsewhere as few tell that it does not
 INNER_SAMPLES, UNEVEN = 8, 0.01

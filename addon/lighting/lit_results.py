@@ -13,10 +13,9 @@ from ..reading import DiffuseScene
 from ..writing import LONGEST_RECORD, forget_mesh, forget_unblurred, images_of, show_own_materials, unblurred_in
 from .light_material import texels_shown
 from .needs_light import needs_light
-from .picture_layout import lay_out as lay_out_picture
-from .picture_light import record_of, window_of
+from .picture import Window, record_of, window_of
+from .picture import lay_out as lay_out_picture
 from .preview import MARK, forget_previews
-from .window import Window
 
 
 def show_light(result: bpy.types.Object, material: bpy.types.Material, view: View, window: Window,

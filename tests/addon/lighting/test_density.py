@@ -63,7 +63,7 @@ def test_only_what_is_brighter_than_white_is_rendered_densely(request, strength,
 def test_beside_what_shines_a_little_it_is_as_it_is(room):
     """Matte faces one pixel wide between ones three times white, which tell all pixels' light, keep their own; beside
     ones a thousand times white they go on as it is around."""
-    texels = room("addon.lighting.texels")
+    texels = room("addon.lighting.picture.texels")
     shining = np.tile(np.array((1.0, 0.0), dtype=np.float32), (12, 6))
     coverage = np.ones_like(shining)
     for strength, most in ((3.0, 1.0), (1000.0, 0.25)):

@@ -19,7 +19,7 @@ def test_slivers_are_cut_until_the_map_is_linear(blank, room):
     mesh.from_pydata(corners.reshape(-1, 3).tolist(), [], np.arange(900).reshape(-1, 3).tolist())
     blank.scene.camera.location, blank.scene.camera.rotation_euler = (0.0, -4.0, 0.7), (1.4, 0.0, 0.0)
     blank.view_layer.update()
-    place, view = room("addon.lighting.picture_layout"), room("addon.reading").read_view(blank)
+    place, view = room("addon.lighting.picture.picture_layout"), room("addon.reading").read_view(blank)
     area, matrix = sum(face.area for face in mesh.polygons), np.eye(4)
     straying = len(place._edges_that_stray(mesh, place._clip(mesh, view, matrix), view.resolution))
     assert straying > 100

@@ -10,7 +10,7 @@ from lamp_scenes import picture, psnr, scene_of
 
 def test_texels_show_the_picture_that_they_are_made_of(room):
     """In closed form: a pixel is the integral of linearly interpolated texels times Cycles' filter."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     rng = np.random.default_rng(1)
     for kind, width in (("BLACKMAN_HARRIS", 1.5), ("BOX", 1.0), ("GAUSSIAN", 1.5)):
         kernel = texels.pixel_kernel(kind, width)
@@ -24,7 +24,7 @@ def test_texels_show_the_picture_that_they_are_made_of(room):
 def test_only_what_lies_beside_is_taken_out_where_a_picture_ends(room):
     """A result that ends at its mirror's outline with one side, and within it with the other, before nothing: of the
     outline's pixels nothing has to be taken away but the mirror's light."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     opacity = np.clip(np.arange(20.0) - 4.5, 0.0, 1.0)[None].repeat(12, 0)
     coverage = opacity * np.clip(12.4 - np.arange(20.0), 0.0, 1.0)
     own, beside = np.array((0.8, 0.5, 0.1)), np.array((0.1, 0.4, 0.9))
@@ -50,7 +50,7 @@ def test_a_result_that_ends_within_its_mirror_is_sharp_there(blank, room):
 
 
 def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
     own, beside = np.array((0.8, 0.5, 0.1)), np.array((0.1, 0.4, 0.9))
     light = coverage[..., None] * own + (1.0 - coverage[..., None]) * beside
@@ -61,7 +61,7 @@ def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):
 
 def test_what_covers_no_pixel_well_shows_what_pixels_have_of_it_together(room):
     """Two wires of a fifth of a pixel, before nothing, which another thing is much nearer to one of."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     coverage = np.zeros((24, 30))
     coverage[:, 4], coverage[:, 5], coverage[:, 14], coverage[:, 20:] = 0.12, 0.08, 0.2, 1.0
     own = np.zeros((24, 30, 3))
@@ -76,7 +76,7 @@ def test_what_covers_no_pixel_well_shows_what_pixels_have_of_it_together(room):
 def test_beside_a_lamp_a_result_ends_as_it_is_within(room):
     """What is taken out of a pixel that holds both is a hundred times brighter: a hundredth more is all that there is,
     and a hundredth less is a spark."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
     own, lamp = np.array((0.6, 0.5, 0.3)), np.array((80.0, 60.0, 40.0))
     light = coverage[..., None] * own + (1.0 - coverage[..., None]) * lamp
@@ -89,7 +89,7 @@ def test_beside_a_lamp_a_result_ends_as_it_is_within(room):
 
 def test_a_gap_before_a_lamp_is_no_part_of_the_lamp(room):
     """Thinner than a pixel: in what lies beside it is the lamp alone that is seen whole."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
     own, gap, lamp = np.array((0.6, 0.5, 0.3)), np.array((0.1, 0.1, 0.1)), np.array((80.0, 60.0, 40.0))
     light = coverage[..., None] * own + (1.0 - coverage[..., None]) * gap
@@ -102,7 +102,7 @@ def test_a_gap_before_a_lamp_is_no_part_of_the_lamp(room):
 def test_a_gap_between_results_shows_nothing_of_what_lies_farther_away(room):
     """Two pieces of a result with a dark gap between them, thinner than a pixel; what is bright lies behind the second,
     and every pixel up to there holds a little that is no result."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     coverage = np.ones((12, 20))
     coverage[:, 9], coverage[:, 10:14], coverage[:, 14:] = 0.6, 0.98, 0.0
     own, beside = np.array((0.8, 0.5, 0.1)), np.array((0.1, 0.4, 0.9))
@@ -115,7 +115,7 @@ def test_a_gap_between_results_shows_nothing_of_what_lies_farther_away(room):
 
 def test_what_is_overexposed_in_one_colour_is_as_bright_as_it_is_where_a_result_ends(room):
     """Where a pixel holds a part of it, half of twice white is white: white itself would be half as bright."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     coverage = np.clip(np.arange(20.0) - 9.7, 0.0, 1.0)[None].repeat(12, 0)
     own, beside = np.array((2.0, 0.4, 0.3)), np.array((0.1, 0.4, 0.9))
     light = coverage[..., None] * own + (1.0 - coverage[..., None]) * beside
@@ -128,7 +128,7 @@ def test_what_is_overexposed_in_one_colour_is_as_bright_as_it_is_where_a_result_
 def test_a_lamp_thinner_than_a_pixel_beside_a_result_is_no_part_of_it(room, faces):
     """Of a lamp a thousand times white, an eighth of a pixel beside where the result ends, so much is spilt into pixels
     that this covers whole that they are white; farther within, one that stands before it is as bright as it is."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     fine, (height, width) = 8, (24, 32)
     across = np.arange(fine * width)
     covered = np.broadcast_to(across >= 76, (fine * height, fine * width)).astype(float)
@@ -146,7 +146,7 @@ def test_a_lamp_thinner_than_a_pixel_beside_a_result_is_no_part_of_it(room, face
 def test_a_bright_strip_along_a_frame_is_no_lamp_beside_it(room):
     """Overexposed and three pixels wide, of which the middle one alone is covered whole and, by its noise, a little
     less bright than those beside; its end is dark, and so is what the bare mirror shows."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     coverage, opacity, own = np.zeros((16, 20)), np.ones((16, 20)), np.full((16, 20), 1.5)
     coverage[:, 5], coverage[:, 6], coverage[:, 7] = 0.9, 1.0, 0.8
     opacity[:, :6] = coverage[:, :6]
@@ -162,7 +162,7 @@ def test_a_bright_rim_of_what_a_result_shows_is_no_lamp_beside_it(room):
     """As light from behind makes it: a quarter of a pixel wide and eight times white, in pixels that are covered in
     part, and dark on both sides. Over the bare mirror the texels show the picture again, as nearly as one a pixel
     can."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     fine, (height, width) = 8, (16, 32)
     across = np.broadcast_to(np.arange(fine * width), (fine * height, fine * width))
     covered, bare = (across >= 76).astype(float), 0.15
@@ -191,7 +191,7 @@ def _in_pixels(picture: np.ndarray, fine: int) -> np.ndarray:
 
 def test_beside_small_lamps_it_is_nearly_as_dark_as_it_is(room):
     """Lamps of two to four texels in the dark, whose picture is known in closed form, up to white."""
-    texels, finished = room("addon.lighting.texels"), room("addon.faults").finished
+    texels, finished = room("addon.lighting.picture.texels"), room("addon.faults").finished
     kernel, dark = texels.pixel_kernel("BLACKMAN_HARRIS", 1.5), 0.05
     true = np.full((40, 40, 3), dark)
     true[8:10, 8:10], true[8:11, 25:28], true[25:27, 7:10], true[25:29, 25:29] = 9.0, 30.0, 3.0, 100.0

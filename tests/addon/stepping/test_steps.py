@@ -236,7 +236,7 @@ def test_no_step_of_packing_a_sheet_keeps_the_window_waiting(room, sheet, blank,
 
 def test_no_step_of_light_but_its_renders_keeps_the_window_waiting(room):
     """Bright lamps in a large picture: bringing their borders nearer took two seconds at once."""
-    texels = room("addon.lighting.texels")
+    texels = room("addon.lighting.picture.texels")
     light = np.full((1080, 1920, 3), 0.2, np.float32)
     light[100:600:50, 100:600:50] = 40.0
     kernel = texels.pixel_kernel("BLACKMAN_HARRIS", 1.5)

@@ -6,8 +6,8 @@ import json
 
 import numpy as np
 
-from ...core import View
-from ..writing import LONGEST_RECORD
+from ....core import View
+from ...writing import LONGEST_RECORD
 from .window import Window
 
 

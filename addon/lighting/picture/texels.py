@@ -10,9 +10,9 @@ from functools import partial
 
 import numpy as np
 
-from ...core import breathe, in_steps
-from ..faults import Steps, part
-from ..rendering import grown
+from ....core import breathe, in_steps
+from ...faults import Steps, part
+from ...rendering import grown
 from .borders import LAMP, SEEN_PARTLY, UNSEEN, brightest, filled, without_what_lies_beside
 
 REACH = 3           # texels around the covered ones that filters and interpolation may ask for

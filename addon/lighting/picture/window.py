@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...core import View
-from ..reading import vectors
-from ..writing import place_of
+from ....core import View
+from ...reading import vectors
+from ...writing import place_of
 
 MARGIN = 3  # pixels around the results, where the picture's filter still mixes them with what lies beside
 

@@ -9,10 +9,10 @@ import bpy
 import bmesh
 import numpy as np
 
-from ...core import View
-from ..faults import Steps
-from ..reading.materials import glows
-from ..writing import light_layer, light_points, place_of
+from ....core import View
+from ...faults import Steps
+from ...reading.materials import glows
+from ...writing import light_layer, light_points, place_of
 from .window import Window
 
 COLOUR = "Reflection Light Colour"

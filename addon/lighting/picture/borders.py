@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core import breathe
-from ..rendering import continued, grown, sum_around
+from ....core import breathe
+from ...rendering import continued, grown, sum_around
 
 SEEN_WHOLE = 0.995  # of a pixel: coverage from which it shows nothing else
 SEEN_PARTLY = 0.25  # from which what lies beside can be taken away from it
