@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 
 from core import Settings, reflect
-from tests.oracles.true_map import case_of
 
 SCARCE = Settings(maximum_memory=1e-4)  # holds hardly a candidate, and leaves nearly everything to rays
 
@@ -13,6 +12,7 @@ SCARCE = Settings(maximum_memory=1e-4)  # holds hardly a candidate, and leaves n
 # what the tool draws with is installed beside one Blender alone, that of the slow tests
 @pytest.mark.slow
 def test_the_method_without_filling_has_the_faces_that_no_ray_has_filled(monkeypatch):
+    from tests.oracles.true_map import case_of
     from tools.pictures import parts
     monkeypatch.setattr(parts, "_room", importlib.import_module)
     case = case_of("sphere")
