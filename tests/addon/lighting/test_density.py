@@ -32,6 +32,7 @@ def test_checks_that_shine_look_as_in_the_mirror(blank, room):
     """Two and a half pixels wide, against Cycles and its own noise."""
     scene_of(blank)
     _checked_card(6.0, 30)
+    blank.scene.cycles.samples = 512
     reference, other = picture(room), picture(room, 1)
     parts.generate()
     bpy.ops.reflection_mesh.light(samples=128, kind="PICTURE", every=True)
