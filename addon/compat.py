@@ -183,6 +183,15 @@ def dices(scene: bpy.types.Scene, obj: bpy.types.Object) -> bool:
     return scene.cycles.feature_set == "EXPERIMENTAL" and obj.cycles.use_adaptive_subdivision
 
 
+def inputs_of_nodes(modifier: bpy.types.NodesModifier) -> list:
+    """The values that a Geometry Nodes modifier gives to its nodes; properties of its own before Blender 5.2."""
+    if not hasattr(modifier, "properties"):
+        return list(modifier.values())
+    inputs = modifier.properties.inputs
+    return [getattr(getattr(inputs, name), "value", None) for name in inputs.bl_rna.properties.keys()
+            if name not in {"rna_type", "name"}]
+
+
 def let_go_at_exit(cls: type) -> None:
     """Let a class of properties that have functions (for updates, of their own values) forget these when Python ends.
 

@@ -48,8 +48,9 @@ def digest_of_shown(depsgraph: bpy.types.Depsgraph, objects: list, unmirrored: b
     that too, on which mirrors throw light, where `unmirrored` is said."""
     rendered = rendered_in(depsgraph.view_layer)
     owner_of = {obj: index for index, obj in enumerate(objects) if (unmirrored or obj.visible_glossy) and rendered(obj)}
+    given: dict = {}
     return _digest(depsgraph, owner_of, lambda instance: not instance.is_instance or (
-        is_rendered(instance) and (unmirrored or instance.object.original.visible_glossy)))
+        is_rendered(instance, given) and (unmirrored or instance.object.original.visible_glossy)))
 
 
 def _digest(depsgraph: bpy.types.Depsgraph, owner_of: dict, counts: Callable) -> str:

@@ -88,11 +88,12 @@ def _copy_objects(context: bpy.types.Context, copied: CopiedScene, mirrors: list
     seen = _rendered(context)
     old_results = {obj for obj in context.view_layer.objects if is_result(obj)} - set(results)
     meshes: dict = {}
+    given: dict = {}
     for instance in depsgraph.object_instances:
         evaluated = instance.object
         original = evaluated.original
         owner = instance.parent.original if instance.is_instance else original
-        if owner not in seen or owner in old_results or not is_rendered(instance) or not instance.show_self:
+        if owner not in seen or owner in old_results or not is_rendered(instance, given) or not instance.show_self:
             continue
         if original.type == "LIGHT" and not instance.is_instance:
             copied.lights.append(original)

@@ -11,11 +11,11 @@ import numpy as np
 from ....core import ReflectionError
 from ..materials import asked_attributes
 from .creases import Creases
+from .hidden_instances import is_rendered
 from .read_layers import NO_LAYERS, read_layers
 from .shading_normals import bent_faces, corner_normals, with_bent_faces
 from .source_lines import SourceLines
 
-NO_NUMBER = 2**31 - 1  # of a level of instances that there is not: a whole collection has one, and one of each object
 FARTHEST = 1e17  # units: squares of what lies somewhat further must still be numbers of single precision
 
 
@@ -100,16 +100,6 @@ def drawn_meshes(depsgraph: bpy.types.Depsgraph) -> Iterator[bpy.types.Depsgraph
             if instance.object.type == "MESH" and instance.show_self)
 
 
-def is_rendered(instance: bpy.types.DepsgraphObjectInstance) -> bool:
-    """Whether renders show something at a place. What Geometry Nodes or particles instance they show though it is
-    hidden there itself, as what is instanced mostly is; of collections, vertices and faces they do not."""
-    if not instance.object.original.hide_render:
-        return True
-    alone = instance.is_instance and instance.persistent_id[1] == NO_NUMBER
-    return instance.is_instance and (instance.particle_system is not None
-                                     or alone and instance.parent.instance_type == "NONE")
-
-
 def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, known: Callable | None = None,
                 unmirrored: bool = False) -> list[Placed]:
     """Each distinct mesh of `objects`, modifiers applied, with every place where it or an instance of it stands.
@@ -127,13 +117,14 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, kno
     owner_of = {obj: index for index, obj in enumerate(objects)}
     meshes, owners, matrices, instances, told = {}, {}, {}, {}, {}
     asked: dict[tuple, frozenset] = {}
+    given: dict = {}
     for instance in drawn_meshes(depsgraph):
         evaluated = instance.object
         original = evaluated.original
         owner = owner_of.get(instance.parent.original if instance.is_instance else original)
         if owner is None:
             continue
-        if instance.is_instance and not (is_rendered(instance) and _takes_part(original)
+        if instance.is_instance and not (is_rendered(instance, given) and _takes_part(original)
                                          and (mirror or unmirrored or original.visible_glossy)):
             continue
         materials = tuple(slot.material.original if slot.material else None for slot in evaluated.material_slots)

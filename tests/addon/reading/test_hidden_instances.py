@@ -7,24 +7,42 @@ import parts
 import pytest
 
 
-def _by_nodes(node: str, chosen, **values) -> bpy.types.Object:
-    """An object whose modifier makes instances of what a node gives."""
+def _by_nodes(node: str, chosen, points: bool, by_modifier: bool, **values) -> bpy.types.Object:
+    """An object whose modifier makes instances of what a node gives, itself or on `points`; what is chosen the node
+    names, or the modifier."""
     tree = bpy.data.node_groups.new("Instances", "GeometryNodeTree")
     tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
     info, end = tree.nodes.new(node), tree.nodes.new("NodeGroupOutput")
-    for name, value in {chosen.bl_rna.identifier: chosen, **values}.items():
+    for name, value in values.items():
         info.inputs[name].default_value = value
-    tree.links.new(next(socket for socket in info.outputs if socket.type == "GEOMETRY"), end.inputs[0])
+    made, kind = next(socket for socket in info.outputs if socket.type == "GEOMETRY"), chosen.bl_rna.identifier
+    if points:
+        point, placed = tree.nodes.new("GeometryNodePoints"), tree.nodes.new("GeometryNodeInstanceOnPoints")
+        tree.links.new(point.outputs[0], placed.inputs["Points"])
+        tree.links.new(made, placed.inputs["Instance"])
+        made = placed.outputs[0]
+    tree.links.new(made, end.inputs[0])
     holder = bpy.data.objects.new("Holder", bpy.data.meshes.new("Holder"))
-    holder.modifiers.new("Instances", "NODES").node_group = tree
+    modifier = holder.modifiers.new("Instances", "NODES")
+    modifier.node_group = tree
+    if by_modifier:
+        socket = tree.interface.new_socket(kind, in_out="INPUT", socket_type=f"NodeSocket{kind}")
+        tree.links.new(tree.nodes.new("NodeGroupInput").outputs[0], info.inputs[kind])
+        if bpy.app.version < (5, 2, 0):
+            modifier[socket.identifier] = chosen
+        else:
+            getattr(modifier.properties.inputs, socket.identifier).value = chosen
+    else:
+        info.inputs[kind].default_value = chosen
     return holder
 
 
 def _holder(kind: str, cube: bpy.types.Object) -> bpy.types.Object:
     """What instances a cube."""
     scene, collection = bpy.context.scene, bpy.data.collections.new("Cubes")
-    if kind == "object":
-        holder = _by_nodes("GeometryNodeObjectInfo", cube, **{"As Instance": True})
+    points, by_modifier = "points" in kind, "modifier" in kind
+    if kind.startswith("object"):
+        holder = _by_nodes("GeometryNodeObjectInfo", cube, points, by_modifier, **{"As Instance": True})
     elif kind == "particles":
         holder = parts.add("plane", "Holder", size=0.2)
         holder.modifiers.new("Particles", "PARTICLE_SYSTEM")
@@ -41,14 +59,16 @@ def _holder(kind: str, cube: bpy.types.Object) -> bpy.types.Object:
             holder.instance_type, holder.instance_collection = "COLLECTION", collection
         else:
             scene.collection.children.link(collection)
-            holder = _by_nodes("GeometryNodeCollectionInfo", collection,
-                               **{"Separate Children": kind == "children"})
+            holder = _by_nodes("GeometryNodeCollectionInfo", collection, points, by_modifier,
+                               **{"Separate Children": kind.startswith("children")})
     if holder.name not in scene.collection.objects:
         scene.collection.objects.link(holder)
     return holder
 
 
-@pytest.mark.parametrize("kind", ["object", "children", "particles", "collection", "whole collection"])
+@pytest.mark.parametrize("kind", [
+    "object", "object on points", "object of the modifier on points", "children", "children on points",
+    "children of the modifier on points", "particles", "collection", "whole collection", "whole collection on points"])
 @pytest.mark.parametrize("hidden", [False, True])
 def test_what_cycles_shows_is_read(blank, room, kind, hidden):
     scene, cube = blank.scene, parts.add("cube", "Cube", size=0.5)
