@@ -12,7 +12,7 @@ import numpy as np
 from .. import compat
 from ..faults import still_there
 from ..reading import is_opaque, materials_of, read_view
-from ..reading.materials import is_exact
+from ..reading.materials import all_materials_of, is_exact
 from ..rendering import (
     Renders,
     copied_scene,
@@ -118,7 +118,8 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         clear_air(scene, fog, back)
         others = [obj for obj in others if obj not in fog]
         hidden = [obj for obj in others if obj.library is None and obj not in parts]
-        alone = len(hidden) == len(others) and len(mirrors) == len(results) and all(map(_is_opaque, mirrors))
+        materials = [material for mirror in mirrors for material in all_materials_of(mirror)]
+        alone = len(hidden) == len(others) and len(mirrors) == len(results) and all(map(is_opaque, materials))
         before = _cutting(context, mirrors, hidden) if alone else []
         for obj in before:
             back.callback(setattr, obj, "is_holdout", obj.is_holdout)
@@ -126,8 +127,7 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         for obj in set(hidden).difference(before) if alone else _looked_through(context, results, hidden):
             back.callback(setattr, obj, "visible_camera", True)
             obj.visible_camera = False
-        exact = all(is_exact(material) for mirror in mirrors for material in materials_of(mirror))
-        yield LightScene(scene, results, before, fog, alone, exact)
+        yield LightScene(scene, results, before, fog, alone, all(map(is_exact, materials)))
 
 
 def _seen_others(context: bpy.types.Context, lit: set) -> tuple[list, set]:

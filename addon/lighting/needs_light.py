@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import compat
 from ..reading import has_fog
-from ..reading.materials import emits_alike, is_mirror, materials_of, surface_shader
+from ..reading.materials import all_materials_of, emits_alike, is_mirror, surface_shader
 
 WHITE = 0.999
 TINTS = {"BSDF_GLOSSY": ("Color",), "BSDF_PRINCIPLED": ("Base Color", "Specular Tint")}
@@ -21,7 +21,7 @@ def needs_light(result: bpy.types.Object) -> bool:
     mirror = result.reflection_mesh.mirror
     if mirror is None or not all(map(emits_alike, _shown(result))):
         return True
-    mirrors = list(filter(is_mirror, materials_of(mirror)))
+    mirrors = list(filter(is_mirror, all_materials_of(mirror)))
     # fog is looked for last: objects are many
     return not mirrors or not all(map(is_plain, mirrors)) or any(map(has_fog, result.users_scene))
 

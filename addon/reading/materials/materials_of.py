@@ -7,6 +7,7 @@ import numpy as np
 from .mirror_materials import is_mirror
 from .opaque_materials import is_fog
 
+INSTANCING = {"NODES", "PARTICLE_SYSTEM"}
 # modifiers that may give faces other slots than the mesh does
 REPAINTING = {"BEVEL", "BOOLEAN", "MESH_SEQUENCE_CACHE", "NODES", "SOLIDIFY", "WIREFRAME"}
 
@@ -39,10 +40,26 @@ def materials_on_faces(obj: bpy.types.Object) -> list:
 
 def reflecting_materials(mirror: bpy.types.Object) -> list:
     """The distinct materials of a mirror that reflect; all that it has where none does."""
-    instanced = mirror.instance_type == "COLLECTION" and mirror.instance_collection is not None
-    known = materials_of(mirror) if instanced else materials_on_faces(mirror)
+    collected = mirror.instance_type == "COLLECTION" and mirror.instance_collection is not None
+    known = (materials_of(mirror) if collected else materials_on_faces(mirror)) + _of_instances(mirror)
     known = list(dict.fromkeys(material for material in known if material is not None))
     return [material for material in known if is_mirror(material)] or known
+
+
+def all_materials_of(mirror: bpy.types.Object) -> list:
+    """As `materials_of`, with those of what it instances by Geometry Nodes, particles, vertices or faces."""
+    return materials_of(mirror) + _of_instances(mirror)
+
+
+def _of_instances(obj: bpy.types.Object) -> list:
+    """The materials of what an object instances otherwise than as a collection, as it was evaluated last."""
+    by_itself = obj.instance_type in {"VERTS", "FACES"}
+    depsgraph = getattr(getattr(bpy.context, "view_layer", None), "depsgraph", None)
+    if depsgraph is None or not (by_itself or any(modifier.type in INSTANCING for modifier in obj.modifiers)):
+        return []
+    return [None if slot.material is None else slot.material.original
+            for instance in depsgraph.object_instances
+            if instance.is_instance and instance.parent.original == obj for slot in instance.object.material_slots]
 
 
 def _shown(obj: bpy.types.Object) -> bpy.types.Object:

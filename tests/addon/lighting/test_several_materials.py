@@ -111,3 +111,39 @@ def test_no_face_lies_on_two_of_them(blank):
     over_both = np.minimum(place.max(axis=1), -place.min(axis=1))
     assert (span < 0).mean() > 0.05
     assert over_both.max() < 1e-4
+
+
+@pytest.mark.parametrize("kind", ["vertices", pytest.param("nodes", marks=pytest.mark.slow)])
+def test_instances_of_a_mirror_reflect_as_what_is_instanced(blank, room, kind):
+    """The mirror, which instances it, has no material of its own."""
+    wall = scene_of(blank, "", "Tint")
+    carrier = bpy.data.objects.new("Carrier", bpy.data.meshes.new("Carrier"))
+    carrier.data.from_pydata([(0.0, 0.0, 0.0)], [], [])
+    carrier.matrix_world = wall.matrix_world
+    blank.scene.collection.objects.link(carrier)
+    if kind == "vertices":
+        wall.matrix_world = np.eye(4)
+        wall.parent, carrier.instance_type = carrier, "VERTS"
+    else:
+        wall.hide_render = wall.hide_viewport = True
+        _instance_by_nodes(carrier, wall)
+    carrier.reflection_mesh.role = "MIRROR"
+    parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], carrier)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
+def _instance_by_nodes(carrier: bpy.types.Object, instanced: bpy.types.Object) -> None:
+    tree = bpy.data.node_groups.new("Instances", "GeometryNodeTree")
+    for side in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
+    given, made, points, info = (tree.nodes.new(kind) for kind in (
+        "NodeGroupInput", "NodeGroupOutput", "GeometryNodeInstanceOnPoints", "GeometryNodeObjectInfo"))
+    info.inputs["Object"].default_value, info.inputs["As Instance"].default_value = instanced, True
+    for output, socket in ((given.outputs[0], points.inputs["Points"]),
+                           (info.outputs["Geometry"], points.inputs["Instance"]),
+                           (points.outputs[0], made.inputs[0])):
+        tree.links.new(output, socket)
+    carrier.modifiers.new("Instances", "NODES").node_group = tree
