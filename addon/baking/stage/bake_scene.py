@@ -13,7 +13,7 @@ from ...rendering import copied_scene, look_through, put_swift_world
 from ...writing import UV_MAP
 from .bake_targets import new_target
 from .bakes import BakeScene
-from .linked_lamps import link_lamps
+from .linked_lamps import count_the_mirror, link_lamps
 from .stand_ins import StandIn, new_object, swap_names
 
 
@@ -34,6 +34,7 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
             put_swift_world(scene, back)
         look_through(scene, bpy.data.objects.new(UV_MAP, bpy.data.cameras.new(UV_MAP)), back)
         _without_results(scene)
+        count_the_mirror(scene, back)
         for source in sources:
             back.callback(setattr, source, "hide_render", source.hide_render)
             source.hide_render = True

@@ -1,4 +1,4 @@
-"""Light linking for stand-ins: lamps light them, and are blocked by them, as what they stand for."""
+"""Lamps for stand-ins: they light them, and are blocked by them, as what they stand for, and as mirrors show that."""
 from __future__ import annotations
 
 from contextlib import ExitStack
@@ -25,6 +25,21 @@ def link_lamps(stands: list[tuple[bpy.types.Object, bpy.types.Object]], back: Ex
             if copies[collection] is not None:
                 back.callback(setattr, lamp.light_linking, link, collection)
                 setattr(lamp.light_linking, link, copies[collection])
+
+
+def count_the_mirror(scene: bpy.types.Scene, back: ExitStack) -> None:
+    """Let lamps that light no more than so many bounces light one less, until the stack takes it back: what is seen
+    by way of a mirror comes one bounce later than in a bake."""
+    known: dict = {}
+    for obj in [obj for obj in scene.objects if obj.type == "LIGHT"]:
+        cycles = obj.data.cycles
+        most = known.setdefault(obj.data, cycles.max_bounces)
+        if most == 0:
+            back.callback(setattr, obj, "hide_render", obj.hide_render)
+            obj.hide_render = True
+        elif cycles.max_bounces == most <= scene.cycles.max_bounces:
+            back.callback(setattr, cycles, "max_bounces", most)
+            cycles.max_bounces = most - 1
 
 
 def _with_stand_ins(collection: bpy.types.Collection, stands: list, back: ExitStack) -> bpy.types.Collection | None:

@@ -88,7 +88,7 @@ def new_object(source: bpy.types.Object, stand: StandIn, mesh: bpy.types.Mesh) -
         obj.instance_type = "NONE"
         obj.hide_render = False
         # in mirrors it is an object as any other
-        obj.is_shadow_catcher = False
+        obj.is_shadow_catcher = obj.is_holdout = False
     else:
         obj = bpy.data.objects.new(UV_MAP, mesh)
         if stand.told is None:

@@ -72,10 +72,10 @@ def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflect
     assert (set(bpy.data.shape_keys), set(bpy.data.scenes)) == kept
 
 
-@pytest.mark.slow
-def test_what_catches_shadows_is_what_mirrors_show_of_it(blank, room):
+@pytest.mark.parametrize("name", [pytest.param("is_shadow_catcher", marks=pytest.mark.slow), "is_holdout"])
+def test_what_the_camera_does_not_see_as_it_is_mirrors_do(blank, room, name):
     scene_of(blank)
-    bpy.data.objects["Floor"].is_shadow_catcher = True
+    setattr(bpy.data.objects["Floor"], name, True)
     reference, other = picture(room), picture(room, seed=7)
     parts.generate()
     light(64)
@@ -103,6 +103,28 @@ def test_lamps_light_what_they_are_linked_to(blank, room, link, name, state):
     assert psnr(picture(room), reference) > 30.0
     assert set(bpy.data.collections) == {linked, inner} and getattr(lamp.light_linking, link) == linked
     assert not linked.objects and list(inner.objects) == [bpy.data.objects[name]]
+
+
+@pytest.mark.parametrize("bounces", [0, pytest.param(1, marks=pytest.mark.slow)])
+def test_lamps_light_no_more_bounces_than_they_may(blank, room, bounces):
+    """Of a lamp's two objects each is out: what mirrors show is lit a bounce later."""
+    scene_of(blank)
+    lamp = bpy.data.objects["Area"]
+    twin = lamp.copy()
+    blank.scene.collection.objects.link(twin)
+    twin.location = 2.0, -3.0, 3.0
+    # what lights all the same
+    point = bpy.data.objects.new("Point", bpy.data.lights.new("Point", "POINT"))
+    blank.scene.collection.objects.link(point)
+    point.location, point.data.energy, point.data.shadow_soft_size = (-1.0, -2.0, 3.0), 80.0, 0.5
+    for one, most in ((lamp, bounces), (point, 7)):
+        one.data.cycles.max_bounces = most
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate()
+    light(64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert (lamp.data.cycles.max_bounces, point.data.cycles.max_bounces) == (bounces, 7)
+    assert not (lamp.hide_render or twin.hide_render or point.hide_render)
 
 
 @pytest.mark.slow
