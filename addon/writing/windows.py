@@ -57,10 +57,10 @@ def what_is_in_the_way(context: bpy.types.Context, view: View, result: Reflectio
     if not len(result.positions):
         return "", 0.0, 0.0
     depsgraph = context.evaluated_depsgraph_get()
-    ways = [_some(result.mirror_position, result.positions), _within_faces(result, view)]
+    ways = _within_faces(result, view) if len(result.triangles) else _some(result.mirror_position, result.positions)
     found: Counter = Counter()
     before, tried = 0, 0
-    for start, end in zip(*(np.concatenate(ends).tolist() for ends in zip(*ways))):
+    for start, end in zip(*(ends.tolist() for ends in ways)):
         name, lies_before = _first_seen(context.scene, depsgraph, Vector(start), Vector(end), mirrors)
         found[name] += bool(name)
         before, tried = before + lies_before, tried + 1
@@ -70,17 +70,20 @@ def what_is_in_the_way(context: bpy.types.Context, view: View, result: Reflectio
 
 def _some(*places: np.ndarray) -> list[np.ndarray]:
     """As many as are to be tried."""
-    some = np.unique(np.linspace(0, len(places[0]) - 1, RAYS // 2).astype(np.int64))
+    some = np.unique(np.linspace(0, len(places[0]) - 1, RAYS).astype(np.int64))
     return [own[some] for own in places]
 
 
 def _within_faces(result: ReflectionMesh, view: View) -> list[np.ndarray]:
-    """Places on the mirror, and on the image that is seen there, in the middle of faces: of large ones all vertices may
-    lie where the image ends."""
-    if not len(result.triangles):
-        return [np.zeros((0, 3))] * 2
-    triangles, = _some(result.triangles)
-    on_mirror = result.mirror_position[triangles].mean(axis=1)
+    """Places on the mirror, and on the image that is seen there, all over the picture: what is far has most of the
+    faces, and what is near most of the pixels."""
+    spots = view.pixels(result.mirror_position)[result.triangles]
+    sides = spots[:, 1:] - spots[:, :1]
+    area = np.nan_to_num(np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]))
+    below = np.cumsum(area)
+    chosen = np.minimum(np.searchsorted(below, (np.arange(RAYS) + 0.5) / RAYS * below[-1]), len(area) - 1)
+    triangles = result.triangles[chosen]
+    on_mirror = np.einsum("nk,nki->ni", _spread(len(chosen)), result.mirror_position[triangles])
     origins, ways = view.rays(view.pixels(on_mirror))
     a, b, c = np.moveaxis(result.positions[triangles], 1, 0)
     normals = np.cross(b - a, c - a)
@@ -89,6 +92,14 @@ def _within_faces(result: ReflectionMesh, view: View) -> list[np.ndarray]:
         behind = origins + away[:, None] * ways
     known = np.isfinite(behind).all(axis=1) & (away > 0.0)
     return [on_mirror[known], behind[known]]
+
+
+def _spread(count: int) -> np.ndarray:
+    """Weights (count, 3) of places that lie all over a triangle (the sequence R2 of M. Roberts, 2018)."""
+    u, v = ((0.5 + np.outer((0.7548776662466927, 0.5698402909980532), np.arange(count))) % 1.0)
+    beyond = u + v > 1.0
+    u, v = np.where(beyond, 1.0 - u, u), np.where(beyond, 1.0 - v, v)
+    return np.stack((1.0 - u - v, u, v), axis=1)
 
 
 def _first_seen(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, start: Vector, end: Vector,

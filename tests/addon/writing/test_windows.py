@@ -197,6 +197,15 @@ def test_what_hides_a_part_is_told_of(scene, room):
                     "all of it.")
 
 
+def test_what_is_hidden_counts_by_its_pixels(scene):
+    """Most of the faces are those of something small that nothing hides."""
+    mirror, cube = scene
+    dense = parts.add("uv_sphere", "Dense", segments=96, ring_count=48, radius=0.1, location=(1.3, -1.5, 1.9))
+    add_wall(size=1.6)
+    parts.select(dense, cube, mirror)
+    assert "'Wall' stands before the virtual image" in parts.refusal(placement="VIRTUAL")
+
+
 @pytest.mark.parametrize("behind", [True, False])
 def test_a_floor_in_which_its_own_image_lies_is_told_of(blank, room, behind):
     """Of the few faces of such an image all vertices lie on the borders of mirror and picture."""
