@@ -131,7 +131,7 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, how: tuple[SeenSo
     """What Cycles bakes of each of `asked`, (source, whether its backs); None there for how opaque it is; and, of those
     whose value there says so, the colours of what is matte."""
     seen, bodies = how
-    placed = read_meshes(context.evaluated_depsgraph_get(), scene.sources, mirror=False)
+    placed = read_meshes(context.evaluated_depsgraph_get(), scene.sources, mirror=False, answered=True)
     divisions = {number: one.division for number, one in levels.items()}
     corners = [scene.mesh.positions[scene.mesh.triangles[one]] for one in triangles_by_source(scene)]
     undeformed = yield from part(_undeformed(context.scene, scene.sources), 0.0, 0.0, PREPARING)

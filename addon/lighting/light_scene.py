@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import compat
 from ..faults import still_there
-from ..reading import is_opaque, materials_of, read_view
+from ..reading import forgets_particles, is_opaque, materials_of, read_view
 from ..reading.materials import all_materials_of, is_exact
 from ..rendering import (
     Renders,
@@ -117,7 +117,7 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         fog = [obj for obj in others if is_of_fog(obj)]
         clear_air(scene, fog, back)
         others = [obj for obj in others if obj not in fog]
-        hidden = [obj for obj in others if obj.library is None and obj not in parts]
+        hidden = [obj for obj in others if obj.library is None and obj not in parts and not forgets_particles(obj)]
         materials = [material for mirror in mirrors for material in all_materials_of(mirror)]
         alone = len(hidden) == len(others) and len(mirrors) == len(results) and all(map(is_opaque, materials))
         before = _cutting(context, mirrors, hidden) if alone else []

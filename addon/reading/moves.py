@@ -25,3 +25,10 @@ def comes_and_goes(obj: bpy.types.Object) -> bool:
     data = obj.animation_data
     return data is not None and any(curve.data_path in SWITCHES
                                     for curve in (*data.drivers, *compat.every_curve_of(obj)))
+
+
+def forgets_particles(obj: bpy.types.Object) -> bool:
+    """Whether an object has particles that Blender simulates from frame to frame, and forgets where anything of the
+    object is switched; those that are baked, and hair, it keeps."""
+    return any(modifier.type == "PARTICLE_SYSTEM" and modifier.particle_system.settings.type == "EMITTER"
+               and not modifier.particle_system.point_cache.is_baked for modifier in obj.modifiers)

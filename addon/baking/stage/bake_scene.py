@@ -8,7 +8,7 @@ import bpy
 
 from ....core import View
 from ...faults import still_there
-from ...reading import is_result
+from ...reading import forgets_particles, is_result, rendered_collections
 from ...rendering import copied_scene, look_through, put_swift_world
 from ...writing import UV_MAP
 from .bake_targets import new_target
@@ -35,7 +35,11 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
         look_through(scene, bpy.data.objects.new(UV_MAP, bpy.data.cameras.new(UV_MAP)), back)
         _without_results(scene)
         count_the_mirror(scene, back)
+        whole = list(filter(forgets_particles, sources))
+        _take_out(scene, whole)
         for source in sources:
+            if source in whole:
+                continue
             back.callback(setattr, source, "hide_render", source.hide_render)
             source.hide_render = True
         materials = dict.fromkeys(material for stand, _ in stands for material in stand.mesh.materials or (None,))
@@ -47,8 +51,8 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
             made.append(obj)
             scene.collection.objects.link(obj)
             objects.append((stand.owner, obj))
-            # linked objects keep their names
-            if stand.told is None and sources[stand.owner].library is None:
+            # linked objects keep their names, and a new one is a change
+            if stand.told is None and sources[stand.owner].library is None and sources[stand.owner] not in whole:
                 swap_names(sources[stand.owner], obj)
                 back.callback(swap_names, sources[stand.owner], obj)
         link_lamps([(sources[owner], obj) for owner, obj in objects], back)
@@ -70,6 +74,36 @@ def _without_results(scene: bpy.types.Scene) -> None:
             layer.exclude = True
         else:
             layers.extend(layer.children)
+
+
+def _take_out(scene: bpy.types.Scene, objects: list) -> None:
+    """Let objects be in no render of a temporary scene, without a change of their own: whatever else is in their
+    collections is in the scene by itself."""
+    if not objects:
+        return
+    root = scene.view_layers[0].layer_collection
+    rendered, layers = rendered_collections(root), list(root.children)
+    for obj in [obj for obj in objects if obj.name in scene.collection.objects]:
+        scene.collection.objects.unlink(obj)
+    while layers:
+        layer = layers.pop()
+        layers.extend(layer.children)
+        if layer.exclude or layer.collection not in rendered or not any(obj in objects
+                                                                        for obj in layer.collection.objects):
+            continue
+        # all that is within is excluded with it
+        within = [(inner, inner.exclude) for inner in _within(layer)]
+        layer.exclude = True
+        for inner, excluded in within:
+            inner.exclude = excluded
+        for obj in [obj for obj in layer.collection.objects if obj not in objects]:
+            if obj.name not in scene.collection.objects:
+                scene.collection.objects.link(obj)
+
+
+def _within(layer: bpy.types.LayerCollection) -> list:
+    """What is in a collection of a view layer, each before what is in it."""
+    return [inner for child in layer.children for inner in (child, *_within(child))]
 
 
 def _prepare(scene: bpy.types.Scene) -> None:

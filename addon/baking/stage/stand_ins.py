@@ -14,7 +14,7 @@ from ...reading.meshes import LocalMesh, Placed
 from ...writing import UV_MAP, write_mesh
 from ...writing.arrays import MOST_UV_MAPS, Attribute, MeshArrays, in_order
 from ..texels import Division, divided
-from .true_answers import RANDOM
+from .true_answers import RANDOM, answer_name
 from .undeformed import keep_undeformed
 
 
@@ -37,6 +37,8 @@ class StandIn:
     told : (6,) float64 or None
         What Object Info tells of it where it is an instance, as `Placed` has it; None where it is the participant
         itself.
+    answers : dict
+        What its materials ask of it, by question.
     undeformed : (n, 3) float32 or None
         Where the vertices of the mesh are for Generated coordinates; None: where they are.
     """
@@ -48,6 +50,7 @@ class StandIn:
     uv: np.ndarray
     turned: bool
     told: np.ndarray | None
+    answers: dict
     undeformed: np.ndarray | None = None
 
 
@@ -58,13 +61,13 @@ def stand_ins(placed: list[Placed], divisions: dict, uv: dict, turned: set, unde
     ends = {owner: np.concatenate(([0], np.cumsum(division.count**2))) for owner, division in divisions.items()}
     for item in placed:
         count = len(item.mesh.triangles)
-        for owner, matrix, instance, told in zip(item.owners.tolist(), item.matrices, item.instances.tolist(),
-                                                 item.told, strict=True):
+        for owner, matrix, instance, told, answers in zip(
+                item.owners.tolist(), item.matrices, item.instances.tolist(), item.told, item.answers, strict=True):
             part = slice(counted[owner], counted[owner] + count)
             counted[owner] += count
             first, last = ends[owner][[part.start, part.stop]]
             made.append(StandIn(owner, item.mesh, matrix, divisions[owner].count[part], uv[owner][first:last],
-                                owner in turned, told if instance else None,
+                                owner in turned, told if instance else None, answers,
                                 _of_its_own(undeformed, owner, item.mesh, instance)))
     return made
 
@@ -96,6 +99,8 @@ def new_object(source: bpy.types.Object, stand: StandIn, mesh: bpy.types.Mesh) -
         else:
             number, index, *colour = stand.told.tolist()
             obj.pass_index, obj.color, obj[RANDOM] = int(index), colour, 1.0 + number
+    for question, value in stand.answers.items():
+        obj[answer_name(question)] = value
     obj.matrix_world = Matrix(stand.matrix.tolist())
     if stand.undeformed is not None:
         triangles = stand.mesh.triangles[:, _joined(stand)]

@@ -6,6 +6,7 @@ import numpy as np
 
 from ....core import View
 from ...reading.materials import all_nodes
+from ...reading.meshes import questions
 from ...writing import UV_MAP
 from ...writing.nodes.shader_builder import ShaderBuilder
 
@@ -13,7 +14,13 @@ RANDOM = f"{UV_MAP} Random"
 """Property of stand-ins for instances, whose number goes by no name: one more than that, 0 where it is missing."""
 # nodes that tell of what is baked, or shine, otherwise than on the object itself
 ASKING = {"OBJECT_INFO", "TEX_COORD", "CAMERA", "LIGHT_PATH", "NEW_GEOMETRY", "FRESNEL", "LAYER_WEIGHT", "EMISSION",
-          "BSDF_PRINCIPLED"}
+          "BSDF_PRINCIPLED", "ATTRIBUTE", "PARTICLE_INFO", "UVMAP"}
+LONGEST = 63  # characters of a property's name
+
+
+def answer_name(question: tuple[str, str]) -> str:
+    """The property of stand-ins that answers what is asked of an instance or its object, as `questions` tell it."""
+    return f"{UV_MAP} {question[0]} {question[1]}"[:LONGEST]
 
 
 def own_groups(tree: bpy.types.NodeTree) -> list:
@@ -35,10 +42,12 @@ def _take_copies(tree: bpy.types.NodeTree, made: dict) -> None:
 
 
 def answer_truly(tree: bpy.types.NodeTree, view: View) -> None:
-    """Let the nodes of a tree tell of an instance what is random by it, and of `view` what goes by the camera, though
-    what is baked is seen from elsewhere."""
+    """Let the nodes of a tree tell of an instance what is random by it, what it and its instancer are asked for, and of
+    `view` what goes by the camera, though what is baked is seen from elsewhere."""
     build = _Answers(tree)
     for node in list(tree.nodes):
+        for question in questions(node):
+            build.look_up(node, question)
         if node.type == "OBJECT_INFO":
             build.replace(node.outputs["Random"], build.random)
         elif node.type == "TEX_COORD":
@@ -60,6 +69,16 @@ class _Answers(ShaderBuilder):
             told = answer(output)
             for socket in sockets:
                 self.feed(told, socket)
+
+    def look_up(self, node: bpy.types.Node, question: tuple[str, str]) -> None:
+        """Let a node tell what the stand-in's property says."""
+        name = answer_name(question)
+        if node.type == "ATTRIBUTE":
+            node.attribute_type, node.attribute_name = "OBJECT", name
+        else:
+            told = self.add("ShaderNodeAttribute", attribute_type="OBJECT", attribute_name=name).outputs
+            output = node.outputs[question[1]]
+            self.replace(output, lambda _: told["Vector" if output.type == "VECTOR" else "Fac"])
 
     def random(self, of_name: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
         """Of an instance, its own number; else that which goes by the name."""

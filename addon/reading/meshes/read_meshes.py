@@ -12,6 +12,7 @@ from ....core import ReflectionError
 from ..materials import asked_attributes
 from .creases import Creases
 from .hidden_instances import is_rendered
+from .instance_answers import InstanceAnswers
 from .read_layers import NO_LAYERS, read_layers
 from .shading_normals import bent_faces, corner_normals, with_bent_faces
 from .source_lines import SourceLines
@@ -66,13 +67,15 @@ class LocalMesh:
 class Placed:
     """A mesh and where it stands: `owners` (k,) are indices of participants, `matrices` (k, 4, 4) float64 to world;
     `instances` (k,) tells where it is not the participant's own, and `told` (k, 6) float64 what Object Info tells
-    there: a number from 0 to 1 that is random by the instance, its object's index and its colour."""
+    there: a number from 0 to 1 that is random by the instance, its object's index and its colour; `answers` (k) are
+    those of `InstanceAnswers`, where they were asked for."""
 
     mesh: LocalMesh
     owners: np.ndarray
     matrices: np.ndarray
     instances: np.ndarray
     told: np.ndarray
+    answers: tuple[dict, ...] = ()
 
     @cached_property
     def turned_over(self) -> np.ndarray:
@@ -101,13 +104,14 @@ def drawn_meshes(depsgraph: bpy.types.Depsgraph) -> Iterator[bpy.types.Depsgraph
 
 
 def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, known: Callable | None = None,
-                unmirrored: bool = False) -> list[Placed]:
+                unmirrored: bool = False, answered: bool = False) -> list[Placed]:
     """Each distinct mesh of `objects`, modifiers applied, with every place where it or an instance of it stands.
 
     Instances count as their instancer: an object that instances others owns them; those that are hidden from glossy
     rays are not read where mirrors show `objects`, but where these are a `mirror` or `unmirrored`. Of a `mirror`
     only its shape is read, and its normals must be numbers. What has been read before may be `known`: asked for with
-    the name of a mesh, the `session_uid` of all that it depends on, and how to read it.
+    the name of a mesh, the `session_uid` of all that it depends on, and how to read it. What materials ask of each
+    place is `answered` where that is said.
 
     Raises
     ------
@@ -115,9 +119,10 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, kno
         Where a coordinate, a normal or a transform is not a finite number, or too large for Blender.
     """
     owner_of = {obj: index for index, obj in enumerate(objects)}
-    meshes, owners, matrices, instances, told = {}, {}, {}, {}, {}
+    meshes, owners, matrices, instances, told, replies = {}, {}, {}, {}, {}, {}
     asked: dict[tuple, frozenset] = {}
     given: dict = {}
+    answer = InstanceAnswers(depsgraph.scene.frame_current_final) if answered else None
     for instance in drawn_meshes(depsgraph):
         evaluated = instance.object
         original = evaluated.original
@@ -132,11 +137,13 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, kno
         if key not in meshes:
             read = partial(_read, evaluated, materials, mirror)
             meshes[key] = read() if known is None else known(*_name(instance, materials, mirror, asked), read)
-            owners[key], matrices[key], instances[key], told[key] = [], [], [], []
+            owners[key], matrices[key], instances[key], told[key], replies[key] = [], [], [], [], []
         owners[key].append(owner)
         instances[key].append(instance.is_instance)
         told[key].append((instance.random_id % 2**32 / (2**32 - 1), evaluated.pass_index, *evaluated.color))
         matrices[key].append(np.array(instance.matrix_world, dtype=np.float64))
+        if answer is not None:
+            replies[key].append(answer.of(instance, materials))
     placed = []
     for key, mesh in meshes.items():
         if mesh is None:
@@ -149,7 +156,8 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, kno
         if (np.abs(matrix[:, :3, :3]) @ reach + np.abs(matrix[:, :3, 3])).max() > FARTHEST:
             raise ReflectionError(f"'{objects[owners[key][0]].name}' reaches further than 1e17 units from the origin, "
                                   "where Blender's numbers end: make it smaller or move it nearer.")
-        placed.append(Placed(mesh, np.array(owners[key]), matrix, np.array(instances[key]), np.array(told[key])))
+        placed.append(Placed(mesh, np.array(owners[key]), matrix, np.array(instances[key]), np.array(told[key]),
+                             tuple(replies[key])))
     return placed
 
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
 import parts
 import pytest
 from lamp_scenes import SIZE, leaves_no_trace, lit_state, picture, plain_scene, psnr, scene_of, shader_of
@@ -31,6 +32,43 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaqu
 def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
     where = "addon.lighting.light_scene" if failing == "rendering" else "addon.operators.made_light"
     leaves_no_trace(blank, room, monkeypatch, (where, failing), "PICTURE")
+
+
+@pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
+@pytest.mark.parametrize("inner", [False, pytest.param(True, marks=pytest.mark.slow)])
+def test_particles_go_on_as_they_are(blank, room, kind, inner):
+    """Blender forgets those that are not baked where anything of their object is switched."""
+    scene_of(blank)
+    emitter, seed = parts.add("plane", "Emitter", size=1.0, location=(0.6, -1.5, 2.5)), bpy.data.objects["Box"]
+    emitter.modifiers.new("Particles", "PARTICLE_SYSTEM")
+    settings = emitter.particle_systems[0].settings
+    settings.count, settings.frame_start, settings.frame_end = 12, 1.0, 6.0
+    settings.render_type, settings.instance_object, settings.particle_size = "OBJECT", seed, 0.3
+    if inner:
+        outer, held = bpy.data.collections.new("Outer"), bpy.data.collections.new("Held")
+        blank.scene.collection.children.link(outer)
+        outer.children.link(held)
+        for obj in (emitter, bpy.data.objects["Floor"]):
+            outer.objects.link(obj)
+            blank.scene.collection.objects.unlink(obj)
+        held.objects.link(seed)
+        blank.scene.collection.objects.unlink(seed)
+    for frame in range(1, 13):
+        blank.scene.frame_set(frame)
+    fallen = _instances(blank)
+    assert len(fallen) == 12 and np.ptp(fallen[:, 2]) > 0.1
+    reference, other = picture(room), picture(room, seed=7)
+    parts.select(emitter, seed, bpy.data.objects["Floor"], bpy.data.objects["Mirror"])
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=64, kind=kind)
+    assert np.array_equal(_instances(blank), fallen)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
+def _instances(context: bpy.types.Context) -> np.ndarray:
+    """Where instances stand, (n, 3)."""
+    return np.array([list(one.matrix_world.translation)
+                     for one in context.evaluated_depsgraph_get().object_instances if one.is_instance]).reshape(-1, 3)
 
 
 def test_what_is_lit_is_the_result_alone(blank):
