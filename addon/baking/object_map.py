@@ -14,7 +14,7 @@ from ..reading import DiffuseScene, corner_vertices, vectors
 from ..reading.materials import asked_attributes
 from ..writing import LATER_MATERIAL, NORMAL, images_of, light_layer
 from .mirror_layers import write_mirror_layers
-from .seen_sources import fronts_seen, triangle_of, triangles_by_source, weights_of
+from .seen_sources import fronts_shown, triangle_of, triangles_by_source, weights_of
 
 WRITING, FRAME = "Writing", "frame"
 
@@ -75,8 +75,8 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
         mesh.attributes.remove(own)
     yield 0.0, WRITING
     triangle = triangle_of(result, scene)
-    shown, at = (vectors(mesh, name)[corner_vertices(mesh)] for name in ("reflected_position", "mirror_position"))
-    front = fronts_seen(scene, triangle, (at - shown).mean(axis=1))
+    shown, front = vectors(mesh, "reflected_position")[corner_vertices(mesh)], fronts_shown(
+        mesh, view, scene, triangle)
     yield 0.0, WRITING
     weights = weights_of(scene.mesh.positions[scene.mesh.triangles[triangle]], shown)
     yield 0.0, WRITING

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError, View, breathe
-from ...core.geometry import connected, distinct, edge_numbers, first_of
+from ...core.geometry import connected, distinct, doubled_areas, edge_numbers, first_of
 from ..reading import DiffuseScene, corner_vertices, numbers, vectors
 from .sight import places_of_sight
 
@@ -56,11 +56,22 @@ def seen_sources(results: list, view: View, scene: DiffuseScene) -> SeenSources:
     breathe()
     count = len(scene.sources)
     owner = scene.source_object[triangle]
-    fronts = np.bincount(owner, weights=area * facing, minlength=count)
-    whole = np.bincount(owner, weights=area, minlength=count)
+    later = [_shown_later(result, view, scene) for result in results]
+    every, size, shows = (np.concatenate(part) for part in zip((owner, area, facing), *later, strict=True))
+    fronts = np.bincount(every, weights=size * shows, minlength=count)
+    whole = np.bincount(every, weights=size, minlength=count)
     seen_from, angle = _sight(faces, view, scene)
     return SeenSources(view, _densities(owner, density, area, count), seen_from, angle <= ONE_EYE,
                        fronts < SOLID * whole, (fronts > HAIR * whole) & (fronts < (1.0 - HAIR) * whole))
+
+
+def _shown_later(result: bpy.types.Object, view: View, scene: DiffuseScene) -> tuple:
+    """The source, the area in pixels and the side of each face of a result that several mirrors show."""
+    mesh = result.data
+    later = numbers(mesh, "bounces") > 1
+    turned = doubled_areas(view.pixels(vectors(mesh, "mirror_position"))[corner_vertices(mesh)[later]])
+    area = np.nan_to_num(0.5 * np.abs(turned), posinf=0.0)
+    return scene.source_object[triangle_of(result, scene)[later]], area, turned > 0.0
 
 
 def _sight(faces: list, view: View, scene: DiffuseScene) -> tuple[np.ndarray, np.ndarray]:
@@ -88,6 +99,15 @@ def fronts_seen(scene: DiffuseScene, triangle: np.ndarray, towards: np.ndarray) 
     corners = scene.mesh.positions[scene.mesh.triangles[triangle]]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return np.einsum("ni,ni->n", normal, towards) > 0.0
+
+
+def fronts_shown(mesh: bpy.types.Mesh, view: View, scene: DiffuseScene, triangle: np.ndarray) -> np.ndarray:
+    """Whether faces of a result's mesh show the fronts of triangles of the scene (n,), (n,) bool. By how many mirrors
+    ever, they turn their back to the eye where they show that of what is reflected; of one mirror the way tells."""
+    corners, (at, shown) = corner_vertices(mesh), (vectors(mesh, name) for name in ("mirror_position",
+                                                                                     "reflected_position"))
+    once = fronts_seen(scene, triangle, (at - shown)[corners].mean(axis=1))
+    return np.where(numbers(mesh, "bounces") == 1, once, doubled_areas(view.pixels(at)[corners]) > 0.0)
 
 
 def has_rim(triangles: np.ndarray) -> bool:

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from lamp_scenes import link, picture, principled, psnr, scene_of, shine
+from lamp_scenes import SIZE, link, picture, principled, psnr, scene_of, shine
 
 # gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
 SOURCES = ("Generated", "Object", "Normal", "UV", "Camera", "Window", "Reflection", "Bump", "Normal map", "Random",
@@ -103,6 +103,29 @@ def test_lamps_light_what_they_are_linked_to(blank, room, link, name, state):
     assert psnr(picture(room), reference) > 30.0
     assert set(bpy.data.collections) == {linked, inner} and getattr(lamp.light_linking, link) == linked
     assert not linked.objects and list(inner.objects) == [bpy.data.objects[name]]
+
+
+@pytest.mark.parametrize("turned", [False, pytest.param(True, marks=pytest.mark.slow)])
+def test_mirrors_in_mirrors_show_the_side_that_they_see(blank, room, turned):
+    """A card whose one side is red, and whose other is blue: the wall shows one of them, and in the mirror behind the
+    eye the other."""
+    wall = scene_of(blank, "Backfacing")
+    blank.scene.cycles.samples = 64
+    box = bpy.data.objects["Box"]
+    card = parts.add("plane", "Card", size=2.0, location=(2.2, -0.5, 1.0),
+                     rotation=((-1.0 if turned else 1.0) * np.pi / 2, 0.0, 0.0))
+    card.data.materials.append(box.data.materials[0])
+    bpy.data.objects.remove(box)
+    behind = parts.add("plane", "Behind", size=30.0, location=(0.0, -6.3, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
+    behind.data.materials.append(wall.data.materials[0])
+    parts.select(card, bpy.data.objects["Floor"], behind, wall)
+    reference, other = picture(room), picture(room, seed=7)
+    inside = slice(SIZE // 5, -SIZE // 5)
+    red, blue = ((reference[inside, inside, one] - reference[inside, inside, 2 - one] > 0.2).sum() for one in (0, 2))
+    assert red > 30 and blue > 30
+    parts.generate(depth=2)
+    light(64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
 @pytest.mark.parametrize("bounces", [0, pytest.param(1, marks=pytest.mark.slow)])
