@@ -149,16 +149,21 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, kno
         if mesh is None:
             continue
         matrix = np.stack(matrices[key])
-        if not np.isfinite(matrix).all():
-            raise ReflectionError(f"'{objects[owners[key][0]].name}' has a transform that is not a finite number: "
-                                  "clear its location, rotation and scale.")
-        reach = np.abs(mesh.positions).max(axis=0, initial=0.0).astype(np.float64)
-        if (np.abs(matrix[:, :3, :3]) @ reach + np.abs(matrix[:, :3, 3])).max() > FARTHEST:
-            raise ReflectionError(f"'{objects[owners[key][0]].name}' reaches further than 1e17 units from the origin, "
-                                  "where Blender's numbers end: make it smaller or move it nearer.")
+        _check(mesh, matrix, objects[owners[key][0]].name)
         placed.append(Placed(mesh, np.array(owners[key]), matrix, np.array(instances[key]), np.array(told[key]),
                              tuple(replies[key])))
     return placed
+
+
+def _check(mesh: LocalMesh, matrix: np.ndarray, name: str) -> None:
+    """Raise what `read_meshes` raises where places (k, 4, 4) of a mesh are no numbers, or too large."""
+    if not np.isfinite(matrix).all():
+        raise ReflectionError(f"'{name}' has a transform that is not a finite number: "
+                              "clear its location, rotation and scale.")
+    reach = np.abs(mesh.positions).max(axis=0, initial=0.0).astype(np.float64)
+    if (np.abs(matrix[:, :3, :3]) @ reach + np.abs(matrix[:, :3, 3])).max() > FARTHEST:
+        raise ReflectionError(f"'{name}' reaches further than 1e17 units from the origin, "
+                              "where Blender's numbers end: make it smaller or move it nearer.")
 
 
 def _name(instance: bpy.types.DepsgraphObjectInstance, materials: tuple, mirror: bool,
