@@ -9,6 +9,7 @@ from ...core import View, breathe
 from ...core.geometry import doubled_areas, edge_lengths
 from ..reading import DiffuseScene
 from .asked_parts import asked_densities, sides_before_mirrors
+from .fineness import fineness
 from .rims import spread, with_its_rim
 from .texels import UNTOUCHED, Atlas, Division, divided, enlarged, packed, parts_along
 
@@ -17,7 +18,6 @@ COARSEST = 1024  # texels along a side that the coarsest has at the most
 WIDE = 32.0     # texels across triangles from which on what lies side by side in a picture does in the scene too
 NEARLY_ALL = 0.7  # of an object's parts: what all coarser pictures together cost less than
 ALMOST_ALL = 0.9  # of an object's surface, whose triangles are so wide where that holds for its picture
-FINER = 1.5     # texels a pixel along a line: interpolation and the picture's filter blur them
 LARGE = 256     # texels along a side of a picture from which on more than one are made: each bake has its price
 BORDER = 1      # texels around what is baked
 MOST_SHOWN = 0.5  # of a texel, from which on it tells what is shown of it
@@ -128,9 +128,12 @@ class ObjectLevels:
 
 
 def fine_where_seen(results: list, view: View, scene: DiffuseScene, parts: list, density: np.ndarray) -> list:
-    """Texels per unit of length of each triangle (n,) of each source, whose triangles `parts` are: its `density` (k,),
-    but of those made of small triangles that want a large picture, as many as results show, and no less than the
-    coarsest picture of others has: a concave mirror shows little of a head, and that large."""
+    """Texels per unit of length of each triangle (n,) of each source, whose triangles `parts` are: as its pixels per
+    unit, `density` (k,), ask for, but of those made of small triangles that want a large picture, as many as results
+    show, and no less than the coarsest picture of others has: a concave mirror shows little of a head, and that
+    large."""
+    finer = fineness(scene)
+    density = finer * density
     densities = [np.full(len(part), one) for part, one in zip(parts, density, strict=True)]
     corners = scene.mesh.positions[scene.mesh.triangles]
     maps = {number: packed(corners[part], densities[number]) for number, part in enumerate(parts)}
@@ -138,7 +141,7 @@ def fine_where_seen(results: list, view: View, scene: DiffuseScene, parts: list,
     single = {number: divided(np.ones(len(parts[number]), dtype=np.int64)) for number, atlas in maps.items()
               if atlas.size >= LARGE and not is_wide(atlas)}
     for number, asked in asked_densities(results, view, scene, parts, single).items():
-        densities[number] = np.clip(FINER * asked, density[number] / COARSER, density[number])
+        densities[number] = np.clip(finer[number] * asked, density[number] / COARSER, density[number])
     return densities
 
 
@@ -155,13 +158,13 @@ def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, densi
     breathe()
     asked = asked_densities(results, view, scene, parts, {number: one for number, one in divisions.items()
                                                           if large[number]})
-    made = {}
+    made, finer = {}, fineness(scene)
     for number, part in enumerate(parts):
         breathe()
         division = divisions[number]
         # where nearly all is to be fine, coarser pictures would only cost
         most = density[number][division.owner]
-        in_steps = large[number] and (FINER * asked[number] > 0.5 * most).mean() < NEARLY_ALL
+        in_steps = large[number] and (finer[number] * asked[number] > 0.5 * most).mean() < NEARLY_ALL
         levels = _times(atlases[number].size) if in_steps else [1]
         maps = [atlases[number] if times == 1 else packed(corners[part], density[number] / times)
                 for times in levels]
@@ -169,7 +172,7 @@ def levels_of(results: list, view: View, scene: DiffuseScene, parts: list, densi
         needed = [{False: front, True: back, None: front | back}]
         for times in levels[1:]:
             # what the level before shows finely enough is left to it
-            fine = FINER * asked[number] > most / (2.0 * times)
+            fine = finer[number] * asked[number] > most / (2.0 * times)
             needed.append({side: once & fine for side, once in needed[0].items()})
         made[number] = ObjectLevels(wide[number], division, [Atlas(one.size, division.values(one.uv)) for one in maps],
                                     needed, maps)

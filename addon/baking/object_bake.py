@@ -12,7 +12,8 @@ from ..faults import Steps, part
 from ..reading import DiffuseScene, is_opaque, materials_of
 from ..reading.meshes import read_meshes
 from .charts import charts_of, laid_out
-from .levels import FINER, fine_where_seen
+from .fineness import fineness
+from .levels import fine_where_seen
 from .mirror_bodies import MirrorBodies, mirror_bodies
 from .seen_sources import SeenSources, has_rim, outer_sides, seen_sources, triangles_by_source
 from .shown_texels import shown_texels
@@ -65,8 +66,8 @@ def baked(context: bpy.types.Context, results: list, view: View, scene: DiffuseS
     yield 0.0, MEASURING
     seen = yield from part(in_steps(partial(seen_sources, results, view, scene)), 0.0, 0.0, MEASURING)
     parts, open_, sides = yield from part(in_steps(partial(_sides_of, scene, seen)), 0.0, 0.0, MEASURING)
-    density = yield from part(in_steps(partial(fine_where_seen, results, view, scene, parts, FINER * seen.density)),
-                              0.0, 0.0, MEASURING)
+    density = yield from part(in_steps(partial(fine_where_seen, results, view, scene, parts, seen.density)), 0.0, 0.0,
+                              MEASURING)
     levels, charts = yield from part(in_steps(partial(charts_of, results, view, scene, parts, sides, density)),
                                      0.0, 0.0, MEASURING)
     used = np.max([chart.at + chart.size for chart in charts], axis=0)
@@ -137,6 +138,7 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, how: tuple[SeenSo
     undeformed = yield from part(_undeformed(context.scene, scene.sources), 0.0, 0.0, PREPARING)
     # coarse ones first, the finest of all objects together
     bakes: dict = {}
+    finer = fineness(scene)
     for number, back in asked:
         for level in range(-len(levels[number].atlases), 0):
             bakes.setdefault((back is None, bool(back), level), []).append(number)
@@ -155,7 +157,7 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, how: tuple[SeenSo
                 own = levels[number]
                 denoised = own.wide and not opacity
                 # as many samples for each pixel, not for each texel
-                few = max(round(samples * (FEWER if denoised else 1.0) / FINER ** 2), 1)
+                few = max(round(samples * (FEWER if denoised else 1.0) / finer[number] ** 2), 1)
                 size = tuple(own.window(level, back)[1].tolist())
                 picture, colours, own_colours = yield from part(
                     _baked(stage, number, size, seen.seen_from[number], few, (denoised, asked[number, back])),

@@ -52,7 +52,7 @@ def test_each_face_lies_in_what_is_kept_of_one_picture_and_is_as_fine_as_it_is_s
         for other in range(one):
             apart = (ends[one, 0] > ends[other, 1]) | (ends[other, 0] > ends[one, 1])
             assert apart.any()
-    finer = room("addon.baking.levels").FINER
+    finer = room("addon.baking.fineness").FINER
     large = pixels > 0.05
     assert np.mean((texels / np.maximum(pixels, 1e-12))[large] > 0.9 * finer**2) > 0.9
 

@@ -1,6 +1,8 @@
 """Light that is brighter than white and finer than a pixel has texels that are finer, of as many samples."""
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import parts
@@ -37,6 +39,24 @@ def test_checks_that_shine_look_as_in_the_mirror(blank, room):
     parts.generate()
     bpy.ops.reflection_mesh.light(samples=128, kind="PICTURE", every=True)
     assert psnr(picture(room, 2), reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
+def test_on_the_objects_they_have_twice_as_many_texels_along_a_line(blank, room):
+    """Against Cycles: between texels a bright check's half would still be white. Matte ones have as many as ever."""
+    scene_of(blank)
+    _checked_card(6.0, 30)
+    blank.scene.cycles.samples = 512
+    reference, other = picture(room), picture(room, 1)
+    parts.generate(tolerance=0.1)
+    bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS", every=True)
+    assert psnr(picture(room, 2), reference) > min(38.0, psnr(other, reference) - 1.5)
+    fine, shader = room("addon.baking.fineness"), bpy.data.materials["Checks"].node_tree.nodes["Emission"]
+
+    def fineness() -> list:
+        return fine.fineness(SimpleNamespace(sources=[bpy.data.objects["Card"]])).tolist()
+    assert fineness() == [fine.FINER_LAMPS]
+    shader.inputs["Strength"].default_value = 0.9
+    assert fineness() == [fine.FINER]
 
 
 @pytest.mark.parametrize(("strength", "samples", "most", "expected"), [
