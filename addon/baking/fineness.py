@@ -8,7 +8,7 @@ from ..reading.materials import outshines_paper
 from .texels import has_pattern
 
 FINER = 1.5  # texels a pixel along a line: interpolation and the picture's filter blur them
-FINER_LAMPS = 3.0  # of what shines in a pattern: between texels a bright stripe's half is still white
+FINER_LAMPS = 4.5  # of what shines in a pattern: between texels a bright stripe's half is still white
 
 
 def fineness(scene: DiffuseScene) -> np.ndarray:

@@ -15,6 +15,7 @@ from ..reading.materials import asked_attributes
 from ..writing import LATER_MATERIAL, NORMAL, images_of, light_layer
 from .mirror_layers import write_mirror_layers
 from .seen_sources import fronts_shown, triangle_of, triangles_by_source, weights_of
+from .true_places import show_patterns_in_place
 
 WRITING, FRAME = "Writing", "frame"
 
@@ -64,6 +65,7 @@ def lay_out(result: bpy.types.Object, view: View, scene: DiffuseScene, kept: Kep
     """Tell each corner of a result where in the map the point lies that it shows, and how the mirror stands there and
     what its layers are, as far as the `material` that shows the map asks for them."""
     mesh = result.data
+    yield from show_patterns_in_place(result, view, scene)
     write_mirror_normals(mesh, view)
     asked = asked_attributes([material])
     write_mirror_layers(result, view, asked)

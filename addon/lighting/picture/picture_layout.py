@@ -6,20 +6,17 @@ coordinates would need no cut, but exporters and solid view know UV maps only.
 from __future__ import annotations
 
 import bpy
-import bmesh
 import numpy as np
 
 from ....core import View
 from ...faults import Steps
 from ...reading.materials import glows
-from ...writing import light_layer, light_points, place_of
+from ...writing import edges_that_stray, halve_edges, light_layer, light_points, place_of
 from .window import Window
 
 COLOUR = "Reflection Light Colour"
 SHINING = "Reflection Light Shining"
-STRAYING = 0.1  # pixels that a UV map may be wrong by
 WRITING = "Writing"
-ROUNDS = 12     # of halving edges: an error falls to a quarter by each
 
 
 def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.ndarray | None) -> Steps[None]:
@@ -32,7 +29,7 @@ def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.nda
     """
     mesh = result.data
     matrix = np.array(place_of(result), dtype=np.float64)
-    yield from _cut(mesh, view, matrix)
+    yield from halve_edges(mesh, lambda: _straying(mesh, view, matrix))
     yield 0.0, WRITING
     spots = _in_window(_clip(mesh, view, matrix), view, window)
     _write_spots(mesh, spots)
@@ -42,43 +39,12 @@ def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.nda
         _write_colours(mesh, spots, texels)
 
 
-def _cut(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray) -> Steps[None]:
-    """Halve edges until the picture is linear on every face, all but a tenth of a pixel."""
-    for _ in range(ROUNDS):
-        edges = _edges_that_stray(mesh, _clip(mesh, view, matrix), view.resolution)
-        if not len(edges):
-            return
-        yield 0.0, WRITING
-        cut = bmesh.new()
-        try:
-            cut.from_mesh(mesh)
-            yield 0.0, WRITING
-            cut.edges.ensure_lookup_table()
-            # each new vertex is joined with the corner across: what is left to be divided into triangles could, where
-            # it is thin, have the uncut side again
-            bmesh.ops.subdivide_edges(cut, edges=[cut.edges[edge] for edge in edges.tolist()], cuts=1,
-                                      use_single_edge=True)
-            yield 0.0, WRITING
-            bmesh.ops.triangulate(cut, faces=[face for face in cut.faces if len(face.verts) > 3])
-            yield 0.0, WRITING
-            cut.to_mesh(mesh)
-        finally:
-            cut.free()
-
-
-def _edges_that_stray(mesh: bpy.types.Mesh, clip: np.ndarray, resolution: tuple[int, int]) -> np.ndarray:
-    """The edges whose middle the picture shows farther than `STRAYING` from the middle of their ends."""
-    if not len(mesh.polygons):
-        return np.empty(0, dtype=np.int64)
-    ends = np.empty((len(mesh.edges), 2), dtype=np.int32)
-    mesh.edges.foreach_get("vertices", ends.reshape(-1))
-    depth = clip[:, 3][ends]
-    ahead = (depth > 0.0).all(axis=1)
+def _straying(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray) -> np.ndarray:
+    """The edges along which the picture is not linear."""
+    clip = _clip(mesh, view, matrix)
     with np.errstate(divide="ignore", invalid="ignore"):
-        spots = (0.5 * clip[:, :2] / clip[:, 3:] * resolution)[ends]
-        length = np.linalg.norm(spots[:, 1] - spots[:, 0], axis=1)
-        straying = 0.5 * np.abs(depth[:, 1] - depth[:, 0]) / depth.sum(axis=1) * length
-    return np.flatnonzero(ahead & (straying > STRAYING))
+        spots = 0.5 * clip[:, :2] / clip[:, 3:] * view.resolution
+    return edges_that_stray(mesh, spots, clip[:, 3])
 
 
 def _clip(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray) -> np.ndarray:
