@@ -1,4 +1,5 @@
-"""How many texels the picture of light has along a side of a pixel: two where it shows what is brighter than white.
+"""How many texels the picture of light has along a side of a pixel: two or three where it shows what is brighter than
+white.
 
 Stripes and rims of lamps that are narrower than a pixel would ask a texel for each pixel to be darker than black. Twice
 as dense, with a quarter of the samples, light is made of as many rays, and the render's own filter takes their mean.
@@ -9,9 +10,10 @@ from ..rendering import Renders, crop_to, rendering
 from .light_scene import LightScene
 from .picture import Window
 
-DENSE = 2
 MOST_TEXELS = 1 << 21       # sharpening takes some 200 bytes for each
-FEWEST_SAMPLES = 16         # of which a quarter still tells something
+# texels along a side, and the samples from which on they are worth it: a quarter of 16 still tells something, and
+# where each of nine is to have 16, the denoiser's price is no more of the whole than with four
+DENSITIES = ((3, 144), (2, 16))
 GLIMPSE = 1 / 32            # of the samples, to see what is bright
 BRIGHT = 0.001              # of the pixels, from which on it is no spark
 
@@ -26,13 +28,15 @@ def needed_density(made: LightScene, window: Window, samples: int, white: float)
     white : float
         From which on light looks white.
     """
-    if samples < FEWEST_SAMPLES or window.width * window.height * DENSE**2 > MOST_TEXELS:
+    most = MOST_TEXELS / (window.width * window.height)
+    density = next((dense for dense, fewest in DENSITIES if samples >= fewest and dense**2 <= most), 1)
+    if density == 1:
         return 1
     scene = made.scene
     scene.cycles.samples, scene.cycles.use_denoising = max(int(samples * GLIMPSE), 1), False
     scene.render.film_transparent, scene.render.use_persistent_data = made.alone, True
     seen = yield from rendering(scene)
-    return DENSE if (seen[..., :3].max(axis=2) > white).mean() > BRIGHT else 1
+    return density if (seen[..., :3].max(axis=2) > white).mean() > BRIGHT else 1
 
 
 def make_denser(made: LightScene, window: Window, density: int) -> None:

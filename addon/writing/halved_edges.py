@@ -9,7 +9,7 @@ import numpy as np
 
 from ..faults import Steps
 
-STRAYING = 0.1  # pixels by which what is shown may lie beside its place
+STRAYING = 0.1  # pixels, or texels where a pixel has several, by which what is shown may lie beside its place
 ROUNDS = 12     # of halving edges: an error falls to a quarter by each
 WRITING = "Writing"
 
@@ -39,8 +39,8 @@ def halve_edges(mesh: bpy.types.Mesh, straying: Callable[[], np.ndarray]) -> Ste
 
 
 def edges_that_stray(mesh: bpy.types.Mesh, spots: np.ndarray, depth: np.ndarray) -> np.ndarray:
-    """The edges whose middle, where what is seen at `spots` (n, 2) in pixels is divided by a `depth` (n,), lies farther
-    than `STRAYING` from the middle of their ends."""
+    """The edges whose middle, where what is seen at `spots` (n, 2), in pixels or texels, is divided by a `depth` (n,),
+    lies farther than `STRAYING` from the middle of their ends."""
     if not len(mesh.polygons):
         return np.empty(0, dtype=np.int64)
     ends = np.empty((len(mesh.edges), 2), dtype=np.int32)

@@ -29,7 +29,8 @@ def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.nda
     """
     mesh = result.data
     matrix = np.array(place_of(result), dtype=np.float64)
-    yield from halve_edges(mesh, lambda: _straying(mesh, view, matrix))
+    dense = 1.0 if texels is None else len(texels) / window.height
+    yield from halve_edges(mesh, lambda: _straying(mesh, view, matrix, dense))
     yield 0.0, WRITING
     spots = _in_window(_clip(mesh, view, matrix), view, window)
     _write_spots(mesh, spots)
@@ -39,12 +40,12 @@ def lay_out(result: bpy.types.Object, view: View, window: Window, texels: np.nda
         _write_colours(mesh, spots, texels)
 
 
-def _straying(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray) -> np.ndarray:
-    """The edges along which the picture is not linear."""
+def _straying(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray, dense: float = 1.0) -> np.ndarray:
+    """The edges along which a picture of so many texels a pixel is not linear, by texels."""
     clip = _clip(mesh, view, matrix)
     with np.errstate(divide="ignore", invalid="ignore"):
         spots = 0.5 * clip[:, :2] / clip[:, 3:] * view.resolution
-    return edges_that_stray(mesh, spots, clip[:, 3])
+    return edges_that_stray(mesh, dense * spots, clip[:, 3])
 
 
 def _clip(mesh: bpy.types.Mesh, view: View, matrix: np.ndarray) -> np.ndarray:

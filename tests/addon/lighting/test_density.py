@@ -4,6 +4,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import bpy
+import bmesh
 import numpy as np
 import parts
 import pytest
@@ -41,6 +42,28 @@ def test_checks_that_shine_look_as_in_the_mirror(blank, room):
     assert psnr(picture(room, 2), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+def test_checks_that_a_concave_mirror_shows_look_as_in_it(blank, room):
+    """With 256 samples, against Cycles and its own noise."""
+    mirror = scene_of(blank)
+    checked_card(6.0, 20)
+    dish = parts.add("uv_sphere", "Dish", segments=64, ring_count=32, radius=6.0, location=(0.0, -4.2, 1.0))
+    dish.data.shade_smooth()
+    shape = bmesh.new()
+    shape.from_mesh(dish.data)
+    bmesh.ops.delete(shape, geom=[corner for corner in shape.verts if corner.co.y < 5.0], context="VERTS")
+    bmesh.ops.reverse_faces(shape, faces=shape.faces[:])
+    shape.to_mesh(dish.data)
+    shape.free()
+    dish.data.materials.append(mirror.data.materials[0])
+    bpy.data.objects.remove(mirror)
+    parts.select(bpy.data.objects["Card"], dish)
+    blank.scene.cycles.samples = 256
+    reference, other = picture(room), picture(room, 1)
+    parts.generate()
+    bpy.ops.reflection_mesh.light(samples=256, kind="PICTURE", every=True)
+    assert psnr(picture(room, 2), reference) > min(38.0, psnr(other, reference) - 1.5)
+
+
 def test_on_the_objects_they_have_more_texels_in_their_places(blank, room):
     """Against Cycles: between texels a bright check's half would still be white, and between corners its place would be
     wrong by a part of a pixel, as the tolerance allows. Matte ones have as many texels as ever."""
@@ -62,7 +85,8 @@ def test_on_the_objects_they_have_more_texels_in_their_places(blank, room):
 
 @pytest.mark.parametrize(("strength", "samples", "most", "expected"), [
     (6.0, 64, 1 << 21, [(2, 1), (16, 2), (64, 2)]), (0.9, 64, 1 << 21, [(2, 1), (64, 1), (64, 1)]),
-    (6.0, 8, 1 << 21, [(8, 1), (64, 1)]), (6.0, 64, 1000, [(64, 1), (64, 1)])])
+    (6.0, 8, 1 << 21, [(8, 1), (64, 1)]), (6.0, 64, 1000, [(64, 1), (64, 1)]),
+    (6.0, 256, 1 << 21, [(8, 1), (28, 3), (64, 3)]), (6.0, 256, 20_000, [(8, 1), (64, 2), (64, 2)])])
 def test_only_what_is_brighter_than_white_is_rendered_densely(request, strength, samples, most, expected):
     """With no more rays, where the picture is not too large; the last render tells what results cover."""
     blank, room, patched = (request.getfixturevalue(name) for name in ("blank", "room", "monkeypatch"))
