@@ -24,7 +24,7 @@ READY = $(VENV)/.ready
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
 	@echo "make test     style and types, the method's tests, the extension's tests (ONLY='not slow', ONLY=slow: a part)"
-	@echo "make test-fast  the quick half of the method's tests, under a minute"
+	@echo "make test-fast  the quickest of the method's tests, of every part some, under a minute"
 	@echo "make test-window  keys and buttons pressed in a real window (BLENDER=/path/to/blender, a display): pictures in build/window/"
 	@echo "make fuzz     a search for failures at random, for SECONDS=$(SECONDS), from new seeds or from FIRST=..."
 	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
@@ -99,7 +99,7 @@ lint: environment
 	$(RUN) -m mypy
 
 test-fast: environment
-	$(RUN) -m pytest -q -m "not slow" tests/core
+	$(RUN) -m pytest -q -m "not slow and not thorough" tests/core
 
 test-core: environment
 	$(RUN) -m pytest -q $(if $(ONLY),-m "$(ONLY)") tests/core tests/fuzz

@@ -44,6 +44,7 @@ GUISES = {
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("guise", GUISES)
 @pytest.mark.parametrize("method", ["GENERAL", "POINTS"])
 def test_the_same_arrays_in_any_guise_give_the_same_mesh(guise, method):
@@ -146,6 +147,7 @@ def test_normals_of_any_length_tell_their_direction(size):
     np.testing.assert_allclose(mesh.corner_normals, expected, rtol=1e-15 if size > 1e-320 else 0, atol=1e-15)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("method", ["GENERAL", "PARALLEL", "POINTS"])
 @pytest.mark.parametrize("size", [1e-300, 1e-100, 1e-60, 1e-40, 1e38])
 @pytest.mark.parametrize("part", ["scene", "mirror", "all"])
@@ -196,6 +198,7 @@ AXES = {
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["sphere_ico", "sphere_ortho", "bowl"])
 @pytest.mark.parametrize("kind", AXES)
 def test_mirrored_and_sheared_cameras_are_right(kind, name, monkeypatch):

@@ -32,6 +32,7 @@ def test_of_a_closed_mirror_the_side_towards_the_eye_is_taken_whatever_its_windi
     np.testing.assert_array_equal(chosen[np.abs(towards) > 1e-6], (towards > 0.0)[np.abs(towards) > 1e-6])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", SCENES)
 def test_every_triangle_that_a_pixel_shows_has_a_camera(name):
     case = case_of(name)
@@ -152,6 +153,7 @@ def test_cameras_are_cut_where_their_rays_would_begin_to_enter_the_mirror(name):
     assert len(parts) > len(whole)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", SCENES)
 def test_cameras_in_the_picture_are_those_that_pixels_show(name):
     case = case_of(name)

@@ -6,6 +6,8 @@ from core import Settings, reflect
 from tests.oracles.judge import compare
 from tests.oracles.true_map import case_of, mesh_of, size_of, true_rays, truth_of, view_rays
 
+pytestmark = pytest.mark.thorough
+
 NAMES = ["sphere", "sphere_ortho", "flat", "flat_ortho", "water", "bowl", "sphere_small"]
 
 

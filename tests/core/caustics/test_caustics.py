@@ -2,16 +2,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 
-from core import Lamp, NothingInView, ReflectionError, Settings, TriangleMesh, View, caustics
+from core import CausticMesh, Lamp, NothingInView, ReflectionError, Settings, TriangleMesh, View, caustics
 from core.cameras import MirrorMap
 from core.caustics.corners import light_at
 from tests.oracles.ray_hits import first_hits, plane_hits
 
 SIDE = 1.6
+RING_LAMPS = (Lamp((3.0, 0.3, 1.6)), Lamp.shining((-1.0, 0.0, -0.4)), Lamp((0.3, 0.2, 1.2)))
 
 
 def quad(*corners) -> TriangleMesh:
@@ -36,6 +38,13 @@ def ring(count: int, height: float = 0.5) -> TriangleMesh:
     triangles = np.concatenate((np.stack((i, j, count + j), 1), np.stack((i, count + j, count + i), 1)))
     return TriangleMesh(np.concatenate((circle, circle + (0, 0, height))), triangles,
                         np.concatenate((circle, circle))[triangles])
+
+
+@cache
+def light_of_ring(which: int) -> tuple[TriangleMesh, TriangleMesh, CausticMesh]:
+    """A ring on a table, and the light that it throws of one of `RING_LAMPS`."""
+    mirror, table = ring(96), level(0.0, 0.0, -1e-3, SIDE)
+    return mirror, table, caustics(RING_LAMPS[which], mirror, table)
 
 
 def graph(height, slope, radius: float, count: int) -> TriangleMesh:
@@ -202,6 +211,7 @@ def test_what_stands_in_the_way_casts_its_shadow_exactly():
     assert abs(mesh.flux[high].sum() - hidden) < 1e-9 and abs(mesh.flux.sum() - whole) < 1e-9
 
 
+@pytest.mark.thorough
 def test_a_paraboloid_sends_parallel_light_to_its_focus():
     dish = graph(lambda r: 0.25 * r**2, lambda r: 0.5 * r, 0.8, 12)  # its focus is (0, 0, 1)
     before, half = 0.05, 0.06  # of a plate before it
@@ -233,10 +243,10 @@ def test_a_ball_scatters_parallel_light_as_its_closed_form_says():
     assert abs(np.median(ratio) - 1.0) < 5e-3 and np.percentile(np.abs(ratio - 1.0), 95) < 0.05
 
 
+@pytest.mark.thorough
 def test_the_light_of_a_ring_is_that_of_rays():
-    table, mirror = level(0.0, 0.0, -1e-3, SIDE), ring(96)
-    for lamp in (Lamp((3.0, 0.3, 1.6)), Lamp.shining((-1.0, 0.0, -0.4)), Lamp((0.3, 0.2, 1.2))):
-        mesh = caustics(lamp, mirror, table)
+    for which, lamp in enumerate(RING_LAMPS):
+        mirror, table, mesh = light_of_ring(which)
         points, share = by_rays(lamp, mirror, table, 500_000 if lamp.sun else 2_500_000)
         noise = np.sqrt((share**2).sum())
         assert abs(mesh.flux.sum() - share.sum()) < max(4.0 * noise, 0.002 * share.sum())
@@ -264,6 +274,7 @@ def test_places_on_one_lamp_need_fewer_faces_and_their_light_is_that_of_rays():
         assert abs(ours.sum() / theirs.sum() - 1.0) < 0.002
 
 
+@pytest.mark.thorough
 def test_the_cusp_of_a_ring_lies_at_half_its_radius():
     mesh = caustics(Lamp.shining((-1.0, 0.0, -0.4)), ring(360), level(0.0, 0.0, 0.0, SIDE))
     fold = mesh.positions[mesh.image_parity == 0]
@@ -316,6 +327,7 @@ def test_what_cannot_be_is_told_in_one_sentence():
         Lamp.shining((0.0, 0.0, 0.0))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("width", [1e-6, 0.01, 0.05])
 def test_a_cone_of_light_within_one_triangle_has_its_flux(width):
     """A spot in the middle of a large flat mirror: its solid angle, half of that of its blend."""

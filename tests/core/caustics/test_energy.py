@@ -45,6 +45,7 @@ def asked_all_over(faces, ray_map, inner: np.ndarray) -> tuple[np.ndarray, np.nd
     return np.array([one.irradiance for one in light]), np.array([one.arrived for one in light])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("lamp", LAMPS, ids=("point", "sun"))
 def test_a_face_has_the_light_that_falls_on_it_within_its_straight_sides(lamp):
     faces, flux, ray_map = faces_of(lamp, ring(96), level(0.0, 0.0, 0.0, 4.0))
@@ -92,6 +93,7 @@ def test_narrow_faces_keep_their_light_and_others_do_not_get_it():
     np.testing.assert_allclose(area * found.mean(axis=1), flux, rtol=2e-3)
 
 
+@pytest.mark.thorough
 def test_light_is_known_where_the_mirror_stands_on_what_it_lights():
     count, step = 24, np.pi / 24
     angle = np.arange(count + 1) * step
@@ -108,6 +110,7 @@ def test_light_is_known_where_the_mirror_stands_on_what_it_lights():
     assert at_foot.sum() > 2 * count and faces.light.arrived[at_foot].all()
 
 
+@pytest.mark.thorough
 def test_light_that_would_take_more_faces_than_there_may_be_says_so():
     """What the mirror shows has room; its light, finer than that, stays as coarse as it is, and whole."""
     free, bounded = (caustics(LAMPS[0], ring(48), level(0.0, 0.0, 0.0, 4.0), Settings(maximum_faces=most))

@@ -8,7 +8,15 @@ import pytest
 
 from core import Lamp, caustics
 from core.rivals.tracing import LightRays
-from tests.core.caustics.test_caustics import bent_strip, level, ring, seen_from_below, solid_angle, upright
+from tests.core.caustics.test_caustics import (
+    RING_LAMPS,
+    bent_strip,
+    level,
+    light_of_ring,
+    seen_from_below,
+    solid_angle,
+    upright,
+)
 from tests.fuzz.drawing.lights import drawn_light
 from tests.fuzz.kept import kept_seeds
 from tests.fuzz.light_trial import light_problems, sent_light
@@ -29,6 +37,7 @@ def test_a_flat_mirror_sends_all_that_it_is_sent():
     assert abs(sun.flux.sum() - np.sqrt(0.5)) < 1e-9
 
 
+@pytest.mark.thorough
 def test_a_lamp_close_to_the_mirror_is_no_trouble():
     lamp, mirror, floor = Lamp((1e-3, 0.1, 1.5)), upright(0.0, 1.5, 0.5), level(0.0, 0.0, 0.0, 50.0)
     landed = [LightRays(mirror, floor).thrown(lamp, 100_000, seed).flux.sum() for seed in range(4)]
@@ -42,6 +51,7 @@ def test_rays_are_weighted_as_a_path_tracer_finds_them():
     assert not landed.bent.any() and abs(landed.flux.sum() / seen_from_below(0.35, sun) - 1.0) < 1e-3
 
 
+@pytest.mark.thorough
 def test_what_stands_in_the_way_hides():
     lamp, mirror, floor = Lamp((1.0, 0.0, 3.0)), upright(0.0, 1.5, 0.5), level(0.0, 0.0, 0.0, 9.0)
     whole = solid_angle(lamp.place, mirror)
@@ -52,6 +62,7 @@ def test_what_stands_in_the_way_hides():
     assert abs(hidden - (whole - solid_angle((-1.0, 0.0, 3.0), after))) < 1e-3 * whole
 
 
+@pytest.mark.thorough
 def test_several_bounces_are_followed():
     lamp, floor = Lamp((1.0, 0.0, 4.0)), level(0.0, 0.0, 0.0, 9.0)
     first, second = upright(0.0, 3.0, 0.5), upright(0.5, 2.0, 0.5)
@@ -66,6 +77,7 @@ def test_several_bounces_are_followed():
     assert np.abs(np.cross(way, start)).max() < 1e-9
 
 
+@pytest.mark.thorough
 def test_a_screen_that_ends_in_a_camera_to_the_last_bit_does_not_fill_it():
     """Rays of parallel light that leave a flat triangle are parallel, and the sides that they meet straight."""
     one = drawn_light(68)
@@ -73,6 +85,7 @@ def test_a_screen_that_ends_in_a_camera_to_the_last_bit_does_not_fill_it():
     assert abs(caustics(*one.arguments).flux.sum() / expected - 1.0) < 1e-3
 
 
+@pytest.mark.thorough
 def test_light_that_grazes_stays_on_what_it_lights():
     """A line of the lamp's picture within the tolerance runs far out where light grazes."""
     for seed in (2, 40):
@@ -82,6 +95,7 @@ def test_light_that_grazes_stays_on_what_it_lights():
         assert np.abs(np.matmul(mesh.source_weights, corners) - mesh.positions[mesh.triangles]).max() < 1e-6
 
 
+@pytest.mark.thorough
 def test_slivers_keep_no_more_light_than_single_precision_shows():
     for seed in (0, 8):
         one = drawn_light(seed)
@@ -91,11 +105,13 @@ def test_slivers_keep_no_more_light_than_single_precision_shows():
         assert abs((area * mesh.irradiance.mean(axis=1)).sum() / mesh.flux.sum() - 1.0) < 1e-2
 
 
+@pytest.mark.thorough
 def test_the_flux_of_a_ring_is_that_of_rays():
-    mirror, table = ring(96), level(0.0, 0.0, -1e-3, 1.6)
-    for lamp in (Lamp((3.0, 0.3, 1.6)), Lamp.shining((-1.0, 0.0, -0.4))):
-        rays = [LightRays(mirror, table).thrown(lamp, 100_000, seed).flux.sum() for seed in range(4)]
-        assert abs(caustics(lamp, mirror, table).flux.sum() / np.mean(rays) - 1.0) < 1e-3
+    for which in (0, 1):
+        mirror, table, mesh = light_of_ring(which)
+        thrown = LightRays(mirror, table)
+        rays = [thrown.thrown(RING_LAMPS[which], 100_000, seed).flux.sum() for seed in range(4)]
+        assert abs(mesh.flux.sum() / np.mean(rays) - 1.0) < 1e-3
 
 
 @pytest.mark.slow
@@ -111,6 +127,7 @@ def test_light_that_runs_along_a_second_mirror_is_what_rays_find():
         assert mesh.flux.sum() < 1e-5 * sent_light(one)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("seed", kept_seeds("light"))
 def test_kept_seeds(seed):
     assert light_problems(drawn_light(seed)) == []

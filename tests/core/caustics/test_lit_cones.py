@@ -4,6 +4,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from core import Lamp, caustics
 from core.views import in_cone
@@ -21,6 +22,7 @@ def spot(place: np.ndarray) -> Lamp:
     return Lamp(place, pattern=share, narrow=0.5 * HALF)
 
 
+@pytest.mark.thorough
 def test_what_lies_beyond_a_lamp_s_cone_costs_nothing_and_nothing_is_lost():
     dish = graph(lambda r: 0.1 * r**2, lambda r: 0.2 * r, 2.0, 24)
     lamp, ceiling = spot(np.array((-1.5, 0.1, 2.2))), level(0.0, 0.0, 4.0, 6.0)

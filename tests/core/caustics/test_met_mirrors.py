@@ -16,6 +16,7 @@ def square(origin, first, second) -> TriangleMesh:
     return TriangleMesh(corners, np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]))
 
 
+@pytest.mark.thorough
 def test_light_tells_the_mirrors_that_it_has_met_and_how_steeply():
     """A lamp before an upright mirror, opposite to a leaning one, behind which more mirrors stand."""
     lamp = Lamp((0.4, 0.1, 1.2))
@@ -52,6 +53,7 @@ def test_light_tells_the_mirrors_that_it_has_met_and_how_steeply():
     np.testing.assert_allclose(mesh.cosine[twice, :, 1], expected, rtol=0, atol=1e-9)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("lean", [-0.3, 0.3])
 def test_a_floor_hides_from_a_second_mirror_what_reaches_below_it(lean):
     """A mirror that leans back sends up what comes to it above the floor; through the floor it would send the rest to

@@ -30,6 +30,7 @@ CASES = {
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", CASES)
 def test_what_is_not_cut_is_counted(name, monkeypatch):
     mirror, scene, others, (place, constant, least), count = CASES[name]
@@ -44,6 +45,7 @@ def test_what_is_not_cut_is_counted(name, monkeypatch):
     assert np.isfinite(bounded.positions).all() and len(bounded.triangles) > 0
 
 
+@pytest.mark.thorough
 def test_cameras_beyond_the_bound_are_told(monkeypatch):
     """Where the mirror may not be split as far as its curvature asks, the result says so."""
     of = Limits.of

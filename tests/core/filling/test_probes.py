@@ -17,6 +17,7 @@ from tests.inputs.scenes import SCENES
 from tests.oracles.true_map import case_of
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", SCENES)
 def test_whole_results_miss_nothing(name):
     case = case_of(name)

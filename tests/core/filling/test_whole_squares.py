@@ -10,6 +10,8 @@ from tests.oracles.ray_hits import first_hits
 from tests.oracles.true_map import case_of, true_rays, view_rays
 from tests.oracles.truth import trace
 
+pytestmark = pytest.mark.thorough
+
 VIEW = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (144, 108), field_of_view=0.5)
 ORTHOGRAPHIC = View.looking_at((0.5, -6.0, 2.2), (0.0, 0.0, 1.0), (144, 108), orthographic_scale=3.0)
 ROOM = shapes.combine(shapes.box((0.0, 4.0, 2.0), (9.0, 1.0, 6.0)), shapes.box((0.0, -8.0, 2.0), (9.0, 1.0, 6.0)),

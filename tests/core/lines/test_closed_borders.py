@@ -62,6 +62,7 @@ def test_a_face_is_split_at_vertices_on_its_side_and_shows_what_it_did():
     assert (area > 0.0).all() and area.sum() == pytest.approx(2.0)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("given", [scenes.sphere((512, 512)), dense_scenes.posts_in_water((256, 256))],
                          ids=lambda given: given.name)
 def test_results_cover_the_same_with_fewer_borders(given):

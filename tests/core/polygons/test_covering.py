@@ -48,6 +48,7 @@ def overlaps_of(mirror: TriangleMesh) -> Overlaps:
     return Overlaps.of(cameras, frames, (camera[apart], column[apart]), met)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", MIRRORS)
 def test_what_is_dropped_lies_behind_a_mirror(name):
     overlaps = overlaps_of(MIRRORS[name])
@@ -72,6 +73,7 @@ def test_what_is_dropped_lies_behind_a_mirror(name):
     assert hit.sum() > 100
 
 
+@pytest.mark.thorough
 def test_mirrors_that_hide_nothing_are_dropped_where_light_ends():
     overlaps = overlaps_of(MIRRORS["a ring"])
     last, going_on = overlaps.in_sight(last=True), overlaps.in_sight(last=False)

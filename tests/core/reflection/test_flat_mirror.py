@@ -39,6 +39,7 @@ def mirrored(case, points):
     return twin, max(np.abs(case.scene.positions).max(), np.abs(case.mirror.positions).max())
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("placement", PLACEMENTS)
 @pytest.mark.parametrize("name", CASES)
 def test_every_vertex_is_drawn_where_the_mirrored_point_is_seen(name, placement):

@@ -10,6 +10,8 @@ from tests.oracles.ray_hits import first_hits
 from tests.oracles.true_map import true_rays
 from tests.oracles.truth import trace
 
+pytestmark = pytest.mark.thorough
+
 ROOM = (shapes.quad((0, 6, 3), (8, 0, 0), (0, 0, 4)), shapes.quad((-6, 0, 3), (0, 8, 0), (0, 0, 4)),
         shapes.quad((6, 0, 3), (0, 8, 0), (0, 0, 4)))
 FLOOR = shapes.quad((0, 0, 0), (8, 0, 0), (0, 8, 0))

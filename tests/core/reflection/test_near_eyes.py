@@ -12,6 +12,7 @@ from tests.oracles.judge import judge
 SEEDS = (55, 60, 138, 163, 178, 261, 272, 281, 300, 397, 403, 430, 443)  # each went wrong by pixels once
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("height", [0.1, 0.01, 0.003, 0.001, 0.0003])
 def test_what_lies_between_corners_beyond_the_horizon_is_seen(height):
     """From 0.003 and below all corners and edges are seen along their tangents, the middle is not."""
@@ -23,6 +24,7 @@ def test_what_lies_between_corners_beyond_the_horizon_is_seen(height):
     assert numbers["uncovered"] < 0.1
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("seed", SEEDS)
 def test_eyes_close_above_mirrors_keep_the_tolerance(seed):
     view, mirror, scene = near_eyes.drawn(seed)

@@ -6,6 +6,8 @@ from core import Settings
 from tests.inputs.scenes import SCENES
 from tests.oracles.true_map import case_of, corners_of, mesh_of, picture_areas, size_of
 
+pytestmark = pytest.mark.thorough
+
 FLAT = ("flat", "flat_ortho")
 
 

@@ -32,6 +32,7 @@ def assert_same(one, other):
     assert one.estimated_error == other.estimated_error
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["sphere", "flat", "bowl"])
 def test_a_tree_built_before_gives_the_same_mesh_bit_for_bit(name):
     case = case_of(name)
@@ -43,6 +44,7 @@ def test_a_tree_built_before_gives_the_same_mesh_bit_for_bit(name):
     assert_same(reflect(case.view, case.mirror, tree), mesh_of(name))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("placement", PLACEMENTS)
 @pytest.mark.parametrize("method", METHODS)
 def test_steps_tell_a_rising_share_and_return_the_mesh(method, placement):
@@ -83,6 +85,7 @@ def test_the_input_is_left_as_it_was():
         np.testing.assert_array_equal(before, after)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("offset", "scale"), [(1e4, 1.0), (0.0, 1e-3), (0.0, 1e3), (50.0, 1e-2)])
 @pytest.mark.parametrize("name", ["sphere", "sphere_ortho", "flat", "bowl"])
 def test_place_and_size_do_not_matter(name, offset, scale):

@@ -24,6 +24,7 @@ def towards(view: View, mesh) -> np.ndarray:
     return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("placement", ["LAYERED", "SURFACE", "VIRTUAL"])
 @pytest.mark.parametrize("inside_out", [False, True])
 def test_a_wall_shows_the_sides_that_its_mirrored_eye_sees(placement, inside_out):
@@ -38,6 +39,7 @@ def test_a_wall_shows_the_sides_that_its_mirrored_eye_sees(placement, inside_out
     assert ((turned > 0.0) == front[mesh.source_face])[np.abs(turned) > 1e-6].all()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("rings", [12, 80])
 def test_a_ball_shows_the_sides_that_its_rays_meet(rings, monkeypatch):
     """By cameras, and by whole faces: along the ray that leaves the round ball where each face is seen."""

@@ -92,6 +92,7 @@ def test_what_lies_beside_the_picture_is_left_out():
     assert set(pieces.face.tolist()) == {0, 1}
 
 
+@pytest.mark.thorough
 def test_the_piece_that_holds_a_point_is_found_as_by_trying_all():
     pieces = picture_pieces(VIEW, reflect(VIEW, two_mirrors(), SHEET))
     rng = np.random.default_rng(7)

@@ -8,6 +8,8 @@ from core.rivals.tracing import RayPyramid
 from tests.oracles.judge import compare_picture
 from tests.oracles.true_map import case_of, truth_of
 
+pytestmark = pytest.mark.thorough
+
 PIXELS = 128
 
 

@@ -25,6 +25,7 @@ def given(name, pixels=PIXELS):
     return case, primary_hits(case.view, case.mirror, case.scene), truth_of(name, pixels)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", NAMES)
 def test_every_rival_is_given_the_mirror_that_the_eye_sees(name):
     case, hits, truth = given(name)
@@ -40,6 +41,7 @@ def test_every_rival_is_given_the_mirror_that_the_eye_sees(name):
         np.testing.assert_allclose(depth.ravel(), true, rtol=1e-9)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("rival, knob", [(traced, 1), (clustered, 0), (clustered, 16)])
 @pytest.mark.parametrize("name", NAMES)
 def test_ray_tracing_shows_the_truth_at_every_pixel(name, rival, knob):

@@ -13,6 +13,7 @@ def library(tmp_path_factory):
         pytest.skip(str(missing))
 
 
+@pytest.mark.thorough
 def test_kernels_in_c_give_the_same_to_rounding(library):
     for kernel in kernels(library, 20_000):
         differing, away = agreement(kernel)

@@ -70,6 +70,7 @@ def test_many_at_once_as_each_alone():
         assert alone[1] == together[k][1]
 
 
+@pytest.mark.thorough
 def test_random_cubics_against_companion_matrices():
     rng = np.random.default_rng(2)
     c = rng.normal(size=(3000, 4)) * 10.0 ** rng.uniform(-2, 2, (3000, 4))
@@ -129,6 +130,7 @@ def _ordinary(rng, n):
     return c
 
 
+@pytest.mark.thorough
 def test_certified_roots_against_exact_arithmetic():
     """The roots of ordinary cubics are all there, none else, and each within its error of the exact one."""
     c = _ordinary(np.random.default_rng(4), 2000)
@@ -147,6 +149,7 @@ def test_certified_roots_against_exact_arithmetic():
             assert below * above < 0 and (above > 0) == (sign > 0)
 
 
+@pytest.mark.thorough
 def test_certified_roots_are_those_of_monotone_intervals():
     c = _ordinary(np.random.default_rng(5), 20000).T
     bounds = 8.0 * UNIT * np.abs(c)

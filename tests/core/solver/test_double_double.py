@@ -24,6 +24,7 @@ def _exact(number):
     return [Fraction(float(high)) + Fraction(float(low)) for high, low in zip(*number)]
 
 
+@pytest.mark.thorough
 def test_sums_and_products():
     rng = np.random.default_rng(1)
     a, b = _numbers(rng, 3000), _numbers(rng, 3000)
@@ -38,6 +39,7 @@ def test_sums_and_products():
     assert _exact(difference) == [Fraction(float(x)) - Fraction(float(y)) for x, y in zip(a[0], b[0])]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["random", "coplanar motion", "nearly planar, tilted", "collision", "cylinder",
                                   "far from the origin", "opposite rays but for rounding", "close to the mirror"])
 def test_coefficients_are_within_their_bounds(name):

@@ -8,6 +8,8 @@ from tests.inputs.families import pairs_of
 from tests.oracles.exact import BITS, integers, positive_roots, to_float
 from tests.oracles.exact_pairs import ExactPairs
 
+pytestmark = pytest.mark.thorough
+
 
 def product(f, g):
     out = [0] * (len(f) + len(g) - 1)

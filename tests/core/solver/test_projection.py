@@ -9,6 +9,7 @@ from tests.inputs.integer_families import cusps, folds
 from tests.oracles.exact_pairs import ExactPairs
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("scale", [1.0, 2.0 ** -30, 2.0 ** 20])
 @pytest.mark.parametrize("multiplicity, kind", [(2, folds), (3, cusps)])
 def test_exact_caustic_points_are_one_image_of_parity_zero(multiplicity, kind, scale):
@@ -172,6 +173,7 @@ def test_winding_and_facing():
     np.testing.assert_array_equal(project(v, r, p, facing=-side).parity, -images.parity)
 
 
+@pytest.mark.thorough
 def test_chunks_and_order_do_not_matter():
     v, r, w, s = random_pairs(np.random.default_rng(13), 40000)
     p = seen(v, r, w, s)
@@ -184,6 +186,7 @@ def test_chunks_and_order_do_not_matter():
     assert np.abs(seen(v[whole.pair], r[whole.pair], whole.weights, whole.distance) - p[whole.pair]).max() < 1e-9
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("size", [2.0 ** -90, 2.0 ** 90, 2.0 ** -210, 2.0 ** 210])
 def test_pairs_of_other_sizes_change_nothing(size):
     v, r, w, s = random_pairs(np.random.default_rng(16), 2000)

@@ -19,6 +19,7 @@ def tree_of(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
+@cache
 def imported(path: Path) -> list[tuple[str, ...]]:
     """The modules that a file imports, as parts of their names: relative ones from the project's root."""
     package, found = path.relative_to(ROOT).parts[:-1], []
@@ -32,6 +33,7 @@ def imported(path: Path) -> list[tuple[str, ...]]:
     return found
 
 
+@cache
 def floor(parts: tuple[str, ...]) -> str:
     """The package of a house that a module lies in; of a room beside the house's door the room itself, and of the door
     nothing."""

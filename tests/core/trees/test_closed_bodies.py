@@ -70,6 +70,7 @@ def test_faces_with_corners_of_their_own_bound_a_body_as_well():
     assert (outward(soup) == outward(ball)).all()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("eye", "outside"), [((0.0, 0.0, 0.0), True), ((3.0, 0.0, 0.1), False),
                                               ((2.7, 2.7, 0.9), True), ((0.0, -9.0, 1.0), True)])
 def test_only_what_is_looked_at_from_outside_turns_away(eye, outside):

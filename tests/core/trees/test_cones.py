@@ -23,6 +23,7 @@ def samples(cameras, rng, count):
     return cone, (places + s * rays).reshape(3, -1)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("offset", [0.0, 1e4])
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
 @pytest.mark.parametrize("turn", [0.0, 1e-9, 0.05, 0.4, 2.0])
@@ -35,6 +36,7 @@ def test_cones_hold_all_rays_of_their_cameras(turn, scale, offset):
     assert Cones.around(cameras).touch(cone, points, rounding).all()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["sphere", "flat", "water", "bowl", "cylinder", "flat_ortho"])
 def test_cones_hold_the_true_rays_of_a_mirrors_corners(name):
     case = case_of(name)

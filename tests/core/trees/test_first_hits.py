@@ -26,6 +26,7 @@ def soup(kind):
     return TriangleMesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["any", "flat", "one middle", "without area", "one", "far"])
 def test_first_hits_are_those_of_brute_force(kind):
     mesh, rng = soup(kind), np.random.default_rng(5)
@@ -76,6 +77,7 @@ def test_a_box_tree_holds_every_triangle_once_and_within_its_boxes(kind):
         assert (tree.low[:, child] >= tree.low[:, inner]).all() and (tree.high[:, child] <= tree.high[:, inner]).all()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("count", [20, 2000])
 def test_few_rays_and_many_meet_the_same(count):
     # few go through the tree as cones without width, many through boxes: 400 triangles get boxes for 41 rays

@@ -47,6 +47,7 @@ def case(data, place):
     return TriangleMesh(positions * scale + offset, triangles), moved(cameras, scale, offset)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("place", PLACES)
 @pytest.mark.parametrize("data", DATA)
 def test_the_trace_meets_every_triangle_that_a_camera_sees(data, place):
@@ -144,6 +145,7 @@ def parts_of_cameras(rng):
             for given in (whole.places, whole.rays)]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("family", [None, np.repeat(np.arange(12), 10)])
 @pytest.mark.parametrize("data", DATA)
 def test_cones_that_meet_more_than_enough_are_full_and_others_meet_all(data, family):
@@ -169,6 +171,7 @@ def test_what_is_full_is_not_what_is_given_up():
     assert found.full[1::2][count[1::2] > 0].all() and len(found.cone) <= count.max()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("data", DATA)
 def test_cones_that_descend_together_meet_what_they_meet_alone(data):
     mesh, _ = case(data, "here")

@@ -23,6 +23,7 @@ def held(shafts, shaft, corners):
     return shafts.hold(shaft, np.concatenate(corners, axis=1).T, np.arange(3 * count).reshape(3, count).T)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("offset", [0.0, 1e4])
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
 @pytest.mark.parametrize("turn", [0.0, 1e-9, 0.05, 0.4, 2.0])
@@ -36,6 +37,7 @@ def test_shafts_hold_all_triangles_that_rays_of_their_cameras_meet(turn, scale, 
         assert held(Shafts.around(cameras, 5.0 * scale + offset), shaft, corners).all()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["sphere", "flat", "water", "bowl", "cylinder", "flat_ortho"])
 def test_shafts_hold_the_true_rays_of_a_mirrors_corners(name):
     case = case_of(name)

@@ -23,6 +23,7 @@ def same_picture(view, positions, triangles):
     return shown.mean()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["sphere", "flat_ortho", "bowl", "sphere_shift", "sphere_small"])
 def test_meshes_and_scenes_are_drawn_as_the_judge_draws_them(name):
     case, mesh = case_of(name), mesh_of(name)

@@ -90,6 +90,7 @@ def test_only_what_a_cutting_triangle_hides_is_dropped(name):
     assert ((height[dropped].min(axis=2) < 0) & (height[dropped].max(axis=2) > 0) & behind[dropped]).any(axis=1).all()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", CASES)
 def test_nothing_comes_out_through_what_cuts_the_mirror(name):
     view, mirror, scene = CASES[name]
@@ -110,6 +111,7 @@ def ring(radius: float, tube: float, around: int, across: int) -> TriangleMesh:
                                                 ((a, b, c), (a, c, d))]))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("orthographic", [False, True])
 def test_a_frame_that_ends_in_the_mirror_is_not_covered(orthographic):
     """Faces behind the frame, where it is as near before the mirror as they slide, would come out before it. Those

@@ -14,6 +14,7 @@ FLOOR = shapes.combine(shapes.quad((0.0, 0.0, 0.0), (30.0, 0.0, 0.0), (0.0, 30.0
 OVER_THE_FLOOR = shapes.combine(shapes.icosphere((0.0, 3.0, 1.0), 1.0, 3))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("way", [(0.3, 1.0, 0.2), (-1.0, 0.2, -0.4), (0.0, 0.0, -1.0)])
 def test_an_orthographic_eye_in_a_closed_mirror_sees_its_inner_sides_and_misses_nothing(way):
     view, scene = View.looking_at((0.0, 0.0, 0.0), way, (160, 160), orthographic_scale=2.0), shapes.combine(*PANES)
@@ -34,6 +35,7 @@ def test_an_orthographic_eye_partly_in_a_closed_mirror_sees_both_sides():
     assert numbers["uncovered"] < 0.1
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("depth", [1, 2])
 def test_a_floor_that_runs_on_behind_the_eye_is_seen_and_followed(depth):
     view = View.looking_at((0.0, -6.0, 2.0), (0.0, 3.0, 0.5), (256, 192))
@@ -48,6 +50,7 @@ def test_a_floor_that_runs_on_behind_the_eye_is_seen_and_followed(depth):
     assert mesh.filled_share <= 100.0 and not mesh.counts["bounded"]
 
 
+@pytest.mark.thorough
 def test_a_wavy_floor_round_the_eye_is_exact():
     view = View.looking_at((0.3, -1.0, 1.2), (0.0, 3.0, 0.4), (200, 150), field_of_view=1.4)
     water = shapes.combine(shapes.water(12.0, 0.05, 3, 40))

@@ -46,6 +46,7 @@ def test_in_a_flat_mirror_they_lie_before_their_twins(orthographic, known):
         assert np.abs(now.mirror_position[:, 2]).max() < 1e-12
 
 
+@pytest.mark.thorough
 def test_what_is_lost_is_looked_for_in_turns_and_as_good_as_ever(monkeypatch):
     """On a ball, whose rim takes images away: each is looked for every few times, and few are missed by that."""
     case = scenes.sphere((240, 240))
@@ -74,6 +75,7 @@ def test_what_is_lost_is_looked_for_in_turns_and_as_good_as_ever(monkeypatch):
     assert np.mean(lost[False]) < 1.1 * np.mean(lost[True])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("known", [False, True])
 def test_on_a_ball_the_faces_stay_right_while_the_eye_goes_on(known):
     case = scenes.sphere((96, 96))
