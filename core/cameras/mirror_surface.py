@@ -19,6 +19,7 @@ import numpy as np
 from ..geometry import TriangleMesh, columns, cross, dot, norm, rows, unit
 
 ALONG_UV = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])  # ways in (u, v)
+LOST = 1e-12  # length of an interpolated normal: of less nothing can be told
 LEAST_RISE = 0.01  # sine of the angle at which Cycles lets a bent ray leave
 Way = np.ndarray | tuple[np.ndarray, np.ndarray]
 """A change of (u, v): (2, n), or its two rows."""
@@ -86,18 +87,14 @@ class MirrorSurface:
         """The change of (u, v) that moves in the planes of the triangles make."""
         return _coordinates(columns(self._parts[12:], face), moves)
 
-    def raw_normals(self, face: np.ndarray | slice, uv: np.ndarray) -> np.ndarray:
-        """Interpolated normals before they are made unit vectors."""
-        return self._between(0, face, uv)
-
     def normals(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
         """Unit interpolated normals."""
-        return self._unit_normal(self.raw_normals(face, uv), face)[0]
+        return self._unit_normal(self._between(0, face, uv), face)[0]
 
     def _unit_normal(self, raw: np.ndarray, face: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
         """Unit normals, in place of the `raw` ones, and how long (n,) they were."""
         size = norm(raw)
-        known = size > 1e-12
+        known = size > LOST
         if known.all():
             raw /= size
             return raw, size
@@ -105,7 +102,7 @@ class MirrorSurface:
         # opposite normals may cancel along an edge: the flat normal is then the only one left
         lost = np.flatnonzero(~known)
         raw[:, lost] = self.face_normal[:, face][:, lost]
-        return raw, np.maximum(size, 1e-12)
+        return raw, np.maximum(size, LOST)
 
     def unbent(self, face: np.ndarray, uv: np.ndarray, direction: np.ndarray) -> np.ndarray:
         """Rays of the interpolated normals alone, whether they enter the triangle or not."""
@@ -119,20 +116,27 @@ class MirrorSurface:
                     changes: Sequence[tuple[Way, np.ndarray]]) -> tuple[np.ndarray, list[np.ndarray]]:
         """The unbent rays, and what they change by for each of the `changes`: of (u, v), (2, n), and of the direction
         that arrives, (3, n)."""
-        raw = self.raw_normals(face, uv)
-        normal, size = self._unit_normal(raw, face)
-        slope = 2.0 * dot(direction, normal)
+        normal = self._between(0, face, uv)
+        square = dot(normal, normal)
+        if not (square > LOST**2).all():
+            normal, size = self._unit_normal(normal, face)
+            square = size**2
+            normal *= size
+        twice = 2.0 / square
+        slope = dot(direction, normal)
+        slope *= twice
         own_u, own_v = (self._parts[first:first + 3] if isinstance(face, slice) else
                         columns(self._parts[first:first + 3], face) for first in (3, 6))
         turned = []
         for way, move in changes:
             turn = along(way, own_u, own_v)
-            turn = turn - dot(turn, normal) * normal
-            turn /= size
-            change = normal * (2.0 * (dot(move, normal) + dot(direction, turn)))
+            steeper = dot(direction, turn)
+            steeper += dot(move, normal)
+            steeper -= slope * dot(normal, turn)
+            steeper *= twice
+            change = steeper * normal
             np.subtract(move, change, out=change)
-            turn *= slope
-            change -= turn
+            change -= slope * turn
             turned.append(change)
         normal *= slope
         return np.subtract(direction, normal, out=normal), turned

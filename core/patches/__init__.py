@@ -4,6 +4,6 @@ In come cameras and points; out come the mirror's triangles, places on them and 
 """
 from .patch import Patch, speck
 from .patch_nodes import Descent, Walk
-from .walk import find, jacobians
+from .walk import changes, find
 
-__all__ = ["Descent", "Patch", "Walk", "find", "jacobians", "speck"]
+__all__ = ["Descent", "Patch", "Walk", "changes", "find", "speck"]

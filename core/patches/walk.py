@@ -155,11 +155,6 @@ def _solved(c0, c1, ray, right) -> np.ndarray:
     return found
 
 
-def jacobians(patch: Patch, member, uv, s) -> np.ndarray:
-    """(2, 3, n): pixels by which images move where their points move."""
-    return changes(patch, member, uv, s)[1]
-
-
 def changes(patch: Patch, member, uv, s) -> tuple[np.ndarray, np.ndarray]:
     """(3, 3, n): by what u, v and s of images change where their points move, as [which, component]; and (2, 3, n), by
     how many pixels they move then."""

@@ -49,8 +49,7 @@ class Images:
     degenerate: np.ndarray
 
 
-def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = None, *,
-            facing: np.ndarray | None = None) -> Images:
+def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = None) -> Images:
     """Every image of each point in its three-ray camera.
 
     The camera sees P at the weights W where P = Q(W) + s R(W), s > 0, W >= 0, sum W = 1, with Q(W) = sum W_i V_i and
@@ -62,10 +61,10 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     errors of the float64 arithmetic on the given numbers, however far from the origin they lie.
 
     The parity is the sign of the cubic's derivative, R(W) . N(s) with N the moved triangle's normal by its winding,
-    times the sign of that normal on the side to which the mirror reflects: that of (R_A + R_B + R_C) . N(0), or
-    `facing`. Both change with the winding, so the product does not; the second is one for all images of a camera, so
-    within a camera the parity changes only across a caustic. It is the wrong one where shading normals bend the middle
-    ray under the flat triangle; a caller who knows where the eye is gives `facing`.
+    times the sign of that normal on the side to which the mirror reflects: that of (R_A + R_B + R_C) . N(0). Both
+    change with the winding, so the product does not; the second is one for all images of a camera, so within a camera
+    the parity changes only across a caustic. It is the wrong one where shading normals bend the middle ray under the
+    flat triangle.
 
     Parameters
     ----------
@@ -73,8 +72,6 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
         Corners V_A, V_B, V_C of each camera's mirror triangle, and their rays R_A, R_B, R_C, not normalised.
     points : (n, 3) float64
         In the same space and units as the vertices. Not to be left out: a ValueError says so, as of all that is wrong.
-    facing : (n,), optional
-        Positive where the eye sees the corners A, B, C counter-clockwise, negative where clockwise.
 
     Returns
     -------
@@ -98,7 +95,7 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     >>> images.distance.round(9).tolist(), images.weights.round(9).tolist()
     ([2.0], [[0.5, 0.25, 0.25]])
     """
-    vertices, rays, points, facing = _checked(vertices, rays, points, facing)
+    vertices, rays, points = _checked(vertices, rays, points)
     count = len(points)
     degenerate, power = np.zeros(count, dtype=bool), np.zeros(count, dtype=np.int64)
     # The C library maps large arrays anew each time, and clears their pages, until it has freed a larger one once.
@@ -106,7 +103,7 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     found, doubts = [], []
     for part in portions(max(count, 1), CHUNK):
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], common_lengths)
-        found.append(_turned(facing, pair + part.start, *images))
+        found.append(_turned(pair + part.start, *images))
         doubts.append(np.flatnonzero(doubtful) + part.start)
     left, doubtful_left = np.concatenate(doubts), []
     # a number that is not finite leaves every doubt
@@ -115,11 +112,11 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     vertices, rays, points, power[left] = of_ordinary_size(vertices[left], rays[left], points[left])
     for part in _chunks(np.arange(len(left))):
         pair, *images, doubtful = certain_images(vertices[part], rays[part], points[part], own_lengths)
-        found.append(_turned(facing, left[part[pair]], *images))
+        found.append(_turned(left[part[pair]], *images))
         doubtful_left.append(part[doubtful])
     for part in _chunks(np.concatenate(doubtful_left)):
         (pair, *images), degenerate[left[part]] = doubtful_images(vertices[part], rays[part], points[part])
-        found.append(_turned(facing, left[part[pair]], *images))
+        found.append(_turned(left[part[pair]], *images))
     pair, distance, weights, parity = (np.concatenate(column) for column in zip(*found))
     with np.errstate(over="ignore", under="ignore"):
         distance = np.ldexp(distance, power[pair])
@@ -130,18 +127,12 @@ def project(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray | None = 
     return Images(pair[order], distance[order], weights[order], parity[order], degenerate)
 
 
-def _checked(vertices, rays, points, facing):
+def _checked(vertices, rays, points):
     wrong = ("The vertices (n, 3, 3), rays (n, 3, 3) and points (n, 3) of pairs must be arrays of numbers of the "
              "same n; give each pair a camera and a point.")
     points = numbers(points, (None, 3), wrong)
     vertices, rays = (numbers(given, (len(points), 3, 3), wrong) for given in (vertices, rays))
-    if facing is not None:
-        wrong = "The facing of pairs must be an (n,) array of numbers; give one sign for each pair."
-        facing = numbers(facing, (len(points),), wrong)
-        if np.isnan(facing).any():
-            raise ValueError(wrong)
-        facing = np.where(facing < 0, -1.0, 1.0)
-    return vertices, rays, points, facing
+    return vertices, rays, points
 
 
 def _chunks(pairs: np.ndarray):
@@ -149,7 +140,6 @@ def _chunks(pairs: np.ndarray):
     return (pairs[part] for part in portions(max(len(pairs), 1), CHUNK))
 
 
-def _turned(facing, pair, distance, weights, sign, side):
-    """Images with their parity, by the side of the triangle that `facing` tells, or else their rays."""
-    side = side if facing is None else facing[pair]
+def _turned(pair, distance, weights, sign, side):
+    """Images with their parity, by the side of the triangle that their rays leave."""
     return pair, distance, weights, np.where(side < 0.0, -sign, sign)

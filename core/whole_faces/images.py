@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..geometry import ColumnArrays, mask
-from ..patches import Patch, find, jacobians
+from ..patches import Patch, changes, find
 from ..support import portions
 
 AT_ONCE = 16384  # points: what their arrays take fits the cache
@@ -68,7 +68,7 @@ class Images(ColumnArrays):
         """The same images; how those of all these nodes move is worked out and kept, once for each."""
         asked = np.logical_or.reduce([mask(len(self), some) for some in nodes])
         chosen = np.flatnonzero(asked & self.found & np.isnan(self.moving[0, 0]))
-        self.moving[:, :, chosen] = jacobians(patch, self.member[chosen], self.uv[:, chosen], self.distance[chosen])
+        _, self.moving[:, :, chosen] = changes(patch, self.member[chosen], self.uv[:, chosen], self.distance[chosen])
         return self
 
     def between(self, patch: Patch, a: np.ndarray, b: np.ndarray) -> Images:

@@ -131,8 +131,6 @@ PROJECTED = [
            inf=np.full((1, 3, 3), INF)),
     *cases("points", lambda given: project(*PAIR[:2], given), **NO_ARRAYS, one=np.ones(3), two=np.ones((2, 3)),
            fours=np.ones((1, 4))),
-    *cases("facing", lambda given: project(*PAIR, facing=given), number=1.0, text="+", texts=["+"], bools=[True],
-           two=[1.0, 1.0], nan=[NAN]),
 ]
 
 

@@ -79,10 +79,10 @@ def test_normals_and_pairs_in_any_guise(guise):
     normals = np.array([[[0, 0, 1], [0.5, 0, 1], [0, 0.25, 1]]] * 2)
     same(TriangleMesh(POSITIONS, TRIANGLES, normals), TriangleMesh(POSITIONS, TRIANGLES, given(normals)))
     vertices, rays = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]]), np.array([[[0.0, 0, 1], [0, 0, 1], [0, 0, 1]]])
-    points, facing = np.array([[0.25, 0.25, 2.0]]), np.array([-1.0])
-    found = project(vertices, rays, points, facing=facing)
+    points = np.array([[0.25, 0.25, 2.0]])
+    found = project(vertices, rays, points)
     assert found.pair.tolist() == [0]
-    same(found, project(given(vertices), given(rays), given(points), facing=given(facing)))
+    same(found, project(given(vertices), given(rays), given(points)))
 
 
 def test_nothing_is_a_mesh():
