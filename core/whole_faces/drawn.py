@@ -12,8 +12,7 @@ from .layers import Layers
 from .pieces import Pieces, turned_away
 
 SMALL = 4.0  # pixels: images of edges bend less
-ROOM, FAR = 2.0, 64.0  # pixels round a piece; by which edges that leave the patch may be longer
-WAYS = ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2))  # from corner to corner of a triangle
+ROOM = 2.0  # pixels round a piece
 
 
 def shown_or_behind(images: Images, pieces: Pieces, outward: np.ndarray | None) -> tuple[Pieces, np.ndarray]:
@@ -46,10 +45,6 @@ def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: np.
     hidden, close = (told[:len(found)] for told in layers.hidden_and_close(nodes, solid, near))
     drawn[found] &= ~hidden & ~close
     left[found] |= close
-    over = np.flatnonzero(drawn)
-    over = over[_over_what_goes_through(patch, images, pieces.nodes, over)]
-    breathe()
-    drawn[over], left[over] = False, True
     return drawn, left
 
 
@@ -57,24 +52,3 @@ def _beyond(patch: Patch, images: Images, nodes: np.ndarray) -> np.ndarray:
     """Which pieces (3, f), all with three images, lie outside of the picture."""
     low, high = box(images.pixel[:, nodes])
     return ((high < -ROOM) | (low > np.array(patch.view.resolution)[:, None] + ROOM)).any(axis=0)
-
-
-def _over_what_goes_through(patch: Patch, images: Images, nodes: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Which of the `faces` (n,) among pieces (3, f) lie over several triangles of the mirror where pieces are seen that
-    go through it: these may lie closer behind them than they sink."""
-    found, ahead = images.found[nodes], images.distance[nodes] > 0.0
-    boxes: list[tuple[np.ndarray, np.ndarray]] = []
-    for a, b in WAYS:
-        through = np.flatnonzero(found[a] & ~found[b] & ~ahead[b])
-        if not len(through):
-            continue
-        start, end = nodes[a, through], nodes[b, through]
-        images.moved(patch, start)
-        way = images.point[:, end] - images.point[:, start]
-        spot = images.pixel[:, start]
-        other = spot + np.clip((images.moving[:, :, start] * way).sum(axis=1), -FAR, FAR)
-        boxes.append((np.minimum(spot, other) - ROOM, np.maximum(spot, other) + ROOM))
-    if not boxes:
-        return np.zeros(len(faces), dtype=bool)
-    cells = patch.border.with_boxes(*(np.concatenate(side, axis=1) for side in zip(*boxes)))
-    return images.several(nodes[:, faces]) & cells.touched(*box(images.pixel[:, nodes[:, faces]]))

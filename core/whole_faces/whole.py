@@ -14,7 +14,7 @@ from ..trees import Cones, SceneTree
 from ..views import LampView
 from .contacts import contacts
 from .division import Division
-from .drawn import FAR, ROOM, WAYS, drawn_or_left, shown_or_behind
+from .drawn import ROOM, drawn_or_left, shown_or_behind
 from .images import Images
 from .layers import Layers
 from .merging import Merged
@@ -23,6 +23,8 @@ from .sinking import Sinking
 
 LEAST_TRIANGLES, LEAST_PATCH = 8000, 32  # of the scene, and of the mirror: fewer are cut sooner than looked at twice
 LEAST_SHARE = 0.25  # of what is seen of the mirror: a smaller patch is not worth it
+FAR = 64.0  # pixels by which edges that leave the patch may be longer
+WAYS = ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2))  # from corner to corner of a triangle
 PROBES = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (1 / 3, 1 / 3))
 WIDER = 1.25  # than the rays of a triangle at its corners, or at its probes: those between them
 TURNING = 0.05  # sine of how far the rays at a triangle's corners turn, beyond which it is probed between them too
