@@ -8,9 +8,10 @@ import numpy as np
 
 from ...core import View, draw
 from ..baking import random_by_island
+from ..illumination import is_bumped
 from ..lighting import dull_objects
 from ..reading import has_fog, read_mirror, read_view, vectors
-from ..reading.materials import surface_shaders
+from ..reading.materials import reflecting_materials, surface_shaders
 
 NAMED = 3
 NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
@@ -27,6 +28,8 @@ def unlike_the_mirror(context: bpy.types.Context, lit: list) -> list[str]:
     random = random_by_island(on_objects)
     astray = sorted({result.reflection_mesh.mirror.name for result in on_objects
                      if not _lies_before_mirror(result) and _is_matte(result.reflection_mesh.light_material)})
+    bumped = sorted({result.reflection_mesh.mirror.name for result in on_objects
+                     if any(map(is_bumped, reflecting_materials(result.reflection_mesh.mirror)))})
     return ([FOG] * bool(on_objects and has_fog(context.scene))
             + [f"The gloss of {_listed(dull)} is not what so close a curved mirror shows: choose Light: Picture for a "
              f"still."] * bool(dull)
@@ -34,6 +37,8 @@ def unlike_the_mirror(context: bpy.types.Context, lit: list) -> list[str]:
                f"Light: Picture for a still."] * bool(astray)
             + [f"What is random by island on {_listed(random)} is so in other colours: choose Light: Picture for its "
                f"own."] * bool(random)
+            + [f"The material of {_listed(bumped)} bends its normals or displaces it, which light on the objects does "
+               f"not follow: choose Light: Picture for a still, or model it."] * bool(bumped)
             + _lost_in_windows(context, lit))
 
 

@@ -32,6 +32,10 @@ DONE = {
         "Standbild.",
     "Fog before what mirrors show is not in light on the objects: choose Light: Picture for a still.":
         "Nebel vor dem, was Spiegel zeigen, ist nicht im Licht auf den Objekten: wähle Licht: Bild für ein Standbild.",
+    "The material of {} bends its normals or displaces it, which light on the objects does not follow: choose Light: "
+    "Picture for a still, or model it.":
+        "Das Material von {} biegt seine Normalen oder verschiebt es, dem folgt Licht auf den Objekten nicht: wähle "
+        "für ein Standbild Licht: Bild, oder modelliere das.",
     "What is random by island on {} is so in other colours: choose Light: Picture for its own.":
         "Was auf {} nach Inseln zufällig ist, hat andere Farben: wähle Licht: Bild für die eigenen.",
     "{}: {} of light, {} s": "{}: {} aus Licht, {} s",

@@ -269,3 +269,17 @@ def test_where_islands_have_other_colours_that_is_said(blank, capsys, output, ki
     parts.generate()
     assert bpy.ops.reflection_mesh.light("EXEC_DEFAULT", samples=1, kind=kind) == {"FINISHED"}
     assert ("What is random by island on 'Floor' is so in other colours" in capsys.readouterr().out) == told
+
+
+@pytest.mark.parametrize(("kind", "bumped", "told"), [("OBJECTS", True, True), ("PICTURE", True, False),
+                                                      ("OBJECTS", False, False)])
+def test_that_a_mirrors_bumps_are_not_followed_is_said(blank, capsys, kind, bumped, told):
+    """The picture shows them, since Cycles renders the mirror itself."""
+    ball_scene(blank)
+    tree = bpy.data.objects["Ball"].active_material.node_tree
+    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    if bumped:
+        tree.links.new(tree.nodes.new("ShaderNodeBump").outputs["Normal"], shader.inputs["Normal"])
+    parts.generate()
+    assert bpy.ops.reflection_mesh.light("EXEC_DEFAULT", samples=1, kind=kind) == {"FINISHED"}
+    assert ("The material of 'Ball' bends its normals" in capsys.readouterr().out) == told
