@@ -38,7 +38,7 @@ def striped(output: str) -> tuple[bpy.types.Material, bpy.types.NodeSocket]:
     link(tree, times.outputs[0], wave.inputs[0])
     link(tree, wave.outputs[0], side.inputs[0])
     glow = tree.nodes.new("ShaderNodeEmission")
-    link(tree, side.outputs[0], glow.inputs["Strength"])
+    link(tree, side.outputs[0], glow.inputs["Color"])  # no brighter than paper: what is has more texels
     link(tree, glow.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
     return made, times.inputs[1]
 
