@@ -7,7 +7,7 @@ from ..faults import AllOrNothing, in_one_sentence, one_or_more, tell
 from ..frames import plays, stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_previews
-from ..reading import has_linked_results, is_result
+from ..reading import has_linked_results, is_result, redraw_lines
 from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes, set_free
 from . import polls
 
@@ -39,6 +39,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
     if mirror is not None and mirror.name in layer.objects:
         layer.objects.active = mirror
     _remove(results)
+    redraw_lines(context.scene)
     for group in nodes:
         forget_nodes(group)
     for material in lights:

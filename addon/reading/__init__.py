@@ -1,7 +1,7 @@
 """Blender's data as arrays: who takes part, meshes with their layers, materials, the view."""
 from .known_results import forget_known, known_results, register, unregister
 from .light_links import link_state
-from .lines import lines_drawn
+from .lines import lines_drawn, redraw_lines
 from .looked_through import looked_through
 from .materials import all_nodes, fog_of, is_clear, is_fog, is_mirror, is_opaque, materials_of, materials_shown
 from .meshes import (
@@ -62,6 +62,6 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "is_opaque", "is_part", "is_rendered", "is_result", "join_mirror", "join_scene", "known_results",
            "lines_drawn", "link_state", "looked_through", "materials_of", "materials_shown", "may_have_faces",
            "moves", "nothing_to_reflect", "numbers", "participants", "read_meshes", "read_mirror", "read_mirrors",
-           "read_scene", "read_view", "register", "render_size", "rendered_alone", "rendered_collections",
+           "read_scene", "read_view", "redraw_lines", "register", "render_size", "rendered_alone", "rendered_collections",
            "rendered_in", "rendered_otherwise", "results_of", "says_mirror", "seen_in", "shown_by", "unregister",
            "vectors", "visible", "with_copies", "with_square_pixels", "without_surface"]
