@@ -92,6 +92,8 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     counts: StringProperty(name="Counts", description="How much of each part of the method was needed, as JSON")
     resolution: IntVectorProperty(name="Resolution", size=2,
                                   description="Size in pixels of the picture that this reflection was made for")
+    protected: BoolProperty(name="Protected", description="Clicks were made to pass by this result, and its transform "
+                            "was locked; what the user changes of that stays", override=OVERRIDABLE)
     made_from: StringProperty(name="Made From", description="The view, the mirror and the objects that this reflection "
                               "was made from, as JSON; empty where that is not known")
     faces: IntProperty(name="Faces", description="Number of faces when it was generated")

@@ -7,7 +7,7 @@ from ..faults import AllOrNothing, in_one_sentence, one_or_more, tell
 from ..frames import plays, stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_previews
-from ..reading import has_linked_results, is_result, redraw_lines
+from ..reading import has_linked_results, is_result, named_by_selection, redraw_lines
 from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes, set_free
 from . import polls
 
@@ -21,9 +21,7 @@ def chosen_results(context: bpy.types.Context) -> list:
     """The selected results, or those of selected mirrors; where the selection names none, all of the scene."""
     results = [obj for obj in context.scene.objects
                if is_result(obj) and obj.library is None]
-    selected = set(context.selected_objects)
-    named = [obj for obj in results if obj in selected or obj.reflection_mesh.mirror in selected]
-    return named or results
+    return named_by_selection(context, results) or results
 
 
 def clear(context: bpy.types.Context, results: list) -> None:
@@ -55,8 +53,7 @@ def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:
     """The caustics that are selected or whose mirrors are, or all of the scene where none are; whether any are."""
     every = [obj for obj in context.scene.objects
              if obj.reflection_mesh.role == "CAUSTICS" and obj.library is None]
-    selected = set(context.selected_objects)
-    named = [obj for obj in every if obj in selected or obj.reflection_mesh.mirror in selected]
+    named = named_by_selection(context, every)
     return named or every, bool(named)
 
 
@@ -115,8 +112,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
             tell(self, {"ERROR"}, IN_OBJECT_MODE)
             return {"CANCELLED"}
         results, (caustics, named) = chosen_results(context), chosen_caustics(context)
-        selected = set(context.selected_objects)
-        if named != any(obj in selected or obj.reflection_mesh.mirror in selected for obj in results):
+        if named != bool(named_by_selection(context, results)):
             results, caustics = ([], caustics) if named else (results, [])
         if not results and not caustics and not _bring_back() and not any(
                 obj.reflection_mesh.camera_hidden for obj in context.scene.objects):

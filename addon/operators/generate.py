@@ -35,14 +35,13 @@ from ..settings import (
 from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, point_arrays
 from . import polls
+from .pressed import ProtectsResults
 from .shortcomings import Refused, left_out, scene_shortcomings, shortcomings, window_shortcomings
 from .write_results import Manners, Outcome, write_results
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
 IN_OBJECT_MODE = "Reflections are generated in Object Mode: leave the present mode first."
-# what whoever presses a button gets unless it is set otherwise
-FOR_THE_EYE = ("preview", "collect", "select_alone")
 
 
 def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings | SettingsOfMirrors,
@@ -153,13 +152,14 @@ def _trees(stage: Stage, kinds: list) -> Steps[None]:
             yield from part(core.in_steps(partial(stage.built, kind)), start, 0.25 * READING, "Building the tree")
 
 
-class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions, bpy.types.Operator):
+class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator, SettingsOptions, bpy.types.Operator):
     """Make what each mirror shows as an object of its own, as the scene's camera sees it"""
 
     bl_idname = "reflection_mesh.generate"
     bl_label = "Generate Reflection"
     bl_options = {"REGISTER", "UNDO"}
     uses = SETTINGS + WRITTEN_SETTINGS
+    on_if_pressed = ("preview", "collect", "select_alone", "protect")
 
     preview: bpy.props.BoolProperty(name="Preview", default=False, options={"SKIP_SAVE"},
                                     description="Until it is lit, show the colours of what is reflected in the "
@@ -176,17 +176,11 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
     def poll(cls, context: bpy.types.Context) -> bool:
         return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
-        # so that whoever pressed a button sees the result; scripts get what they ask for
-        for name in FOR_THE_EYE:
-            if not self.properties.is_property_set(name):
-                setattr(self, name, True)
-        return SteppedOperator.invoke(self, context, event)
-
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
         chosen, wanted = choose(context), self.wanted(context)
-        outcome = yield from generation(context, chosen, wanted, self.preview, Manners(self.collect))
+        outcome = yield from generation(context, chosen, wanted, self.preview,
+                                        Manners(self.collect, protect=self.protect))
         self.show_used(wanted, chosen.mirrors)
         lacks = scene_shortcomings(context, chosen, wanted)
         # the view layer knows new objects only from its next update on
@@ -197,6 +191,9 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
         for obj, _ in outcome.results:
             if obj.name in context.view_layer.objects:
                 obj.select_set(True)
+                if not obj.select_get():
+                    # clicks pass by it: the mirror is selected in its place
+                    obj.reflection_mesh.mirror.select_set(True)
                 context.view_layer.objects.active = obj
         tell_done(self, [*outcome.news, outcome.summary(time.perf_counter() - started)],
                   outcome.remarks + lacks)

@@ -15,6 +15,7 @@ from ..writing import (
     Reflection,
     gather,
     mesh_bytes,
+    protect,
     put_back_materials,
     show_for_camera,
     size_text,
@@ -36,10 +37,13 @@ class Manners:
         New ones go into the scene's collection of results, instead of beside their mirrors.
     preview_unlit : bool
         Those that lose their light show a preview, instead of materials on which lamps fall.
+    protect : bool
+        Clicks pass by results, and their transforms are locked.
     """
 
     collect: bool = False
     preview_unlit: bool = False
+    protect: bool = False
 
 
 @dataclass(frozen=True)
@@ -109,6 +113,8 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
         show_previews([obj for obj in unlit if preview or obj in previewed], view, lamps, whole)
         if manners.collect:
             gather(context, [obj for obj, _ in results if obj not in there], whole)
+        if manners.protect:
+            whole.after(protect, [obj for obj, _ in results])
         whole.after(forget_previews)
         whole.after(show_for_camera, context.scene)
     news = _told(entries) + [hint for made in prepared for hint in better_of_points(made.mirror.name, made.result)]

@@ -34,6 +34,8 @@ from .results import (
     has_linked_results,
     is_gone,
     is_result,
+    named_by_selection,
+    result_of,
     results_of,
     with_copies,
 )
@@ -60,8 +62,9 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "drawn_meshes", "every_result_of", "fog_of", "forget_known", "forgets_particles", "has_fog",
            "has_linked_results", "in_background_set", "in_viewports", "is_clear", "is_fog", "is_gone", "is_mirror",
            "is_opaque", "is_part", "is_rendered", "is_result", "join_mirror", "join_scene", "known_results",
-           "lines_drawn", "link_state", "looked_through", "materials_of", "materials_shown", "may_have_faces",
-           "moves", "nothing_to_reflect", "numbers", "participants", "read_meshes", "read_mirror", "read_mirrors",
-           "read_scene", "read_view", "redraw_lines", "register", "render_size", "rendered_alone", "rendered_collections",
-           "rendered_in", "rendered_otherwise", "results_of", "says_mirror", "seen_in", "shown_by", "unregister",
-           "vectors", "visible", "with_copies", "with_square_pixels", "without_surface"]
+           "lines_drawn", "link_state", "looked_through", "materials_of", "materials_shown", "may_have_faces", "moves",
+           "named_by_selection", "nothing_to_reflect", "numbers", "participants", "read_meshes", "read_mirror",
+           "read_mirrors", "read_scene", "read_view", "redraw_lines", "register", "render_size", "rendered_alone",
+           "rendered_collections", "rendered_in", "rendered_otherwise", "result_of", "results_of", "says_mirror",
+           "seen_in", "shown_by", "unregister", "vectors", "visible", "with_copies", "with_square_pixels",
+           "without_surface"]

@@ -13,8 +13,10 @@ from ...frames import writes_usd
 from ...illumination import meant_lamps
 from ...reading import candidates
 from ...settings import SETTINGS, SettingsOptions, UsesSettings, option
+from ...writing import protect
 from .. import polls
 from ..caustics import left_out_of
+from ..pressed import ProtectsResults
 from ..shortcomings import render_shortcomings
 from .bake import IN_OBJECT_MODE, NO_USD
 from .plan import LACKING, Plan, blur_remarks, chosen_frames, empty_remarks, layer_remarks, plan_of, summary
@@ -32,7 +34,7 @@ LAYERS = (("ACTIVE", "This One", "What the view layer sees that is looked at now
 NO_CAMERAS = "No camera is selected: select the cameras, or bake what the scene's own one sees."
 
 
-class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, bpy.types.Operator):
+class REFLECTION_MESH_OT_bake(UsesSettings, ProtectsResults, BrowsingOperator, SettingsOptions, bpy.types.Operator):
     """Write the reflections of a range of frames to files, and let them play; they need no extension to be seen"""
 
     bl_idname = "reflection_mesh.bake"
@@ -86,6 +88,8 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
         steps = baking_layers(context, layers, planned, written.append, kept.append)
         made = yield from part(steps, start, 1.0 - start)
         objects, hidden = show_layers(context, made)
+        if self.protect:
+            protect(objects)
         self.show_used(wanted, candidates(context)[0])
         left_out = left_out_of(objects) if self.what == "CAUSTICS" else None
         if left_out is not None:

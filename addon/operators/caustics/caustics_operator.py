@@ -9,7 +9,9 @@ from ...faults import SteppedOperator, Steps, tell_done
 from ...illumination import chosen_lamps
 from ...reading import choose
 from ...settings import UsesSettings, option
+from ...writing import protect
 from .. import polls
+from ..pressed import ProtectsResults
 from ..shortcomings import other_meshes
 from .asked import asked_again, remember
 from .caustic_scene import IN_OBJECT_MODE
@@ -18,7 +20,7 @@ from .throwing import throwing
 AS_BEFORE = ("eyes", "leave_out")  # where they are not given
 
 
-class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Operator):
+class REFLECTION_MESH_OT_caustics(UsesSettings, ProtectsResults, SteppedOperator, bpy.types.Operator):
     """Compute the light of lamps that the mirrors throw on the reflected objects, as meshes that add it to them"""
 
     bl_idname = "reflection_mesh.caustics"
@@ -49,6 +51,8 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Opera
         asked = asked_again(context, chosen, lamps, wanted, tuple(given))
         thrown = yield from throwing(context, chosen, lamps, asked)
         remember(thrown.objects, asked)
+        if self.protect:
+            protect(thrown.objects)
         self.show_used(wanted, chosen.mirrors)
         pairs = [(obj.reflection_mesh.mirror, obj.reflection_mesh.lamp) for obj in thrown.objects]
         for name, used in zip(AS_BEFORE, (asked.places, asked.leaves_out)):
