@@ -21,9 +21,9 @@ ROLES = (
     ("AUTO", "Automatic", "A mirror if its material is one; if no selected object is, the active object is the mirror"),
     ("MIRROR", "Mirror", "The scene is reflected in this object"),
     ("DIFFUSE", "Reflected", "Mirrors show this object"),
-    ("IGNORE", "Ignored", "This object takes no part"),
+    ("IGNORE", "Ignored", "This object is neither a mirror nor reflected"),
     ("REFLECTION", "Reflection", "This object is a reflection that was generated"),
-    ("CAUSTICS", "Caustics", "This object is light thrown by a mirror that was generated"),
+    ("CAUSTICS", "Caustics", "This object shows caustics that were generated"),
 )
 # what ties objects of a library together: an override of them all must stay tied to its own ones
 OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
@@ -56,10 +56,10 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     """`Object.reflection_mesh`: the role that an object plays, a mirror's own settings and, for a result, where it came
     from."""
 
-    role: EnumProperty(name="Role", description="The part that this object plays in a reflection", items=ROLES,
+    role: EnumProperty(name="Role", description="Role of this object in reflections", items=ROLES,
                        default="AUTO", override=OVERRIDABLE, update=_after_role)
-    own_settings: BoolProperty(name="Own Settings", description="This mirror has settings of its own; else the scene's "
-                               "hold for it", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
+    own_settings: BoolProperty(name="Own Settings", description="Use settings of this mirror instead of the scene's "
+                               "settings", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object,
                             override=OVERRIDABLE)
     lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object,

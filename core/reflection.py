@@ -100,7 +100,7 @@ def reflection_steps(
     >>> mirror = TriangleMesh(np.array([[-2, -2, 0], [2, -2, 0], [0, 2, 0]]), np.array([[0, 1, 2]]))
     >>> scene = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
     >>> next(reflection_steps(view, mirror, scene))  # in a generator: mesh = yield from reflection_steps(...)
-    (0.0, 'k-d tree')
+    (0.0, 'Preparing the scene')
     """
     return (yield from in_steps(lambda: reflect(view, mirror, scene, settings, mirrors)))
 
@@ -108,7 +108,7 @@ def reflection_steps(
 def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
                  settings: Settings, mirrors: TriangleMesh | None, progress: Progress) -> ReflectionMesh:
     """The reflection of a scene whose coordinates tell the mirror's shape well."""
-    progress.next(0.0, "k-d tree")
+    progress.next(0.0, "Preparing the scene")
     kind: type[SceneTree] | type[PointTree] = PointTree if settings.method == "POINTS" else SceneTree
     given_tree = scene.tree if isinstance(scene, Standing) else scene
     tree = given_tree if isinstance(given_tree, kind) else kind.build(
@@ -147,7 +147,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     del whole  # what is assembled needs the room
 
     progress.start, progress.share = 0.0, 1.0
-    progress.next(0.95, "depth order")
+    progress.next(0.95, "Sorting by depth")
     error = max(_estimate(*np.concatenate([bounce.left for bounce in bounces], axis=1)), error)
     mesh = assemble(mirror_map, bounces, task.met, settings.placement, reach, seams)
     del bounces, seams
@@ -162,7 +162,7 @@ def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settin
                   progress: Progress) -> tuple[Cameras, int, tuple[int, int]]:
     """Cameras on what the view sees of the mirror; how many corners there were before any was cut; about how many
     pixels see the mirror, and of how many cameras it is not told all that lies over them."""
-    progress.next(0.1, "cameras")
+    progress.next(0.1, "Preparing the mirror")
     body, faces = with_shades(view, mirror, visible_triangles(view, mirror))
     mirror_map = MirrorMap(view, body, settings.method == "PARALLEL", met.surface if body is met.mirrors else None)
     cameras = three_ray_cameras(mirror_map, body, faces)
@@ -219,7 +219,7 @@ def _whole_first(cameras: Cameras, uncut: int, task: Task,
     settings, limits = task.settings, task.limits
     if not _draws_whole(settings):
         return None, task
-    task.progress.next(0.15, "whole faces")
+    task.progress.next(0.15, "Reflecting faces")
     eligible = _entire(cameras, uncut) & ~showing[cameras.face]
     whole = whole_faces(cameras, eligible, task.met, task.reach(cameras), settings, limits.pieces)
     if whole is None:

@@ -63,7 +63,7 @@ def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: 
     try:
         what = next(renders)
         for number in itertools.count():
-            told = number / count, render_stage(f"Cycles renders {what}, {number + 1} of {count}")
+            told = number / count, render_stage(f"Rendering {what}, {number + 1} of {count}")
             yield told
             # nothing more is said of one that goes on beside
             while (what := next(renders)) is None:

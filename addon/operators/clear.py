@@ -95,7 +95,7 @@ def _set_free(context: bpy.types.Context, results: list) -> None:
 
 
 class REFLECTION_MESH_OT_clear(bpy.types.Operator):
-    """Remove the selected reflections, or all of the scene, and restore what they changed"""
+    """Remove the results of the selected mirrors, or all results in the scene, and restore what they changed"""
 
     bl_idname = "reflection_mesh.clear"
     bl_label = "Clear Reflections"
@@ -123,8 +123,8 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
         clear_caustics(caustics)
         told = one_or_more(len(results), "1 reflection", "{count} reflections")
         if caustics:
-            words = ("{told} and 1 mesh of thrown light", "{told} and {count} meshes of thrown light") if results else (
-                "1 mesh of thrown light", "{count} meshes of thrown light")
+            words = ("{told} and 1 caustics object", "{told} and {count} caustics objects") if results else (
+                "1 caustics object", "{count} caustics objects")
             told = one_or_more(len(caustics), *words, told=told)
         tell(self, {"INFO"}, f"{told} cleared.")
         return {"FINISHED"}

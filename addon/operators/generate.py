@@ -148,12 +148,12 @@ def _trees(stage: Stage, kinds: list) -> Steps[None]:
     for number, kind in enumerate(dict.fromkeys(kinds)):
         if not stage.has(kind):
             start = READING * (0.5 + 0.25 * number)
-            yield start, "Building the tree"
-            yield from part(core.in_steps(partial(stage.built, kind)), start, 0.25 * READING, "Building the tree")
+            yield start, "Preparing the scene"
+            yield from part(core.in_steps(partial(stage.built, kind)), start, 0.25 * READING, "Preparing the scene")
 
 
 class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator, SettingsOptions, bpy.types.Operator):
-    """Make what each mirror shows as an object of its own, as the scene's camera sees it"""
+    """Create an object for each mirror that shows its reflection, as the scene's camera sees it"""
 
     bl_idname = "reflection_mesh.generate"
     bl_label = "Generate Reflection"
@@ -162,15 +162,15 @@ class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator
     on_if_pressed = ("preview", "collect", "select_alone", "protect")
 
     preview: bpy.props.BoolProperty(name="Preview", default=False, options={"SKIP_SAVE"},
-                                    description="Until it is lit, show the colours of what is reflected in the "
-                                    "mirror's tint, untouched by lamps: on where a button is pressed")
+                                    description="Show the colors of the reflected objects, unaffected by lamps, until"
+                                                " the reflection is lit. On if a button is pressed")
     attributes: option("attributes")
     collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
-                                    description="A new result goes into the collection Reflections, instead of those "
-                                    "of its mirror: on where a button is pressed")
+                                    description="Put a new result into the collection Reflections instead of the "
+                                                "collections of its mirror. On if a button is pressed")
     select_alone: bpy.props.BoolProperty(name="Select Alone", default=False, options={"SKIP_SAVE"},
-                                         description="Only the result is selected afterwards: on where a button is "
-                                         "pressed")
+                                         description="Deselect all other objects afterwards. On if a button is "
+                                                     "pressed")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

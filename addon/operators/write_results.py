@@ -88,7 +88,7 @@ class Outcome:
         names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
         memory = size_text(sum(mesh_bytes(mesh) for mesh in {obj.data for obj, _ in self.results}
                                | {copy.data for copy in self.copies}))
-        light = "; the light is still to come, by Light Reflection" if self.unlit else ""
+        light = "; not lit yet" if self.unlit else ""
         return f"{names}: {size}, {memory}, error about {error:.2f} px{filled}, {seconds:.2f} s{light}"
 
 

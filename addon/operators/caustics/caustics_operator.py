@@ -21,7 +21,7 @@ AS_BEFORE = ("eyes", "leave_out")  # where they are not given
 
 
 class REFLECTION_MESH_OT_caustics(UsesSettings, ProtectsResults, SteppedOperator, bpy.types.Operator):
-    """Compute the light of lamps that the mirrors throw on the reflected objects, as meshes that add it to them"""
+    """Create meshes that show the light of lamps that the mirrors reflect onto other objects"""
 
     bl_idname = "reflection_mesh.caustics"
     bl_label = "Generate Caustics"
@@ -33,12 +33,13 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, ProtectsResults, SteppedOperator
     depth: option("depth")
     memory: option("memory")
     eyes: bpy.props.IntProperty(name="Lamp Places", default=1, min=1, soft_max=64, max=4096, options={"SKIP_SAVE"},
-                                description="Places on each lamp that its light comes from: one is sharp, more are as "
-                                "soft as the lamp is large; as many as before, where this is not given")
+                                description="Number of points on each lamp that its light comes from. One gives sharp"
+                                            " caustics, more give caustics as soft as the lamp is large. If not "
+                                            "given, as many as before")
     leave_out: bpy.props.BoolProperty(name="Replace Cycles' Own", default=True, options={"SKIP_SAVE"},
-                                      description="The lamps do not light these mirrors any more, so that Cycles does "
-                                      "not add caustics of its own; clearing brings that back. As before, where this "
-                                      "is not given")
+                                      description="Stop the lamps from lighting these mirrors, so that Cycles adds no"
+                                                  " caustics of its own, until the caustics are cleared. If not "
+                                                  "given, as before")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -7,7 +7,6 @@ import numpy as np
 import parts
 import pytest
 
-
 # without a window Blender invokes no operator: what a button switches on
 PRESSED = {"generate": ("preview", "collect", "select_alone", "protect"), "caustics": ("protect",)}
 

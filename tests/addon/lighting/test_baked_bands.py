@@ -61,7 +61,7 @@ def test_bands_are_denoised_in_tiles(blank, room, monkeypatch):
     sizes = np.array([size for size, denoised in made if denoised])
     assert len(sizes) and (sizes <= TILE).all() and (sizes > 24).all()
     assert len(made) - len(sizes) > len(sizes)
-    baked = [stage for stage in stages if stage.startswith("Cycles bakes the light on '")]
+    baked = [stage for stage in stages if stage.startswith("Baking light on '")]
     assert baked and not any(isinstance(stage, room("addon.faults").Undivided) for stage in baked)
 
 

@@ -15,7 +15,7 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaqu
     scene_of(blank, "UV", "" if opaque else "Half open")
     result = parts.generate(placement=placement)
     before, lighting = lit_state(), room("addon.operators.light").lighting
-    stages = ["Reading the scene", "Cycles renders the light", "Cycles renders what reflections cover",
+    stages = ["Reading the scene", "Rendering light", "Rendering the area of the reflections",
               "Sharpening the light", "Writing"]
     # images are written in several steps
     for stage, times in [*((stage, 1) for stage in stages), *(("Writing", times) for times in (3, 5, 7, 9))]:
