@@ -36,13 +36,11 @@ def every_result_of(context: bpy.types.Context, mirror: bpy.types.Object, among:
 
 
 def named_by_selection(context: bpy.types.Context, results: list) -> list:
-    """Return those of the results that are selected, or whose mirrors are; if there is none, the active one.
-
-    Results that are protected from clicks cannot be selected, but can be active.
-    """
+    """Return those of the results that are selected, or whose mirrors are; if there is none, the active one if it is
+    protected, and so cannot be selected."""
     selected, active = set(context.selected_objects), context.view_layer.objects.active
     named = [obj for obj in results if obj in selected or obj.reflection_mesh.mirror in selected]
-    return named or [obj for obj in results if obj == active]
+    return named or [obj for obj in results if obj == active and obj.hide_select]
 
 
 def result_of(context: bpy.types.Context, obj: bpy.types.Object | None, known: list) -> bpy.types.Object | None:
