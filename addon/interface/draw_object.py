@@ -25,7 +25,7 @@ def draw_object(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
     record = obj.reflection_mesh
     layout.label(text=obj.name, icon=ICONS.get(record.role, "OBJECT_DATA"), translate=False)
     if record.role in ICONS:
-        _draw_fact(layout, pgettext_iface("Mirror"), _name(record.mirror))
+        _draw_fact(layout, pgettext_iface("Reflected By"), _name(record.mirror))
     else:
         _draw_role(layout, record)
     if record.role == "CAUSTICS":

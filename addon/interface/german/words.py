@@ -233,6 +233,7 @@ PANELS = {
         "verschieben. An, wenn ein Knopf gedrückt wird",
     "No Active Object": "Kein aktives Objekt",
     "Lamp": "Lampe",
+    "Reflected By": "Gespiegelt von",
     "Gone": "Nicht mehr da",
     "Select a mirror, then click Generate Reflection.":
         "Wähle einen Spiegel aus, und klicke dann Spiegelung erzeugen.",

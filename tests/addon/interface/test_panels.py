@@ -52,7 +52,7 @@ def test_a_result_tells_of_itself_in_plain_words(scene, room, space):
     mirror = bpy.data.objects["Mirror"].reflection_mesh
     mirror.own_settings = True
     layout = drawn(room, space)
-    assert layout.labels[:3] == ["Mirror Reflection", "Mirror", "Mirror"]
+    assert layout.labels[:3] == ["Mirror Reflection", "Reflected By", "Mirror"]
     assert [line for line in layout.labels if line.startswith("Shows")] == ["Shows 'Box'"]
     assert f"{len(result.data.polygons)} faces, {told(room, result)}" in layout.labels
     # the settings are those of its mirror, figures come last
@@ -80,7 +80,7 @@ def test_an_active_mirror_offers_all_that_its_result_does(scene, room, space):
         bpy.context.view_layer.objects.active = obj
         layout = drawn(room, space)
         seen.append((layout.buttons, layout.properties, set(layout.labels)))
-    assert seen[0][:2] == seen[1][:2] and seen[0][2] - seen[1][2] == {"Mirror Reflection"}
+    assert seen[0][:2] == seen[1][:2] and seen[0][2] - seen[1][2] == {"Mirror Reflection", "Reflected By"}
     assert "hide_select" in seen[1][1] and seen[1][1]["hide_select"] == result
 
 

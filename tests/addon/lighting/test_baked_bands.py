@@ -135,7 +135,7 @@ def test_stopped_between_bands_it_leaves_no_trace(blank, room, monkeypatch, step
     with room("addon.faults.between_events").steps_taken(apart=True):
         steps = room("addon.operators.light").lighting(blank, [result], 4, "OBJECTS")
         while step >= 0:
-            step -= next(steps)[1].startswith("Cycles bakes")
+            step -= next(steps)[1].startswith("Baking light")
         steps.close()
     assert lit_state() == before
 
