@@ -43,7 +43,7 @@ class Layout:
     def box(self):
         return self
 
-    def label(self, text, translate):
+    def label(self, text, icon, translate):
         self.labels.append(text)
 
     def operator(self, name, text, icon):
