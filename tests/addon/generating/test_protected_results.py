@@ -168,3 +168,10 @@ def test_buttons_switch_on_what_is_tested_here(room):
             "caustics": room("addon.operators.caustics.caustics_operator").REFLECTION_MESH_OT_caustics,
             "bake": room("addon.operators.bake_frames.bake_operator").REFLECTION_MESH_OT_bake}
     assert {name: cls.on_if_pressed for name, cls in made.items()} == {**PRESSED, "bake": ("protect",)}
+
+
+def test_what_plays_baked_frames_is_protected_too(moving, tmp_path):
+    assert bpy.ops.reflection_mesh.bake("EXEC_DEFAULT", filepath=str(tmp_path / "frames"), frames="1", samples=0,
+                                        protect=True) == {"FINISHED"}
+    result, = results()
+    assert is_protected(result) and result.modifiers
