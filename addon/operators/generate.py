@@ -16,10 +16,9 @@ from ..reading import (
     NothingSeen,
     Participants,
     choose,
-    is_opaque,
     is_part,
     lines_drawn,
-    looked_through,
+    opacities_of,
     read_view,
 )
 from ..settings import (
@@ -77,13 +76,13 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
     scene, surfaces = stage.scene, stage.surfaces
-    if not all(map(is_opaque, scene.materials)) or looked_through(depsgraph, chosen.mirrors, chosen.diffuse):
-        own = [replace(one, hidden_faces=True) for one in own]
+    opacity = opacities_of(depsgraph, scene)
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     yield from _trees(stage, kinds)
     prepared, refused, unseen, lacks, share = [], [], [], [], (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
-        steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index])
+        steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index],
+                                      opacity=opacity)
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
             if own[index].placement == "VIRTUAL":
@@ -97,7 +96,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
                            "camera, the mirror or the objects.")
             unseen += refused[-1:]
             continue
-        lacks += shortcomings(mirror.name, result)
+        lacks += shortcomings(mirror.name, result, scene.materials)
         written = partial(_written, result, scene, (surface, surfaces), view, lines)
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")

@@ -16,6 +16,7 @@ from ..reading import (
     rendered_otherwise,
     without_surface,
 )
+from ..reading.materials import transparency
 from ..settings import SettingsOfMirrors, of_each
 from ..writing import what_is_in_the_way
 
@@ -30,6 +31,8 @@ MOTION_BLUR = ("Motion blur: the reflection is that of one moment, and is blurre
                "after the render, or switch motion blur off.")
 STEREO = ("Stereoscopy: a reflection is right for one eye, and both show the same one; choose the placement Virtual "
           "for flat mirrors, or render each eye by a camera that has its own.")
+TOO_CLOSE = ("A film or tinted pane is so close before this mirror that the reflection is left out behind it: move it "
+             "away from the mirror by a thousandth of the camera's distance.")
 CUTS = ("Markers change the camera: choose Render > Lock Interface, so that a render of the animation in this window "
         "shows each camera its own reflection.")
 
@@ -76,12 +79,14 @@ SENTENCES = {
 }
 
 
-def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
-    """Sentences on the reflection in the mirror `name`."""
+def shortcomings(name: str, result: ReflectionMesh, materials: list) -> list[str]:
+    """Sentences on the reflection in the mirror `name` of objects with these materials."""
     counts, told = result.counts, []
     if counts.get("missed", 0) >= MISSED and result.missing_share > MISSING:
         told.append(f"About {result.missing_share:.0f} % of what the mirror shows is missing: give it a clean mesh, or "
                     "move the camera.")
+    if counts.get("too_close") and any(map(transparency, materials)):
+        told.append(TOO_CLOSE)
     return [f"{name}: {sentence}" for sentence in told + bounds_hit(counts, len(result.positions))]
 
 
