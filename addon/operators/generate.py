@@ -32,7 +32,7 @@ from ..settings import (
     option,
 )
 from ..standing import Kept, Stage
-from ..writing import MeshArrays, Reflection, mesh_arrays, point_arrays
+from ..writing import MeshArrays, Reflection, mesh_arrays, nearer, point_arrays, what_is_in_the_way
 from . import polls
 from .shortcomings import Refused, left_out, scene_shortcomings, shortcomings, window_shortcomings
 from .write_results import Manners, Outcome, write_results
@@ -86,7 +86,9 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
             if own[index].placement == "VIRTUAL":
-                lacks += window_shortcomings(context, mirror, view, result, chosen.mirrors)
+                found = what_is_in_the_way(context, view, result, chosen.mirrors)
+                lacks += window_shortcomings(mirror, found)
+                result = nearer(view, result) if found.touches else result
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             unseen += refused[-1:] * isinstance(error, core.NothingInView)

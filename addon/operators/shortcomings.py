@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ...core import ReflectionError, ReflectionMesh, View
+from ...core import ReflectionError, ReflectionMesh
 from ..faults import one_or_more
 from ..reading import (
     Participants,
@@ -18,7 +18,7 @@ from ..reading import (
 )
 from ..reading.materials import transparency
 from ..settings import SettingsOfMirrors, of_each
-from ..writing import what_is_in_the_way
+from ..writing import InTheWay
 
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
 PARTLY_HIDDEN, HIDDEN = 0.01, 0.5
@@ -180,9 +180,8 @@ def _hidden(found: list) -> list[str]:
             "in no reflection: show them, or hide them in renders too."]
 
 
-def window_shortcomings(context: bpy.types.Context, mirror: bpy.types.Object, view: View, result: ReflectionMesh,
-                        mirrors: list) -> list[str]:
-    """Sentences on the window that `mirror` is to be, beside the others in `mirrors`.
+def window_shortcomings(mirror: bpy.types.Object, found: InTheWay) -> list[str]:
+    """Sentences on the window that `mirror` is to be.
 
     Raises
     ------
@@ -192,11 +191,10 @@ def window_shortcomings(context: bpy.types.Context, mirror: bpy.types.Object, vi
     if mirror.library is not None and mirror.visible_camera:
         return [f"{mirror.name}: this mirror is linked and cannot be hidden, so that it stands before the virtual "
                 "image; override it, or choose the placement Layered."]
-    hider, hidden, disturbed = what_is_in_the_way(context, view, result, mirrors)
-    if hidden > HIDDEN:
-        raise ReflectionError(f"'{hider}' stands before the virtual image behind this mirror and would hide it; choose "
-                              "the placement Layered, or hide that object from the camera.")
-    if disturbed > PARTLY_HIDDEN:
-        return [f"{mirror.name}: '{hider}' hides a part of the virtual image behind this mirror; the placement Layered "
-                "shows all of it."]
+    if found.hidden > HIDDEN:
+        raise ReflectionError(f"'{found.name}' stands before the virtual image behind this mirror and would hide it; "
+                              "choose the placement Layered, or hide that object from the camera.")
+    if found.hidden > PARTLY_HIDDEN:
+        return [f"{mirror.name}: '{found.name}' hides a part of the virtual image behind this mirror; the placement "
+                "Layered shows all of it."]
     return []
