@@ -123,14 +123,11 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     known = scene if isinstance(scene, Standing) and scene.tree is tree and scene.mirrors is mirrors else None
     mirror, given, met = _with_mirrors(view, tree, mirror, mirrors, known)
     met = met.with_opacity(opacity)
-    if isinstance(tree, SceneTree) and not settings.hidden_faces:
-        met = met.from_outside(view)
+    met = met if isinstance(tree, PointTree) or settings.hidden_faces else met.from_outside(view)
     progress.done("tree")
 
     cameras, uncut, (pixels, overlaid) = _seen_cameras(view, mirror, met, settings, progress)
-    share, covering = slide_share(cameras, met)
-    met = met.sliding(share)
-    progress.done("cameras", too_close=covering)
+    met = _behind_panes(cameras, met, progress)
     limits = Limits.of(settings, pixels, len(met.triangles))
     if isinstance(tree, PointTree):
         patch = None
@@ -184,6 +181,13 @@ def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settin
     progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
                   overlaid=overlaid)
     return cameras, uncut, (grid.mirror_pixels, overlaid)
+
+
+def _behind_panes(cameras: Cameras, met: SceneAndMirrors, progress: Progress) -> SceneAndMirrors:
+    """What rays may meet, with layers that stay behind panes and films before the mirror."""
+    share, covering = slide_share(cameras, met)
+    progress.done("cameras", too_close=covering)
+    return met.sliding(share)
 
 
 def _seen(cameras: Cameras) -> Cameras:

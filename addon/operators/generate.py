@@ -75,20 +75,18 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
                for mirror in chosen.mirrors}
     joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
-    scene, surfaces = stage.scene, stage.surfaces
-    opacity = opacities_of(depsgraph, scene)
+    scene, surfaces, opacity = stage.scene, stage.surfaces, opacities_of(depsgraph, stage.scene)
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     yield from _trees(stage, kinds)
     prepared, refused, unseen, lacks, share = [], [], [], [], (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
-        steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index],
-                                      opacity=opacity)
+        steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index], opacity=opacity)
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
             if own[index].placement == "VIRTUAL":
                 found = what_is_in_the_way(context, view, result, chosen.mirrors)
                 lacks += window_shortcomings(mirror, found)
-                result = nearer(view, result) if found.touches else result
+                result = nearer(view, result, found)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             unseen += refused[-1:] * isinstance(error, core.NothingInView)

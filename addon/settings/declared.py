@@ -54,7 +54,7 @@ VALUES = {
                "refused"},
     "hidden_faces": {"name": "Hidden Faces", "default": False,
                      "description": "Also the faces that nearer ones hide whole, for objects that are to be taken away "
-                     "later; what lets light through keeps them anyway"},
+                     "later; behind what lets light through they are kept anyway"},
     "light_samples": {"name": "Light Samples", "default": SAMPLES, "min": 1, "soft_max": 4096,
                       "description": "Light paths for each pixel of the mirrors, which are denoised; more is cleaner "
                       "and slower"},

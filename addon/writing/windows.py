@@ -79,8 +79,11 @@ def what_is_in_the_way(context: bpy.types.Context, view: View, result: Reflectio
     return InTheWay(name if most else "", found.total() / tried, touches)
 
 
-def nearer(view: View, result: ReflectionMesh) -> ReflectionMesh:
-    """Draw a virtual image nearer by so little that it is seen before what lies in it; its picture stays the same."""
+def nearer(view: View, result: ReflectionMesh, found: InTheWay) -> ReflectionMesh:
+    """Draw a virtual image, if anything touches it, so little nearer that it is seen before that; its picture stays the
+    same."""
+    if not found.touches:
+        return result
     if view.orthographic:
         moved = result.positions - NEARER * np.ptp(result.positions, axis=0).max() * view.forward
     else:

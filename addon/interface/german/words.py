@@ -172,9 +172,9 @@ SETTINGS = {
     "Gigabytes that the work may take: what would need more is worked out more coarsely, or refused":
         "Gigabyte, die die Arbeit brauchen darf: was mehr bräuchte, wird gröber gerechnet oder abgelehnt",
     "Hidden Faces": "Verdeckte Flächen",
-    "Also the faces that nearer ones hide whole, for objects that are to be taken away later; what lets light through "
-    "keeps them anyway": "Auch Flächen, die nähere ganz verdecken, für Objekte, die später verschwinden sollen; wo "
-        "Licht durchscheint, bleiben sie ohnehin",
+    "Also the faces that nearer ones hide whole, for objects that are to be taken away later; behind what lets light "
+    "through they are kept anyway": "Auch Flächen, die nähere ganz verdecken, für Objekte, die später verschwinden "
+        "sollen; wo Licht durchscheint, bleiben sie ohnehin",
     "Light Samples": "Licht-Samples",
     "Light paths for each pixel of the mirrors, which are denoised; more is cleaner and slower":
         "Lichtpfade für jedes Pixel der Spiegel, die entrauscht werden; mehr ist sauberer und langsamer",
