@@ -1,6 +1,8 @@
 """What a reflection lacks, in sentences for the user: the bounds that it has hit, and what its probes have missed."""
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
 
 from ...core import ReflectionError, ReflectionMesh
@@ -79,7 +81,7 @@ SENTENCES = {
 }
 
 
-def shortcomings(name: str, result: ReflectionMesh, materials: list) -> list[str]:
+def shortcomings(name: str, result: ReflectionMesh, materials: Sequence = ()) -> list[str]:
     """Sentences on the reflection in the mirror `name` of objects with these materials."""
     counts, told = result.counts, []
     if counts.get("missed", 0) >= MISSED and result.missing_share > MISSING:

@@ -122,6 +122,18 @@ def test_behind_a_clear_wall_all_is_kept_and_nothing_else():
     assert compare(case.view, case.mirror, mesh, truth).numbers["uncovered"] < 0.03
 
 
+def test_both_sides_of_thin_glass_are_kept():
+    """A lens thinner than a pixel, whose vertices would be drawn together were it opaque: light is bent at each side."""
+    case = dense("sphere", (128, 128), 0.24)
+    positions, triangles, _ = shapes.icosphere((0.0, 0.0, 0.0), 0.8, 5)
+    lens = TriangleMesh(positions * (1.0, 0.002, 1.0) + (0.0, -4.0, 1.3), triangles)
+    sides = [np.sign(lens.face_normals()[:, 1]) == sign for sign in (-1.0, 1.0)]
+    shown = [[np.isin(np.flatnonzero(side), mesh.source_face).sum() for side in sides] for mesh in (
+        reflect(case.view, case.mirror, lens, opacity=np.full(len(triangles), Opacity.CLEAR)),
+        reflect(case.view, case.mirror, lens, Settings(hidden_faces=True)))]
+    assert min(shown[1]) > 5000 and min(shown[0]) > 0.95 * min(shown[1])
+
+
 def test_rays_show_what_they_meet_behind_clear_triangles(monkeypatch):
     """Where rays show what is too dense to be cut, they go on through what is clear."""
     monkeypatch.setattr(limits, "DENSE", 1e-3)
