@@ -34,7 +34,16 @@ from ..settings import (
 from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, nearer, point_arrays, what_is_in_the_way
 from . import polls
-from .shortcomings import Refused, left_out, scene_shortcomings, shortcomings, window_shortcomings
+from .shortcomings import (
+    NONE_SEEN,
+    TOO_CLOSE,
+    Refused,
+    left_out,
+    scene_shortcomings,
+    shortcomings,
+    too_close,
+    window_shortcomings,
+)
 from .write_results import Manners, Outcome, write_results
 
 # share of the work that reading takes, before the mirrors are reflected one by one
@@ -92,9 +101,9 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             unseen += refused[-1:] * isinstance(error, core.NothingInView)
             continue
         if not len(result.positions):
-            refused.append(f"{mirror.name}: The camera sees none of the reflected objects in this mirror; move the "
-                           "camera, the mirror or the objects.")
-            unseen += refused[-1:]
+            covered = too_close(result, scene.materials)
+            refused.append(f"{mirror.name}: {TOO_CLOSE if covered else NONE_SEEN}")
+            unseen += refused[-1:] * (not covered)
             continue
         lacks += shortcomings(mirror.name, result, scene.materials)
         written = partial(_written, result, scene, (surface, surfaces), view, lines)

@@ -33,6 +33,8 @@ MOTION_BLUR = ("Motion blur: the reflection is that of one moment, and is blurre
                "after the render, or switch motion blur off.")
 STEREO = ("Stereoscopy: a reflection is right for one eye, and both show the same one; choose the placement Virtual "
           "for flat mirrors, or render each eye by a camera that has its own.")
+NONE_SEEN = ("The camera sees none of the reflected objects in this mirror; move the camera, the mirror or the "
+             "objects.")
 TOO_CLOSE = ("A film or tinted pane is so close before this mirror that the reflection is left out behind it: move it "
              "away from the mirror by a thousandth of the camera's distance.")
 CUTS = ("Markers change the camera: choose Render > Lock Interface, so that a render of the animation in this window "
@@ -87,9 +89,14 @@ def shortcomings(name: str, result: ReflectionMesh, materials: Sequence = ()) ->
     if counts.get("missed", 0) >= MISSED and result.missing_share > MISSING:
         told.append(f"About {result.missing_share:.0f} % of what the mirror shows is missing: give it a clean mesh, or "
                     "move the camera.")
-    if counts.get("too_close") and any(map(transparency, materials)):
-        told.append(TOO_CLOSE)
+    told += [TOO_CLOSE] * too_close(result, materials)
     return [f"{name}: {sentence}" for sentence in told + bounds_hit(counts, len(result.positions))]
+
+
+def too_close(result: ReflectionMesh, materials: Sequence) -> bool:
+    """Return True if a source with one of these materials, of which a part of light goes straight through, lies so
+    close before the mirror that the reflection is left out behind it."""
+    return bool(result.counts.get("too_close")) and any(map(transparency, materials))
 
 
 def better_of_points(name: str, result: ReflectionMesh) -> list[str]:

@@ -106,6 +106,13 @@ def test_a_comparison_looks_through_it_too(before_a_mirror, tmp_path, name):
     assert report["coverage_percent"]["all"] < 0.1 and report["displacement_px"]["p99"] < 0.5
 
 
+def test_a_film_over_all_of_a_mirror_is_named(before_a_mirror):
+    """And not the camera or the objects, which are where they should be."""
+    pane(0.0003, 0.0001, clear("transparent", share=0.7))
+    parts.select(before_a_mirror)
+    assert parts.refusal().startswith("Mirror: A film or tinted pane is so close before this mirror")
+
+
 def test_what_is_tinted_or_unknown_is_no_clear_glass(blank, room):
     is_colourless = room("addon.reading.materials").is_colourless
     assert is_colourless(clear("glass")) and is_colourless(clear("transparent"))

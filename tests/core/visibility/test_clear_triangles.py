@@ -123,7 +123,7 @@ def test_behind_a_clear_wall_all_is_kept_and_nothing_else():
 
 
 def test_both_sides_of_thin_glass_are_kept():
-    """A lens thinner than a pixel, whose vertices would be drawn together were it opaque: light is bent at each side."""
+    """A lens thinner than a pixel, whose vertices would be drawn together if it were opaque: each side bends light."""
     case = dense("sphere", (128, 128), 0.24)
     positions, triangles, _ = shapes.icosphere((0.0, 0.0, 0.0), 0.8, 5)
     lens = TriangleMesh(positions * (1.0, 0.002, 1.0) + (0.0, -4.0, 1.3), triangles)
