@@ -208,8 +208,8 @@ class SceneAndMirrors:
         return np.where(nearer < near, mirror + self.diffuse, diffuse), np.minimum(near, nearer)
 
     def hidden_within(self, origin: np.ndarray, ray: np.ndarray, reach: np.ndarray) -> np.ndarray:
-        """Which rays (3, n), unit vectors, meet something of the diffuse scene that must not be covered, within `reach`
-        (n,) of where they begin, on a mirror."""
+        """Return True for rays (3, n), unit vectors, that meet something of the diffuse scene that must not be covered,
+        within `reach` (n,) of where they begin, on a mirror."""
         return first_crossed(self.scene, origin, ray, ABOVE * self.size, self._if_seen(), limit=reach)[0] >= 0
 
     def _if_seen(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
@@ -217,8 +217,8 @@ class SceneAndMirrors:
         return None if self.opacities.all_opaque else lambda _, triangle: self.opacities.not_to_cover(triangle)
 
     def first_distances(self, origin: np.ndarray, ray: np.ndarray, diffuse: bool) -> np.ndarray:
-        """How far along rays (3, n) of the eye, unit vectors, what they see of the diffuse scene, or this and the
-        mirrors lie, infinite where not at all."""
+        """Distances (n,) along rays (3, n) of the eye, unit vectors, of what it sees of the diffuse scene, or of this
+        and the mirrors; infinite for rays that meet none."""
         near = first_crossed(self.scene, origin, ray, asked=self._if_seen())[1]
         return near if diffuse else np.minimum(near, first_crossed(self.mirror_tree, origin, ray)[1])
 

@@ -71,7 +71,7 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
 
 def _hidden_closely(candidates: Candidates, opacities: Opacities,
                     slid: float) -> tuple[tuple[HiddenParts, np.ndarray] | None, int]:
-    """What triangles hide from so near that layers, which slide by `slid` of the distance, would come out through
+    """Parts of cameras that triangles hide from so near that layers, which slide by `slid` of the distance, would come out through
     them, and which cameras (n,) one of them does not hide altogether, None where none comes as near; and of how many
     cameras that was not asked."""
     cameras, frames, view = candidates.cameras, candidates.frames, candidates.cameras.view

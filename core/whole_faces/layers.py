@@ -28,9 +28,9 @@ class Layers:
 
     def hidden_and_close(self, nodes: np.ndarray, source: np.ndarray, solid: np.ndarray,
                          near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Which of the faces (3, f), of triangles `source` (f,), nearer ones that are `solid` (f,) and stop light hide
-        whole; and which of the others lie over one another, or behind triangles of the scene with corners `near`
-        (3, 3, t), so closely that what is seen could change when they sink or slide."""
+        """Return two masks of the faces (3, f), of triangles `source` (f,): those that nearer ones hide whole, which
+        are `solid` (f,) and stop light; and those of the others that lie over one another, or behind triangles of the
+        scene with corners `near` (3, 3, t), so closely that the picture could change when they sink or slide."""
         sinking, stops = self.sinking, self.opacities.stops_light(source)
         grid = Grid.over(sinking.patch)
         corners, order = grid.spots(self.images.pixel[:, nodes]), sinking.order(self.images)[nodes]
@@ -90,7 +90,7 @@ class Layers:
 
 def _hidden(solid: np.ndarray, covered: Covered, corners: np.ndarray, order: np.ndarray,
             size: tuple[int, int]) -> np.ndarray:
-    """Which faces (f,) those that are `solid` (f,) hide, of their `corners` (2, 3, f) and their `order` (3, f) there,
+    """Return True for faces (f,) that `solid` (f,) ones hide, by their `corners` (2, 3, f) and their `order` (3, f) there,
     on a grid of this size."""
     front, own = np.full(size[0] * size[1], -1.0), solid[covered.face]
     np.maximum.at(front, covered.pixel[own], covered.order[own])

@@ -14,6 +14,7 @@ from core.filling.shown_triangles import met_in_turn
 from core.result import DEPTH, GAP
 from tests.inputs import shapes
 from tests.inputs.dense_scenes import dense
+from tests.inputs.scenes import SCENES
 from tests.oracles.judge import compare, judge
 from tests.oracles.truth import trace
 
@@ -170,6 +171,42 @@ def test_rays_meet_clear_triangles_in_turn_until_an_opaque_one():
         expected = expected[:ends[0] + 1] if ends else expected
         assert triangle[place == number].tolist() == (expected or [-1])
     assert clear[triangle[triangle >= 0]].sum() > 200
+
+
+def clear_things(rng, case):
+    """Panes close before triangles of a mirror, balls and boxes round it."""
+    mirror = case.mirror
+    corners, size = mirror.positions[mirror.triangles], np.ptp(mirror.positions, axis=0).max()
+    number = rng.integers(len(corners))
+    place, normal = corners[number].mean(axis=0), mirror.face_normals()[number]
+    way = case.view.eye - place
+    up = np.cross(normal, rng.normal(size=3))
+    up *= rng.uniform(0.05, 0.6) * size / np.linalg.norm(up)
+    ahead = np.sign(normal @ way) * rng.uniform(0.05, 1.2) * (GAP + DEPTH) * np.linalg.norm(way)
+    spots = corners.mean(axis=(0, 1)) + size * rng.normal(size=(2, 3))
+    return (shapes.quad(place + ahead * normal, np.cross(normal, up), up),
+            shapes.icosphere(spots[0], size * rng.uniform(0.05, 0.4), 4),
+            shapes.box(spots[1], size * rng.uniform(0.05, 1.0, 3), rng.uniform(0.0, 3.0)))
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("name", ["sphere", "flat", "bowl", "water", "torus", "cylinder", "sphere_ortho"])
+def test_behind_clear_things_mirrors_show_what_they_show_without(name):
+    """Judged by rays in the scene without them, before and after a dense ball is added."""
+    rng = np.random.default_rng(len(name))
+    case = SCENES[name]((96, 96))
+    spot = case.mirror.positions.mean(axis=0) + 1.2 * rng.normal(size=3)
+    for more in ((), (shapes.icosphere(spot, 0.3, 5),)):
+        opaque = [(case.scene.positions, case.scene.triangles, None), *more]
+        base, scene = (shapes.combine(*parts) for parts in (opaque, opaque + list(clear_things(rng, case))))
+        base, scene = (TriangleMesh(mesh.positions, mesh.triangles) for mesh in (base, scene))
+        first = len(base.triangles)
+        opacity = np.where(np.arange(len(scene.triangles)) < first, Opacity.OPAQUE, Opacity.CLEAR)
+        truth = trace(case.view, case.mirror, base)
+        plain = judge(case.view, case.mirror, base, reflect(case.view, case.mirror, base), truth)
+        mesh = without(reflect(case.view, case.mirror, scene, opacity=opacity), first)
+        seen = judge(case.view, case.mirror, base, mesh, truth)
+        assert seen["uncovered"] < plain["uncovered"] + 0.03 and seen["p99"] < max(1.2 * plain["p99"], 0.3)
 
 
 def test_clear_parts_of_a_body_show_its_inner_side():
