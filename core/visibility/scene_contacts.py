@@ -71,9 +71,9 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
 
 def _hidden_closely(candidates: Candidates, opacities: Opacities,
                     slid: float) -> tuple[tuple[HiddenParts, np.ndarray] | None, int]:
-    """Parts of cameras that triangles hide from so near that layers, which slide by `slid` of the distance, would come out through
-    them, and which cameras (n,) one of them does not hide altogether, None where none comes as near; and of how many
-    cameras that was not asked."""
+    """Parts of cameras that triangles hide from so near that layers, which slide by `slid` of the distance, would come
+    out through them, and which cameras (n,) one of them does not hide altogether, None where none comes as near; and of
+    how many cameras that was not asked."""
     cameras, frames, view = candidates.cameras, candidates.frames, candidates.cameras.view
     size = float(np.ptp(cameras.places, axis=1).max(initial=0.0))
     room = slid * (np.full(len(cameras), size) if view.orthographic else

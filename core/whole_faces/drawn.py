@@ -29,8 +29,8 @@ def shown_or_behind(images: Images, pieces: Pieces, outward: np.ndarray | None) 
 def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: Pieces,
                    near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return two masks of the pieces (f,): those that are drawn, of the `shown` (n,) ones, which are whole, and those
-    that are left to cameras, where `behind`
-    them lie others, and before them triangles of the scene with corners `near` (3, 3, t)."""
+    that are left to cameras. `behind` them lie others, and before them triangles of the scene with corners `near`
+    (3, 3, t)."""
     patch, images = layers.sinking.patch, layers.images
     found = images.found[pieces.nodes]
     found = np.flatnonzero(found[0] & found[1] & found[2])

@@ -90,8 +90,8 @@ class Layers:
 
 def _hidden(solid: np.ndarray, covered: Covered, corners: np.ndarray, order: np.ndarray,
             size: tuple[int, int]) -> np.ndarray:
-    """Return True for faces (f,) that `solid` (f,) ones hide, by their `corners` (2, 3, f) and their `order` (3, f) there,
-    on a grid of this size."""
+    """Return True for faces (f,) that `solid` (f,) ones hide, by their `corners` (2, 3, f) and their `order` (3, f)
+    there, on a grid of this size."""
     front, own = np.full(size[0] * size[1], -1.0), solid[covered.face]
     np.maximum.at(front, covered.pixel[own], covered.order[own])
     shown = mask(len(solid), covered.face[covered.order >= front[covered.pixel]])
