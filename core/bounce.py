@@ -119,7 +119,8 @@ def _culled(cameras: Cameras, task: Task, showing: MirrorsShown, crowds: Crowds)
     if cameras.mirror_map.bounce == 1:
         candidates, crowd, contacts, pierced = drop_behind_contacts(
             candidates, limits.candidates,
-            lambda pieces, pairs: Overlaps.of(pieces, candidates.frames, pairs, met).in_sight(task.last))
+            lambda pieces, pairs: Overlaps.of(pieces, candidates.frames, pairs, met).in_sight(task.last),
+            met.opacities, met.slide)
         candidates = crowds.thinned(candidates, crowd)
     candidates, still_bent, limited = refine_for_outlines(candidates, OUTLINE_SHARE * task.settings.tolerance,
                                                           limits.candidates, met, task.last)

@@ -15,6 +15,7 @@ from ..judge import (
     CodedMaterials,
     CodedTruth,
     CopiedScene,
+    clear_before_mirrors,
     cycles_render,
     decode,
     dress,
@@ -82,7 +83,8 @@ def _renders(context: bpy.types.Context, copied: CopiedScene, diffuse: list, res
     _code_results(copied, results, diffuse, polygons(context, diffuse))
     own = [(slot, slot.material) for copy in copied.everything for slot in copy.material_slots]
     codes = CodedMaterials(copied, lowest_corner(copied))
-    coded = yield from _coded_pictures(copied, codes, depth)
+    with clear_before_mirrors(copied):
+        coded = yield from _coded_pictures(copied, codes, depth)
     if lit(results):
         return Renders(*coded, (yield from render_lit(context, results, samples)))
     for slot, material in own:

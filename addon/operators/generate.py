@@ -16,10 +16,9 @@ from ..reading import (
     NothingSeen,
     Participants,
     choose,
-    is_opaque,
     is_part,
     lines_drawn,
-    looked_through,
+    opacities_of,
     read_view,
 )
 from ..settings import (
@@ -33,10 +32,19 @@ from ..settings import (
     option,
 )
 from ..standing import Kept, Stage
-from ..writing import MeshArrays, Reflection, mesh_arrays, point_arrays
+from ..writing import MeshArrays, Reflection, mesh_arrays, nearer, point_arrays, what_is_in_the_way
 from . import polls
 from .pressed import ProtectsResults
-from .shortcomings import Refused, left_out, scene_shortcomings, shortcomings, window_shortcomings
+from .shortcomings import (
+    NONE_SEEN,
+    TOO_CLOSE,
+    Refused,
+    left_out,
+    scene_shortcomings,
+    shortcomings,
+    too_close,
+    window_shortcomings,
+)
 from .write_results import Manners, Outcome, write_results
 
 # share of the work that reading takes, before the mirrors are reflected one by one
@@ -75,28 +83,28 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
                for mirror in chosen.mirrors}
     joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
-    scene, surfaces = stage.scene, stage.surfaces
-    if not all(map(is_opaque, scene.materials)) or looked_through(depsgraph, chosen.mirrors, chosen.diffuse):
-        own = [replace(one, hidden_faces=True) for one in own]
+    scene, surfaces, opacity = stage.scene, stage.surfaces, opacities_of(depsgraph, stage.scene)
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     yield from _trees(stage, kinds)
     prepared, refused, unseen, lacks, share = [], [], [], [], (1.0 - READING) / len(surfaces)
     for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
-        steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index])
+        steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index], opacity=opacity)
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
             if own[index].placement == "VIRTUAL":
-                lacks += window_shortcomings(context, mirror, view, result, chosen.mirrors)
+                found = what_is_in_the_way(context, view, result, chosen.mirrors)
+                lacks += window_shortcomings(mirror, found)
+                result = nearer(view, result, found)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             unseen += refused[-1:] * isinstance(error, core.NothingInView)
             continue
         if not len(result.positions):
-            refused.append(f"{mirror.name}: The camera sees none of the reflected objects in this mirror; move the "
-                           "camera, the mirror or the objects.")
-            unseen += refused[-1:]
+            covered = too_close(result, scene.materials)
+            refused.append(f"{mirror.name}: {TOO_CLOSE if covered else NONE_SEEN}")
+            unseen += refused[-1:] * (not covered)
             continue
-        lacks += shortcomings(mirror.name, result)
+        lacks += shortcomings(mirror.name, result, scene.materials)
         written = partial(_written, result, scene, (surface, surfaces), view, lines)
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")

@@ -24,7 +24,15 @@ from ..anamorphosis import (
     write_own_map,
 )
 from ..faults import AllOrNothing, SteppedOperator, Steps, one_or_more, part, tell_done
-from ..reading import Participants, choose, read_mirror, read_scene, read_view, with_square_pixels
+from ..reading import (
+    Participants,
+    choose,
+    opacities_of,
+    read_mirror,
+    read_scene,
+    read_view,
+    with_square_pixels,
+)
 from ..settings import UsesSettings, Wanted, option
 from . import polls
 from .shortcomings import left_out
@@ -105,8 +113,9 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
             depsgraph = context.evaluated_depsgraph_get()
             surface = read_mirror(depsgraph, mirror)
             scene = read_scene(depsgraph, sources)
-        result = yield from part(core.reflection_steps(view, surface.mesh, scene.mesh, settings), READING, REFLECTING,
-                                 mirror.name)
+            opacity = opacities_of(depsgraph, scene)
+        result = yield from part(core.reflection_steps(view, surface.mesh, scene.mesh, settings, opacity=opacity),
+                                 READING, REFLECTING, mirror.name)
         pieces = yield from part(core.in_steps(lambda: core.picture_pieces(view, result)), READING + REFLECTING,
                                  PIECES, "Finding visible faces")
         indices = np.unique(scene.source_object[pieces.face]).tolist()

@@ -25,6 +25,7 @@ from .metaballs import is_part
 from .moves import forgets_particles, moves
 from .not_reflected import has_fog, in_background_set, rendered_alone, without_surface
 from .nothing_seen import NothingSeen
+from .opacities import opacities_of
 from .read_view import NO_CAMERA, read_view, render_size, with_square_pixels
 from .rendered_otherwise import rendered_otherwise
 from .results import (
@@ -63,8 +64,8 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "has_linked_results", "in_background_set", "in_viewports", "is_clear", "is_fog", "is_gone", "is_mirror",
            "is_opaque", "is_part", "is_rendered", "is_result", "join_mirror", "join_scene", "known_results",
            "lines_drawn", "link_state", "looked_through", "materials_of", "materials_shown", "may_have_faces", "moves",
-           "named_by_selection", "nothing_to_reflect", "numbers", "participants", "read_meshes", "read_mirror",
-           "read_mirrors", "read_scene", "read_view", "redraw_lines", "register", "render_size", "rendered_alone",
-           "rendered_collections", "rendered_in", "rendered_otherwise", "result_of", "results_of", "says_mirror",
-           "seen_in", "shown_by", "unregister", "vectors", "visible", "with_copies", "with_square_pixels",
-           "without_surface"]
+           "named_by_selection", "nothing_to_reflect", "numbers", "opacities_of", "participants", "read_meshes",
+           "read_mirror", "read_mirrors", "read_scene", "read_view", "redraw_lines", "register", "render_size",
+           "rendered_alone", "rendered_collections", "rendered_in", "rendered_otherwise", "result_of", "results_of",
+           "says_mirror", "seen_in", "shown_by", "unregister", "vectors", "visible", "with_copies",
+           "with_square_pixels", "without_surface"]

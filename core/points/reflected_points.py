@@ -42,12 +42,13 @@ def reflected_points(cameras: Cameras, patch: Patch | None, met: SceneAndMirrors
     # each camera's cone goes down the tree, and all of a patch at once
     counts.update(descents=len(cameras) + (patch is not None), images=len(images), stood_for=int(stood_for.sum()))
     progress.next(0.75, "Building points")
-    return _drawn(mirror_map, tree, images, placement, counts)
+    return _drawn(mirror_map, tree, images, (placement, met.slide), counts)
 
 
-def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, placement: str,
+def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, how: tuple[str, float],
            counts: dict[str, int]) -> ReflectionMesh:
-    """The images as points with their discs."""
+    """The images as points with their discs, by a placement and the share of what layers slide."""
+    placement, slide = how
     view, surface, count = mirror_map.view, mirror_map.surface, len(images)
     point, spot, flat = np.empty((3, count)), np.empty((3, count)), np.empty((count, 2, 3))
     axes, wanted, radius = np.empty((2, 2, count)), np.empty(count), np.empty(count)
@@ -64,7 +65,7 @@ def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, placemen
         axes[:, :, part], wanted[part] = picture_ellipses(view, seen, some.distance, normal, reach)
         point[:, part], spot[:, part] = tree.mesh.positions[some.vertex].T, seen[0]
     path = norm(point - spot)
-    drawn = placed(view, spot, path, placement)
+    drawn = placed(view, spot, path, placement, share=slide)
     for part in portions(count, AT_ONCE):
         slope = None if placement == "VIRTUAL" else columns(surface.face_normal, images.face[part])
         flat[part], radius[part] = flat_discs(view, axes[:, :, part], slope, drawn[:, part])

@@ -242,6 +242,10 @@ LACKS = {
     "simplify the mirror.":
         "In {count} Teilen des Spiegels liegt zu viel von ihm über sich selbst, um genau geschnitten zu werden, und "
         "Verdecktes kann zu sehen sein: vereinfache den Spiegel.",
+    "A film or tinted pane is so close before this mirror that the reflection is left out behind it: move it away from "
+    "the mirror by a thousandth of the camera's distance.":
+        "Eine Folie oder getönte Scheibe liegt so dicht vor diesem Spiegel, dass die Spiegelung dahinter fehlt: rücke "
+        "sie um ein Tausendstel des Kameraabstands vom Spiegel ab.",
     "Through one part of the mirror pass more faces than can be followed, and something behind them may show: simplify "
     "the objects that pass through the mirror.":
         "Durch einen Teil des Spiegels gehen mehr Flächen, als sich verfolgen lassen, und etwas dahinter kann zu sehen "

@@ -39,7 +39,8 @@ def test_virtual_leaves_a_linked_mirror_alone(library, room):
     parts.select(leaf, mirror)
     parts.generate(placement="VIRTUAL")
     assert mirror.visible_camera
-    told, = room("addon.operators.shortcomings").window_shortcomings(bpy.context, mirror, None, None, [mirror])
+    nothing = room("addon.writing").InTheWay("", 0.0, False)
+    told, = room("addon.operators.shortcomings").window_shortcomings(mirror, nothing)
     assert "linked and cannot be hidden" in told
 
 
