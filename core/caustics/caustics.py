@@ -20,6 +20,7 @@ from .hiding import screens_of, shades_of
 from .joining import joined
 from .lamps import Lamp
 from .refinement import LitFaces, refined
+from .slivers import without_slivers
 
 DETAIL = 1024
 """Pixels across the mirror in the lamp's picture, in which the settings' tolerance is counted."""
@@ -127,8 +128,9 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
     sent = seen.mirror_position[seen.triangles]
     whole = (flux_of(view, sent) * lamp.mean_share(sent)).sum()
     reach = np.ptp(seen.reflected_position, axis=0).max()
+    wide = without_slivers(seen)
     for number, ray_map in enumerate(seen.maps, 1):
-        chosen = np.flatnonzero(seen.bounces == number)
+        chosen = np.flatnonzero(wide & (seen.bounces == number))
         if not len(chosen):
             continue
         breathe()
