@@ -10,6 +10,7 @@ from ...illumination import chosen_lamps
 from ...reading import choose
 from ...settings import UsesSettings, option
 from .. import polls
+from ..rounding import rounding_remarks
 from ..shortcomings import other_meshes
 from .asked import asked_again, remember
 from .caustic_scene import IN_OBJECT_MODE
@@ -56,6 +57,7 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Opera
                 setattr(self, name, used(*pairs[0]))
         context.view_layer.update()
         remarks = thrown.remarks + other_meshes(context.scene, chosen.mirrors + chosen.diffuse)
+        remarks += rounding_remarks(context, thrown.objects)
         tell_done(self, [thrown.summary(time.perf_counter() - started)], remarks)
 
 
