@@ -10,6 +10,7 @@ import pytest
 from core import CausticMesh, Lamp, NothingInView, TriangleMesh, caustics
 from core.caustics import most_layers
 from core.caustics.slivers import merged
+from core.geometry import edge_lengths, shared_edges
 from tests.core.caustics.test_caustics import areas, quad, solid_angle
 
 WALL = 1.0  # the mirrors stand on the floor in the plane y = 1
@@ -51,6 +52,13 @@ def image(place: tuple) -> np.ndarray:
     return np.array((place[0], 2.0 * WALL - place[1], place[2]))
 
 
+def border(mesh: CausticMesh) -> float:
+    """The length of all edges that only one face has."""
+    ends, _, edge = shared_edges(mesh.triangles)
+    alone = np.bincount(edge.ravel()) == 1
+    return float(np.linalg.norm(np.diff(mesh.positions[ends[alone]], axis=1), axis=2).sum())
+
+
 def at_places(mesh: CausticMesh, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Count the faces (n,) that hold places (n, 2) of the floor, and add up their irradiance (n,) there.
 
@@ -71,7 +79,7 @@ def at_places(mesh: CausticMesh, places: np.ndarray) -> tuple[np.ndarray, np.nda
 
 
 @lamps
-def test_a_flat_mirror_throws_one_layer_of_the_right_area_without_slivers(place):
+def test_a_flat_mirror_throws_one_closed_layer_of_the_right_area(place):
     """The lamp shines everywhere, so that the light is a trapezoid: the mirror's frame as the lamp's image sees it."""
     mesh = thrown(Lamp(place))
     behind = image(place)
@@ -83,6 +91,9 @@ def test_a_flat_mirror_throws_one_layer_of_the_right_area_without_slivers(place)
     light = quad((-1.0, WALL, 0.0), (1.0, WALL, 0.0), (right, far, 0.0), (left, far, 0.0))
     own = areas(mesh)
     np.testing.assert_allclose(own.sum(), areas(light).sum(), rtol=1e-6)
+    # all faces hang together: the mesh ends where the light does
+    np.testing.assert_allclose(border(mesh), edge_lengths(light.positions[None, [0, 1, 2]])[0, :2].sum()
+                               + edge_lengths(light.positions[None, [0, 2, 3]])[0, 1:].sum(), rtol=1e-6)
     np.testing.assert_allclose((own * mesh.irradiance.mean(axis=1)).sum(), solid_angle(behind, light), rtol=1e-6)
     assert own.min() > 1e-6 * own.mean()
     assert most_layers(mesh.positions.astype(np.float32), mesh.triangles, mesh.source_face) == 1
