@@ -35,6 +35,7 @@ from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, nearer, point_arrays, what_is_in_the_way
 from . import polls
 from .pressed import ProtectsResults
+from .rounding import rounding_remarks
 from .shortcomings import (
     NONE_SEEN,
     TOO_CLOSE,
@@ -193,6 +194,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator
         lacks = scene_shortcomings(context, chosen, wanted)
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
+        lacks += rounding_remarks(context, [obj for obj, _ in outcome.results])
         if self.select_alone:
             for obj in context.selected_objects:
                 obj.select_set(False)
