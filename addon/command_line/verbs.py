@@ -140,8 +140,8 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     wanted, chosen = Wanted(context.scene, given(options)), _chosen(context, options)
     outcome = announced(generation(context, chosen, wanted, preview=True))
     if options.light:
-        outcome = replace(outcome, unlit=[])   # their light comes next
-    told = [*outcome.news, *outcome.remarks, *scene_shortcomings(context, chosen, wanted),
+        outcome = replace(outcome, unlit=[], dropped=[])   # their light comes next
+    told = [*outcome.news, *outcome.remarks, *outcome.dropped, *scene_shortcomings(context, chosen, wanted),
             outcome.summary(time.perf_counter() - started)]
     if options.light:
         # the view layer knows new objects only from its next update on

@@ -1,4 +1,4 @@
-"""A long operator as one generator: run to its end when executed, stepped by a timer, with ESC, when invoked."""
+"""A long operator as one generator: run to its end when a script executes it, else stepped by a timer, with ESC."""
 from __future__ import annotations
 
 import time
@@ -6,6 +6,7 @@ import time
 import bpy
 from bpy.app.translations import pgettext_iface
 
+from .again import is_repeated, start_again, starts_again
 from .between_events import steps_taken
 from .interrupts import interrupt_held
 from .status_bar import StatusBar
@@ -30,6 +31,9 @@ class SteppedOperator:
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set:
+        if is_repeated(self):
+            start_again(self, context)
+            return {"CANCELLED"}
         self._running = self.steps(context)
         with interrupt_held() as heard, steps_taken(apart=False):
             while (outcome := self._step()) is None and not heard:
@@ -131,7 +135,7 @@ class BrowsingOperator(SteppedOperator):
     _browsing = False
 
     def begin(self, context: bpy.types.Context) -> set:
-        self._browsing = not self._browsing
+        self._browsing = not self._browsing and not starts_again()
         if not self._browsing:
             return super().begin(context)
         if not self.properties.is_property_set("filepath", ghost=False):

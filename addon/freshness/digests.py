@@ -21,6 +21,7 @@ LAYOUTS = {"FLOAT": ("value", 1, np.float32), "FLOAT_VECTOR": ("vector", 3, np.f
            "FLOAT2": ("vector", 2, np.float32), "FLOAT_COLOR": ("color", 4, np.float32),
            "BYTE_COLOR": ("color", 4, np.float32), "INT": ("value", 1, np.int32), "BOOLEAN": ("value", 1, bool)}
 CORNERS = ".corner_vert"  # of the hidden attributes the one that is shape; the others are selections
+VOLUME = ("filepath", "is_sequence", "frame_start", "frame_offset", "frame_duration", "sequence_mode")
 SIZE = 12  # bytes of a digest
 
 _geometry: dict[tuple, bytes] = {}
@@ -61,12 +62,30 @@ def _digest(depsgraph: bpy.types.Depsgraph, owner_of: dict, counts: Callable) ->
         owner = owner_of.get(evaluated.original if parent is None else parent)
         if owner is None or not counts(instance):
             continue
-        key = (evaluated.original.session_uid, parent.session_uid if parent else 0, evaluated.data.name)
-        if key not in _geometry:
-            _geometry[key] = _hashed(evaluated)
         matrix = np.array(instance.matrix_world, dtype=np.float32)
-        known.append(owner.to_bytes(4, "big") + matrix.tobytes() + _geometry[key])
+        known.append(owner.to_bytes(4, "big") + matrix.tobytes() + geometry_of(evaluated, parent))
     return blake2b(b"".join(sorted(known)), digest_size=SIZE).hexdigest()
+
+
+def geometry_of(evaluated: bpy.types.Object, parent: bpy.types.Object | None) -> bytes:
+    """Return a digest of the shape and the layers of an evaluated object, which is an instance of `parent` or None."""
+    data = evaluated.data
+    key = (evaluated.original.session_uid, parent.original.session_uid if parent else 0, data.name if data else "")
+    if key not in _geometry:
+        _geometry[key] = _hashed(evaluated) if evaluated.type == "MESH" else _hashed_other(data)
+    return _geometry[key]
+
+
+def _hashed_other(data: bpy.types.ID | None) -> bytes:
+    """A digest of hair curves and points by their attributes, and of a volume by its file and its frame."""
+    told = blake2b(digest_size=SIZE)
+    for attribute in sorted(getattr(data, "attributes", ()), key=lambda attribute: attribute.name):
+        if attribute.data_type in LAYOUTS:
+            told.update(attribute.name.encode() + _values(attribute.data, *LAYOUTS[attribute.data_type]))
+    told.update(repr([getattr(data, name, None) for name in VOLUME]).encode())
+    grids = getattr(data, "grids", None)
+    told.update(repr(None if grids is None else (grids.frame, [grid.name for grid in grids])).encode())
+    return told.digest()
 
 
 def _hashed(obj: bpy.types.Object) -> bytes:

@@ -6,6 +6,7 @@ from bpy.app.translations import pgettext_iface
 
 from ...core.result import filled_share
 from ..frames import plays
+from ..freshness import why_light_differs
 from ..lighting import light_lines
 from ..reading import is_gone, is_result, render_size
 from ..writing import mesh_bytes, records, size_text
@@ -84,7 +85,7 @@ def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bp
     if tuple(record.resolution) != render_size(context.scene):
         layout.label(text="The render has another size now:", icon="ERROR")
         layout.label(text="press Generate Reflection again.", icon="BLANK1")
-    for number, line in enumerate(light_lines(obj)):
+    for number, line in enumerate(light_lines(obj, bool(why_light_differs(context, obj)))):
         layout.label(text=line, icon="BLANK1" if number else "LIGHT")
 
 
