@@ -74,7 +74,7 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
     if not made:
         # of earlier versions; light that stays with the objects asks itself whether these are the same
         return "" if record.light_map is not None else DIFFERENT["view"]
-    names, mirrors = set(made.get("mirrors", [])), {record.mirror}
+    names, mirrors = set(made["mirrors"]), {record.mirror}
     for obj in context.scene.objects:
         if obj.name_full in names:
             mirrors.add(obj)
@@ -83,8 +83,7 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
     now = _inputs(context, view, result, sources, mirrors - {None})
     for name, sentence in DIFFERENT.items():
         if name in made and not (record.light_map is not None and name in OF_A_VIEW):
-            same = same_view(tuple(made[name]), tuple(now[name])) if name == "view" else made[name] == now[name]
-            if not same:
+            if not (same_view(made[name], now[name]) if name == "view" else made[name] == now[name]):
                 return sentence
     return ""
 
@@ -129,6 +128,7 @@ def _read(result: bpy.types.Object) -> dict:
     text = result.reflection_mesh.lit_from
     try:
         known = json.loads(text) if 0 < len(text) <= LONGEST else {}
-    except (ValueError, RecursionError):
+        return {**known, "view": [float(number) for number in known["view"]], "mirrors": list(known["mirrors"]),
+                "lit_with": dict(known["lit_with"])} if known else {}
+    except (ValueError, TypeError, KeyError, RecursionError):
         return {}
-    return known if isinstance(known, dict) else {}
