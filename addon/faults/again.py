@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_iface
 DELAY = 0.3  # seconds: while a value is dragged Blender calls for each step of it
 BUSY = 0.2   # seconds between two looks whether another operator has ended
 
-_waiting: list[tuple[str, dict, int]] = []
+_waiting: list[tuple[str, str, dict, int]] = []
 _starting = [False]
 
 
@@ -30,7 +30,7 @@ def start_again(operator: bpy.types.Operator, context: bpy.types.Context) -> Non
     properties = operator.properties
     given = {name: getattr(properties, name) for name in properties.bl_rna.properties.keys()
              if name != "rna_type" and properties.is_property_set(name)}
-    _waiting[:] = [(operator.bl_idname, given, context.window.as_pointer())]
+    _waiting[:] = [(operator.bl_idname, operator.bl_label, given, context.window.as_pointer())]
     if bpy.app.timers.is_registered(_start):
         bpy.app.timers.unregister(_start)
     bpy.app.timers.register(_start, first_interval=DELAY)
@@ -38,7 +38,7 @@ def start_again(operator: bpy.types.Operator, context: bpy.types.Context) -> Non
 
 def _start() -> float | None:
     """Invoke what waits, in its window; return when to look again."""
-    name, given, pointer = _waiting[0]
+    name, label, given, pointer = _waiting[0]
     windows = bpy.context.window_manager.windows
     if any(len(window.modal_operators) for window in windows):
         return BUSY
@@ -52,14 +52,14 @@ def _start() -> float | None:
         with bpy.context.temp_override(window=window):
             getattr(getattr(bpy.ops, category.lower()), verb)("INVOKE_DEFAULT", True, **given)
     except RuntimeError as error:
-        _show(str(error).removeprefix("Error: ").strip())
+        _show(label, str(error).removeprefix("Error: ").strip())
     finally:
         _starting[0] = False
     return None
 
 
-def _show(sentence: str) -> None:
+def _show(label: str, sentence: str) -> None:
     """Show why nothing was started, as Blender shows errors."""
     bpy.context.window_manager.popup_menu(
         lambda menu, _context: menu.layout.label(text=sentence, translate=False),
-        title=pgettext_iface("Report: Error"), icon="ERROR")
+        title=pgettext_iface(label), icon="ERROR")

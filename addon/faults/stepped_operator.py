@@ -7,7 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_iface
 
 from .again import is_repeated, start_again, starts_again
-from .between_events import steps_taken
+from .between_events import steps_taken, works
 from .interrupts import interrupt_held
 from .status_bar import StatusBar
 from .steps import Beside, Steps, Undivided
@@ -53,6 +53,7 @@ class SteppedOperator:
         outcome = self._step_apart()
         if outcome is not None:
             return outcome
+        works(True)
         manager = context.window_manager
         self._bar = StatusBar()
         self._timer = manager.event_timer_add(INTERVAL, window=context.window)
@@ -122,6 +123,7 @@ class SteppedOperator:
         context.workspace.status_text_set(self._bar.told(fraction, stage, stopping))
 
     def _tidy(self, context: bpy.types.Context) -> None:
+        works(False)
         manager = context.window_manager
         manager.event_timer_remove(self._timer)
         manager.progress_end()

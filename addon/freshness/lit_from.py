@@ -13,8 +13,8 @@ import bpy
 from ...core import ReflectionError, View
 from ..frames import plays
 from ..reading import is_gone, is_result, read_view, render_size
-from . import digests
-from .made_from import LONGEST, same_view, view_numbers
+from .answers import answer
+from .made_from import LONGEST, SIZE_DIFFERS, same_view, view_numbers
 from .materials import SIZE
 from .rendered import rendered
 
@@ -30,8 +30,6 @@ CYCLES = ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_boun
           "ao_bounces_render", "volume_step_rate", "volume_max_steps", "volume_unbiased", "dicing_rate",
           "max_subdivisions", "use_light_linking", "texture_limit_render")
 FAST_GI = ("ao_factor", "distance")  # of the world's light_settings
-
-_told: dict[int, tuple] = {}
 
 
 def lit_record(context: bpy.types.Context, view: View, lit: Iterable[bpy.types.Object], settings: dict) -> dict:
@@ -57,15 +55,16 @@ def why_light_differs(context: bpy.types.Context, result: bpy.types.Object) -> s
     if record.light_material is None or not record.lit_from or plays(result) or is_gone(record.mirror):
         return ""
     camera = context.scene.camera
-    key = (digests.tick(), record.lit_from, _settings(context), render_size(context.scene),
-           None if camera is None else camera.session_uid)
-    if _told.get(result.session_uid, (None,))[0] != key:
-        try:
-            why = light_difference(context, read_view(context), result, _sources(result))
-        except ReflectionError:
-            why = DIFFERENT["view"]
-        _told[result.session_uid] = key, why
-    return _told[result.session_uid][1]
+    return answer(_changed, context, result, (record.lit_from, _settings(context), render_size(context.scene),
+                                              None if camera is None else camera.session_uid))
+
+
+def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
+    """What is no longer as it was when a result was lit."""
+    try:
+        return light_difference(context, read_view(context), result, _sources(result))
+    except ReflectionError:
+        return DIFFERENT["view"]
 
 
 def light_difference(context: bpy.types.Context, view: View, result: bpy.types.Object, sources: list) -> str:
@@ -83,6 +82,8 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
     now = _inputs(context, view, result, sources, mirrors - {None})
     for name, sentence in DIFFERENT.items():
         if name in made and not (record.light_map is not None and name in OF_A_VIEW):
+            if name == "view" and made[name][32:] != now[name][32:]:
+                return SIZE_DIFFERS
             if not (same_view(made[name], now[name]) if name == "view" else made[name] == now[name]):
                 return sentence
     return ""

@@ -76,8 +76,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources), settings_of(context.scene, mirror))
                for mirror in chosen.mirrors}
     unfit = _unfit(context, view, chosen.mirrors, sources)
-    joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
-    stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
+    join = core.in_steps(partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes))
+    stage = yield from part(join, 0.0, 0.5 * READING, "Reading the scene")
     scene, surfaces = stage.scene, stage.surfaces
     if not all(map(is_opaque, scene.materials)) or looked_through(depsgraph, chosen.mirrors, chosen.diffuse):
         own = [replace(one, hidden_faces=True) for one in own]
