@@ -68,8 +68,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     started = time.perf_counter()
     yield 0.0, "Reading the scene"
     hidden, view = left_out(context, chosen.hidden), view or read_view(context)
-    depsgraph = context.evaluated_depsgraph_get()
-    kept = Kept.of(depsgraph)
+    kept = Kept.of(depsgraph := context.evaluated_depsgraph_get())
     chosen, meshes, faceless = _with_faces(chosen, *kept.looked_at(depsgraph, chosen.mirrors, chosen.diffuse))
     own = list(map(of_each(settings), chosen.mirrors))
     sources, lines = chosen.diffuse + chosen.waiting, lines_drawn(context.scene)
