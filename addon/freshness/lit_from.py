@@ -19,9 +19,9 @@ from .materials import SIZE
 from .rendered import rendered
 
 # the parts of a record, in the order in which they are compared, and what is said where they differ
-DIFFERENT = {"view": "the camera has changed", "sources": "it shows other objects", "mirror": "the mirror has changed",
-             "objects": "an object has changed", "materials": "a material has changed",
-             "lamps": "the lamps or the world have changed", "settings": "the render settings have changed"}
+DIFFERENT = {"view": "the camera has changed", "mirror": "the mirror has changed", "objects": "an object has changed",
+             "materials": "a material has changed", "lamps": "the lamps or the world have changed",
+             "settings": "the render settings have changed", "sources": "it shows other objects"}
 OF_A_VIEW = {"view", "sources", "mirror"}  # parts that light which stays with the objects does not depend on
 RENDER = ("use_simplify", "simplify_subdivision_render", "simplify_child_particles_render", "hair_type", "hair_subdiv")
 CYCLES = ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "volume_bounces",

@@ -26,7 +26,8 @@ def flags() -> list:
     return [[getattr(obj, name) for name in FLAGS] for obj in bpy.context.scene.objects]
 
 
-def steps():
+def opened():
+    """The sample room, with the extension."""
     screen = Screen()
     screen.point(**screen.centre)
     yield 1.0
@@ -35,6 +36,10 @@ def steps():
     yield 1.0
     bpy.ops.wm.open_mainfile(filepath=str(ROOT / "sample_blends" / "room.blend"), load_ui=False)
     yield 2.0
+
+
+def steps():
+    yield from opened()
     screen = Screen()
     scene, space = bpy.context.scene, screen.area.spaces.active
     scene.render.engine, scene.render.resolution_percentage, scene.cycles.preview_samples = "CYCLES", 25, 4
@@ -68,7 +73,12 @@ def steps():
     yield from waiting(lambda: not screen.window.modal_operators, "the end of Light", 120.0)
     yield from settled("w3_lit", 60.0)
     assert flags() == before and freshness.why_light_differs(bpy.context, result()) == ""
-    camera = scene.camera
+    yield from dragged(screen, freshness)
+
+
+def dragged(screen: Screen, freshness):
+    """G and ESC leave the light as it is."""
+    scene, camera = bpy.context.scene, bpy.context.scene.camera
     scene.view_layers[0].objects.active = camera
     for obj in bpy.context.selected_objects:
         obj.select_set(False)

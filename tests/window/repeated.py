@@ -53,10 +53,6 @@ def at_work(screen: Screen, name: str) -> bool:
     return name in [operator.bl_idname for operator in screen.window.modal_operators]
 
 
-def last() -> bpy.types.Operator:
-    return bpy.context.window_manager.operators[-1]
-
-
 def steps():
     screen = Screen()
     screen.point(**screen.centre)

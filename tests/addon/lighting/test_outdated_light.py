@@ -198,3 +198,17 @@ def test_mirrors_of_light_on_objects_may_move(blank, room, together):
     assert not outdated(room, result)
     other.location.z += 0.1
     assert outdated(room, result) != together
+
+
+def test_what_collections_instance_counts(blank, room):
+    scene_of(blank, "Instances")
+    result = parts.generate(tolerance=8.0)
+    bpy.ops.reflection_mesh.light(samples=1)
+    inner = bpy.data.objects["Inner"]
+    assert not outdated(room, result)
+    for name, value in (("scale", (0.5, 0.6, 0.6)), ("visible_shadow", False)):
+        there, back = switch(inner, name, value)
+        there()
+        assert outdated(room, result)
+        back()
+        assert not outdated(room, result)
