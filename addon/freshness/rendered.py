@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..illumination import is_glint
-from ..reading import is_rendered, is_result, link_state, rendered_in
+from ..reading import LINKS, is_rendered, is_result, link_state, rendered_in
 from . import digests
 from .lamps import lamp_content, world_content
 from .materials import SIZE, content_of
@@ -25,7 +25,6 @@ CYCLES_FLAGS = ("shadow_terminator_offset", "shadow_terminator_geometry_offset",
 RENDER_LEVELS = ("show_render", "render_levels", "render_resolution")
 PARTICLES = ("count", "child_type", "rendered_child_count", "child_percent", "render_type", "particle_size",
              "render_step", "child_length", "child_radius", "hair_length", "root_radius", "tip_radius", "radius_scale")
-LINKS = ("receiver_collection", "blocker_collection")
 # drawn as the meshes that they become, or never
 UNDRAWN = {"CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "CURVE", "SURFACE", "FONT", "META", "LIGHT_PROBE"}
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
 import bpy
@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import compat
 from ..faults import still_there
-from ..reading import is_opaque, materials_of, read_view
+from ..reading import goes_by_name, is_linked, is_opaque, materials_of, read_view
 from ..reading.materials import all_materials_of, is_exact
 from ..rendering import (
     SEEN,
@@ -120,7 +120,7 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         put_swift_world(scene, back)
         own = OwnCollections(context, scene, back)
         look_through(scene, sharp_camera(context.scene.camera), back)
-        mirrors = {mirror: _shown_mirror(mirror, own)
+        mirrors = {mirror: _shown_mirror(mirror, own, back)
                    for mirror in {result.reflection_mesh.mirror for result in results} - {None}}
         own.leave_out(results)
         others = [obj for obj in own.shown if obj not in mirrors.values()]
@@ -139,14 +139,22 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         yield LightScene(scene, results, own, mirrors, before, fog, alone, all(map(is_exact, materials)))
 
 
-def _shown_mirror(mirror: bpy.types.Object, own: OwnCollections) -> bpy.types.Object:
-    """Return what shows a mirror to the camera: itself, or a copy where that is unseen or a shadow catcher."""
-    if all(getattr(mirror, name) == seen for name, seen in SEEN.items()):
+def _shown_mirror(mirror: bpy.types.Object, own: OwnCollections, back: ExitStack) -> bpy.types.Object:
+    """Return what shows a mirror to the camera: itself, or a copy where that is unseen or a shadow catcher.
+
+    A mirror that lamps are linked to, or that is random by its name, has no copy that looks alike: it is itself seen
+    for a while.
+    """
+    changed = {name: seen for name, seen in SEEN.items() if getattr(mirror, name) != seen}
+    if not changed:
         return mirror
-    copy = own.copy_of(mirror)
-    for name, seen in SEEN.items():
-        setattr(copy, name, seen)
-    return copy
+    alike = not (is_linked(mirror) or goes_by_name(mirror))
+    shown = own.copy_of(mirror) if alike else mirror
+    for name, seen in changed.items():
+        if not alike:
+            back.callback(setattr, mirror, name, not seen)
+        setattr(shown, name, seen)
+    return shown
 
 
 def _seen_lamps(context: bpy.types.Context, mirrors: set) -> bool:

@@ -8,7 +8,7 @@ import bpy
 
 from ....core import View
 from ...faults import still_there
-from ...reading import all_nodes, forgets_particles, is_result, materials_of
+from ...reading import forgets_particles, goes_by_name, is_result
 from ...rendering import OwnCollections, copied_scene, look_through, put_swift_world
 from ...writing import UV_MAP
 from .bake_targets import new_target
@@ -48,20 +48,14 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
             scene.collection.objects.link(obj)
             objects.append((stand.owner, obj))
             # linked objects keep their names, and a new one is a change
-            if stand.told is None and _goes_by_name(sources[stand.owner]):
+            if stand.told is None and goes_by_name(sources[stand.owner]) and not (
+                    sources[stand.owner].library or forgets_particles(sources[stand.owner])):
                 swap_names(sources[stand.owner], obj)
                 back.callback(swap_names, sources[stand.owner], obj)
         link_lamps([(sources[owner], obj) for owner, obj in objects], back)
         # Cycles clamps a lamp's body one bounce later than what lamps light
         own, of_all = context.scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_direct
         yield BakeScene(scene, objects, targets, switches, None if opacity or own == of_all else own)
-
-
-def _goes_by_name(source: bpy.types.Object) -> bool:
-    """Return True where materials of a source ask for a number that is random by the object's name."""
-    return source.library is None and not forgets_particles(source) and any(
-        node.type == "OBJECT_INFO" and node.outputs["Random"].is_linked
-        for material in materials_of(source) if material is not None for node in all_nodes(material.node_tree))
 
 
 def _prepare(scene: bpy.types.Scene) -> None:

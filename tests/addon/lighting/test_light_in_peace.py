@@ -62,3 +62,27 @@ def test_nothing_is_seen_of_it(blank, room, kind, how):
     assert {name: state[name] for name in ("rays", "worlds", "lights")} == {
         name: lit_state()[name] for name in ("rays", "worlds", "lights")}
     assert [scene.name for scene in bpy.data.scenes] == [blank.scene.name]
+
+
+@pytest.mark.parametrize("how", ["linked", "random"])
+def test_a_mirror_that_no_copy_looks_like_is_itself_shown(blank, room, how):
+    """It is a shadow catcher again afterwards, and nothing else has changed meanwhile."""
+    wall = scene_of(blank)
+    wall.is_shadow_catcher = True
+    if how == "linked":
+        collection = bpy.data.collections.new("Lit")
+        collection.objects.link(wall)
+        bpy.data.objects["Area"].light_linking.receiver_collection = collection
+    else:
+        tree = wall.data.materials[0].node_tree
+        info, math = tree.nodes.new("ShaderNodeObjectInfo"), tree.nodes.new("ShaderNodeMath")
+        tree.links.new(info.outputs["Random"], math.inputs[0])
+    result = parts.generate(tolerance=8.0)
+    before, catching = shown(), []
+    for _, stage in room("addon.operators.light").lighting(blank, [result], 1, "PICTURE"):
+        if stage != "Writing":
+            catching.append(wall.is_shadow_catcher)
+            now = shown()
+            now["objects"][wall.session_uid][4] = True
+            assert now == before
+    assert False in catching and wall.is_shadow_catcher and len(bpy.data.collections) == (how == "linked")
