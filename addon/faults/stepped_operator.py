@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import bpy
 from bpy.app.translations import pgettext_iface
@@ -35,9 +37,9 @@ class SteppedOperator:
             start_again(self, context)
             return {"CANCELLED"}
         self._running = self.steps(context)
-        with interrupt_held() as heard, steps_taken(apart=False):
+        with interrupt_held() as heard, steps_taken(apart=False), _at_the_cursor(context) as show:
             while (outcome := self._step()) is None and not heard:
-                pass
+                show(self._progress[0])
             self._running.close()
         return outcome
 
@@ -128,6 +130,20 @@ class SteppedOperator:
         manager.event_timer_remove(self._timer)
         manager.progress_end()
         context.workspace.status_text_set(None)
+
+
+@contextmanager
+def _at_the_cursor(context: bpy.types.Context) -> Iterator[Callable[[float], None]]:
+    """Show how far the work of a script is where it keeps a window waiting; yields what is told that, from 0 to 1."""
+    if bpy.app.background or context.window is None:
+        yield lambda fraction: None
+        return
+    manager = context.window_manager
+    manager.progress_begin(0, 100)
+    try:
+        yield lambda fraction: manager.progress_update(100.0 * fraction)
+    finally:
+        manager.progress_end()
 
 
 class BrowsingOperator(SteppedOperator):

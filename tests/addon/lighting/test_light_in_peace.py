@@ -6,6 +6,8 @@ import parts
 import pytest
 from lamp_scenes import lit_state, principled, scene_of, shader_of
 
+pytestmark = pytest.mark.thorough
+
 SEEN = ("name", "hide_render", "hide_viewport", "is_holdout", "is_shadow_catcher", "visible_camera", "visible_diffuse",
         "visible_glossy", "visible_shadow", "visible_transmission")
 

@@ -10,6 +10,8 @@ import parts
 import pytest
 from lamp_scenes import link, outdated, scene_of, shader_of
 
+pytestmark = pytest.mark.thorough
+
 
 @pytest.fixture
 def lit(blank, room):

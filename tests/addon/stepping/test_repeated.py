@@ -105,6 +105,8 @@ def test_what_keeps_it_from_starting_pops_up(repeated):
 def test_a_script_runs_it_to_its_end(repeated):
     job, window, notes = job_of(repeated)
     assert job.execute(window) == {"FINISHED"} and notes[-1] == "cleaned up" and not repeated.timers.waiting
+    # how far it is, is seen at the cursor, and nothing afterwards
+    assert window.at_cursor == [0.0, 0.0, 50.0, None]
 
 
 def test_its_file_browser_does_not_open_again(repeated, monkeypatch):
