@@ -33,17 +33,17 @@ class Manners:
 
     Attributes
     ----------
-    preview : bool
-        Those that are not lit show a preview.
     collect : bool
         New ones go into the scene's collection of results, instead of beside their mirrors.
     preview_unlit : bool
         Those that lose their light show a preview, instead of materials on which lamps fall.
+    preview : bool
+        So do all that are not lit.
     """
 
-    preview: bool = False
     collect: bool = False
     preview_unlit: bool = False
+    preview: bool = False
 
 
 @dataclass(frozen=True)
