@@ -26,11 +26,17 @@ SIZE = 12  # bytes of a digest
 
 _geometry: dict[tuple, bytes] = {}
 _ticks = [0]
+_listeners: list[Callable[[list | None], None]] = [forget_materials]
 
 
 def tick() -> int:
     """A number that is another one whenever anything may have changed."""
     return _ticks[0]
+
+
+def listen(forget_them: Callable[[list | None], None]) -> None:
+    """Call a function with the data that has changed whenever Blender tells of some, or None where that may be any."""
+    _listeners.append(forget_them)
 
 
 def forget(session_uid: int | None = None) -> None:
@@ -114,7 +120,7 @@ def _after_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> No
     if depsgraph.mode != "VIEWPORT":
         return
     _ticks[0] += 1
-    forget_materials([update.id for update in depsgraph.updates])
+    _tell([update.id for update in depsgraph.updates])
     for update in depsgraph.updates:
         if update.is_updated_geometry and isinstance(update.id, bpy.types.Object):
             forget(update.id.original.session_uid)
@@ -125,7 +131,12 @@ def _after_all(*_) -> None:
     """After whatever may have exchanged everything."""
     _ticks[0] += 1
     forget()
-    forget_materials()
+    _tell(None)
+
+
+def _tell(changed: list | None) -> None:
+    for forget_them in _listeners:
+        forget_them(changed)
 
 
 HANDLERS = Handlers((_after_change, "depsgraph_update_post", "frame_change_post"),
@@ -136,4 +147,4 @@ register = HANDLERS.register
 def unregister() -> None:
     HANDLERS.unregister()
     forget()
-    forget_materials()
+    _tell(None)

@@ -22,7 +22,7 @@ from .rendered import rendered
 DIFFERENT = {"view": "the camera has changed", "mirror": "the mirror has changed", "objects": "an object has changed",
              "materials": "a material has changed", "lamps": "the lamps or the world have changed",
              "settings": "the render settings have changed", "sources": "it shows other objects"}
-OF_A_VIEW = {"view", "sources", "mirror"}  # parts that light which stays with the objects does not depend on
+OF_A_VIEW = {"sources", "mirror"}  # parts that light which stays with the objects does not depend on
 RENDER = ("use_simplify", "simplify_subdivision_render", "simplify_child_particles_render", "hair_type", "hair_subdiv")
 CYCLES = ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "volume_bounces",
           "transparent_max_bounces", "caustics_reflective", "caustics_refractive", "blur_glossy", "sample_clamp_direct",
@@ -37,8 +37,8 @@ def lit_record(context: bpy.types.Context, view: View, lit: Iterable[bpy.types.O
     lit = list(lit)
     mirrors = [result.reflection_mesh.mirror for result in lit]
     names = sorted({mirror.name_full for mirror in mirrors})
-    return {result: json.dumps({**_inputs(context, view, result, _sources(result), mirrors), "mirrors": names,
-                                "lit_with": settings}) for result in lit}
+    known = {"view": [float(f"{number:.8g}") for number in view_numbers(view)], "mirrors": names, "lit_with": settings}
+    return {result: json.dumps({**known, **_inputs(context, result, _sources(result), mirrors)}) for result in lit}
 
 
 def lit_with(result: bpy.types.Object) -> dict:
@@ -73,25 +73,28 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
     if not made:
         # of earlier versions; light that stays with the objects asks itself whether these are the same
         return "" if record.light_map is not None else DIFFERENT["view"]
+    # what is cheap comes first: while the camera is dragged nothing else is looked at
+    if record.light_map is None:
+        numbers = view_numbers(view)
+        if numbers[32:] != made["view"][32:]:
+            return SIZE_DIFFERS
+        if not same_view(made["view"], numbers):
+            return DIFFERENT["view"]
     names, mirrors = set(made["mirrors"]), {record.mirror}
     for obj in context.scene.objects:
         if obj.name_full in names:
             mirrors.add(obj)
         elif is_result(obj) and obj.reflection_mesh.light_material == record.light_material:
             mirrors.add(obj.reflection_mesh.mirror)
-    now = _inputs(context, view, result, sources, mirrors - {None})
-    for name, sentence in DIFFERENT.items():
-        if name in made and not (record.light_map is not None and name in OF_A_VIEW):
-            if name == "view" and made[name][32:] != now[name][32:]:
-                return SIZE_DIFFERS
-            if not (same_view(made[name], now[name]) if name == "view" else made[name] == now[name]):
-                return sentence
-    return ""
+    now = _inputs(context, result, sources, mirrors - {None})
+    left_out = set() if record.light_map is None else OF_A_VIEW
+    return next((sentence for name, sentence in DIFFERENT.items()
+                 if name in now and name not in left_out and made.get(name, now[name]) != now[name]), "")
 
 
-def _inputs(context: bpy.types.Context, view: View, result: bpy.types.Object, sources: list,
+def _inputs(context: bpy.types.Context, result: bpy.types.Object, sources: list,
             mirrors: Iterable[bpy.types.Object]) -> dict:
-    """All that a result's light depends on, by the names of `DIFFERENT`."""
+    """Digests of all that a result's light depends on but its view, by the names of `DIFFERENT`."""
     shown, own = rendered(context), result.reflection_mesh.mirror
     moving = {mirror.session_uid for mirror in mirrors}
     part_of = [shown.objects.get(source.session_uid, b"") for source in sources if source is not None]
@@ -99,7 +102,7 @@ def _inputs(context: bpy.types.Context, view: View, result: bpy.types.Object, so
     # what moves with the view may be another mirror of the same light
     mirror = [shown.objects.get(uid, b"") for uid in moving - {own.session_uid}]
     materials = [shown.materials[uid] + (b"" if uid in moving else shown.objects[uid]) for uid in shown.materials]
-    return {"view": [float(f"{number:.8g}") for number in view_numbers(view)], "sources": _digest(part_of),
+    return {"sources": _digest(part_of),
             "mirror": _digest([*mirror, b"own" + shown.objects.get(own.session_uid, b"")]),
             "objects": _digest(others), "materials": _digest(materials), "lamps": shown.lamps,
             "settings": _settings(context)}
@@ -129,7 +132,7 @@ def _read(result: bpy.types.Object) -> dict:
     text = result.reflection_mesh.lit_from
     try:
         known = json.loads(text) if 0 < len(text) <= LONGEST else {}
-        return {**known, "view": [float(number) for number in known["view"]], "mirrors": list(known["mirrors"]),
+        return {**known, "view": tuple(map(float, known["view"])), "mirrors": list(known["mirrors"]),
                 "lit_with": dict(known["lit_with"])} if known else {}
     except (ValueError, TypeError, KeyError, RecursionError):
         return {}

@@ -4,6 +4,7 @@ They are taken once after each change that Blender tells of, and serve all resul
 """
 from __future__ import annotations
 
+from collections.abc import Iterable
 from hashlib import blake2b
 from typing import NamedTuple
 
@@ -29,6 +30,7 @@ PARTICLES = ("count", "child_type", "rendered_child_count", "child_percent", "re
 UNDRAWN = {"CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "CURVE", "SURFACE", "FONT", "META", "LIGHT_PROBE"}
 
 _told: dict[tuple, Rendered] = {}
+_flags: dict[int, bytes] = {}
 
 
 class Rendered(NamedTuple):
@@ -44,55 +46,82 @@ def rendered(context: bpy.types.Context) -> Rendered:
     """Return the digests of what renders of the view layer show now."""
     key = digests.tick(), context.scene.session_uid, context.view_layer.name
     if key not in _told:
+        if not any(known[1:] == key[1:] for known in _told):
+            # flags of another view layer
+            forget_rendered()
         _told.clear()
         _told[key] = _taken(context)
     return _told[key]
 
 
+def forget_rendered(changed: Iterable[bpy.types.ID] | None = None) -> None:
+    """Read the flags of objects anew when they are asked for next.
+
+    Of those that have `changed`; of all where a scene or a collection has, whose layers have flags too, or for None.
+    """
+    if changed is None:
+        _flags.clear()
+        return
+    for item in changed:
+        if isinstance(item, bpy.types.Scene | bpy.types.Collection):
+            _flags.clear()
+        elif isinstance(item, bpy.types.Object):
+            _flags.pop(item.original.session_uid, None)
+
+
 def _taken(context: bpy.types.Context) -> Rendered:
     depsgraph, layer = context.evaluated_depsgraph_get(), context.view_layer
-    rendered_by_layer, given = rendered_in(layer), {}
-    flags: dict[int, bytes] = {}
+    in_renders, given = rendered_in(layer), {}
+    counts: dict[bpy.types.Object, bool] = {}  # of owners: whether they are inputs of light, and rendered
     objects: dict[int, list] = {}
     materials: dict[int, list] = {}
     lamps: list = []
     for instance in depsgraph.object_instances:
         evaluated = instance.object
-        original = evaluated.original
-        owner = instance.parent.original if instance.is_instance else original
-        drawn = original.type == "LIGHT" or (instance.show_self and original.type not in UNDRAWN)
-        # curves and the like are instances of themselves
-        alone = not instance.is_instance or original == owner
-        if not drawn or is_result(owner) or is_glint(owner) or not (
-                rendered_by_layer(owner) if alone else is_rendered(instance, given)):
+        if evaluated.type in UNDRAWN or not (evaluated.type == "LIGHT" or instance.show_self):
             continue
-        for obj in (original, owner):
-            if obj.session_uid not in flags:
-                flags[obj.session_uid] = repr(_flags(obj, layer)).encode()
-        place = np.array(instance.matrix_world, dtype=np.float32).tobytes()
-        place += flags[original.session_uid] + flags[owner.session_uid]
-        if original.type == "LIGHT":
+        original = evaluated.original
+        parent = instance.parent if instance.is_instance else None
+        owner = original if parent is None else parent.original
+        if owner not in counts:
+            counts[owner] = in_renders(owner) and not is_result(owner) and not is_glint(owner)
+        # curves and the like are instances of themselves
+        if not counts[owner] or (original != owner and not is_rendered(instance, given)):
+            continue
+        place = np.array(instance.matrix_world, dtype=np.float32).tobytes() + _flags_of(original, layer)
+        if original != owner:
+            place += _flags_of(owner, layer)
+        if evaluated.type == "LIGHT":
             lamps.append(place + lamp_content(original.data))
             continue
-        objects.setdefault(owner.session_uid, []).append(
-            place + digests.geometry_of(evaluated, instance.parent if instance.is_instance else None))
-        shown = b"".join(content_of(slot.material.original) if slot.material else b"none"
-                         for slot in evaluated.material_slots)
-        materials.setdefault(owner.session_uid, []).append(shown)
+        uid = owner.session_uid
+        objects.setdefault(uid, []).append(place + digests.geometry_of(evaluated, parent))
+        materials.setdefault(uid, []).append(b"".join(
+            content_of(slot.material.original) if slot.material else b"none" for slot in evaluated.material_slots))
     told = sorted(lamps) + [world_content(context.scene.world)]
     return Rendered({uid: _digest(parts) for uid, parts in objects.items()},
                     {uid: _digest(parts) for uid, parts in materials.items()}, _digest(told).hex())
 
 
+digests.listen(forget_rendered)
+
+
 def _digest(parts: list[bytes]) -> bytes:
     told = blake2b(digest_size=SIZE)
     for part in sorted(parts):
-        told.update(blake2b(part, digest_size=SIZE).digest())
+        told.update(len(part).to_bytes(4, "big") + part)
     return told.digest()
 
 
-def _flags(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> list:
-    """What renders go by of an object besides geometry and materials; a window's mirror counts as seen."""
+def _flags_of(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> bytes:
+    """A digest of what renders go by of an object besides geometry and materials."""
+    if obj.session_uid not in _flags:
+        _flags[obj.session_uid] = blake2b(repr(_read(obj, layer)).encode(), digest_size=SIZE).digest()
+    return _flags[obj.session_uid]
+
+
+def _read(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> list:
+    """The values of flags, ray visibility and links; a window's mirror counts as seen."""
     known = [getattr(obj, name) for name in FLAGS] + list(obj.color)
     known += [obj.visible_camera or obj.reflection_mesh.camera_hidden, obj.holdout_get(view_layer=layer),
               obj.indirect_only_get(view_layer=layer)]

@@ -77,7 +77,8 @@ def test_fog_keeps_its_materials_while_light_is_made(blank, room, monkeypatch):
         bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
     assert lit_state() == before
     assert (slot.link, slot.material) == ("DATA", cube.data.materials[0])
-    assert len(bpy.data.worlds) == 1 and len(bpy.data.objects) == len(blank.scene.objects) and [made.name for made in bpy.data.materials].count("Fog") == 1
+    assert len(bpy.data.worlds) == 1 and len(bpy.data.objects) == len(blank.scene.objects)
+    assert [made.name for made in bpy.data.materials].count("Fog") == 1
 
 
 def test_fog_is_no_object_that_is_reflected(blank, capfd):
