@@ -93,7 +93,7 @@ class LightScene:
         unseen = [shown for mirror, shown in self.mirrors.items() if self.alone or mirror.reflection_mesh.camera_hidden]
         try:
             # what hides the results in the picture does so here where it is in the picture of light
-            hiding = self.before if self.alone else [obj for obj in self.own.shown if obj not in unseen + self.fog]
+            hiding = self.before if self.alone else [obj for obj in self.own.seen if obj not in unseen + self.fog]
             self.own.leave_out(obj for obj in self.own.shown if obj not in hiding)
             self.own.hold_out(hiding)
             scene.collection.children.link(stage)

@@ -50,6 +50,11 @@ class OwnCollections:
         """The objects that renders show."""
         return [obj for obj, kind in self._kinds.items() if kind is not None]
 
+    @property
+    def seen(self) -> list:
+        """Those of them that the camera sees: Cycles holds out what is indirect only too."""
+        return [obj for obj in self.shown if self._kinds[obj][0] or not self._kinds[obj][1]]
+
     def hold_out(self, objects: Iterable[bpy.types.Object]) -> None:
         """Let objects be holes in the picture."""
         self._change(objects, lambda kind: (True, kind[1]))
