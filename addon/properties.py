@@ -105,8 +105,8 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     light_map: PointerProperty(name="Light Map", description="Where the triangles of the objects lie in light that "
                                "stays with them; none where this reflection shows light of a picture",
                                type=bpy.types.Mesh, override=OVERRIDABLE)
-    light_stale: BoolProperty(name="Stale Light", description="The scene has changed since this light was made",
-                              override=OVERRIDABLE)
+    lit_from: StringProperty(name="Lit From", description="All that this light depends on, as digests in JSON, and the "
+                             "settings that it was made with; empty where that is not known")
     mirror_uv_source: PointerProperty(name="Copy Of", description="The object that this one, cut along what a mirror "
                                       "shows of it, stands in for", type=bpy.types.Object, override=OVERRIDABLE)
     mirror_uv_picture: PointerProperty(name="Mirror Picture", description="What shows a picture on this copy",

@@ -141,12 +141,12 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     wanted, chosen = Wanted(context.scene, given(options)), _chosen(context, options)
     outcome = announced(generation(context, chosen, wanted, preview=True))
     if options.light:
-        outcome = replace(outcome, unlit=[])   # their light comes next
+        outcome = replace(outcome, unlit=[], dropped=[])   # their light comes next
     lacks = scene_shortcomings(context, chosen, wanted)
     # the view layer knows new objects only from its next update on
     context.view_layer.update()
     lacks += rounding_remarks(context, [obj for obj, _ in outcome.results])
-    told = [*outcome.news, *outcome.remarks, *lacks, outcome.summary(time.perf_counter() - started)]
+    told = [*outcome.news, *outcome.remarks, *outcome.dropped, *lacks, outcome.summary(time.perf_counter() - started)]
     if options.light:
         samples = None if options.light is FILES else options.light
         told.append(_lit(context, [obj for obj, _ in outcome.results], samples, options.kind))

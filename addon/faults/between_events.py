@@ -1,10 +1,11 @@
-"""Whether steps are taken between the events of a window: then Blender's own jobs go on meanwhile."""
+"""State of work in steps: whether it is at work, and whether Blender's own jobs go on between its steps."""
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 _are = False
+_works, _steps = [False], [0]  # whether an operator of the window is at work, and how many steps are being taken
 
 
 def between_events() -> bool:
@@ -13,12 +14,24 @@ def between_events() -> bool:
     return _are
 
 
+def work_waits() -> bool:
+    """Return True while an operator is at work in a window, between two of its steps."""
+    return _works[0] and not _steps[0]
+
+
+def works(goes_on: bool) -> None:
+    """Note that an operator has begun its work in a window, or has ended it."""
+    _works[0] = goes_on
+
+
 @contextmanager
 def steps_taken(apart: bool) -> Iterator[None]:
     """Within, steps are taken between events, or all at once."""
     global _are
     before, _are = _are, apart
+    _steps[0] += 1
     try:
         yield
     finally:
         _are = before
+        _steps[0] -= 1

@@ -1,12 +1,15 @@
-"""A long operator as one generator: run to its end when executed, stepped by a timer, with ESC, when invoked."""
+"""A long operator as one generator: run to its end when a script executes it, else stepped by a timer, with ESC."""
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import bpy
 from bpy.app.translations import pgettext_iface
 
-from .between_events import steps_taken
+from .again import is_repeated, start_again, starts_again
+from .between_events import steps_taken, works
 from .interrupts import interrupt_held
 from .status_bar import StatusBar
 from .steps import Beside, Steps, Undivided
@@ -30,10 +33,13 @@ class SteppedOperator:
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set:
+        if is_repeated(self):
+            start_again(self, context)
+            return {"CANCELLED"}
         self._running = self.steps(context)
-        with interrupt_held() as heard, steps_taken(apart=False):
+        with interrupt_held() as heard, steps_taken(apart=False), _at_the_cursor(context) as show:
             while (outcome := self._step()) is None and not heard:
-                pass
+                show(self._progress[0])
             self._running.close()
         return outcome
 
@@ -49,6 +55,7 @@ class SteppedOperator:
         outcome = self._step_apart()
         if outcome is not None:
             return outcome
+        works(True)
         manager = context.window_manager
         self._bar = StatusBar()
         self._timer = manager.event_timer_add(INTERVAL, window=context.window)
@@ -118,10 +125,25 @@ class SteppedOperator:
         context.workspace.status_text_set(self._bar.told(fraction, stage, stopping))
 
     def _tidy(self, context: bpy.types.Context) -> None:
+        works(False)
         manager = context.window_manager
         manager.event_timer_remove(self._timer)
         manager.progress_end()
         context.workspace.status_text_set(None)
+
+
+@contextmanager
+def _at_the_cursor(context: bpy.types.Context) -> Iterator[Callable[[float], None]]:
+    """Show how far the work of a script is where it keeps a window waiting; yields what is told that, from 0 to 1."""
+    if bpy.app.background or context.window is None:
+        yield lambda fraction: None
+        return
+    manager = context.window_manager
+    manager.progress_begin(0, 100)
+    try:
+        yield lambda fraction: manager.progress_update(100.0 * fraction)
+    finally:
+        manager.progress_end()
 
 
 class BrowsingOperator(SteppedOperator):
@@ -131,7 +153,7 @@ class BrowsingOperator(SteppedOperator):
     _browsing = False
 
     def begin(self, context: bpy.types.Context) -> set:
-        self._browsing = not self._browsing
+        self._browsing = not self._browsing and not starts_again()
         if not self._browsing:
             return super().begin(context)
         if not self.properties.is_property_set("filepath", ghost=False):

@@ -9,7 +9,7 @@ import bpy
 from ..faults import still_there
 from ..writing import as_shown
 
-RECORD = ("mirror", "light_stale", "camera", "window")
+RECORD = ("mirror", "camera", "window")
 
 
 @contextmanager
@@ -37,7 +37,6 @@ def set_aside(context: bpy.types.Context, mirrors: list, role: str = "REFLECTION
                 obj.hide_render = was
         # baked cameras have put others' results aside
         shown()
-        # what was marked stale by going through frames is not
         for obj, record in known:
             if still_there([obj]):
                 for name, value in record.items():

@@ -83,7 +83,7 @@ def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOr
     record.sources.clear()
     for source in sources:
         record.sources.add().object = source
-    record.light, record.light_stale = "", False
+    record.light = record.lit_from = ""
     earlier, record.light_material = record.light_material, player.light
     if earlier is not None:
         whole.after(forget_light, earlier)

@@ -1,6 +1,7 @@
 """What a result was made from, and whether that has changed since: told in one sentence, and mended by Generate."""
 from .digests import digest_of, register, unregister
 from .frame_origin import frame_difference, frame_origin
+from .lit_from import light_difference, lit_record, lit_with, why_light_differs
 from .made_from import (
     COARSE,
     Origin,
@@ -13,6 +14,6 @@ from .made_from import (
 )
 from .thrown_light import lamp_numbers, light_record, why_light_is_stale
 
-__all__ = ["COARSE", "Origin", "digest_of", "frame_difference", "frame_origin", "lamp_numbers", "light_record",
-           "origin_of", "record_of", "register", "same_view", "settings_of", "unregister", "view_numbers",
-           "why_light_is_stale", "why_stale"]
+__all__ = ["COARSE", "Origin", "digest_of", "frame_difference", "frame_origin", "lamp_numbers", "light_difference",
+           "light_record", "lit_record", "lit_with", "origin_of", "record_of", "register", "same_view", "settings_of",
+           "unregister", "view_numbers", "why_light_differs", "why_light_is_stale", "why_stale"]

@@ -21,15 +21,22 @@ LAYOUTS = {"FLOAT": ("value", 1, np.float32), "FLOAT_VECTOR": ("vector", 3, np.f
            "FLOAT2": ("vector", 2, np.float32), "FLOAT_COLOR": ("color", 4, np.float32),
            "BYTE_COLOR": ("color", 4, np.float32), "INT": ("value", 1, np.int32), "BOOLEAN": ("value", 1, bool)}
 CORNERS = ".corner_vert"  # of the hidden attributes the one that is shape; the others are selections
+VOLUME = ("filepath", "is_sequence", "frame_start", "frame_offset", "frame_duration", "sequence_mode")
 SIZE = 12  # bytes of a digest
 
 _geometry: dict[tuple, bytes] = {}
 _ticks = [0]
+_listeners: list[Callable[[list | None], None]] = [forget_materials]
 
 
 def tick() -> int:
     """A number that is another one whenever anything may have changed."""
     return _ticks[0]
+
+
+def listen(forget_them: Callable[[list | None], None]) -> None:
+    """Call a function with the data that has changed whenever Blender tells of some, or None where that may be any."""
+    _listeners.append(forget_them)
 
 
 def forget(session_uid: int | None = None) -> None:
@@ -61,12 +68,30 @@ def _digest(depsgraph: bpy.types.Depsgraph, owner_of: dict, counts: Callable) ->
         owner = owner_of.get(evaluated.original if parent is None else parent)
         if owner is None or not counts(instance):
             continue
-        key = (evaluated.original.session_uid, parent.session_uid if parent else 0, evaluated.data.name)
-        if key not in _geometry:
-            _geometry[key] = _hashed(evaluated)
         matrix = np.array(instance.matrix_world, dtype=np.float32)
-        known.append(owner.to_bytes(4, "big") + matrix.tobytes() + _geometry[key])
+        known.append(owner.to_bytes(4, "big") + matrix.tobytes() + geometry_of(evaluated, parent))
     return blake2b(b"".join(sorted(known)), digest_size=SIZE).hexdigest()
+
+
+def geometry_of(evaluated: bpy.types.Object, parent: bpy.types.Object | None) -> bytes:
+    """Return a digest of the shape and the layers of an evaluated object, which is an instance of `parent` or None."""
+    data = evaluated.data
+    key = (evaluated.original.session_uid, parent.original.session_uid if parent else 0, data.name if data else "")
+    if key not in _geometry:
+        _geometry[key] = _hashed(evaluated) if evaluated.type == "MESH" else _hashed_other(data)
+    return _geometry[key]
+
+
+def _hashed_other(data: bpy.types.ID | None) -> bytes:
+    """A digest of hair curves and points by their attributes, and of a volume by its file and its frame."""
+    told = blake2b(digest_size=SIZE)
+    for attribute in sorted(getattr(data, "attributes", ()), key=lambda attribute: attribute.name):
+        if attribute.data_type in LAYOUTS:
+            told.update(attribute.name.encode() + _values(attribute.data, *LAYOUTS[attribute.data_type]))
+    told.update(repr([getattr(data, name, None) for name in VOLUME]).encode())
+    grids = getattr(data, "grids", None)
+    told.update(repr(None if grids is None else (grids.frame, [grid.name for grid in grids])).encode())
+    return told.digest()
 
 
 def _hashed(obj: bpy.types.Object) -> bytes:
@@ -95,7 +120,7 @@ def _after_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> No
     if depsgraph.mode != "VIEWPORT":
         return
     _ticks[0] += 1
-    forget_materials([update.id for update in depsgraph.updates])
+    _tell([update.id for update in depsgraph.updates])
     for update in depsgraph.updates:
         if update.is_updated_geometry and isinstance(update.id, bpy.types.Object):
             forget(update.id.original.session_uid)
@@ -106,7 +131,12 @@ def _after_all(*_) -> None:
     """After whatever may have exchanged everything."""
     _ticks[0] += 1
     forget()
-    forget_materials()
+    _tell(None)
+
+
+def _tell(changed: list | None) -> None:
+    for forget_them in _listeners:
+        forget_them(changed)
 
 
 HANDLERS = Handlers((_after_change, "depsgraph_update_post", "frame_change_post"),
@@ -117,4 +147,4 @@ register = HANDLERS.register
 def unregister() -> None:
     HANDLERS.unregister()
     forget()
-    forget_materials()
+    _tell(None)

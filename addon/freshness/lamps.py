@@ -8,11 +8,29 @@ import numpy as np
 
 from ..illumination import is_glint
 from ..reading import rendered_in
-from .materials import SIZE, made_of
+from .materials import SIZE, content_of_data, made_of
 
 # of a lamp and of a world, what their light depends on besides nodes
 VALUES = ("type", "color", "energy", "exposure", "temperature", "use_temperature", "normalize", "shadow_soft_size",
           "use_soft_falloff", "spot_size", "spot_blend", "angle", "shape", "size", "size_y", "spread")
+# of those what counts besides in Cycles' renders
+OF_LAMPS, OF_WORLDS = ("cast_shadow", "is_portal", "max_bounces", "is_caustics_light"), ("max_bounces",
+                                                                                       "is_caustics_light")
+RAYS = ("camera", "diffuse", "glossy", "transmission", "scatter", "shadow")
+
+
+def lamp_content(lamp: bpy.types.Light) -> bytes:
+    """Return a digest of all that renders show of a lamp's data, with the present values of what is animated."""
+    return content_of_data(lamp, [name for name in (*VALUES, "use_shadow") if hasattr(lamp, name)], OF_LAMPS)
+
+
+def world_content(world: bpy.types.World | None) -> bytes:
+    """As `lamp_content`, of a world."""
+    if world is None:
+        return b"none"
+    rays = getattr(world, "cycles_visibility", None)
+    seen = repr([getattr(rays, name, None) for name in RAYS]).encode()
+    return seen + content_of_data(world, [name for name in VALUES if hasattr(world, name)], OF_WORLDS)
 
 
 def lamps_of(context: bpy.types.Context) -> str:

@@ -13,14 +13,14 @@ from ..lighting import shows_preview
 from ..reading import is_gone, lines_drawn, looked_through, read_view
 from ..settings import SETTINGS, Wanted
 from . import digests
+from .answers import answer
 from .materials import colours_of, materials_of
 
 SAME = 1e-6  # of a matrix's largest number: what differs by less has been there and back
+SIZE_DIFFERS = "the picture's size has changed"
 LONGEST = 20_000  # characters of a record; its own are below a thousand
 # the record of a result that was left before it was exact
 COARSE = json.dumps({"coarse": True})
-
-_told: dict[int, tuple] = {}
 
 
 class Origin(NamedTuple):
@@ -79,10 +79,8 @@ def why_stale(context: bpy.types.Context, result: bpy.types.Object) -> str:
     if not record.made_from:
         return ""
     # settings are no change that Blender tells of
-    key = digests.tick(), record.made_from, *settings_of(context.scene, record.mirror).values()
-    if _told.get(result.session_uid, (None,))[0] != key:
-        _told[result.session_uid] = key, _changed(context, result)
-    return _told[result.session_uid][1]
+    key = record.made_from, *settings_of(context.scene, record.mirror).values()
+    return answer(_changed, context, result, key)
 
 
 def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
@@ -114,7 +112,7 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
 def difference(made: Origin, now: Origin) -> str:
     """What tells two origins apart, but for colours, in a few words; empty where nothing does."""
     if made.view[32:] != now.view[32:]:
-        return "the picture's size has changed"
+        return SIZE_DIFFERS
     if not same_view(made.view, now.view):
         return "the camera has changed"
     if made.mirror != now.mirror:

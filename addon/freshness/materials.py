@@ -4,7 +4,7 @@ Nodes are gone through again only where Blender has told that they may be other 
 """
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from hashlib import blake2b
 
 import bpy
@@ -12,13 +12,19 @@ import bpy
 from .. import compat
 from ..reading import all_nodes, is_mirror, is_opaque
 from ..reading import materials_of as shown_by
+from .image_contents import image_content
 
 SIZE = 12   # bytes of a digest
 DEEPEST = 4  # settings inside a node's settings: the points of a curve of a mapping
-KINDS = (bpy.types.Material, bpy.types.NodeTree)
+KINDS = (bpy.types.Material, bpy.types.NodeTree, bpy.types.Image, bpy.types.Text)
 COLOURS = ("diffuse_color", "metallic", "roughness")  # of a material besides its nodes
 
+RENDERED = ("displacement_method", "use_transparent_shadow", "pass_index", "blend_method", "use_backface_culling")
+CYCLES = ("emission_sampling", "use_bump_map_correction", "displacement_method", "volume_step_rate",
+          "homogeneous_volume")
+
 _colours: dict[int, bytes] = {}
+_contents: dict[int, bytes] = {}
 
 
 def forget_materials(changed: Iterable[bpy.types.ID] | None = None) -> None:
@@ -26,6 +32,40 @@ def forget_materials(changed: Iterable[bpy.types.ID] | None = None) -> None:
     `changed`, or nobody knows."""
     if changed is None or any(isinstance(item, KINDS) for item in changed):
         _colours.clear()
+        _contents.clear()
+
+
+def content_of(material: bpy.types.Material) -> bytes:
+    """Return a digest of all that renders show of a material: as `colours_of`, with what images hold and the present
+    values of what is animated, and without the names of what its nodes point to."""
+    known = _contents.get(material.session_uid)
+    if known is None:
+        plain = [name for name in RENDERED if hasattr(material, name)]
+        known = content_of_data(material, (*COLOURS, *plain), CYCLES)
+        # where an object stands that a node points to is told of that object alone
+        if not any(getattr(node, "object", None) for node in all_nodes(material.node_tree)):
+            _contents[material.session_uid] = known
+    return known
+
+
+def content_of_data(data: bpy.types.Material | bpy.types.Light | bpy.types.World, plain: Iterable[str],
+                    of_cycles: Iterable[str]) -> bytes:
+    """As `content_of`, for whatever has nodes: with its values `plain`, and those `of_cycles`."""
+    cycles = getattr(data, "cycles", None)
+    known = [list(made_of(data, plain, _content)), [getattr(cycles, name, None) for name in of_cycles]]
+    return blake2b(repr(known).encode(), digest_size=SIZE).digest()
+
+
+def _content(item: bpy.types.ID) -> object:
+    """What stands for data that a node points to: what it holds, or where it stands."""
+    if isinstance(item, bpy.types.Image):
+        return image_content(item)
+    if isinstance(item, bpy.types.Object):
+        return [tuple(row) for row in item.matrix_world]
+    if isinstance(item, bpy.types.Text):
+        return item.as_string()
+    # groups are gone through with the tree
+    return None
 
 
 def materials_of(objects: list) -> str:
@@ -51,8 +91,13 @@ def _digest(told: bytes) -> str:
     return blake2b(told, digest_size=SIZE).hexdigest()
 
 
-def made_of(data: bpy.types.Material | bpy.types.Light | bpy.types.World, plain: Iterable[str]) -> Iterator:
-    """The nodes that make something, with all that is set in them, and what is set of it besides, by its names."""
+def made_of(data: bpy.types.Material | bpy.types.Light | bpy.types.World, plain: Iterable[str],
+            content: Callable | None = None) -> Iterator:
+    """The nodes that make something, with all that is set in them, and what is set of it besides, by its names.
+
+    Data that nodes point to count by their names, and what is animated does not; or, where `content` tells what stands
+    for such data, by that, and with its present value.
+    """
     yield [_plain(getattr(data, name)) for name in plain]
     if not compat.uses_nodes(data):
         return
@@ -60,8 +105,8 @@ def made_of(data: bpy.types.Material | bpy.types.Light | bpy.types.World, plain:
     for node in all_nodes(data.node_tree):
         trees[node.id_data] = None
         # what is animated is another one in each frame, and so is what was made of it
-        if node.id_data.animation_data is None:
-            yield list(_values(node, _own_settings(node), 0))
+        if content is not None or node.id_data.animation_data is None:
+            yield list(_values(node, _own_settings(node), 0, content))
             yield [_plain(socket.default_value) for socket in node.inputs if hasattr(socket, "default_value")]
         yield node.name, node.bl_idname, node.mute
     for tree in trees:
@@ -74,18 +119,18 @@ def _own_settings(node: bpy.types.Node) -> list[str]:
     return [name for name in node.bl_rna.properties.keys() if name not in bpy.types.Node.bl_rna.properties]
 
 
-def _values(struct, names: Iterable[str], depth: int) -> Iterator:
+def _values(struct, names: Iterable[str], depth: int, content: Callable | None) -> Iterator:
     """The values of settings, those of what they point to among them."""
     for name in names:
         kind, value = struct.bl_rna.properties[name].type, getattr(struct, name)
         if isinstance(value, bpy.types.ID):
-            yield name, value.name_full
+            yield name, value.name_full if content is None else content(value)
         elif kind not in {"POINTER", "COLLECTION"}:
             yield name, _plain(value)
         elif value is not None and depth < DEEPEST:
             for item in [value] if kind == "POINTER" else value:
                 inner = [key for key in item.bl_rna.properties.keys() if key != "rna_type"]
-                yield name, list(_values(item, inner, depth + 1))
+                yield name, list(_values(item, inner, depth + 1, content))
 
 
 def _plain(value):

@@ -12,13 +12,12 @@ from ..frames import plays
 from ..illumination import blocking, is_glint, light_of_nodes, radiance_of
 from ..reading import Participants, seen_in
 from . import digests
+from .answers import answer
 from .made_from import COARSE, LONGEST, settings_of
 from .materials import colours_of
 
 NUMBERS = {"FLOAT", "INT", "BOOLEAN", "ENUM"}
 ASKED = ("tolerance", "depth")  # settings that light depends on
-
-_told: dict[int, tuple] = {}
 
 
 class LightOrigin(NamedTuple):
@@ -44,10 +43,8 @@ def why_light_is_stale(context: bpy.types.Context, light: bpy.types.Object) -> s
         return ""
     if any(part is None or not part.users_scene for part in (record.mirror, record.lamp)):
         return "its mirror or its lamp was removed: clear it"
-    key = digests.tick(), record.made_from, *_settings(context, record.mirror).values()
-    if _told.get(light.session_uid, (None,))[0] != key:
-        _told[light.session_uid] = key, _changed(context, light)
-    return _told[light.session_uid][1]
+    key = record.made_from, *_settings(context, record.mirror).values()
+    return answer(_changed, context, light, key)
 
 
 def lamp_numbers(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> tuple:

@@ -9,8 +9,8 @@ from bpy.app.translations import pgettext_iface
 
 from ..faults import translated
 from ..frames import plays
-from ..freshness import why_light_is_stale, why_stale
-from ..lighting import light_sentence
+from ..freshness import why_light_differs, why_light_is_stale, why_stale
+from ..lighting import is_lit, light_sentence
 from ..live import abandoned_light, abandoned_results, kept_light, kept_results, present
 from ..reading import is_gone, is_result, known_results, result_of
 
@@ -68,7 +68,7 @@ def _broken(_context: bpy.types.Context, obj: bpy.types.Object | None) -> Prompt
 
 def _stale(context: bpy.types.Context, _obj: bpy.types.Object | None) -> Prompt | None:
     gone = abandoned_results(context) + abandoned_light(context)
-    whys = [why for one in kept_results(context) if (why := why_stale(context, one))]
+    whys = [why for one in kept_results(context) if (why := _why(context, one))]
     whys += [why for one in kept_light(context) if one not in gone and (why := why_light_is_stale(context, one))]
     if whys:
         text = pgettext_iface("1 result is out of date: {why}. Click Update Reflections." if len(whys) == 1 else
@@ -79,6 +79,11 @@ def _stale(context: bpy.types.Context, _obj: bpy.types.Object | None) -> Prompt 
                               "Reflections.")
         return Prompt(text.format(name=gone[0].name), "ERROR")
     return None
+
+
+def _why(context: bpy.types.Context, result: bpy.types.Object) -> str:
+    """Return why a reflection, or else its light, is no longer right; empty if both are."""
+    return why_stale(context, result) or (why_light_differs(context, result) if is_lit(result) else "")
 
 
 def _shading(context: bpy.types.Context, _obj: bpy.types.Object | None) -> Prompt | None:
@@ -120,7 +125,7 @@ def _light(context: bpy.types.Context, obj: bpy.types.Object | None) -> Prompt |
         return None
     if plays(result):
         return Prompt(pgettext_iface("Plays baked frames."), "FILE_CACHE")
-    sentence = light_sentence(result)
+    sentence = light_sentence(result, bool(why_light_differs(context, result)))
     return Prompt(pgettext_iface(sentence), "LIGHT") if sentence else Prompt(pgettext_iface("Up to date."), "CHECKMARK")
 
 

@@ -11,41 +11,34 @@ from contextlib import ExitStack
 import bpy
 
 from ..reading import fog_of, is_fog
+from ..rendering import OwnCollections
 from ..writing.nodes.shader_builder import ShaderBuilder
 
 
-def clear_air(scene: bpy.types.Scene, objects: list, back: ExitStack) -> None:
-    """Let a temporary scene have its world, and `objects` of fog their materials, with clear air before the first
-    surface that the camera sees, as long as the stack is open."""
+def clear_air(scene: bpy.types.Scene, own: OwnCollections, objects: list, back: ExitStack) -> list:
+    """Let a temporary scene have its world, and copies of its `objects` of fog, with clear air before the first surface
+    that the camera sees, as long as the stack is open; return the copies."""
     if fog_of(scene.world) is not None:
         world = scene.world.copy()
         back.callback(bpy.data.worlds.remove, world)
         _clear(world)
         scene.world = world
     made: dict = {}
-    for slot in (slot for obj in objects for slot in obj.material_slots):
+    copies = [own.copy_of(obj) for obj in objects]
+    for slot in (slot for obj in copies for slot in obj.material_slots):
         if slot.material not in made:
             made[slot.material] = slot.material.copy()
             back.callback(bpy.data.materials.remove, made[slot.material])
             _clear(made[slot.material])
-        _exchange(slot, made[slot.material], back)
+        material, slot.link = made[slot.material], "OBJECT"
+        slot.material = material
+    return copies
 
 
 def is_of_fog(obj: bpy.types.Object) -> bool:
     """Whether an object is fog that can be cleared: that of instanced collections is theirs."""
     own = [slot.material for slot in obj.material_slots]
-    return obj.library is None and bool(own) and all(map(is_fog, own))
-
-
-def _exchange(slot: bpy.types.MaterialSlot, material: bpy.types.Material, back: ExitStack) -> None:
-    """Put a material into an object's own slot."""
-    link = slot.link
-    slot.link = "OBJECT"
-    own = slot.material
-    slot.material = material
-    # the last that is told comes first
-    back.callback(setattr, slot, "link", link)
-    back.callback(setattr, slot, "material", own)
+    return bool(own) and all(map(is_fog, own))
 
 
 def _clear(owner: bpy.types.World | bpy.types.Material) -> None:

@@ -10,19 +10,19 @@ from ..reading import drawn_meshes, read_mirror
 
 
 def cut_through(depsgraph: bpy.types.Depsgraph, mirrors: set, objects: list) -> list:
-    """Those of `objects`, or of which an instance, whose triangles cross one of a mirror."""
+    """Those of `objects` that cross a mirror's triangles, or whose instances do."""
     surfaces, asked, found = [read_mirror(depsgraph, mirror).mesh for mirror in mirrors], set(objects), {}
     for instance in drawn_meshes(depsgraph):
         evaluated = instance.object
-        original = evaluated.original
-        if original not in asked or original in found:
+        owner = instance.parent.original if instance.is_instance else evaluated.original
+        if owner not in asked or owner in found:
             continue
         breathe()
         matrix = np.array(instance.matrix_world, dtype=np.float64)
         box = _placed(np.array(evaluated.bound_box, dtype=np.float64), matrix)
         near = [surface for surface in surfaces if not _apart(surface.positions, box)]
         if near and any(_cross(surface, _triangles(evaluated, matrix)) for surface in near):
-            found[original] = True
+            found[owner] = True
     return list(found)
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
 import bpy
@@ -11,9 +11,11 @@ import numpy as np
 
 from .. import compat
 from ..faults import still_there
-from ..reading import forgets_particles, is_opaque, materials_of, read_view
+from ..reading import goes_by_name, is_linked, is_opaque, materials_of, read_view
 from ..reading.materials import all_materials_of, is_exact
 from ..rendering import (
+    SEEN,
+    OwnCollections,
     Renders,
     copied_scene,
     crop_to,
@@ -23,7 +25,6 @@ from ..rendering import (
     put_swift_world,
     rendering,
     sharp_camera,
-    show_mirrors,
 )
 from .clear_air import clear_air, is_of_fog
 from .cutting import cut_through
@@ -38,12 +39,28 @@ PLAIN_WHITE, ROLLED_OFF_WHITE = 1.0, 16.0
 
 @dataclass(frozen=True)
 class LightScene:
-    """A copy of the user's scene that renders one window of its picture; `alone` where the camera sees no more in it
-    than the mirrors, `before` these the objects that cut through them, `fog` what has been cleared before them, `exact`
-    where mirrors have no roughness."""
+    """A copy of the user's scene that renders one window of its picture.
+
+    Attributes
+    ----------
+    own : OwnCollections
+        In which its objects are.
+    mirrors : dict of bpy.types.Object to bpy.types.Object
+        What shows each mirror: itself or a copy.
+    before : list
+        Objects that cut through the mirrors.
+    fog : list
+        Copies of fog that is clear before the mirrors.
+    alone : bool
+        Whether the camera sees no more than the mirrors.
+    exact : bool
+        Whether the mirrors have no roughness.
+    """
 
     scene: bpy.types.Scene
     results: list
+    own: OwnCollections
+    mirrors: dict
     before: list
     fog: list
     alone: bool
@@ -64,28 +81,21 @@ class LightScene:
     def coverage(self) -> Renders[tuple[np.ndarray, np.ndarray]]:
         """How much of each pixel the results cover, and those of their faces that show what shines, both (height,
         width) float32, by the picture's own filter: nothing where something stands before them. What mirrors are not
-        alone in has to be asked."""
+        alone in has to be asked. The scene shows nothing else afterwards."""
         scene, layer = self.scene, self.scene.view_layers[0]
-        stage, others = (bpy.data.collections.new(name) for name in ("Reflection Light", "Reflection Light Others"))
+        stage = bpy.data.collections.new("Reflection Light")
         opaque, shining = _glow((0.0, 1.0, 1.0)), _glow((1.0, 0.0, 0.0))
         # no more than whether something is there is asked: no texture, no lamp, no sky
         layer.material_override = None if any(map(shining_slots, self.results)) else opaque
         scene.world = None
         made: list = [opaque, shining]
-        unseen = [mirror for mirror in {result.reflection_mesh.mirror for result in self.results} - {None}
-                  if mirror.visible_camera and (self.alone or mirror.reflection_mesh.camera_hidden)] + self.fog
+        # results may lie in their mirrors or behind them
+        unseen = [shown for mirror, shown in self.mirrors.items() if self.alone or mirror.reflection_mesh.camera_hidden]
         try:
-            # results may lie in their mirrors or behind them
-            for obj in unseen:
-                obj.visible_camera = False
-            scene.collection.children.link(others)
-            for obj in list(scene.collection.objects):
-                scene.collection.objects.unlink(obj)
-                # what hides the results in the picture does so here where it is in the picture of light
-                if not self.alone or obj in self.before:
-                    others.objects.link(obj)
-            for branch in layer.layer_collection.children:
-                branch.holdout = True
+            # what hides the results in the picture does so here where it is in the picture of light
+            hiding = self.before if self.alone else [obj for obj in self.own.seen if obj not in unseen + self.fog]
+            self.own.leave_out(obj for obj in self.own.shown if obj not in hiding)
+            self.own.hold_out(hiding)
             scene.collection.children.link(stage)
             for result in self.results:
                 made.append(_stand_in(result, opaque, shining))
@@ -98,50 +108,60 @@ class LightScene:
             seen = yield from rendering(scene)
             return seen[..., 3], seen[..., 0]
         finally:
-            for obj in still_there(unseen):
-                obj.visible_camera = True
-            bpy.data.batch_remove([*still_there(made), stage, others])
+            bpy.data.batch_remove([*still_there(made), stage])
 
 
 @contextmanager
 def light_scene(context: bpy.types.Context, results: list, window: Window) -> Iterator[LightScene]:
-    """The user's scene as a copy that shares its objects; results are hidden in it, their mirrors seen."""
+    """The user's scene as a copy that shares its objects, none of which changes; results are hidden in the copy, their
+    mirrors seen."""
     with copied_scene(context, "Reflection Light") as (scene, back):
         _prepare(scene, window)
         put_swift_world(scene, back)
+        own = OwnCollections(context, scene, back)
         look_through(scene, sharp_camera(context.scene.camera), back)
-        show_mirrors(results, back)
-        mirrors = {result.reflection_mesh.mirror for result in results} - {None}
-        others, parts = _seen_others(context, {*results, *mirrors})
+        mirrors = {mirror: _shown_mirror(mirror, own, back)
+                   for mirror in {result.reflection_mesh.mirror for result in results} - {None}}
+        own.leave_out(results)
+        others = [obj for obj in own.shown if obj not in mirrors.values()]
         # where a mirror stands in fog, Cycles knows of it on the way from there by the way to there alone
-        fog = [obj for obj in others if is_of_fog(obj)]
-        clear_air(scene, fog, back)
+        fog = list(filter(is_of_fog, others))
         others = [obj for obj in others if obj not in fog]
-        hidden = [obj for obj in others if obj.library is None and obj not in parts and not forgets_particles(obj)]
+        fog = clear_air(scene, own, fog, back)
         materials = [material for mirror in mirrors for material in all_materials_of(mirror)]
-        alone = len(hidden) == len(others) and len(mirrors) == len(results) and all(map(is_opaque, materials))
-        before = _cutting(context, mirrors, hidden) if alone else []
-        for obj in before:
-            back.callback(setattr, obj, "is_holdout", obj.is_holdout)
-            obj.is_holdout = True
-        for obj in set(hidden).difference(before) if alone else _looked_through(context, results, hidden):
-            back.callback(setattr, obj, "visible_camera", True)
-            obj.visible_camera = False
-        yield LightScene(scene, results, before, fog, alone, all(map(is_exact, materials)))
+        alone = len(mirrors) == len(results) and all(map(is_opaque, materials)) and not _seen_lamps(context, {*mirrors})
+        before = _cutting(context, {*mirrors}, others) if alone else []
+        own.hold_out(before)
+        # were what lets light through in the picture of light too, it would be seen twice; the rest only costs samples,
+        # but where a mirror lets light through, that is what is seen there; mirrors show all of it as ever
+        own.hide_from_camera([obj for obj in others if obj not in before] if alone
+                             else _looked_through(context, results, others))
+        yield LightScene(scene, results, own, mirrors, before, fog, alone, all(map(is_exact, materials)))
 
 
-def _seen_others(context: bpy.types.Context, lit: set) -> tuple[list, set]:
-    """What the camera sees beside results and mirrors that are `lit`: it is seen before a result as before its mirror.
-    And what those consist of that are instances of collections.
+def _shown_mirror(mirror: bpy.types.Object, own: OwnCollections, back: ExitStack) -> bpy.types.Object:
+    """Return what shows a mirror to the camera: itself, or a copy where that is unseen or a shadow catcher.
 
-    Were what lets light through in the picture of light too, it would be seen twice. The rest only costs samples, but
-    where a mirror lets light through, that is what is seen there. Mirrors show all of it as ever.
+    A mirror that lamps are linked to, or that is random by its name, has no copy that looks alike: it is itself seen
+    for a while.
     """
-    shown, parts = set(), set()
-    for instance in context.evaluated_depsgraph_get().object_instances:
-        of_mirror = instance.is_instance and instance.parent is not None and instance.parent.original in lit
-        (parts if of_mirror else shown).add(instance.object.original)
-    return [obj for obj in shown - lit if obj.visible_camera], parts
+    changed = {name: seen for name, seen in SEEN.items() if getattr(mirror, name) != seen}
+    if not changed:
+        return mirror
+    alike = not (is_linked(mirror) or goes_by_name(mirror))
+    shown = own.copy_of(mirror) if alike else mirror
+    for name, seen in changed.items():
+        if not alike:
+            back.callback(setattr, mirror, name, not seen)
+        setattr(shown, name, seen)
+    return shown
+
+
+def _seen_lamps(context: bpy.types.Context, mirrors: set) -> bool:
+    """Return True where the camera sees instanced lamps, which nothing in a scene of its own can hide from it."""
+    return any(instance.is_instance and instance.object.type == "LIGHT" and instance.object.visible_camera
+               and instance.parent.original not in mirrors
+               for instance in context.evaluated_depsgraph_get().object_instances)
 
 
 def _looked_through(context: bpy.types.Context, results: list, others: list) -> list:
@@ -152,8 +172,7 @@ def _looked_through(context: bpy.types.Context, results: list, others: list) -> 
         return []
     before = standing_before(context.scene, context.evaluated_depsgraph_get(), read_view(context),
                              np.concatenate([on_the_mirror(result) for result in results]))
-    # of what is instanced rays tell the instancer
-    return [obj for obj in clear if obj in before or obj.name not in context.view_layer.objects]
+    return [obj for obj in clear if obj in before]
 
 
 def _cutting(context: bpy.types.Context, mirrors: set, others: list) -> list:

@@ -21,7 +21,7 @@ from .preview import MARK, forget_previews
 def show_light(result: bpy.types.Object, material: bpy.types.Material, view: View, window: Window,
                whole: AllOrNothing) -> Steps[None]:
     """Let a result show the light in a window of the picture; its mesh keeps the materials of what it shows."""
-    yield from _show(result, material, record_of(view, window), None,
+    yield from _show(result, material, record_of(window), None,
                      lay_out_picture(result, view, window, texels_shown(material)), whole)
 
 
@@ -33,24 +33,21 @@ def show_object_light(result: bpy.types.Object, material: bpy.types.Material, vi
 
 
 def keep_light(result: bpy.types.Object, view: View, scene: DiffuseScene) -> None:
-    """After a result's mesh was written anew: it goes on showing its light where that stays with the same objects, or
-    was made for the same view and nothing has changed since; else the light counts as stale."""
+    """Show the light of a result, which still fits, on its mesh that was written anew; it keeps its record even where
+    that mesh cannot show it."""
     record = result.reflection_mesh
     material, light_map = record.light_material, record.light_map
     if light_map is not None:
         kept = _kept_map(record, scene)
-        if material is not None and kept is not None and can_be_baked([result]):
-            finished(lay_out(result, view, scene, kept, material))
-            _put_on(result, material)
-        else:
-            record.light_stale = True
-        return
-    window = None if record.light_stale or material is None else window_of(record.light, view)
-    if window is None:
-        record.light_stale = bool(record.light)
+        if kept is None or not can_be_baked([result]):
+            return
+        finished(lay_out(result, view, scene, kept, material))
     else:
+        window = window_of(record.light, view)
+        if window is None:
+            return
         finished(lay_out_picture(result, view, window, texels_shown(material)))
-        _put_on(result, material)
+    _put_on(result, material)
 
 
 def is_lit(result: bpy.types.Object) -> bool:
@@ -80,12 +77,11 @@ def dull_objects(result: bpy.types.Object) -> list[str]:
     return [name for name in names if isinstance(name, str)] if isinstance(names, list) else []
 
 
-def light_sentence(result: bpy.types.Object) -> str:
+def light_sentence(result: bpy.types.Object, outdated: bool) -> str:
     """Return what there is to say of a result's light; nothing of one that needs none."""
-    record = result.reflection_mesh
-    if record.light_stale:
+    if is_lit(result) and outdated:
         return "The scene has changed since the reflection was lit. Click Light Reflection."
-    if record.light_material is not None:
+    if is_lit(result):
         return "Lit, with gloss as seen from one place. Light: Picture shows it exactly." if dull_objects(result) else (
             "Lit.")
     return "Not lit yet. Click Light Reflection." if needs_light(result) else ""
@@ -102,7 +98,7 @@ def _show(result: bpy.types.Object, material: bpy.types.Material, told: str, lig
     show_own_materials(result)
     whole.after(forget_previews)
     _put_on(result, material)
-    record.light, record.light_stale = told, False
+    record.light = told
     record.light_material, record.light_map = material, light_map
     if earlier is not None and earlier != material:
         whole.after(forget_light, earlier)

@@ -1,17 +1,23 @@
-"""Make what is stale anew, with one click and whatever is selected."""
+"""Make what is stale anew, with one click and whatever is selected; what was lit is lit again."""
 import time
+from dataclasses import replace
 
 import bpy
 
+from ...core import ReflectionError
 from ..faults import SteppedOperator, Steps, one_or_more, part, tell, tell_done
-from ..freshness import why_light_is_stale, why_stale
+from ..freshness import why_light_differs, why_light_is_stale, why_stale
+from ..lighting import is_lit
 from ..operators import polls
 from ..operators.generate import IN_OBJECT_MODE, generation
+from ..operators.light import lit_again
+from ..operators.light_remarks import summary
 from ..operators.write_results import Manners
 from ..settings import Wanted
 from .kept import abandoned_light, abandoned_results, groups, kept_light, kept_results, why_not_kept
 from .thrown import light_groups, made_anew
 
+GENERATING = 0.3    # of the work, where results are lit again
 NOTHING_STALE = "No reflection is stale."
 
 
@@ -37,22 +43,41 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
         stale = [obj for obj in kept_results(context) if why_stale(context, obj)]
+        lit = list(filter(is_lit, kept_results(context)))
+        outdated = {obj for obj in lit if why_light_differs(context, obj)}
         chosen = [group for group in groups(context)
                   if any(obj.reflection_mesh.mirror in group.mirrors for obj in stale)]
         lost = _lost(context)
-        lit = [obj for obj in kept_light(context) if obj not in lost and why_light_is_stale(context, obj)]
-        if not stale and not lit and not lost:
+        thrown = [obj for obj in kept_light(context) if obj not in lost and why_light_is_stale(context, obj)]
+        if not stale and not outdated and not thrown and not lost:
             tell(self, {"INFO"}, NOTHING_STALE)
         told: list = []
         remarks = [f"'{obj.name}' cannot be made anew: {why}." for obj, why in lost.items()]
         remarks += [f"{obj.name}: {why}" for obj in stale if (why := why_not_kept(context, obj))]
+        # to light takes longer than to generate
+        share = GENERATING if lit else 1.0
         for number, group in enumerate(chosen):
             steps = generation(context, group, Wanted(context.scene), manners=Manners(preview_unlit=self._pressed))
-            outcome = yield from part(steps, number / len(chosen), 1.0 / len(chosen))
-            told.append(outcome.summary(time.perf_counter() - started))
+            outcome = yield from part(steps, share * number / len(chosen), share / len(chosen))
+            told.append(replace(outcome, unlit=[]).summary(time.perf_counter() - started))
             remarks += outcome.remarks
-        yield from self._light(context, lit)
-        tell_done(self, told + list(map(self._summary, lit)), remarks)
+        yield from self._light(context, thrown)
+        # what was generated anew has lost light that no longer fits
+        unlit = [obj for obj in lit if obj in outdated or not is_lit(obj)]
+        remarks += yield from part(self._relight(context, unlit, told), share, 1.0 - share)
+        tell_done(self, told + list(map(self._summary, thrown)), remarks)
+
+    def _relight(self, context: bpy.types.Context, results: list, told: list) -> Steps[list]:
+        """Light results as they were lit, adding to what is told; return sentences on what kept some from it."""
+        if not results:
+            return []
+        started = time.perf_counter()
+        try:
+            lit = yield from lit_again(context, results)
+        except ReflectionError as error:
+            return [str(error)]
+        told.append(summary(lit, time.perf_counter() - started))
+        return []
 
     def _light(self, context: bpy.types.Context, lit: list) -> Steps[None]:
         """Make the light anew that is stale, with all that falls on the same objects."""

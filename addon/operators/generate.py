@@ -9,13 +9,14 @@ import bpy
 
 from ... import core
 from ..faults import SteppedOperator, Steps, part, tell_done
-from ..freshness import origin_of, record_of, settings_of
+from ..freshness import light_difference, origin_of, record_of, settings_of
 from ..reading import (
     DiffuseScene,
     MirrorSurface,
     NothingSeen,
     Participants,
     choose,
+    every_result_of,
     is_part,
     lines_drawn,
     opacities_of,
@@ -75,13 +76,13 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     started = time.perf_counter()
     yield 0.0, "Reading the scene"
     hidden, view = left_out(context, chosen.hidden), view or read_view(context)
-    depsgraph = context.evaluated_depsgraph_get()
-    kept = Kept.of(depsgraph)
+    kept = Kept.of(depsgraph := context.evaluated_depsgraph_get())
     chosen, meshes, faceless = _with_faces(chosen, *kept.looked_at(depsgraph, chosen.mirrors, chosen.diffuse))
     own = list(map(of_each(settings), chosen.mirrors))
     sources, lines = chosen.diffuse + chosen.waiting, lines_drawn(context.scene)
     origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources), settings_of(context.scene, mirror))
                for mirror in chosen.mirrors}
+    unfit = _unfit(context, view, chosen.mirrors, sources)
     joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
     scene, surfaces, opacity = stage.scene, stage.surfaces, opacities_of(depsgraph, stage.scene)
@@ -115,7 +116,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         raise NothingSeen(refused[0]) if unseen == refused else Refused(refused)
     kept.within(max(one.maximum_memory for one in own))
     yield 1.0, "Writing"
-    outcome = write_results(context, prepared, view, scene, preview, manners)
+    outcome = write_results(context, prepared, view, scene, replace(manners, preview=preview), unfit)
     _record(outcome, origins, time.perf_counter() - started)
     return replace(outcome, remarks=hidden + faceless + lacks + outcome.remarks + refused,
                    lacks=lacks + [sentence for sentence in refused if sentence not in unseen],
@@ -142,6 +143,13 @@ def _with_faces(chosen: Participants, of_mirrors: list, placed: list) -> tuple[P
     return (replace(chosen, mirrors=[mirror for mirror in chosen.mirrors if mirror not in faceless]),
             ([own for own in of_mirrors if own], placed),
             [f"Left out because it has no faces: '{obj.name}'." for obj in faceless if not is_part(obj)])
+
+
+def _unfit(context: bpy.types.Context, view: core.View, mirrors: list, sources: list) -> dict[bpy.types.Object, str]:
+    """Return why light no longer fits, by the results of mirrors that have been lit; empty where it still does."""
+    lit = [result for mirror in mirrors for result in every_result_of(context, mirror)
+           if result.reflection_mesh.light_material is not None]
+    return {result: light_difference(context, view, result, sources) for result in lit}
 
 
 def _record(outcome: Outcome, origins: dict, seconds: float) -> None:
@@ -206,7 +214,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator
                     obj.reflection_mesh.mirror.select_set(True)
                 context.view_layer.objects.active = obj
         tell_done(self, [*outcome.news, outcome.summary(time.perf_counter() - started)],
-                  outcome.remarks + lacks)
+                  outcome.remarks + outcome.dropped + lacks)
 
 
 def register() -> None:

@@ -8,10 +8,11 @@ import bpy
 from ...core import ReflectionError
 from ..baking import are_few, can_be_baked
 from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
+from ..freshness import lit_record, lit_with
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import needs_light
 from ..reading import has_linked_results, moves, read_view, with_copies
-from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
+from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, Wanted, option
 from ..writing import forget_mesh
 from . import polls
 from .clear import chosen_results
@@ -69,12 +70,13 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
     yield 0.0, "Reading the scene"
     view = read_view(context)
     groups = for_the_camera(context.scene.camera, with_mirrors(context, groups))
-    everything, shows, lamps = [], [], lamps_that_show(context)
+    everything, shows, records, lamps = [], [], {}, lamps_that_show(context)
     with AllOrNothing() as whole:
         for number, (results, samples, kind) in enumerate(groups):
             lit = [result for result in results if every or needs_light(result) or lamps_before(result, lamps)]
             if not lit:
                 continue
+            records |= lit_record(context, view, lit, {"samples": samples, "kind": kind, "every": every})
             with_objects = kind == "OBJECTS" or (kind == "AUTO" and _view_moves(context, lit) and can_be_baked(lit)
                                                  and are_few(lit))
             steps = (light_on_objects(context, lit, view, samples, whole) if with_objects
@@ -88,9 +90,25 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
             _keep_apart(mesh, linked, whole)
         for show in shows:
             yield from part(show(), 1.0, 0.0)
+        for result, text in records.items():
+            result.reflection_mesh.lit_from = text
         for linked in meshes.values():
             _stay_linked(linked, whole)
     return everything
+
+
+def lit_again(context: bpy.types.Context, results: list) -> Steps[list]:
+    """As `lighting`, for each of the results with the settings that it was lit with, else those of the file."""
+    groups: dict = {}
+    for result in results:
+        known = {**dict(zip(("samples", "kind"), Wanted(context.scene).lights([result])[0][1:])), **lit_with(result)}
+        key = int(known["samples"]), str(known["kind"])
+        groups.setdefault(bool(known.get("every")), {}).setdefault(key, []).append(result)
+    lit = []
+    for number, (every, own) in enumerate(groups.items()):
+        steps = lighting_groups(context, [(group, *key) for key, group in own.items()], every)
+        lit += yield from part(steps, number / len(groups), 1.0 / len(groups))
+    return lit
 
 
 def _view_moves(context: bpy.types.Context, lit: list) -> bool:

@@ -24,6 +24,7 @@ from ..writing import (
 )
 from .shortcomings import better_of_points
 
+CUT = "it shows other faces"
 WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
 
 
@@ -37,6 +38,8 @@ class Manners:
         New ones go into the scene's collection of results, instead of beside their mirrors.
     preview_unlit : bool
         Those that lose their light show a preview, instead of materials on which lamps fall.
+    preview : bool
+        So do all that are not lit.
     protect : bool
         Clicks pass by results, and their transforms are locked.
     """
@@ -44,6 +47,7 @@ class Manners:
     collect: bool = False
     preview_unlit: bool = False
     protect: bool = False
+    preview: bool = False
 
 
 @dataclass(frozen=True)
@@ -62,6 +66,8 @@ class Outcome:
         Sentences on what else is good to know.
     copies : list of bpy.types.Object
         Of results, which the user made and which were updated with them.
+    dropped : list of str
+        Sentences on the results whose light was taken away, since it no longer fits.
     lacks : list of str
         Those of the sentences that say what a mirror lacks, be it all of its result, though something is seen in it.
     read : tuple
@@ -73,6 +79,7 @@ class Outcome:
     unlit: list
     news: list
     copies: list
+    dropped: list = field(default_factory=list)
     lacks: list = field(default_factory=list)
     read: tuple = ()
 
@@ -93,32 +100,35 @@ class Outcome:
 
 
 def write_results(context: bpy.types.Context, prepared: list[Reflection], view: View, scene: DiffuseScene,
-                  preview: bool, manners: Manners) -> Outcome:
-    """Write all results or none; `view` saw what they show of `scene`."""
+                  manners: Manners, unfit: dict[bpy.types.Object, str]) -> Outcome:
+    """Write all results or none; `view` saw what they show of `scene`, and `unfit` says why light no longer fits."""
     there, remarks = set(context.scene.objects), []
     previewed = {obj for made in prepared for obj in results_of(context, made.mirror)
                  if shows_preview(obj) or (manners.preview_unlit and is_lit(obj))}
-    lamps = lamps_that_show(context)
+    lamps, lit = lamps_that_show(context), {obj for obj in there if is_lit(obj)}
     with AllOrNothing() as whole:
         written = [write_object(context, made, whole) for made in prepared]
         for made, group in zip(prepared, written):
             for entry in group:
-                keep_light(entry.obj, view, scene)
+                if entry.obj.reflection_mesh.light_material is not None and not unfit.get(entry.obj):
+                    keep_light(entry.obj, view, scene)
                 remarks += put_back_materials(entry.obj, made.arrays.materials, entry.changes)
                 whole.after(stop_playing, entry.obj)
         results = [(group[0].obj, made.result) for group, made in zip(written, prepared)]
         entries = [entry for group in written for entry in group]
         unlit = [entry.obj for entry in entries
                  if not is_lit(entry.obj) and (needs_light(entry.obj) or lamps_before(entry.obj, lamps))]
-        show_previews([obj for obj in unlit if preview or obj in previewed], view, lamps, whole)
+        show_previews([obj for obj in unlit if manners.preview or obj in previewed], view, lamps, whole)
         if manners.collect:
             gather(context, [obj for obj, _ in results if obj not in there], whole)
         if manners.protect:
             whole.after(protect, [obj for obj, _ in results])
         whole.after(forget_previews)
         whole.after(show_for_camera, context.scene)
+    dropped = [f"The light of '{entry.obj.name}' no longer fits: {unfit.get(entry.obj) or CUT}. Click Light Reflection."
+               for entry in entries if entry.obj in lit and not is_lit(entry.obj)]
     news = _told(entries) + [hint for made in prepared for hint in better_of_points(made.mirror.name, made.result)]
-    return Outcome(results, remarks, unlit, news, [entry.obj for entry in entries if entry.copy])
+    return Outcome(results, remarks, unlit, news, [entry.obj for entry in entries if entry.copy], dropped)
 
 
 def _told(written: list) -> list[str]:

@@ -1,9 +1,19 @@
 """Blender's data as arrays: who takes part, meshes with their layers, materials, the view."""
 from .known_results import forget_known, known_results, register, unregister
-from .light_links import link_state
+from .light_links import LINKS, is_linked, link_state
 from .lines import lines_drawn, redraw_lines
 from .looked_through import looked_through
-from .materials import all_nodes, fog_of, is_clear, is_fog, is_mirror, is_opaque, materials_of, materials_shown
+from .materials import (
+    all_nodes,
+    fog_of,
+    goes_by_name,
+    is_clear,
+    is_fog,
+    is_mirror,
+    is_opaque,
+    materials_of,
+    materials_shown,
+)
 from .meshes import (
     DiffuseScene,
     LocalMesh,
@@ -59,14 +69,14 @@ from .roles import (
     visible,
 )
 
-__all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
-           "Placed", "RESULTS", "all_nodes", "camera_of", "can_take_part", "candidates", "choose", "corner_vertices",
-           "drawn_meshes", "every_result_of", "fog_of", "forget_known", "forgets_particles", "has_fog",
-           "has_linked_results", "in_background_set", "in_viewports", "is_clear", "is_fog", "is_gone", "is_mirror",
-           "is_opaque", "is_part", "is_rendered", "is_result", "join_mirror", "join_scene", "known_results",
-           "lines_drawn", "link_state", "looked_through", "materials_of", "materials_shown", "may_have_faces", "moves",
-           "named_by_selection", "nothing_to_reflect", "numbers", "opacities_of", "participants", "read_meshes",
-           "read_mirror", "read_mirrors", "read_scene", "read_view", "redraw_lines", "register", "render_size",
-           "rendered_alone", "rendered_collections", "rendered_in", "rendered_otherwise", "result_of", "results_of",
-           "says_mirror", "seen_in", "shown_by", "takes_part", "unregister", "vectors", "visible", "with_copies",
-           "with_square_pixels", "without_surface"]
+__all__ = ["DiffuseScene", "LINKS", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen",
+           "Participants", "Placed", "RESULTS", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
+           "corner_vertices", "drawn_meshes", "every_result_of", "fog_of", "forget_known", "forgets_particles",
+           "goes_by_name", "has_fog", "has_linked_results", "in_background_set", "in_viewports", "is_clear", "is_fog",
+           "is_gone", "is_linked", "is_mirror", "is_opaque", "is_part", "is_rendered", "is_result", "join_mirror",
+           "join_scene", "known_results", "lines_drawn", "link_state", "looked_through", "materials_of",
+           "materials_shown", "may_have_faces", "moves", "named_by_selection", "nothing_to_reflect", "numbers",
+           "opacities_of", "participants", "read_meshes", "read_mirror", "read_mirrors", "read_scene", "read_view",
+           "redraw_lines", "register", "render_size", "rendered_alone", "rendered_collections", "rendered_in",
+           "rendered_otherwise", "result_of", "results_of", "says_mirror", "seen_in", "shown_by", "takes_part",
+           "unregister", "vectors", "visible", "with_copies", "with_square_pixels", "without_surface"]

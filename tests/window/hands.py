@@ -100,6 +100,11 @@ def built_zip() -> Path:
     return next(folder.glob("*.zip"))
 
 
+def install() -> None:
+    """Install the zip and switch the extension on."""
+    bpy.ops.extensions.package_install_files(filepath=str(built_zip()), repo="user_default", enable_on_install=True)
+
+
 def settled(name: str, seconds: float = 30.0) -> Iterator[float]:
     """Take a picture once nothing moves any more: shaders are compiled, panels have opened."""
     end, before = time.monotonic() + seconds, b""

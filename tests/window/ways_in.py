@@ -30,7 +30,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import bpy
-from hands import ROOT, Screen, built_zip, run, settled, shot, turned_to_tab, waiting
+from hands import ROOT, Screen, install, run, settled, shot, turned_to_tab, waiting
 from polls import polls_of_the_extension
 
 GENERATE = 129  # pixels below the upper end of the sidebar, at the resolution scale of 1
@@ -43,10 +43,6 @@ MODES = ("EDIT", "SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "OBJ
 
 def results() -> list:
     return [obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"]
-
-
-def install() -> None:
-    bpy.ops.extensions.package_install_files(filepath=str(built_zip()), repo="user_default", enable_on_install=True)
 
 
 def steps():

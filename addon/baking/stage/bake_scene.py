@@ -8,8 +8,8 @@ import bpy
 
 from ....core import View
 from ...faults import still_there
-from ...reading import forgets_particles, is_result, rendered_collections
-from ...rendering import copied_scene, look_through, put_swift_world
+from ...reading import forgets_particles, goes_by_name, is_result
+from ...rendering import OwnCollections, copied_scene, look_through, put_swift_world
 from ...writing import UV_MAP
 from .bake_targets import new_target
 from .bakes import BakeScene
@@ -32,16 +32,12 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
             scene.world = None
         else:
             put_swift_world(scene, back)
+        own = OwnCollections(context, scene, back)
         look_through(scene, bpy.data.objects.new(UV_MAP, bpy.data.cameras.new(UV_MAP)), back)
-        _without_results(scene)
         count_the_mirror(scene, back)
-        whole = list(filter(forgets_particles, sources))
-        _take_out(scene, whole)
-        for source in sources:
-            if source in whole:
-                continue
-            back.callback(setattr, source, "hide_render", source.hide_render)
-            source.hide_render = True
+        # only the camera would see results, and Cycles takes up their pictures of light for each band, hidden or not
+        own.remove([obj for obj in context.view_layer.objects if is_result(obj)])
+        own.leave_out(sources)
         materials = dict.fromkeys(material for stand, _ in stands for material in stand.mesh.materials or (None,))
         switches: list = []
         targets = {material: new_target(material, view, (opacity, backs), made, switches) for material in materials}
@@ -52,58 +48,14 @@ def bake_scene(context: bpy.types.Context, view: View, sources: list, stands: li
             scene.collection.objects.link(obj)
             objects.append((stand.owner, obj))
             # linked objects keep their names, and a new one is a change
-            if stand.told is None and sources[stand.owner].library is None and sources[stand.owner] not in whole:
+            if stand.told is None and goes_by_name(sources[stand.owner]) and not (
+                    sources[stand.owner].library or forgets_particles(sources[stand.owner])):
                 swap_names(sources[stand.owner], obj)
                 back.callback(swap_names, sources[stand.owner], obj)
         link_lamps([(sources[owner], obj) for owner, obj in objects], back)
         # Cycles clamps a lamp's body one bounce later than what lamps light
         own, of_all = context.scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_direct
         yield BakeScene(scene, objects, targets, switches, None if opacity or own == of_all else own)
-
-
-def _without_results(scene: bpy.types.Scene) -> None:
-    """Let no reflection be in a temporary scene, as far as that changes nothing of the user's: only the camera would
-    see it, and Cycles takes up its picture of light for each band, be it hidden or not."""
-    for obj in [obj for obj in scene.collection.objects if is_result(obj)]:
-        scene.collection.objects.unlink(obj)
-    layers = [scene.view_layers[0].layer_collection]
-    while layers:
-        layer = layers.pop()
-        held = layer.collection.all_objects
-        if held and all(is_result(obj) for obj in held):
-            layer.exclude = True
-        else:
-            layers.extend(layer.children)
-
-
-def _take_out(scene: bpy.types.Scene, objects: list) -> None:
-    """Let objects be in no render of a temporary scene, without a change of their own: whatever else is in their
-    collections is in the scene by itself."""
-    if not objects:
-        return
-    root = scene.view_layers[0].layer_collection
-    rendered, layers = rendered_collections(root), list(root.children)
-    for obj in [obj for obj in objects if obj.name in scene.collection.objects]:
-        scene.collection.objects.unlink(obj)
-    while layers:
-        layer = layers.pop()
-        layers.extend(layer.children)
-        if layer.exclude or layer.collection not in rendered or not any(obj in objects
-                                                                        for obj in layer.collection.objects):
-            continue
-        # all that is within is excluded with it
-        within = [(inner, inner.exclude) for inner in _within(layer)]
-        layer.exclude = True
-        for inner, excluded in within:
-            inner.exclude = excluded
-        for obj in [obj for obj in layer.collection.objects if obj not in objects]:
-            if obj.name not in scene.collection.objects:
-                scene.collection.objects.link(obj)
-
-
-def _within(layer: bpy.types.LayerCollection) -> list:
-    """What is in a collection of a view layer, each before what is in it."""
-    return [inner for child in layer.children for inner in (child, *_within(child))]
 
 
 def _prepare(scene: bpy.types.Scene) -> None:

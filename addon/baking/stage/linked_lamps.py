@@ -6,9 +6,7 @@ from contextlib import ExitStack
 import bpy
 
 from ...faults import still_there
-from ...reading import link_state
-
-LINKS = ("receiver_collection", "blocker_collection")
+from ...reading import LINKS, link_state
 
 
 def link_lamps(stands: list[tuple[bpy.types.Object, bpy.types.Object]], back: ExitStack) -> None:

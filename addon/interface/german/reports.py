@@ -13,6 +13,9 @@ DONE = {
     "{count} faces": "{count} Flächen",
     ", {} % filled by rays": ", {} % mit Strahlen gefüllt",
     "; not lit yet": "; noch nicht beleuchtet",
+    "The light of '{}' no longer fits: {}. Click Light Reflection.":
+        "Das Licht von '{}' passt nicht mehr: {}. Klicke Spiegelung beleuchten.",
+    "it shows other faces": "sie zeigt andere Flächen",
     "{}: lit in {} s": "{}: beleuchtet in {} s",
     "Nothing to light: the reflected materials emit what they show, and the mirrors add nothing.":
         "Nichts zu beleuchten: die gespiegelten Materialien leuchten selbst, und die Spiegel tun nichts hinzu.",

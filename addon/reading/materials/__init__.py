@@ -5,6 +5,7 @@ from .material_nodes import all_nodes, asked_attributes, feeding, one_output, sh
 from .materials_of import (
     all_fog,
     all_materials_of,
+    goes_by_name,
     materials_of,
     materials_on_faces,
     materials_shown,
@@ -29,8 +30,8 @@ from .surface_shaders import surface_shaders
 from .transparency import transparency
 
 __all__ = ["FULL_METALLIC", "MIRRORS", "SHARP_ROUGHNESS", "all_fog", "all_materials_of", "all_nodes",
-           "asked_attributes", "emits", "emits_alike", "feeding", "fog_of", "glows", "has_sharp_coat", "index_of",
-           "is_clear", "is_colourless", "is_exact", "is_fog", "is_mirror", "is_opaque", "is_sharp", "materials_of",
-           "materials_on_faces", "materials_shown", "one_output", "outshines_paper", "own_materials",
+           "asked_attributes", "emits", "emits_alike", "feeding", "fog_of", "glows", "goes_by_name", "has_sharp_coat",
+           "index_of", "is_clear", "is_colourless", "is_exact", "is_fog", "is_mirror", "is_opaque", "is_sharp",
+           "materials_of", "materials_on_faces", "materials_shown", "one_output", "outshines_paper", "own_materials",
            "reflecting_materials", "sends_light", "shines", "shown_output", "surface_shader", "surface_shaders",
            "transparency", "upright"]

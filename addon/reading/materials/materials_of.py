@@ -4,6 +4,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from .material_nodes import all_nodes
 from .mirror_materials import is_mirror
 from .opaque_materials import is_fog
 
@@ -81,6 +82,12 @@ def _in_slots(obj: bpy.types.Object) -> list:
 
 def _key(material: bpy.types.Material) -> str | tuple[str, str]:
     return material.name if material.library is None else (material.name, material.library.filepath)
+
+
+def goes_by_name(obj: bpy.types.Object) -> bool:
+    """Return True where materials of an object ask for the number that is random by its name."""
+    return any(node.type == "OBJECT_INFO" and node.outputs["Random"].is_linked
+               for material in materials_of(obj) if material is not None for node in all_nodes(material.node_tree))
 
 
 def all_fog(obj: bpy.types.Object) -> bool:

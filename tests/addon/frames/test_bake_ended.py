@@ -105,14 +105,15 @@ def test_stopped_at_any_step_the_file_is_as_it_was(moving, room, tmp_path, place
     bpy.ops.reflection_mesh.light(samples=1)
     parts.select()
     bake_module, settings = room("addon.operators.bake_frames.bake"), room("core").Settings(placement=placement)
-    before, stale = parts.state(), bpy.data.objects["Mirror Reflection"].reflection_mesh.light_stale
+    before, lit = parts.state(), bpy.data.objects["Mirror Reflection"].reflection_mesh.lit_from
 
     def steps(folder):
         return bake_module.baking(bpy.context, bake_module.Plan(str(tmp_path / folder), [2, 3], settings, 1))
 
     def check(stage: str) -> None:
         assert parts.state() == before, stage
-        assert bpy.data.objects["Mirror Reflection"].reflection_mesh.light_stale == stale
+        assert bpy.data.objects["Mirror Reflection"].reflection_mesh.lit_from == lit
+        assert room("addon.freshness").why_light_differs(bpy.context, bpy.data.objects["Mirror Reflection"]) == ""
 
     stopped_at_each_stage(steps, check)
 

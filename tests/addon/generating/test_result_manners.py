@@ -225,7 +225,6 @@ def test_what_knows_only_what_is_seen_is_lit_in_the_picture(scene, room):
     whole = [tuple(round(value, 4) for value in spot.vector) for spot in spots]
     parts.select(result)
     assert parts.generate(attributes="SHOWN") == result and result.material_slots[0].link == "OBJECT"
-    result.reflection_mesh.light_stale = True
     bpy.ops.reflection_mesh.light(samples=1, kind="AUTO")
     spots = result.data.uv_layers["Reflection Light"].uv
     again = [tuple(round(value, 4) for value in spot.vector) for spot in spots]

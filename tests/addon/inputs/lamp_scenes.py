@@ -215,11 +215,17 @@ def psnr(one: np.ndarray, other: np.ndarray) -> float:
     return float(-10.0 * np.log10(1e-12 + ((one - other)[inside, inside]**2).mean()))
 
 
+def outdated(room, result: bpy.types.Object) -> bool:
+    """Return True where something has changed on which the light of a result depends."""
+    bpy.context.view_layer.update()
+    return bool(room("addon.freshness").why_light_differs(bpy.context, result))
+
+
 def lit_state() -> dict:
     """As `parts.state`, and what a light changes of a result."""
     results = {obj.name: ([(slot.link, slot.material and slot.material.name) for slot in obj.material_slots],
                           sorted(obj.data.attributes.keys()), obj.reflection_mesh.light,
-                          obj.reflection_mesh.light_stale)
+                          obj.reflection_mesh.lit_from)
                for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"}
     scene = bpy.context.scene
     worlds = {world.name: (_settings(world), world.cycles.sampling_method, world.cycles.sample_map_resolution)

@@ -93,8 +93,11 @@ STEPS = (
     ("SOLID", "Solid shading shows reflections without light and textures.", lambda: parts.generate()),
     ("MATERIAL", "Not lit yet. Click Light Reflection.", lambda: None),
     ("MATERIAL", "Lit.", lambda: bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")),
-    ("WIREFRAME", "Wireframe shading shows no caustics, and no light in reflections.",
+    # mirrors show the light of caustics
+    ("WIREFRAME", "1 result is out of date: an object has changed. Click Update Reflections.",
      lambda: bpy.ops.reflection_mesh.caustics()),
+    ("WIREFRAME", "Wireframe shading shows no caustics, and no light in reflections.",
+     lambda: bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")),
     ("WIREFRAME", "2 results are out of date: the mirror has changed. Click Update Reflections.", lambda: _move()),
     ("MATERIAL", "Select a mirror, then click Generate Reflection.", lambda: bpy.ops.reflection_mesh.clear()),
 )

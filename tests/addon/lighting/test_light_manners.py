@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from lamp_scenes import SIZE, leaves_no_trace, lit_state, picture, plain_scene, psnr, scene_of, shader_of
+from lamp_scenes import SIZE, leaves_no_trace, lit_state, outdated, picture, plain_scene, psnr, scene_of, shader_of
 
 
 @pytest.mark.parametrize(("placement", "opaque"), [
@@ -127,7 +127,7 @@ def layer_of(scene, name):
     (lambda scene: scene.frame_set(scene.frame_current + 1), False),
     (lambda scene: bpy.data.objects["Box"].select_set(False), False),
 ])
-def test_light_is_stale_when_the_scene_has_changed(blank, change, stale):
+def test_light_is_stale_when_the_scene_has_changed(blank, room, change, stale):
     scene_of(blank)
     into_collection(blank.scene, "Lamps", [obj for obj in blank.scene.objects if obj.type == "LIGHT"])
     result = parts.generate(tolerance=4.0)
@@ -135,14 +135,14 @@ def test_light_is_stale_when_the_scene_has_changed(blank, change, stale):
     light = result.reflection_mesh.light_material
     change(blank.scene)
     blank.view_layer.update()
-    assert result.reflection_mesh.light_stale == stale
+    assert outdated(room, result) == stale
     parts.select(result)
     parts.generate(tolerance=2.0)
     # light that fits stays; other light is not shown
     assert {slot.material == light for slot in result.material_slots} == {not stale}
-    assert result.reflection_mesh.light_stale == stale
+    assert outdated(room, result) == stale
     bpy.ops.reflection_mesh.light(samples=1)
-    assert not result.reflection_mesh.light_stale and len(bpy.data.materials) == 4
+    assert not outdated(room, result) and len(bpy.data.materials) == 4
 
 
 def test_frames_are_lit_by_no_lamp_that_renders_leave_out(blank, room):
@@ -174,12 +174,16 @@ def test_the_panel_tells_what_there_is_to_do(blank, room):
     scene_of(blank)
     told = room("addon.lighting").light_sentence
     result = parts.generate()
-    assert told(result) == "Not lit yet. Click Light Reflection."
+    assert told(result, False) == "Not lit yet. Click Light Reflection."
     bpy.ops.reflection_mesh.light(samples=1)
-    assert told(result) == "Lit."
+    assert told(result, outdated(room, result)) == "Lit."
     bpy.data.objects["Box"].location.x += 0.1
-    blank.view_layer.update()
-    assert told(result) == "The scene has changed since the reflection was lit. Click Light Reflection."
+    assert told(result, outdated(room, result)) == (
+        "The scene has changed since the reflection was lit. Click Light Reflection.")
+    # light that no longer fits is not shown
+    parts.select(result)
+    parts.generate()
+    assert told(result, outdated(room, result)) == "Not lit yet. Click Light Reflection."
 
 
 def test_clear_takes_the_light_away(blank):
@@ -206,7 +210,7 @@ def test_the_verb_light(saved_scene, room, tmp_path, capsys):
     assert "lit in" in told and "not lit" not in told
     bpy.ops.wm.open_mainfile(filepath=str(output))
     result = bpy.data.objects["Mirror Reflection"]
-    assert result.reflection_mesh.light_material is not None and not result.reflection_mesh.light_stale
+    assert result.reflection_mesh.light_material is not None and not outdated(room, result)
     assert result.material_slots[0].material == result.reflection_mesh.light_material
     assert run(["light", "--samples", "0"]) == 1
     assert run(["light", "--samples", "1"]) == 0

@@ -4,25 +4,25 @@ from __future__ import annotations
 import bpy
 import parts
 import pytest
-from lamp_scenes import leaves_no_trace, lit_state, scene_of
+from lamp_scenes import leaves_no_trace, lit_state, outdated, scene_of
 
 
 def light(samples: int = 64) -> None:
     assert bpy.ops.reflection_mesh.light(samples=samples, kind="OBJECTS") == {"FINISHED"}
 
 
-def test_another_mesh_does_not_show_it(blank):
+def test_another_mesh_does_not_show_it(blank, room):
     scene_of(blank)
     result = parts.generate(tolerance=4.0)
     light(1)
     bpy.data.objects["Box"].modifiers.new("Finer", "SUBSURF").levels = 1
     parts.select(result)
     parts.generate(tolerance=4.0)
-    assert result.reflection_mesh.light_stale
+    assert outdated(room, result)
     assert all(slot.link == "DATA" for slot in result.material_slots)
 
 
-def test_what_is_hidden_meanwhile_takes_no_part(blank):
+def test_what_is_hidden_meanwhile_takes_no_part(blank, room):
     """A result remembers it for when it is shown again; its light stays what it is."""
     wall = scene_of(blank)
     other = parts.add("cube", "Other", size=0.5, location=(-1.0, -1.5, 1.0))
@@ -33,11 +33,11 @@ def test_what_is_hidden_meanwhile_takes_no_part(blank):
     light(1)
     parts.select(result)
     parts.generate(tolerance=4.0)
-    assert not result.reflection_mesh.light_stale
+    assert not outdated(room, result)
     assert {slot.material for slot in result.material_slots} == {result.reflection_mesh.light_material}
     other.hide_render = False
     parts.generate(tolerance=4.0)
-    assert result.reflection_mesh.light_stale and len(set(parts.attribute(result, "source_object"))) == 2
+    assert outdated(room, result) and len(set(parts.attribute(result, "source_object"))) == 2
     bpy.data.objects["Box"].hide_render = True
     with pytest.raises(RuntimeError, match="shows an object that is hidden now"):
         light(1)

@@ -126,6 +126,10 @@ def test_what_is_hidden_for_a_while_comes_back(scene, clock, room):
 
 @pytest.mark.parametrize("way", ["Live", "button", "script"])
 def test_what_loses_its_light_shows_a_preview_where_somebody_looks(scene, clock, way, room, monkeypatch):
+    """Where Update cannot light it again."""
+    def refused(*_):
+        raise room("core").ReflectionError("Cycles is not available.")
+        yield
     if way != "Live":
         bpy.context.window_manager.reflection_mesh_live.on = False
     scene.leaf.data.materials.append(parts.material("Green", "DIFFUSE"))
@@ -137,6 +141,7 @@ def test_what_loses_its_light_shows_a_preview_where_somebody_looks(scene, clock,
     if way == "Live":
         clock.rest()
     else:
+        monkeypatch.setattr(room("addon.live.update"), "lit_again", refused)
         # in the background none is pressed
         operator = room("addon.live.update").REFLECTION_MESH_OT_update
         pressed = SimpleNamespace(execute=lambda context: {"FINISHED"})

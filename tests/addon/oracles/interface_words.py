@@ -20,7 +20,7 @@ TELLING = {"addon/faults/status_bar.py": set(), "addon/faults/stepped_operator.p
            "addon/freshness/thrown_light.py": {"why_light_is_stale", "_changed", "_difference"},
            **{path.relative_to(ROOT).as_posix(): set() for path in (ROOT / "addon" / "interface").glob("draw_*.py")}}
 SENTENCES = ("IN_OBJECT_MODE", "NOTHING_TO_LIGHT", "NOTHING_TO_CLEAR", "NO_SHEET", "NO_CAMERA", "NO_MIRROR", "NO_USD",
-             "WAITS", "NOTHING_YET", "LINKED_SCENE", "LINKED_TO_LIGHT", "LINKED_TO_CLEAR", "NO_RESULT")
+             "SIZE_DIFFERS", "WAITS", "NOTHING_YET", "LINKED_SCENE", "LINKED_TO_LIGHT", "LINKED_TO_CLEAR", "NO_RESULT")
 
 
 def classes() -> list[type]:
@@ -62,6 +62,8 @@ def words(drawn: set) -> set[str]:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") in SENTENCES:
                 found.add(ast.literal_eval(node.value))
+            if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") == "DIFFERENT":
+                found.update(ast.literal_eval(node.value).values())
     return found - {""}
 
 

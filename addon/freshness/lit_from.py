@@ -1,0 +1,138 @@
+"""What the light of results was made from, and whether that is still so.
+
+Light is outdated where an input differs, by digest, and fits again as soon as the input is back.
+"""
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from hashlib import blake2b
+
+import bpy
+
+from ...core import ReflectionError, View
+from ..frames import plays
+from ..reading import is_gone, is_result, read_view, render_size
+from .answers import answer
+from .made_from import LONGEST, SIZE_DIFFERS, same_view, view_numbers
+from .materials import SIZE
+from .rendered import rendered
+
+# the parts of a record, in the order in which they are compared, and what is said where they differ
+DIFFERENT = {"view": "the camera has changed", "mirror": "the mirror has changed", "objects": "an object has changed",
+             "materials": "a material has changed", "lamps": "the lamps or the world have changed",
+             "settings": "the render settings have changed", "sources": "it shows other objects"}
+OF_A_VIEW = {"sources", "mirror"}  # parts that light which stays with the objects does not depend on
+RENDER = ("use_simplify", "simplify_subdivision_render", "simplify_child_particles_render", "hair_type", "hair_subdiv")
+CYCLES = ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "volume_bounces",
+          "transparent_max_bounces", "caustics_reflective", "caustics_refractive", "blur_glossy", "sample_clamp_direct",
+          "sample_clamp_indirect", "pixel_filter_type", "filter_width", "use_fast_gi", "fast_gi_method",
+          "ao_bounces_render", "volume_step_rate", "volume_max_steps", "volume_unbiased", "dicing_rate",
+          "max_subdivisions", "use_light_linking", "texture_limit_render")
+FAST_GI = ("ao_factor", "distance")  # of the world's light_settings
+
+
+def lit_record(context: bpy.types.Context, view: View, lit: Iterable[bpy.types.Object], settings: dict) -> dict:
+    """Return by result the text that it keeps, if `lit` are lit together now; `settings` are those of the operator."""
+    lit = list(lit)
+    mirrors = [result.reflection_mesh.mirror for result in lit]
+    names = sorted({mirror.name_full for mirror in mirrors})
+    known = {"view": [float(f"{number:.8g}") for number in view_numbers(view)], "mirrors": names, "lit_with": settings}
+    return {result: json.dumps({**known, **_inputs(context, result, _sources(result), mirrors)}) for result in lit}
+
+
+def lit_with(result: bpy.types.Object) -> dict:
+    """Return the settings that a result was lit with; empty where it does not know them."""
+    return _read(result).get("lit_with", {})
+
+
+def why_light_differs(context: bpy.types.Context, result: bpy.types.Object) -> str:
+    """Return what has changed since a result was lit, in a few words; "" where nothing has, or nobody can tell.
+
+    As cheap as a look: the answer is kept until something changes again.
+    """
+    record = result.reflection_mesh
+    if record.light_material is None or not record.lit_from or plays(result) or is_gone(record.mirror):
+        return ""
+    camera = context.scene.camera
+    return answer(_changed, context, result, (record.lit_from, _settings(context), render_size(context.scene),
+                                              None if camera is None else camera.session_uid))
+
+
+def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
+    """What is no longer as it was when a result was lit."""
+    try:
+        return light_difference(context, read_view(context), result, _sources(result))
+    except ReflectionError:
+        return DIFFERENT["view"]
+
+
+def light_difference(context: bpy.types.Context, view: View, result: bpy.types.Object, sources: list) -> str:
+    """As `why_light_differs`, for a view and the sources that the result is to show."""
+    made, record = _read(result), result.reflection_mesh
+    if not made:
+        # of earlier versions; light that stays with the objects asks itself whether these are the same
+        return "" if record.light_map is not None else DIFFERENT["view"]
+    # what is cheap comes first: while the camera is dragged nothing else is looked at
+    if record.light_map is None:
+        numbers = view_numbers(view)
+        if numbers[32:] != made["view"][32:]:
+            return SIZE_DIFFERS
+        if not same_view(made["view"], numbers):
+            return DIFFERENT["view"]
+    names, mirrors = set(made["mirrors"]), {record.mirror}
+    for obj in context.scene.objects:
+        if obj.name_full in names:
+            mirrors.add(obj)
+        elif is_result(obj) and obj.reflection_mesh.light_material == record.light_material:
+            mirrors.add(obj.reflection_mesh.mirror)
+    now = _inputs(context, result, sources, mirrors - {None})
+    left_out = set() if record.light_map is None else OF_A_VIEW
+    return next((sentence for name, sentence in DIFFERENT.items()
+                 if name in now and name not in left_out and made.get(name, now[name]) != now[name]), "")
+
+
+def _inputs(context: bpy.types.Context, result: bpy.types.Object, sources: list,
+            mirrors: Iterable[bpy.types.Object]) -> dict:
+    """Digests of all that a result's light depends on but its view, by the names of `DIFFERENT`."""
+    shown, own = rendered(context), result.reflection_mesh.mirror
+    moving = {mirror.session_uid for mirror in mirrors}
+    part_of = [shown.objects.get(source.session_uid, b"") for source in sources if source is not None]
+    others = [digest for uid, digest in shown.objects.items() if uid not in moving]
+    # what moves with the view may be another mirror of the same light
+    mirror = [shown.objects.get(uid, b"") for uid in moving - {own.session_uid}]
+    materials = [shown.materials[uid] + (b"" if uid in moving else shown.objects[uid]) for uid in shown.materials]
+    return {"sources": _digest(part_of),
+            "mirror": _digest([*mirror, b"own" + shown.objects.get(own.session_uid, b"")]),
+            "objects": _digest(others), "materials": _digest(materials), "lamps": shown.lamps,
+            "settings": _settings(context)}
+
+
+def _settings(context: bpy.types.Context) -> str:
+    """A digest of the render settings on which light depends."""
+    scene = context.scene
+    known = [[getattr(scene.render, name, None) for name in RENDER],
+             [getattr(getattr(scene, "cycles", None), name, None) for name in CYCLES],
+             scene.view_settings.view_transform in {"Standard", "Raw"}, scene.view_settings.exposure]
+    if scene.world is not None and getattr(getattr(scene, "cycles", None), "use_fast_gi", False):
+        known.append([getattr(scene.world.light_settings, name) for name in FAST_GI])
+    return _digest([repr(known).encode()])
+
+
+def _sources(result: bpy.types.Object) -> list:
+    return [source.object for source in result.reflection_mesh.sources if source.object is not None]
+
+
+def _digest(parts: list[bytes]) -> str:
+    return blake2b(b"".join(sorted(parts)), digest_size=SIZE).hexdigest()
+
+
+def _read(result: bpy.types.Object) -> dict:
+    """What `lit_record` wrote; empty where it wrote nothing."""
+    text = result.reflection_mesh.lit_from
+    try:
+        known = json.loads(text) if 0 < len(text) <= LONGEST else {}
+        return {**known, "view": tuple(map(float, known["view"])), "mirrors": list(known["mirrors"]),
+                "lit_with": dict(known["lit_with"])} if known else {}
+    except (ValueError, TypeError, KeyError, RecursionError):
+        return {}
