@@ -41,7 +41,7 @@ def _after_role(_record, _context: bpy.types.Context) -> None:
 
 
 class ReflectionSource(bpy.types.PropertyGroup):
-    """One diffuse object of a result."""
+    """One diffuse object of a result, or one part of its mirror."""
 
     object: PointerProperty(name="Object", type=bpy.types.Object, override=OVERRIDABLE)
 
@@ -62,6 +62,8 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
                                "hold for it", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object,
                             override=OVERRIDABLE)
+    parts: CollectionProperty(name="Parts", description="The objects that its mirror is joined from; none: it is one",
+                              type=ReflectionSource, override=GROWING)
     lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object,
                           override=OVERRIDABLE)
     eyes: IntProperty(name="Lamp Places", description="On how many places of its lamp these caustics come from")

@@ -29,7 +29,7 @@ from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
 from .compare_verb import add_compare
 from .opening import open_file
-from .options import add_light, add_own, add_settings, given, text
+from .options import add_join_parts, add_light, add_own, add_settings, given, text
 from .place import add_place, placed
 from .progress import announced
 
@@ -67,6 +67,7 @@ def _parser() -> argparse.ArgumentParser:
     add_settings(generate)
     generate.add_argument("--attributes", choices=[item[0] for item in ATTRIBUTES],
                           help="what points and faces know (else as the file has it)")
+    add_join_parts(generate)
     _add_participants(generate)
     generate.add_argument("--light", type=int, nargs="?", const=FILES, default=0, metavar="N",
                           help="light them too, with N samples per pixel (else the file's)")

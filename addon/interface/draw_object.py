@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_iface
 from ...core.result import filled_share
 from ..frames import plays
 from ..lighting import light_lines
-from ..reading import is_gone, is_result, render_size
+from ..reading import is_gone, is_result, lost_mirror, render_size
 from ..writing import mesh_bytes, records, size_text
 from .menus import REFLECTION_MESH_MT_role
 
@@ -63,7 +63,7 @@ def _draw_light(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
 def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
     record = obj.reflection_mesh
     layout.label(text=obj.name, icon="MOD_MIRROR", translate=False)
-    mirror = pgettext_iface("a mirror that is gone") if is_gone(record.mirror) else f"'{record.mirror.name}'"
+    mirror = pgettext_iface("a mirror that is gone") if lost_mirror(obj) else f"'{record.mirror.name}'"
     layout.label(text=pgettext_iface("Reflection in {mirror}").format(mirror=mirror), translate=False)
     layout.label(text=pgettext_iface("Shows {names}").format(names=_names(record.sources)), translate=False)
     if plays(obj):
@@ -79,7 +79,7 @@ def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bp
         layout.label(text="It is linked from another file:", icon="LINKED")
         layout.label(text="there it is updated and lit.", icon="BLANK1")
         return
-    if is_gone(record.mirror):
+    if lost_mirror(obj):
         return
     if tuple(record.resolution) != render_size(context.scene):
         layout.label(text="The render has another size now:", icon="ERROR")

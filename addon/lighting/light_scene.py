@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import compat
 from ..faults import still_there
-from ..reading import forgets_particles, is_opaque, materials_of, read_view
+from ..reading import forgets_particles, is_opaque, materials_of, mirrors_of, read_view
 from ..reading.materials import all_materials_of, is_exact
 from ..rendering import (
     Renders,
@@ -72,7 +72,7 @@ class LightScene:
         layer.material_override = None if any(map(shining_slots, self.results)) else opaque
         scene.world = None
         made: list = [opaque, shining]
-        unseen = [mirror for mirror in {result.reflection_mesh.mirror for result in self.results} - {None}
+        unseen = [mirror for mirror in {mirror for result in self.results for mirror in mirrors_of(result)}
                   if mirror.visible_camera and (self.alone or mirror.reflection_mesh.camera_hidden)] + self.fog
         try:
             # results may lie in their mirrors or behind them
@@ -111,7 +111,7 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         put_swift_world(scene, back)
         look_through(scene, sharp_camera(context.scene.camera), back)
         show_mirrors(results, back)
-        mirrors = {result.reflection_mesh.mirror for result in results} - {None}
+        mirrors = {mirror for result in results for mirror in mirrors_of(result)}
         others, parts = _seen_others(context, {*results, *mirrors})
         # where a mirror stands in fog, Cycles knows of it on the way from there by the way to there alone
         fog = [obj for obj in others if is_of_fog(obj)]
@@ -119,7 +119,8 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         others = [obj for obj in others if obj not in fog]
         hidden = [obj for obj in others if obj.library is None and obj not in parts and not forgets_particles(obj)]
         materials = [material for mirror in mirrors for material in all_materials_of(mirror)]
-        alone = len(hidden) == len(others) and len(mirrors) == len(results) and all(map(is_opaque, materials))
+        no_copies = len({result.reflection_mesh.mirror for result in results}) == len(results)
+        alone = len(hidden) == len(others) and no_copies and all(map(is_opaque, materials))
         before = _cutting(context, mirrors, hidden) if alone else []
         for obj in before:
             back.callback(setattr, obj, "is_holdout", obj.is_holdout)

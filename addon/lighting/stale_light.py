@@ -5,7 +5,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..illumination import is_glint
-from ..reading import is_result, rendered_collections
+from ..reading import is_result, mirrors_of, rendered_collections
 from ..registration import Handlers
 from .preview import MARK
 
@@ -70,7 +70,7 @@ def _only_moves_the_view(changed: bpy.types.ID, lit: list) -> bool:
     """Whether a change of it leaves the light on the objects: it is a camera, one of the mirrors, or nothing that is
     seen."""
     if isinstance(changed, bpy.types.Object):
-        return changed.type in UNSEEN or any(obj.reflection_mesh.mirror == changed for obj in lit)
+        return changed.type in UNSEEN or any(changed in mirrors_of(obj) for obj in lit)
     return isinstance(changed, bpy.types.Camera)
 
 

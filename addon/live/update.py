@@ -38,7 +38,7 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
         started = time.perf_counter()
         stale = [obj for obj in kept_results(context) if why_stale(context, obj)]
         chosen = [group for group in groups(context)
-                  if any(obj.reflection_mesh.mirror in group.mirrors for obj in stale)]
+                  if any(obj.reflection_mesh.mirror == one.mirror for obj in stale for one in group.assemblies)]
         lost = _lost(context)
         lit = [obj for obj in kept_light(context) if obj not in lost and why_light_is_stale(context, obj)]
         if not stale and not lit and not lost:

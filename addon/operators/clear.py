@@ -7,7 +7,7 @@ from ..faults import AllOrNothing, in_one_sentence, one_or_more, tell
 from ..frames import plays, stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_previews
-from ..reading import has_linked_results, is_result
+from ..reading import has_linked_results, is_result, mirrors_of
 from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes, set_free
 from . import polls
 
@@ -22,8 +22,13 @@ def chosen_results(context: bpy.types.Context) -> list:
     results = [obj for obj in context.scene.objects
                if is_result(obj) and obj.library is None]
     selected = set(context.selected_objects)
-    named = [obj for obj in results if obj in selected or obj.reflection_mesh.mirror in selected]
+    named = [obj for obj in results if is_named(obj, selected)]
     return named or results
+
+
+def is_named(result: bpy.types.Object, selected: set) -> bool:
+    """Return True if a result, its mirror, or a part of that is selected."""
+    return not selected.isdisjoint((result, result.reflection_mesh.mirror, *mirrors_of(result)))
 
 
 def clear(context: bpy.types.Context, results: list) -> None:
@@ -55,7 +60,7 @@ def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:
     every = [obj for obj in context.scene.objects
              if obj.reflection_mesh.role == "CAUSTICS" and obj.library is None]
     selected = set(context.selected_objects)
-    named = [obj for obj in every if obj in selected or obj.reflection_mesh.mirror in selected]
+    named = [obj for obj in every if is_named(obj, selected)]
     return named or every, bool(named)
 
 
@@ -115,7 +120,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
             return {"CANCELLED"}
         results, (caustics, named) = chosen_results(context), chosen_caustics(context)
         selected = set(context.selected_objects)
-        if named != any(obj in selected or obj.reflection_mesh.mirror in selected for obj in results):
+        if named != any(is_named(obj, selected) for obj in results):
             results, caustics = ([], caustics) if named else (results, [])
         if not results and not caustics and not _bring_back() and not any(
                 obj.reflection_mesh.camera_hidden for obj in context.scene.objects):

@@ -11,6 +11,7 @@ from ... import core
 from ..faults import SteppedOperator, Steps, part, tell_done
 from ..freshness import origin_of, record_of, settings_of
 from ..reading import (
+    Assembly,
     DiffuseScene,
     MirrorSurface,
     NothingSeen,
@@ -35,6 +36,7 @@ from ..settings import (
 from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, point_arrays
 from . import polls
+from .assembled import assembled
 from .shortcomings import Refused, left_out, scene_shortcomings, shortcomings, window_shortcomings
 from .write_results import Manners, Outcome, write_results
 
@@ -69,12 +71,13 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     hidden, view = left_out(context, chosen.hidden), view or read_view(context)
     depsgraph = context.evaluated_depsgraph_get()
     kept = Kept.of(depsgraph)
-    chosen, meshes, faceless = _with_faces(chosen, *kept.looked_at(depsgraph, chosen.mirrors, chosen.diffuse))
-    own = list(map(of_each(settings), chosen.mirrors))
+    mirrors = assembled(context, chosen, settings)
+    mirrors, meshes, faceless = _with_faces(mirrors, *kept.looked_at(depsgraph, mirrors, chosen.diffuse))
+    own = [of_each(settings)(one.mirror) for one in mirrors]
     sources, lines = chosen.diffuse + chosen.waiting, lines_drawn(context.scene)
-    origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources), settings_of(context.scene, mirror))
-               for mirror in chosen.mirrors}
-    joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
+    origins = {one.mirror: record_of(origin_of(depsgraph, view, one.members, sources),
+                                     settings_of(context.scene, one.mirror)) for one in mirrors}
+    joined = partial(kept.joined, mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
     scene, surfaces = stage.scene, stage.surfaces
     if not all(map(is_opaque, scene.materials)) or looked_through(depsgraph, chosen.mirrors, chosen.diffuse):
@@ -82,12 +85,13 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     yield from _trees(stage, kinds)
     prepared, refused, unseen, lacks, share = [], [], [], [], (1.0 - READING) / len(surfaces)
-    for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
+    for index, (joint, surface) in enumerate(zip(mirrors, surfaces)):
+        mirror = joint.mirror
         steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index])
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
             if own[index].placement == "VIRTUAL":
-                lacks += window_shortcomings(context, mirror, view, result, chosen.mirrors)
+                lacks += window_shortcomings(context, joint, view, result, chosen.mirrors)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             unseen += refused[-1:] * isinstance(error, core.NothingInView)
@@ -101,7 +105,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         written = partial(_written, result, scene, (surface, surfaces), view, lines)
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")
-        prepared.append(Reflection(mirror, context.scene.camera, sources, result, arrays, view.resolution,
+        prepared.append(Reflection(joint, context.scene.camera, sources, result, arrays, view.resolution,
                                    own[index].placement, attributes_of(settings, mirror, context.scene)))
     if not prepared:
         raise NothingSeen(refused[0]) if unseen == refused else Refused(refused)
@@ -111,7 +115,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     _record(outcome, origins, time.perf_counter() - started)
     return replace(outcome, remarks=hidden + faceless + lacks + outcome.remarks + refused,
                    lacks=lacks + [sentence for sentence in refused if sentence not in unseen],
-                   read=(view, dict(zip(chosen.mirrors, surfaces)), scene))
+                   read=(view, {one.mirror: surface for one, surface in zip(mirrors, surfaces)}, scene))
 
 
 def _written(result: core.ReflectionMesh, scene: DiffuseScene, mirrors: tuple[MirrorSurface, list[MirrorSurface]],
@@ -126,14 +130,17 @@ def _written(result: core.ReflectionMesh, scene: DiffuseScene, mirrors: tuple[Mi
     return result, mesh_arrays(result, scene, surface, view, every)
 
 
-def _with_faces(chosen: Participants, of_mirrors: list, placed: list) -> tuple[Participants, tuple, list[str]]:
-    """Without the mirrors that have no faces, as curves that others follow, where some have, and sentences on these."""
-    faceless = [mirror for mirror, own in zip(chosen.mirrors, of_mirrors) if not own]
-    if not 0 < len(faceless) < len(chosen.mirrors):
-        return chosen, (of_mirrors, placed), []
-    return (replace(chosen, mirrors=[mirror for mirror in chosen.mirrors if mirror not in faceless]),
-            ([own for own in of_mirrors if own], placed),
-            [f"Left out because it has no faces: '{obj.name}'." for obj in faceless if not is_part(obj)])
+def _with_faces(mirrors: list[Assembly], of_mirrors: list, placed: list) -> tuple[list, tuple, list[str]]:
+    """Return the mirrors without those that have no faces, as curves that others follow, unless none has; their meshes
+    and those of the scene; and sentences on what has no faces."""
+    if not any(of_mirrors):
+        return mirrors, (of_mirrors, placed), []
+    faceless = []
+    for mirror, own in zip(mirrors, of_mirrors):
+        there = {owner for item in own for owner in item.owners.tolist()}
+        faceless += [obj for number, obj in enumerate(mirror.parts) if number not in there and not is_part(obj)]
+    return ([mirror for mirror, own in zip(mirrors, of_mirrors) if own], ([own for own in of_mirrors if own], placed),
+            [f"Left out because it has no faces: '{obj.name}'." for obj in faceless])
 
 
 def _record(outcome: Outcome, origins: dict, seconds: float) -> None:
@@ -165,6 +172,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
                                     description="Until it is lit, show the colours of what is reflected in the "
                                     "mirror's tint, untouched by lamps: on where a button is pressed")
     attributes: option("attributes")
+    join_parts: option("join_parts")
     collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
                                     description="A new result goes into the collection Reflections, instead of those "
                                     "of its mirror: on where a button is pressed")

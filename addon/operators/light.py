@@ -10,7 +10,7 @@ from ..baking import are_few, can_be_baked
 from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import needs_light
-from ..reading import has_linked_results, moves, read_view, with_copies
+from ..reading import has_linked_results, mirrors_of, moves, read_view, with_copies
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
 from ..writing import forget_mesh
 from . import polls
@@ -95,7 +95,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
 
 def _view_moves(context: bpy.types.Context, lit: list) -> bool:
     """Whether the camera or a mirror is animated."""
-    return any(map(moves, [context.scene.camera, *(result.reflection_mesh.mirror for result in lit)]))
+    return any(map(moves, [context.scene.camera, *(mirror for result in lit for mirror in mirrors_of(result))]))
 
 
 def _keep_apart(mesh: bpy.types.Mesh, linked: list, whole: AllOrNothing) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import bpy
 
 from ...core import View
-from ..faults import AllOrNothing, one_or_more
+from ..faults import AllOrNothing, listed, one_or_more
 from ..frames import stop_playing
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
@@ -21,9 +21,7 @@ from ..writing import (
     told_of,
     write_object,
 )
-from .shortcomings import better_of_points
-
-WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
+from .shortcomings import WORTH_TELLING, better_of_points
 
 
 @dataclass(frozen=True)
@@ -81,7 +79,7 @@ class Outcome:
         error = max(result.estimated_error for _, result in self.results)
         share = max(result.filled_share for _, result in self.results)
         filled = f", {share:.1f} % filled by rays" if share >= WORTH_TELLING else ""
-        names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
+        names = listed(obj.name for obj, _ in self.results)
         memory = size_text(sum(mesh_bytes(mesh) for mesh in {obj.data for obj, _ in self.results}
                                | {copy.data for copy in self.copies}))
         light = "; the light is still to come, by Light Reflection" if self.unlit else ""
@@ -123,5 +121,5 @@ def _told(written: list) -> list[str]:
             for name in moved]
     copies = [entry.obj.name for entry in written if entry.copy]
     if copies:
-        news.append(f"Updated too, as a copy: {', '.join(map(repr, copies))}.")
+        news.append(f"Updated too, as a copy: {listed(copies)}.")
     return news

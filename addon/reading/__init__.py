@@ -1,4 +1,5 @@
 """Blender's data as arrays: who takes part, meshes with their layers, materials, the view."""
+from .assemblies import Assembly, assemblies, root_of
 from .known_results import forget_known, known_results, register, unregister
 from .light_links import link_state
 from .lines import lines_drawn
@@ -34,6 +35,8 @@ from .results import (
     has_linked_results,
     is_gone,
     is_result,
+    lost_mirror,
+    mirrors_of,
     results_of,
     with_copies,
 )
@@ -55,13 +58,14 @@ from .roles import (
     visible,
 )
 
-__all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
-           "Placed", "RESULTS", "all_nodes", "camera_of", "can_take_part", "candidates", "choose", "corner_vertices",
-           "drawn_meshes", "every_result_of", "fog_of", "forget_known", "forgets_particles", "has_fog",
-           "has_linked_results", "in_background_set", "in_viewports", "is_clear", "is_fog", "is_gone", "is_mirror",
-           "is_opaque", "is_part", "is_rendered", "is_result", "join_mirror", "join_scene", "known_results",
-           "lines_drawn", "link_state", "looked_through", "materials_of", "materials_shown", "may_have_faces",
-           "moves", "nothing_to_reflect", "numbers", "participants", "read_meshes", "read_mirror", "read_mirrors",
-           "read_scene", "read_view", "register", "render_size", "rendered_alone", "rendered_collections",
-           "rendered_in", "rendered_otherwise", "results_of", "says_mirror", "seen_in", "shown_by", "unregister",
-           "vectors", "visible", "with_copies", "with_square_pixels", "without_surface"]
+__all__ = ["Assembly", "DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen",
+           "Participants", "Placed", "RESULTS", "all_nodes", "assemblies", "camera_of", "can_take_part", "candidates",
+           "choose", "corner_vertices", "drawn_meshes", "every_result_of", "fog_of", "forget_known",
+           "forgets_particles", "has_fog", "has_linked_results", "in_background_set", "in_viewports", "is_clear",
+           "is_fog", "is_gone", "is_mirror", "is_opaque", "is_part", "is_rendered", "is_result", "join_mirror",
+           "join_scene", "known_results", "lines_drawn", "link_state", "looked_through", "lost_mirror", "materials_of",
+           "materials_shown", "may_have_faces", "mirrors_of", "moves", "nothing_to_reflect", "numbers", "participants",
+           "read_meshes", "read_mirror", "read_mirrors", "read_scene", "read_view", "register", "render_size",
+           "rendered_alone", "rendered_collections", "rendered_in", "rendered_otherwise", "results_of", "root_of",
+           "says_mirror", "seen_in", "shown_by", "unregister", "vectors", "visible", "with_copies",
+           "with_square_pixels", "without_surface"]

@@ -32,7 +32,23 @@ def results_of(context: bpy.types.Context, mirror: bpy.types.Object, among: list
 def every_result_of(context: bpy.types.Context, mirror: bpy.types.Object, among: list | None = None) -> list:
     """As `results_of`, for every camera."""
     return [obj for obj in (context.scene.objects if among is None else among) if is_result(obj)
-            and obj.reflection_mesh.mirror == mirror and obj.type == "MESH" and obj.library is None]
+            and (obj.reflection_mesh.mirror == mirror or mirror in mirrors_of(obj))
+            and obj.type == "MESH" and obj.library is None]
+
+
+def mirrors_of(result: bpy.types.Object) -> list:
+    """Return the objects that reflect in a result: its mirror, or the parts that are joined in it, without those that
+    have been deleted unless all have."""
+    record = result.reflection_mesh
+    if record.mirror is None:
+        return []
+    parts = [part.object for part in record.parts if part.object is not None]
+    return [obj for obj in parts if not is_gone(obj)] or parts or [record.mirror]
+
+
+def lost_mirror(result: bpy.types.Object) -> bool:
+    """Return True if the mirror of a result, or all of its parts, have been deleted."""
+    return all(map(is_gone, mirrors_of(result)))
 
 
 def with_copies(context: bpy.types.Context, results: list) -> list:
@@ -41,6 +57,17 @@ def with_copies(context: bpy.types.Context, results: list) -> list:
     for result in results:
         found.update(dict.fromkeys(obj for obj in every_result_of(context, result.reflection_mesh.mirror)
                                    if camera_of(obj) == camera_of(result)))
+    return list(found)
+
+
+def with_joined(context: bpy.types.Context, mirrors: list) -> list:
+    """Return `mirrors`, and the parts that are joined with one of them in a result."""
+    found = dict.fromkeys(mirrors)
+    for result in context.scene.objects:
+        if is_result(result) and len(result.reflection_mesh.parts):
+            parts = mirrors_of(result)
+            if not found.keys().isdisjoint(parts):
+                found.update(dict.fromkeys(part for part in parts if part.reflection_mesh.role in {"AUTO", "MIRROR"}))
     return list(found)
 
 
@@ -63,7 +90,8 @@ def meant(context: bpy.types.Context, active: bpy.types.Object | None) -> list:
                 if obj.select_get() or (obj == active and obj.reflection_mesh.role in RESULTS)]
     selected.sort(key=lambda obj: obj != active)
     # asked for those alone that are a mirror: thousands of others may be selected
-    reflected = {obj.reflection_mesh.mirror for obj in context.scene.objects if is_result(obj)}
+    results = [obj for obj in context.scene.objects if is_result(obj)]
+    reflected = {mirror for obj in results for mirror in (obj.reflection_mesh.mirror, *mirrors_of(obj))}
     found: dict = {}
     for obj in selected:
         made = obj.reflection_mesh.role in RESULTS
@@ -86,7 +114,7 @@ def of_results(results: list) -> tuple[list, list]:
     if other is not None:
         raise ReflectionError(f"'{results[0].name}' and '{other.name}' show different objects: select one of them, or "
                               "the mirrors together with what they shall show.")
-    mirrors = list(dict.fromkeys(result.reflection_mesh.mirror for result in results))
+    mirrors = list(dict.fromkeys(mirror for result in results for mirror in mirrors_of(result)))
     both = next((mirror for mirror in mirrors if mirror in diffuse), None)
     if both is not None:
         raise ReflectionError(f"'{both.name}' is both the mirror and a source of '{results[0].name}': choose another "
