@@ -98,7 +98,7 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
         save_blend(path)
         told.append(f"Saved: '{path}'")
     plans = [baked.plan for baked in made]
-    print(*told, summary(plans, elsewhere + len(done), time.perf_counter() - started), sep="\n", flush=True)
+    print(*gathered(told), summary(plans, elsewhere + len(done), time.perf_counter() - started), sep="\n", flush=True)
 
 
 def _check(options: argparse.Namespace) -> None:

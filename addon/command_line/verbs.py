@@ -11,7 +11,7 @@ from dataclasses import replace
 import bpy
 
 from ... import core
-from ..faults import STATUS, sentence
+from ..faults import STATUS, gathered, sentence
 from ..files import check_place, save_blend
 from ..illumination import chosen_lamps
 from ..operators.caustics import asked_again, remember, throwing
@@ -142,7 +142,7 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     outcome = announced(generation(context, chosen, wanted, preview=True))
     if options.light:
         outcome = replace(outcome, unlit=[])   # their light comes next
-    told = [*outcome.news, *outcome.remarks, *scene_shortcomings(context, chosen, wanted),
+    told = [*gathered([*outcome.news, *outcome.remarks, *scene_shortcomings(context, chosen, wanted)]),
             outcome.summary(time.perf_counter() - started)]
     if options.light:
         # the view layer knows new objects only from its next update on
@@ -172,7 +172,7 @@ def _caustics(context: bpy.types.Context, options: argparse.Namespace) -> None:
     remember(thrown.objects, asked)
     save_blend(path)
     told = thrown.remarks + other_meshes(context.scene, chosen.mirrors + chosen.diffuse)
-    print(*told, thrown.summary(time.perf_counter() - started), sep="\n")
+    print(*gathered(told), thrown.summary(time.perf_counter() - started), sep="\n")
 
 
 def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None:
@@ -185,7 +185,7 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     settings = map_settings(Wanted(context.scene, given(options)), chosen)
     choices = Choices(options.target, options.fills, options.picture or "")
     outcome = announced(mapping(context, chosen, settings, choices))
-    told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
+    told = [*gathered(outcome.remarks), outcome.summary(time.perf_counter() - started)]
     if sheet is not None:
         if len(outcome.objects) > 1:
             raise core.ReflectionError("One sheet is printed at a time: name it with --mirror and --diffuse.")

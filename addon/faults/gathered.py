@@ -9,14 +9,17 @@ import bpy
 
 NAMED = 3  # so many names are written out
 ALSO = "{} Also: {}."
-QUOTED, NUMBER = re.compile(r"'(.+?)'"), re.compile(r"\d[\d.,]*")
+FRAMES = "In frame"  # how sentences on single frames begin
+QUOTED = re.compile(r"('.+?')")
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
 
 
 def listed(names: Iterable[str]) -> str:
     """Return names in quotation marks, the first three of them followed by the number of the others."""
-    names = list(names)
-    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
-    return ", ".join(f"'{name}'" for name in names[:NAMED]) + more
+    names = [f"'{name}'" for name in names]
+    if len(names) <= NAMED:
+        return ", ".join(names)
+    return "{names} and {count} more".format(names=", ".join(names[:NAMED]), count=len(names) - NAMED)
 
 
 def gathered(sentences: Iterable[str]) -> list[str]:
@@ -33,18 +36,28 @@ def gathered(sentences: Iterable[str]) -> list[str]:
 
 def _without_a_name(sentence: str) -> Iterator[tuple[str, str]]:
     """Yield the sentence without one of its names and without numbers, and that name, for each of its names."""
-    prefix, colon, rest = sentence.partition(": ")
-    if colon and prefix in bpy.data.objects:
-        yield NUMBER.sub("", rest), prefix
-    for found in QUOTED.finditer(sentence):
-        yield NUMBER.sub("", sentence[:found.start()]) + "''" + NUMBER.sub("", sentence[found.end():]), found[1]
+    head, colon, rest = sentence.partition(": ")
+    if colon and head in bpy.data.objects:
+        yield "".join(_without_numbers(rest)), head
+    pieces = _without_numbers(sentence)
+    if sentence.startswith(FRAMES):
+        # which frames it is about tells it apart
+        pieces[0] = QUOTED.split(sentence)[0]
+    for place in range(1, len(pieces), 2):
+        yield "".join((*pieces[:place], "''", *pieces[place + 1:])), pieces[place][1:-1]
+
+
+def _without_numbers(text: str) -> list[str]:
+    """Return what is not quoted, without numbers, and what is, by turns."""
+    return [piece if place % 2 else NUMBER.sub("", piece) for place, piece in enumerate(QUOTED.split(text))]
 
 
 def _as_one(alike: list[tuple[str, str]]) -> str:
-    first = max(alike, key=lambda one: _largest_number(one[0].replace(one[1], "")))
+    first = max(alike, key=lambda one: _largest_number(one[0].removeprefix(one[1])))
     others = [name for sentence, name in alike if sentence != first[0]]
     return ALSO.format(first[0], listed(others)) if others else first[0]
 
 
 def _largest_number(text: str) -> float:
-    return max((float(number.strip(".,").replace(",", "")) for number in NUMBER.findall(text)), default=0.0)
+    found = [number for piece in QUOTED.split(text)[::2] for number in NUMBER.findall(piece)]
+    return max(map(float, found), default=0.0)

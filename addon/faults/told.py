@@ -49,9 +49,9 @@ def tell(operator: bpy.types.Operator, kinds: set[str], sentence: str) -> None:
 
 
 def tell_done(operator: bpy.types.Operator, done: list[str], remarks: list[str]) -> None:
-    """Report what was done, and then what is to be said against it, what matters most last: that is what the status bar
-    shows, and the rest stands in the Info editor."""
-    for sentence in gathered(done):
+    """Report what was done, and then what is to be said against it, each kind once, what matters most last: that is
+    what the status bar shows, and the rest stands in the Info editor."""
+    for sentence in done:
         tell(operator, {"INFO"}, sentence)
     for remark in reversed(gathered(remarks)):
         tell(operator, {"WARNING"}, remark)

@@ -3,7 +3,7 @@ import time
 
 import bpy
 
-from ..faults import SteppedOperator, Steps, one_or_more, part, tell, tell_done
+from ..faults import SteppedOperator, Steps, listed, one_or_more, part, tell, tell_done
 from ..freshness import why_light_is_stale, why_stale
 from ..operators import polls
 from ..operators.generate import IN_OBJECT_MODE, generation
@@ -52,7 +52,7 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
             told.append(outcome.summary(time.perf_counter() - started))
             remarks += outcome.remarks
         yield from self._light(context, lit)
-        tell_done(self, told + list(map(self._summary, lit)), remarks)
+        tell_done(self, told + [self._summary(lit)] * bool(lit), remarks)
 
     def _light(self, context: bpy.types.Context, lit: list) -> Steps[None]:
         """Make the light anew that is stale, with all that falls on the same objects."""
@@ -61,9 +61,10 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
             if pairs & group.pairs:
                 yield from made_anew(context, group, {mirror: wanted(mirror) for mirror, _ in group.pairs})
 
-    def _summary(self, light: bpy.types.Object) -> str:
-        faces = one_or_more(len(light.data.polygons), "1 face", "{count} faces")
-        return f"'{light.name}': {faces} of light, {light.reflection_mesh.seconds:.2f} s"
+    def _summary(self, lights: list) -> str:
+        faces = one_or_more(sum(len(light.data.polygons) for light in lights), "1 face", "{count} faces")
+        seconds = sum(light.reflection_mesh.seconds for light in lights)
+        return f"{listed(light.name for light in lights)}: {faces} of light, {seconds:.2f} s"
 
 
 def _lost(context: bpy.types.Context) -> dict:

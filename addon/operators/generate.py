@@ -8,7 +8,7 @@ from functools import partial
 import bpy
 
 from ... import core
-from ..faults import SteppedOperator, Steps, part, tell_done
+from ..faults import SteppedOperator, Steps, gathered, part, tell_done
 from ..freshness import origin_of, record_of, settings_of
 from ..reading import (
     Assembly,
@@ -206,7 +206,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
             if obj.name in context.view_layer.objects:
                 obj.select_set(True)
                 context.view_layer.objects.active = obj
-        tell_done(self, [*outcome.news, outcome.summary(time.perf_counter() - started)],
+        tell_done(self, [*gathered(outcome.news), outcome.summary(time.perf_counter() - started)],
                   outcome.remarks + lacks)
 
 

@@ -10,6 +10,10 @@ OPERATORS = {
     "button is pressed": "Zeigt, bis sie beleuchtet ist, die Farben des Gespiegelten in der Tönung des Spiegels, "
         "von Lampen unberührt: an, wo ein Knopf gedrückt wird",
     "Attributes": "Attribute",
+    "Join Parts": "Teile verbinden",
+    "Mirrors that have one topmost parent share one reflection; a mirror with settings of its own, or with a reflection "
+    "already, keeps its own": "Spiegel mit einem gemeinsamen obersten Elternobjekt teilen sich eine Spiegelung; einer "
+    "mit eigenen Einstellungen, oder der schon eine Spiegelung hat, behält seine eigene",
     "What the points and faces of a reflection know": "Was Punkte und Flächen einer Spiegelung wissen",
     "All": "Alles",
     "Where each point lies on the mirror and on what it shows, how long its path is, which face it shows: for light on "

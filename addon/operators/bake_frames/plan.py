@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, replace
 import bpy
 
 from .... import core
-from ...faults import Steps, listed, one_or_more
+from ...faults import Steps, gathered, listed, one_or_more
 from ...frames import Sequence, frame_numbers, frame_text, is_done, read_record, record_path, told_apart
 from ...freshness import frame_difference, frame_origin
 from ...reading import Assembly, NothingSeen, Participants, candidates, render_size, visible
@@ -136,7 +136,7 @@ def lacking(lacks: dict) -> list[str]:
     numbers alone as one."""
     frames: dict = {}
     for frame, sentences in lacks.items():
-        for sentence in sentences:
+        for sentence in gathered(sentences):
             _, those = frames.setdefault(NUMBER.sub("", sentence), (sentence, []))
             those.append(frame)
     return [f"In {frames_listed(sorted({*those}))}: {sentence}" for sentence, those in frames.values()]
