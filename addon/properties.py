@@ -14,6 +14,7 @@ from bpy.props import (
 )
 
 from . import compat
+from .lighting import update_mattes
 from .reading import forget_known
 from .settings import SettingsOfMirror, SettingsOfScene, make_own
 
@@ -40,6 +41,11 @@ def _after_role(_record, _context: bpy.types.Context) -> None:
     forget_known()
 
 
+def _after_matte(_record, context: bpy.types.Context) -> None:
+    if context.scene is not None:
+        update_mattes(context)
+
+
 class ReflectionSource(bpy.types.PropertyGroup):
     """One diffuse object of a result, or one part of its mirror."""
 
@@ -58,6 +64,9 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
 
     role: EnumProperty(name="Role", description="The part that this object plays in a reflection", items=ROLES,
                        default="AUTO", override=OVERRIDABLE, update=_after_role)
+    matte: BoolProperty(name="Matte", description="Reflections show this object in a pass of its own, for compositing: "
+                        "1 where it is seen in a mirror, 0 elsewhere", default=False, override=OVERRIDABLE,
+                        options=set(), update=_after_matte)
     own_settings: BoolProperty(name="Own Settings", description="This mirror has settings of its own; else the scene's "
                                "hold for it", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object,
@@ -122,6 +131,7 @@ class ReflectionScene(SettingsOfScene, bpy.types.PropertyGroup):
     comparison: StringProperty(name="Comparison", description="Numbers of the last comparison with Cycles, as JSON")
     seen_by: PointerProperty(name="Seen By", description="The camera whose reflections are shown; none: all are",
                              type=bpy.types.Object)
+    mattes: StringProperty(name="Mattes", description="Passes that view layers have for mattes, a line each")
     collection: PointerProperty(name="Collection", description="Where results made in a window go",
                                 type=bpy.types.Collection)
 

@@ -9,7 +9,7 @@ from ...core import ReflectionError
 from ..baking import are_few, can_be_baked
 from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
 from ..lamps import lamps_before, lamps_that_show
-from ..lighting import needs_light
+from ..lighting import needs_light, update_mattes
 from ..reading import has_linked_results, mirrors_of, moves, read_view, with_copies
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, option
 from ..writing import forget_mesh
@@ -90,6 +90,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
             yield from part(show(), 1.0, 0.0)
         for linked in meshes.values():
             _stay_linked(linked, whole)
+    update_mattes(context)
     return everything
 
 

@@ -9,7 +9,16 @@ from ...core import View
 from ..faults import AllOrNothing, listed, one_or_more
 from ..frames import stop_playing
 from ..lamps import lamps_before, lamps_that_show
-from ..lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
+from ..lighting import (
+    forget_previews,
+    is_lit,
+    keep_light,
+    lacks_mattes,
+    needs_light,
+    show_previews,
+    shows_preview,
+    update_mattes,
+)
 from ..reading import DiffuseScene, results_of
 from ..writing import (
     Reflection,
@@ -109,6 +118,9 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
             gather(context, [obj for obj, _ in results if obj not in there], whole)
         whole.after(forget_previews)
         whole.after(show_for_camera, context.scene)
+    update_mattes(context)
+    remarks += [f"'{entry.obj.name}' has no mattes, because Attributes is Shown. Set Attributes to All and generate "
+                "again." for entry in entries if lacks_mattes(entry.obj)]
     news = _told(entries) + [hint for made in prepared for hint in better_of_points(made.mirror.name, made.result)]
     return Outcome(results, remarks, unlit, news, [entry.obj for entry in entries if entry.copy])
 

@@ -78,6 +78,8 @@ DONE = {
         "neben dem von Strahlen; Bilder in {}",
 }
 KEPT = {
+    "'{}' has no mattes, because Attributes is Shown. Set Attributes to All and generate again.":
+        "'{}' hat keine Masken, weil Attribute auf Gezeigtes steht. Setze Attribute auf Alles und erzeuge es neu.",
     "'{}' stays moved, as you left it: clear it and generate again to have it on its mirror.":
         "'{}' bleibt verschoben, wie du es gelassen hast: entferne und erzeuge es neu, um es auf dem Spiegel zu "
         "haben.",

@@ -5,6 +5,7 @@ import bpy
 
 from ...faults import AllOrNothing, listed
 from ...frames import Sequence, light_of, make_way, play, player_of, results_to_play, show_always, show_by_camera
+from ...lighting import update_mattes
 from ...reading import Participants, candidates
 from ...writing import set_free, told_of
 from ..assembled import assembled
@@ -29,6 +30,7 @@ def playing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -
                 told += [f"Hidden where cameras have sequences of their own: {listed(obj.name for obj in hidden)}."]
         elif hidden := [other for obj, _ in shown for other in show_always(context, obj, whole)]:
             told += [f"Hidden, since what plays is right for every camera: {listed(obj.name for obj in hidden)}."]
+    update_mattes(context)
     return [obj for obj, _ in shown], told
 
 
