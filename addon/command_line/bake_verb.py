@@ -9,6 +9,7 @@ from itertools import chain
 import bpy
 
 from ...core import ReflectionError
+from ..faults import gathered
 from ..files import check_place, chosen_folder, save_blend
 from ..frames import FrameRecord
 from ..illumination import meant_lamps

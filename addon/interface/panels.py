@@ -9,6 +9,7 @@ import bpy
 from ..frames import plays
 from ..reading import can_take_part, is_result
 from .draw_live import draw_live
+from .draw_mattes import draw_mattes
 from .draw_object import draw_figures, draw_object
 from .draw_settings import draw_limits, draw_settings, possible_mirror
 from .draw_work import TOOLS, WORK, draw_buttons, draw_comparison
@@ -56,6 +57,18 @@ class _Limits:
         draw_limits(aligned(self.layout), context, active(context))
 
 
+class _Mattes:
+    bl_label, bl_options = "Mattes", {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        obj = active(context)
+        return obj is not None and is_result(obj)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_mattes(self.layout, active(context))
+
+
 class _Figures:
     bl_label, bl_options = "Figures", {"DEFAULT_CLOSED"}
 
@@ -82,6 +95,12 @@ class REFLECTION_MESH_PT_limits(_Sidebar, _Limits, bpy.types.Panel):
     """What the work may take"""
 
     bl_parent_id = "REFLECTION_MESH_PT_settings"
+
+
+class REFLECTION_MESH_PT_mattes(_Sidebar, _Mattes, bpy.types.Panel):
+    """Passes for compositing, of single objects in the reflection"""
+
+    bl_parent_id = "REFLECTION_MESH_PT_main"
 
 
 class REFLECTION_MESH_PT_figures(_Sidebar, _Figures, bpy.types.Panel):
@@ -122,6 +141,12 @@ class REFLECTION_MESH_PT_object_limits(_Properties, _Limits, bpy.types.Panel):
     bl_parent_id = "REFLECTION_MESH_PT_object_settings"
 
 
+class REFLECTION_MESH_PT_object_mattes(_Mattes, _Properties, bpy.types.Panel):
+    """Passes for compositing, of single objects in the reflection"""
+
+    bl_parent_id = "REFLECTION_MESH_PT_object"
+
+
 class REFLECTION_MESH_PT_object_figures(_Figures, _Properties, bpy.types.Panel):
     """Numbers for engineers"""
 
@@ -141,9 +166,10 @@ def aligned(layout: bpy.types.UILayout) -> bpy.types.UILayout:
     return layout
 
 
-CLASSES = (REFLECTION_MESH_PT_main, REFLECTION_MESH_PT_settings, REFLECTION_MESH_PT_limits, REFLECTION_MESH_PT_figures,
-           REFLECTION_MESH_PT_tools, REFLECTION_MESH_PT_object, REFLECTION_MESH_PT_object_settings,
-           REFLECTION_MESH_PT_object_limits, REFLECTION_MESH_PT_object_figures)
+CLASSES = (REFLECTION_MESH_PT_main, REFLECTION_MESH_PT_settings, REFLECTION_MESH_PT_limits, REFLECTION_MESH_PT_mattes,
+           REFLECTION_MESH_PT_figures, REFLECTION_MESH_PT_tools, REFLECTION_MESH_PT_object,
+           REFLECTION_MESH_PT_object_settings,
+           REFLECTION_MESH_PT_object_limits, REFLECTION_MESH_PT_object_mattes, REFLECTION_MESH_PT_object_figures)
 
 
 def register() -> None:

@@ -1,7 +1,7 @@
 """Mattes: passes that tell for each pixel how much of it a reflection fills with one object, as shader AOVs.
 
-An object asks for its matte by a property. Its share is an attribute of each result that shows it, 1 on its faces, and the
-results' own materials, those of light and previews, put that out. Materials of the user are not touched.
+An object asks for its matte by a property. Its share is an attribute of each result that shows it, 1 on its faces, and
+the results' own materials, those of light and previews, put that out. Materials of the user are not touched.
 """
 from __future__ import annotations
 

@@ -75,8 +75,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     mirrors, meshes, faceless = _with_faces(mirrors, *kept.looked_at(depsgraph, mirrors, chosen.diffuse))
     own = [of_each(settings)(one.mirror) for one in mirrors]
     sources, lines = chosen.diffuse + chosen.waiting, lines_drawn(context.scene)
-    origins = {one.mirror: record_of(origin_of(depsgraph, view, one.members, sources),
-                                     settings_of(context.scene, one.mirror)) for one in mirrors}
+    origins = _origins(depsgraph, view, mirrors, sources)
     joined = partial(kept.joined, mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
     scene, surfaces = stage.scene, stage.surfaces
@@ -141,6 +140,12 @@ def _with_faces(mirrors: list[Assembly], of_mirrors: list, placed: list) -> tupl
         faceless += [obj for number, obj in enumerate(mirror.parts) if number not in there and not is_part(obj)]
     return ([mirror for mirror, own in zip(mirrors, of_mirrors) if own], ([own for own in of_mirrors if own], placed),
             [f"Left out because it has no faces: '{obj.name}'." for obj in faceless])
+
+
+def _origins(depsgraph: bpy.types.Depsgraph, view: core.View, mirrors: list[Assembly], sources: list) -> dict:
+    """Return what the result of each mirror is made from."""
+    return {one.mirror: record_of(origin_of(depsgraph, view, one.members, sources),
+                                  settings_of(depsgraph.scene.original, one.mirror)) for one in mirrors}
 
 
 def _record(outcome: Outcome, origins: dict, seconds: float) -> None:

@@ -231,8 +231,8 @@ LACKS = {
         "{}: '{}' verdeckt einen Teil des virtuellen Bildes hinter diesem Spiegel; die Lage Geschichtet zeigt es "
         "ganz.",
     "Dense areas were sampled at one ray per pixel ({share} % of this reflection). Raise Memory for exact outlines.":
-        "Dichte Bereiche sind mit einem Strahl je Pixel abgetastet ({share} % dieser Spiegelung). Erhöhe Speicher, damit "
-        "Umrisse genau werden.",
+        "Dichte Bereiche sind mit einem Strahl je Pixel abgetastet ({share} % dieser Spiegelung). Erhöhe Speicher, "
+        "damit Umrisse genau werden.",
     "The mirror overlaps itself too often to be cut exactly, so hidden objects may show. Simplify the mirror.":
         "Der Spiegel überdeckt sich zu oft selbst, um genau geschnitten zu werden; Verdecktes kann zu sehen sein. "
         "Vereinfache den Spiegel.",
@@ -244,11 +244,11 @@ LACKS = {
         "Zu viele Umrisse von Spiegeln kreuzen sich; manche Ränder sind rau. Vereinfache die Spiegel.",
     "Refinement stopped at the largest number of faces, so the error may exceed the tolerance. Raise Tolerance or "
     "Memory.":
-        "Die Verfeinerung endete bei der größten Zahl von Flächen; der Fehler kann größer als die Toleranz sein. Erhöhe "
-        "Toleranz oder Speicher.",
+        "Die Verfeinerung endete bei der größten Zahl von Flächen; der Fehler kann größer als die Toleranz sein. "
+        "Erhöhe Toleranz oder Speicher.",
     "{share} % of the points are too far apart for discs without gaps. Subdivide the reflected objects, or set Made Of "
     "to Faces.":
-        "{share} % der Punkte liegen zu weit auseinander für Scheiben ohne Lücken. Unterteile die gespiegelten Objekte, "
-        "oder setze Besteht aus auf Flächen.",
+        "{share} % der Punkte liegen zu weit auseinander für Scheiben ohne Lücken. Unterteile die gespiegelten "
+        "Objekte, oder setze Besteht aus auf Flächen.",
 }
 REPORTS = {**DONE, **KEPT, **LACKS}

@@ -10,9 +10,15 @@ OPERATORS = {
     "button is pressed": "Zeigt, bis sie beleuchtet ist, die Farben des Gespiegelten in der Tönung des Spiegels, "
         "von Lampen unberührt: an, wo ein Knopf gedrückt wird",
     "Attributes": "Attribute",
+    "Matte": "Maske",
+    "Mattes": "Masken",
+    "Reflections show this object in a pass of its own, for compositing: 1 where it is seen in a mirror, 0 elsewhere":
+        "Spiegelungen zeigen dieses Objekt in einem eigenen Durchgang zum Compositing: 1, wo es in einem Spiegel zu "
+        "sehen ist, sonst 0",
+    "Select objects to list them here": "Wähle Objekte aus, um sie hier zu sehen",
     "Join Parts": "Teile verbinden",
-    "Mirrors that have one topmost parent share one reflection; a mirror with settings of its own, or with a reflection "
-    "already, keeps its own": "Spiegel mit einem gemeinsamen obersten Elternobjekt teilen sich eine Spiegelung; einer "
+    "Mirrors that have one topmost parent share one reflection; a mirror with settings of its own, or with a "
+    "reflection already, keeps its own": "Spiegel mit einem gemeinsamen obersten Elternobjekt teilen sich eine Spiegelung; einer "
     "mit eigenen Einstellungen, oder der schon eine Spiegelung hat, behält seine eigene",
     "What the points and faces of a reflection know": "Was Punkte und Flächen einer Spiegelung wissen",
     "All": "Alles",

@@ -6,9 +6,10 @@ import numpy as np
 import parts
 import pytest
 
-KINDS = ("{}: Dense areas were sampled at one ray per pixel ({} % of this reflection). Raise Memory for exact outlines.",
-         "The mirror '{}' is coarse and shaded smooth: Cycles bends its normals, and throws more light than is here; give "
-         "it more faces, or shade it flat.",
+KINDS = ("{}: Dense areas were sampled at one ray per pixel ({} % of this reflection). Raise Memory for exact "
+         "outlines.",
+         "The mirror '{}' is coarse and shaded smooth: Cycles bends its normals, and throws more light than is here; "
+         "give it more faces, or shade it flat.",
          "Cycles adds its own caustics of 'Lamp 1' in '{}', which is lit as well as it mirrors: switch Light Paths > "
          "Caustics > Reflective off.")
 
