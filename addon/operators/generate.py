@@ -43,6 +43,8 @@ from .write_results import Manners, Outcome, write_results
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
 IN_OBJECT_MODE = "Reflections are generated in Object Mode: leave the present mode first."
+NOTHING_SEEN = ("The camera sees none of the reflected objects in this mirror; move the camera, the mirror or the "
+                "objects.")
 # what whoever presses a button gets unless it is set otherwise
 FOR_THE_EYE = ("preview", "collect", "select_alone")
 
@@ -89,16 +91,13 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index])
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
+            if not len(result.positions):
+                raise core.NothingInView(NOTHING_SEEN)
             if own[index].placement == "VIRTUAL":
                 lacks += window_shortcomings(context, joint, view, result, chosen.mirrors)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             unseen += refused[-1:] * isinstance(error, core.NothingInView)
-            continue
-        if not len(result.positions):
-            refused.append(f"{mirror.name}: The camera sees none of the reflected objects in this mirror; move the "
-                           "camera, the mirror or the objects.")
-            unseen += refused[-1:]
             continue
         lacks += shortcomings(mirror.name, result)
         written = partial(_written, result, scene, (surface, surfaces), view, lines)

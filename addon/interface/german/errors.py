@@ -65,8 +65,8 @@ CAMERAS = {
         "'{}' ist für die Kamera '{}': mache diese zur Kamera der Szene, oder erzeuge die Spiegelung auch für '{}'.",
     "The camera sees none of the reflections: generate them again for this view.":
         "Die Kamera sieht keine der Spiegelungen: erzeuge sie für diesen Blick neu.",
-    "{}: The camera sees none of the reflected objects in this mirror; move the camera, the mirror or the objects.":
-        "{}: Die Kamera sieht keines der Objekte in diesem Spiegel; bewege die Kamera, den Spiegel oder die Objekte.",
+    "The camera sees none of the reflected objects in this mirror; move the camera, the mirror or the objects.":
+        "Die Kamera sieht keines der Objekte in diesem Spiegel; bewege die Kamera, den Spiegel oder die Objekte.",
     "The camera sees none of the objects in this mirror; move the camera, the mirror or the objects.":
         "Die Kamera sieht keines der Objekte in diesem Spiegel; bewege die Kamera, den Spiegel oder die Objekte.",
 }

@@ -18,8 +18,9 @@ OPERATORS = {
     "Select objects to list them here": "Wähle Objekte aus, um sie hier zu sehen",
     "Join Parts": "Teile verbinden",
     "Mirrors that have one topmost parent share one reflection; a mirror with settings of its own, or with a "
-    "reflection already, keeps its own": "Spiegel mit einem gemeinsamen obersten Elternobjekt teilen sich eine Spiegelung; einer "
-    "mit eigenen Einstellungen, oder der schon eine Spiegelung hat, behält seine eigene",
+    "reflection already, keeps its own":
+        "Spiegel mit einem gemeinsamen obersten Elternobjekt teilen sich eine Spiegelung; einer mit eigenen "
+        "Einstellungen, oder der schon eine Spiegelung hat, behält seine eigene",
     "What the points and faces of a reflection know": "Was Punkte und Flächen einer Spiegelung wissen",
     "All": "Alles",
     "Where each point lies on the mirror and on what it shows, how long its path is, which face it shows: for light on "
