@@ -12,7 +12,7 @@ SECONDS ?= 600
 
 BLENDER ?= $(if $(wildcard $(VIRTUAL_SCREEN)),$(VIRTUAL_SCREEN) run -t 600)
 VIRTUAL_SCREEN ?= ../shared/blender-gui/blender-gui
-WINDOW_TESTS = tests/window/ways_in.py tests/window/drop.py tests/window/live.py
+WINDOW_TESTS = tests/window/ways_in.py tests/window/drop.py tests/window/live.py tests/window/clicks.py
 
 RUN = $(VENV)/bin/python
 READY = $(VENV)/.ready

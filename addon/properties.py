@@ -22,9 +22,9 @@ ROLES = (
     ("AUTO", "Automatic", "A mirror if its material is one; if no selected object is, the active object is the mirror"),
     ("MIRROR", "Mirror", "The scene is reflected in this object"),
     ("DIFFUSE", "Reflected", "Mirrors show this object"),
-    ("IGNORE", "Ignored", "This object takes no part"),
+    ("IGNORE", "Ignored", "This object is neither a mirror nor reflected"),
     ("REFLECTION", "Reflection", "This object is a reflection that was generated"),
-    ("CAUSTICS", "Caustics", "This object is light thrown by a mirror that was generated"),
+    ("CAUSTICS", "Caustics", "This object shows caustics that were generated"),
 )
 # what ties objects of a library together: an override of them all must stay tied to its own ones
 OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
@@ -62,13 +62,13 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     """`Object.reflection_mesh`: the role that an object plays, a mirror's own settings and, for a result, where it came
     from."""
 
-    role: EnumProperty(name="Role", description="The part that this object plays in a reflection", items=ROLES,
+    role: EnumProperty(name="Role", description="Role of this object in reflections", items=ROLES,
                        default="AUTO", override=OVERRIDABLE, update=_after_role)
     matte: BoolProperty(name="Matte", description="Reflections show this object in a pass of its own, for compositing: "
                         "1 where it is seen in a mirror, 0 elsewhere", default=False, override=OVERRIDABLE,
                         options=set(), update=_after_matte)
-    own_settings: BoolProperty(name="Own Settings", description="This mirror has settings of its own; else the scene's "
-                               "hold for it", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
+    own_settings: BoolProperty(name="Own Settings", description="Use settings of this mirror instead of the scene's "
+                               "settings", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object,
                             override=OVERRIDABLE)
     parts: CollectionProperty(name="Parts", description="The objects that its mirror is joined from; none: it is one",
@@ -103,6 +103,8 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
     counts: StringProperty(name="Counts", description="How much of each part of the method was needed, as JSON")
     resolution: IntVectorProperty(name="Resolution", size=2,
                                   description="Size in pixels of the picture that this reflection was made for")
+    protected: BoolProperty(name="Protected", description="Clicks were made to pass by this result, and its transform "
+                            "was locked; what the user changes of that stays", override=OVERRIDABLE)
     made_from: StringProperty(name="Made From", description="The view, the mirror and the objects that this reflection "
                               "was made from, as JSON; empty where that is not known")
     faces: IntProperty(name="Faces", description="Number of faces when it was generated")

@@ -1,7 +1,7 @@
 """The forward reflection method on plain NumPy arrays; knows nothing of Blender."""
 from .caustics import CausticMesh, Lamp, caustic_steps, caustics
 from .following import FollowedImages
-from .geometry import TriangleMesh
+from .geometry import Opacity, TriangleMesh
 from .lines import with_borders_closed
 from .reflection import reflect, reflection_steps
 from .result import Discs, PicturePieces, ReflectionMesh, picture_pieces, reflecting_normals
@@ -11,7 +11,7 @@ from .support import METHODS, PLACEMENTS, NothingInView, ReflectionError, Settin
 from .trees import PointTree, SceneTree
 from .views import View, draw
 
-__all__ = ["CausticMesh", "Discs", "FollowedImages", "Images", "Lamp", "METHODS", "NothingInView", "PLACEMENTS",
-           "PicturePieces", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings", "Standing",
-           "TriangleMesh", "View", "breathe", "caustic_steps", "caustics", "draw", "in_steps", "picture_pieces",
-           "project", "reflect", "reflecting_normals", "reflection_steps", "with_borders_closed"]
+__all__ = ["CausticMesh", "Discs", "FollowedImages", "Images", "Lamp", "METHODS", "NothingInView", "Opacity",
+           "PLACEMENTS", "PicturePieces", "PointTree", "ReflectionError", "ReflectionMesh", "SceneTree", "Settings",
+           "Standing", "TriangleMesh", "View", "breathe", "caustic_steps", "caustics", "draw", "in_steps",
+           "picture_pieces", "project", "reflect", "reflecting_normals", "reflection_steps", "with_borders_closed"]

@@ -52,7 +52,8 @@ def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors,
     if isinstance(mirror_map.view, LampView):
         arrays["positions"] = arrays["mirror_position"]
         return ReflectionMesh(**arrays, maps=maps, map_face=map_face)
-    arrays["positions"] = place(mirror_map.view, arrays["mirror_position"].T, arrays["path_length"], placement, reach).T
+    arrays["positions"] = place(mirror_map.view, arrays["mirror_position"].T, arrays["path_length"], placement, reach,
+                                met.slide).T
     return ReflectionMesh(**arrays)
 
 

@@ -112,14 +112,15 @@ def showing_mirrors(cameras: Cameras, met: SceneAndMirrors, limits: Limits) -> M
 
 def _culled(cameras: Cameras, task: Task, showing: MirrorsShown, crowds: Crowds) -> Candidates:
     """Pairs of cameras and triangles that may be seen in them, the cameras cut until outlines in them are straight."""
-    task.progress.next(0.1, "cones through the tree")
+    task.progress.next(0.1, "Finding reflected objects")
     met, limits = task.met, task.limits
     candidates, crowd, pairs, visited = _met(cameras, task, showing, crowds)
     candidates, contacts, pierced = crowds.thinned(candidates, crowd), 0, 0
     if cameras.mirror_map.bounce == 1:
         candidates, crowd, contacts, pierced = drop_behind_contacts(
             candidates, limits.candidates,
-            lambda pieces, pairs: Overlaps.of(pieces, candidates.frames, pairs, met).in_sight(task.last))
+            lambda pieces, pairs: Overlaps.of(pieces, candidates.frames, pairs, met).in_sight(task.last),
+            met.opacities, met.slide)
         candidates = crowds.thinned(candidates, crowd)
     candidates, still_bent, limited = refine_for_outlines(candidates, OUTLINE_SHARE * task.settings.tolerance,
                                                           limits.candidates, met, task.last)
@@ -160,7 +161,7 @@ def _met(cameras: Cameras, task: Task, showing: MirrorsShown,
 
 
 def _projected(candidates: Candidates, task: Task) -> VertexImages:
-    task.progress.next(0.35, "projection")
+    task.progress.next(0.35, "Reflecting vertices")
     images, counts = vertex_images(task.met.only_diffuse(candidates) if task.last else candidates)
     task.progress.done("projection", **counts)
     return images
@@ -180,7 +181,7 @@ def _filled(candidates: Candidates, task: Task, crowds: Crowds) -> tuple[Candida
 
 def _clipped(candidates: Candidates, task: Task) -> Polygons:
     """What the cameras see of each triangle; of mirrors only where light goes on."""
-    task.progress.next(0.5, "clipping")
+    task.progress.next(0.5, "Clipping faces")
     polygons = clip(candidates)
     mirror = task.met.are_mirrors(candidates)[polygons.pair]
     diffuse = polygons.select(~mirror)
@@ -191,7 +192,7 @@ def _clipped(candidates: Candidates, task: Task) -> Polygons:
 
 def _hidden(polygons: Polygons, task: Task, by_rays: np.ndarray) -> Polygons:
     """The polygons without what mirrors hide; rays have told what cells show, and nothing hides that."""
-    task.progress.next(0.7, "mirrors in the mirror")
+    task.progress.next(0.7, "Reflecting other mirrors")
     cell = by_rays[polygons.camera]
     seen, occluded, undecided = cut_behind_mirrors(task.met, polygons.select(~cell))
     task.progress.done("occlusion", occluded=occluded, many_outlines=undecided)
@@ -201,7 +202,7 @@ def _hidden(polygons: Polygons, task: Task, by_rays: np.ndarray) -> Polygons:
 def _triangulated(polygons: Polygons, images: VertexImages, task: Task, by_rays: np.ndarray) -> Bounce:
     """The polygons as faces on exact corners, of one parity each, and fine enough."""
     progress, limits = task.progress, task.limits
-    progress.next(0.75, "corners and faces")
+    progress.next(0.75, "Building faces")
     cameras, frames = polygons.candidates.cameras, polygons.candidates.frames
     nodes, node_of = polygon_nodes(polygons, images)
     faces = connect(polygons, node_of, cameras.view.pixels(nodes.place.T))
@@ -210,7 +211,7 @@ def _triangulated(polygons: Polygons, images: VertexImages, task: Task, by_rays:
     nodes, faces, caustic = split_at_caustics(cameras, frames, nodes, faces)
     progress.done("connection", connected=len(faces) + len(cells), caustic_edges=caustic)
 
-    progress.next(0.8, "refinement")
+    progress.next(0.8, "Refining faces")
     refinement = FaceRefinement(cameras, frames, beyond_horizon(cameras), task.settings.placement == "VIRTUAL")
     room = limits.faces - len(cells)
     nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * task.settings.tolerance, room)

@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .geometry import TriangleMesh, area_normals, cross, dot, norm, rows
-from .support import LARGEST, NothingInView, ReflectionError, Settings, must_be
+from .geometry import Opacity, TriangleMesh, area_normals, cross, dot, norm, rows
+from .support import LARGEST, NothingInView, ReflectionError, Settings, must_be, whole_numbers
 from .trees import PointTree, SceneTree
 from .views import View
 
@@ -36,6 +36,18 @@ def check_given(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTre
         raise NothingInView(NO_AREA)
     if not view.orthographic and _touched(view.eye, corners, normals, length):
         raise ReflectionError("The eye lies on the mirror; move the camera away from the mirror's surface.")
+
+
+def checked_opacity(scene: TriangleMesh | SceneTree | PointTree, opacity: np.ndarray | None) -> np.ndarray | None:
+    """Return the opacity (m,) of a scene's triangles as int8; raise `ValueError` if it is none."""
+    if opacity is None:
+        return None
+    mesh = scene if isinstance(scene, TriangleMesh) else scene.mesh
+    wrong = "The opacity must be an (m,) array of Opacity values; give one for each triangle of the scene."
+    found = whole_numbers(opacity, (len(mesh.triangles),), wrong)
+    if len(found) and not (Opacity.CLEAR <= found.min() and found.max() <= Opacity.OPAQUE):
+        raise ValueError(wrong)
+    return found.astype(np.int8)
 
 
 def _touched(eye: np.ndarray, corners: np.ndarray, normals: np.ndarray, length: np.ndarray) -> bool:

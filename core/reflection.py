@@ -20,7 +20,7 @@ from .cameras import (
 from .culling import MirrorsShown, SceneAndMirrors
 from .filling import Limits, missed_probes
 from .geometry import Order, TriangleMesh, ordered
-from .given import check_given
+from .given import check_given, checked_opacity
 from .patches import Patch, speck
 from .points import reflected_points
 from .recentring import far_corner, moved_mesh, moved_surface, moved_view
@@ -29,12 +29,13 @@ from .standing import Standing
 from .support import INSIDE, INSIDE_WHOLE, NothingInView, Progress, Settings, in_steps, keep_freed_memory
 from .trees import PointTree, SceneTree
 from .views import LampView, View
-from .visibility import cut_at_borders, cut_before_eye, lit, with_shades, without_hidden, without_occluded
+from .visibility import cut_at_borders, cut_before_eye, lit, slide_share, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces
 
 
 def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
-            settings: Settings = Settings(), mirrors: TriangleMesh | None = None) -> ReflectionMesh:
+            settings: Settings = Settings(), mirrors: TriangleMesh | None = None,
+            opacity: np.ndarray | None = None) -> ReflectionMesh:
     """The reflection of a diffuse scene in a mirror as the view sees it.
 
     Parameters
@@ -49,6 +50,9 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
     mirrors : TriangleMesh, optional
         In world space, all mirrors that may be seen in this one, itself among them; this one alone where omitted, or
         those of a `Standing`. They hide what lies behind them, and from a depth of two on they reflect in their turn.
+    opacity : (m,) integer, optional
+        `Opacity` of each triangle of the scene, as it was given; all are opaque if omitted. What lies behind clear
+        triangles is in the result too. It is not a part of the mesh, so that trees stay valid while materials change.
 
     Returns
     -------
@@ -72,22 +76,22 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
     ([0], True)
     """
     keep_freed_memory()
-    progress = Progress()
     tree = scene.tree if isinstance(scene, Standing) else scene
     mirrors = scene.mirrors if isinstance(scene, Standing) and mirrors is None else mirrors
     check_given(view, mirror, tree, settings, mirrors)
+    opacity = checked_opacity(tree, opacity)
     corner = far_corner(mirror)
     if corner is None:
-        return _near_origin(view, mirror, scene, settings, mirrors, progress)
+        return _near_origin(view, mirror, scene, settings, mirrors, opacity)
     mesh = _near_origin(moved_view(view, -corner), moved_surface(mirror, -corner), moved_surface(tree, -corner),
-                        settings, None if mirrors is None else moved_surface(mirrors, -corner), progress)
+                        settings, None if mirrors is None else moved_surface(mirrors, -corner), opacity)
     return moved_mesh(mesh, corner)
 
 
 def reflection_steps(
         view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
-        settings: Settings = Settings(),
-        mirrors: TriangleMesh | None = None) -> Generator[tuple[float, str], None, ReflectionMesh]:
+        settings: Settings = Settings(), mirrors: TriangleMesh | None = None,
+        opacity: np.ndarray | None = None) -> Generator[tuple[float, str], None, ReflectionMesh]:
     """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end.
 
     A stage that takes long yields several times. A generator that is closed before its end stops the work.
@@ -100,15 +104,16 @@ def reflection_steps(
     >>> mirror = TriangleMesh(np.array([[-2, -2, 0], [2, -2, 0], [0, 2, 0]]), np.array([[0, 1, 2]]))
     >>> scene = TriangleMesh(np.array([[0, 0, 1], [0.3, 0, 1], [0, 0, 1.4]]), np.array([[0, 1, 2]]))
     >>> next(reflection_steps(view, mirror, scene))  # in a generator: mesh = yield from reflection_steps(...)
-    (0.0, 'k-d tree')
+    (0.0, 'Preparing the scene')
     """
-    return (yield from in_steps(lambda: reflect(view, mirror, scene, settings, mirrors)))
+    return (yield from in_steps(lambda: reflect(view, mirror, scene, settings, mirrors, opacity)))
 
 
 def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
-                 settings: Settings, mirrors: TriangleMesh | None, progress: Progress) -> ReflectionMesh:
+                 settings: Settings, mirrors: TriangleMesh | None, opacity: np.ndarray | None) -> ReflectionMesh:
     """The reflection of a scene whose coordinates tell the mirror's shape well."""
-    progress.next(0.0, "k-d tree")
+    progress = Progress()
+    progress.next(0.0, "Preparing the scene")
     kind: type[SceneTree] | type[PointTree] = PointTree if settings.method == "POINTS" else SceneTree
     given_tree = scene.tree if isinstance(scene, Standing) else scene
     tree = given_tree if isinstance(given_tree, kind) else kind.build(
@@ -117,11 +122,12 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
         raise NothingInView("The reflected objects have no faces with an area; select objects with faces to reflect.")
     known = scene if isinstance(scene, Standing) and scene.tree is tree and scene.mirrors is mirrors else None
     mirror, given, met = _with_mirrors(view, tree, mirror, mirrors, known)
-    if isinstance(tree, SceneTree) and not settings.hidden_faces:
-        met = met.from_outside(view)
+    met = met.with_opacity(opacity)
+    met = met if isinstance(tree, PointTree) or settings.hidden_faces else met.from_outside(view)
     progress.done("tree")
 
     cameras, uncut, (pixels, overlaid) = _seen_cameras(view, mirror, met, settings, progress)
+    met = _behind_panes(cameras, met, progress)
     limits = Limits.of(settings, pixels, len(met.triangles))
     if isinstance(tree, PointTree):
         patch = None
@@ -147,7 +153,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     del whole  # what is assembled needs the room
 
     progress.start, progress.share = 0.0, 1.0
-    progress.next(0.95, "depth order")
+    progress.next(0.95, "Sorting by depth")
     error = max(_estimate(*np.concatenate([bounce.left for bounce in bounces], axis=1)), error)
     mesh = assemble(mirror_map, bounces, task.met, settings.placement, reach, seams)
     del bounces, seams
@@ -162,7 +168,7 @@ def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settin
                   progress: Progress) -> tuple[Cameras, int, tuple[int, int]]:
     """Cameras on what the view sees of the mirror; how many corners there were before any was cut; about how many
     pixels see the mirror, and of how many cameras it is not told all that lies over them."""
-    progress.next(0.1, "cameras")
+    progress.next(0.1, "Preparing the mirror")
     body, faces = with_shades(view, mirror, visible_triangles(view, mirror))
     mirror_map = MirrorMap(view, body, settings.method == "PARALLEL", met.surface if body is met.mirrors else None)
     cameras = three_ray_cameras(mirror_map, body, faces)
@@ -175,6 +181,13 @@ def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settin
     progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
                   overlaid=overlaid)
     return cameras, uncut, (grid.mirror_pixels, overlaid)
+
+
+def _behind_panes(cameras: Cameras, met: SceneAndMirrors, progress: Progress) -> SceneAndMirrors:
+    """What rays may meet, with layers that stay behind panes and films before the mirror."""
+    share, covering = slide_share(cameras, met)
+    progress.done("cameras", too_close=covering)
+    return met.sliding(share)
 
 
 def _seen(cameras: Cameras) -> Cameras:
@@ -219,7 +232,7 @@ def _whole_first(cameras: Cameras, uncut: int, task: Task,
     settings, limits = task.settings, task.limits
     if not _draws_whole(settings):
         return None, task
-    task.progress.next(0.15, "whole faces")
+    task.progress.next(0.15, "Reflecting faces")
     eligible = _entire(cameras, uncut) & ~showing[cameras.face]
     whole = whole_faces(cameras, eligible, task.met, task.reach(cameras), settings, limits.pieces)
     if whole is None:

@@ -25,7 +25,7 @@ LIGHT, COLOURS = 0.7, 0.15  # of the work of a picture; colours are baked twice 
 FEWER = 0.5     # of the samples are enough where a picture is denoised
 LINES = 512     # of the map, which are put together in one step
 PREPARING = "Copying the scene"
-MEASURING = "Measuring what is seen"
+MEASURING = "Measuring visible faces"
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ def _pictures(context: bpy.types.Context, scene: DiffuseScene, how: tuple[SeenSo
                 picture, colours, own_colours = yield from part(
                     _baked(stage, number, size, seen.seen_from[number], few, (denoised, asked[number, back])),
                     done / whole, own.texels(level, None) / whole,
-                    f"Cycles bakes the light on '{scene.sources[number].name}'")
+                    f"Baking light on '{scene.sources[number].name}'")
                 made = [(found, picture, colours)]
                 if own_colours is not None:
                     made.append((matte, own_colours, own_colours))

@@ -19,8 +19,8 @@ from .pictures import Pictures
 # what a pixel of holes.png is, and its colour: of M. Okabe and K. Ito's set, safe for all kinds of colour vision
 KINDS = {"no mirror": (20, 20, 20), "left out": (62, 62, 68), "right": (130, 130, 130), "hole": (213, 94, 0),
          "spill": (0, 114, 178), "wrong layer": (240, 228, 66)}
-DRAWING = "Drawing the maps"
-ROUND = "Drawing what is round the mirror"
+DRAWING = "Drawing error maps"
+ROUND = "Drawing the surroundings of the mirror"
 DIFFERENCE, DISPLACEMENT = (0.001, 1.0), (0.01, 10.0)       # ends of the scales: linear light, pixels
 
 

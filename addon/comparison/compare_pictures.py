@@ -15,6 +15,7 @@ from ..judge import (
     CodedMaterials,
     CodedTruth,
     CopiedScene,
+    clear_before_mirrors,
     cycles_render,
     decode,
     dress,
@@ -63,7 +64,7 @@ def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: 
     try:
         what = next(renders)
         for number in itertools.count():
-            told = number / count, render_stage(f"Cycles renders {what}, {number + 1} of {count}")
+            told = number / count, render_stage(f"Rendering {what}, {number + 1} of {count}")
             yield told
             # nothing more is said of one that goes on beside
             while (what := next(renders)) is None:
@@ -82,7 +83,8 @@ def _renders(context: bpy.types.Context, copied: CopiedScene, diffuse: list, res
     _code_results(copied, results, diffuse, polygons(context, diffuse))
     own = [(slot, slot.material) for copy in copied.everything for slot in copy.material_slots]
     codes = CodedMaterials(copied, lowest_corner(copied))
-    coded = yield from _coded_pictures(copied, codes, depth)
+    with clear_before_mirrors(copied):
+        coded = yield from _coded_pictures(copied, codes, depth)
     if lit(results):
         return Renders(*coded, (yield from render_lit(context, results, samples)))
     for slot, material in own:

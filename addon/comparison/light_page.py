@@ -15,7 +15,7 @@ from .compare_images import DIFFERENCE, save_picture, surroundings
 from .light_pictures import LightPictures, Shot
 
 OWN, MESH = "CYCLES", "MESH"
-MAPS = "Drawing the maps"
+MAPS = "Drawing error maps"
 TITLES = {OWN: "Cycles' own caustics", MESH: "Meshes of light"}
 FILES = ("reference", "cycles", "difference_cycles", "difference", "result")
 """The pictures, the result last."""

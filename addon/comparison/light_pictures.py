@@ -78,8 +78,8 @@ def render_light(context: bpy.types.Context, results: list, counts: tuple, conve
                 squared = squared + samples * shot.picture.mean(axis=2, dtype=np.float64)**2
             own = []
             for samples in counts:
-                first = yield from shots.taken(samples, 1, f"its own caustics at {samples} samples")
-                other = yield from shots.taken(samples, 2, f"its own caustics at {samples} samples once more")
+                first = yield from shots.taken(samples, 1, f"Cycles caustics at {samples} samples")
+                other = yield from shots.taken(samples, 2, f"Cycles caustics at {samples} samples once more")
                 own.append(Shot(samples, first.picture, 0.5 * (first.seconds + other.seconds), other.picture))
         # where the file has both, the mesh would be judged with light that is there twice
         scene.cycles.caustics_reflective = with_own and own_too
@@ -99,7 +99,7 @@ class _Shots:
         self.scene, self.seed, self.count, self.number = scene, seed, count, 0
 
     def taken(self, samples: int, seed: int, what: str) -> Steps[Shot]:
-        done, stage = self.number / self.count, f"Cycles renders {what}, {self.number + 1} of {self.count}"
+        done, stage = self.number / self.count, f"Rendering {what}, {self.number + 1} of {self.count}"
         self.number += 1
         self.scene.cycles.samples, self.scene.cycles.seed = samples, (self.seed + seed) % MOST_SEED
         started = time.perf_counter()

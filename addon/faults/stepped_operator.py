@@ -113,7 +113,7 @@ class SteppedOperator:
     def _show(self, context: bpy.types.Context) -> None:
         """Show how far the work is and what comes next."""
         fraction, stage = self._progress
-        stopping = pgettext_iface("this cannot be divided, ESC cancels after it" if self._undivided else "ESC cancels")
+        stopping = pgettext_iface("ESC: Cancel After This Step" if self._undivided else "ESC: Cancel")
         context.window_manager.progress_update(100.0 * fraction)
         context.workspace.status_text_set(self._bar.told(fraction, stage, stopping))
 

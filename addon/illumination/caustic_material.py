@@ -17,6 +17,8 @@ from .receiver_places import MARK, asks_for_more, forget_groups, show_by_places
 
 LIGHT = "caustic_light"
 """The attribute with red, green and blue of the light, in W/m2."""
+VEIL = (1.0, 1.0, 0.9, 0.15)
+"""The colour in viewports in Solid, which show where light falls and not how much of it."""
 UNSEEN = "lit_unseen"
 """The attribute with 1 on faces that light what the camera does not see, where there are any."""
 
@@ -45,6 +47,7 @@ def adds_light(receiver: bpy.types.Material | None, stains: list[tuple[Tint, bpy
         found = DiffuseColour() if output is None else diffuse_colour(tree, output.inputs["Surface"], whole)
         found = replace(found, known=found.known and not (found.by_nodes and strange))
     material[MARK] = True
+    material.diffuse_color = VEIL
     strength = _show(tree, found, _thrown(tree, stains))
     if unseen:
         _hide_from_camera(tree, strength)

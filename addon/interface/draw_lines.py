@@ -10,8 +10,13 @@ BESIDE, LEAST = 96, 80
 
 def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "BLANK1") -> None:
     """A sentence in as many lines as it needs here: of what is wider than the panel Blender leaves out a part."""
-    for number, line in enumerate(_lines(text, *_room(context))):
-        layout.label(text=line, icon="BLANK1" if number else icon, translate=False)
+    for number, line in enumerate(lines_of(context, text)):
+        layout.label(text=line, icon="BLANK1" if number and icon != "NONE" else icon, translate=False)
+
+
+def lines_of(context: bpy.types.Context, text: str) -> list[str]:
+    """Return the lines of a sentence as it is drawn in the region of the context."""
+    return _lines(text, *_room(context))
 
 
 def _room(context: bpy.types.Context) -> tuple[float, float]:

@@ -1,91 +1,96 @@
-"""What an object is in reflections, as it is drawn in the sidebar and in the object's properties alike."""
+"""The active object's part in reflections, drawn in the sidebar and in the object's properties alike."""
 from __future__ import annotations
 
 import bpy
 from bpy.app.translations import pgettext_iface
 
 from ...core.result import filled_share
-from ..frames import plays
-from ..lighting import light_lines
-from ..reading import is_gone, is_result, lost_mirror, render_size
+from ..reading import is_gone, known_results, result_of
 from ..writing import mesh_bytes, records, size_text
+from .draw_lines import draw_sentence
 from .menus import REFLECTION_MESH_MT_role
 
 NAMED = 2   # so many sources are all named; of more the first
+ICONS = {"REFLECTION": "MOD_MIRROR", "CAUSTICS": "LIGHT_POINT"}
 
 
 def draw_object(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:
-    """The role of an object, or what there is to know of a reflection."""
+    """Draw three rows, whatever the object is: its name, its role or its mirror, and its lamp or the way to its
+    reflection."""
     if obj is None:
-        layout.label(text="Select a mirror and what it shall show", icon="INFO")
-    elif is_result(obj):
-        _draw_result(layout, context, obj)
-    elif obj.reflection_mesh.role == "CAUSTICS":
-        _draw_light(layout, obj)
+        layout.label(text="No Active Object", icon="OBJECT_DATA")
+        layout.label(text="")
+        _draw_select(layout, None)
+        return
+    record = obj.reflection_mesh
+    layout.label(text=obj.name, icon=ICONS.get(record.role, "OBJECT_DATA"), translate=False)
+    if record.role in ICONS:
+        _draw_fact(layout, pgettext_iface("Reflected By"), _name(record.mirror))
     else:
-        layout.label(text=obj.name, icon="OBJECT_DATA", translate=False)
-        _draw_role(layout, obj.reflection_mesh)
+        _draw_role(layout, record)
+    if record.role == "CAUSTICS":
+        _draw_fact(layout, pgettext_iface("Lamp"), _name(record.lamp))
+    else:
+        _draw_select(layout, shown_result(context, obj))
+
+
+def shown_result(context: bpy.types.Context, obj: bpy.types.Object | None) -> bpy.types.Object | None:
+    """Return the result that the panels tell of: an active one, or the reflection in an active mirror."""
+    if obj is not None and obj.reflection_mesh.role == "CAUSTICS":
+        return obj
+    return result_of(context, obj, known_results(context.scene, context.view_layer))
 
 
 def _draw_role(layout: bpy.types.UILayout, record: bpy.types.PropertyGroup) -> None:
     role = record.bl_rna.properties["role"].enum_items[record.role]
+    _split(layout, pgettext_iface("Role")).menu(REFLECTION_MESH_MT_role.__name__, text=role.name)
+
+
+def _draw_fact(layout: bpy.types.UILayout, name: str, value: str) -> None:
+    _split(layout, name).label(text=value, translate=False)
+
+
+def _split(layout: bpy.types.UILayout, name: str) -> bpy.types.UILayout:
+    """Draw a name as Blender does beside a property, and return the place of its value."""
     split = layout.split(factor=0.4)
-    name = split.row()
-    name.alignment = "RIGHT"
-    name.label(text="Role")
-    split.menu(REFLECTION_MESH_MT_role.__name__, text=role.name)
+    left = split.row()
+    left.alignment = "RIGHT"
+    left.label(text=name, translate=False)
+    return split
 
 
-def draw_figures(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
-    """What engineers ask of a reflection."""
+def _draw_select(layout: bpy.types.UILayout, result: bpy.types.Object | None) -> None:
+    """Draw the button that selects the reflection, and the switch that lets clicks in the viewport do so."""
+    row = layout.row(align=True)
+    row.operator("reflection_mesh.select", icon="RESTRICT_SELECT_OFF")
+    if result is not None and result.library is None:
+        row.prop(result, "hide_select", text="", emboss=True)
+
+
+def _name(obj: bpy.types.Object | None) -> str:
+    return pgettext_iface("Gone") if is_gone(obj) else obj.name
+
+
+def draw_figures(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    """Draw what a result shows, and the numbers that engineers ask of it."""
+    for line in _figures(obj):
+        draw_sentence(layout, context, line, icon="NONE")
+
+
+def _figures(obj: bpy.types.Object) -> list[str]:
     record, counts = obj.reflection_mesh, records.counts(obj)
+    told = [pgettext_iface("Shows {names}").format(names=_names(record.sources))] if len(record.sources) else []
+    if obj.type == "MESH":
+        told.append(_size(obj))
+    if record.role == "CAUSTICS":
+        return told
     width, height = record.resolution
-    told = [pgettext_iface("Made for {width} x {height} px").format(width=width, height=height),
-            pgettext_iface("Error about {error:.2f} px").format(error=record.estimated_error),
-            pgettext_iface("Made in {seconds:.2f} s").format(seconds=record.seconds)]
+    told += [pgettext_iface("Made for {width} x {height} px").format(width=width, height=height),
+             pgettext_iface("Error about {error:.2f} px").format(error=record.estimated_error),
+             pgettext_iface("Made in {seconds:.2f} s").format(seconds=record.seconds)]
     if "filled_pixels" in counts and "mirror_pixels" in counts:
         told.append(pgettext_iface("{share:.3f} % filled by rays").format(share=filled_share(counts)))
-    for line in told:
-        layout.label(text=line, translate=False)
-
-
-def _draw_light(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
-    record = obj.reflection_mesh
-    layout.label(text=obj.name, icon="LIGHT_POINT", translate=False)
-    lamp = pgettext_iface("a lamp that is gone") if is_gone(record.lamp) else f"'{record.lamp.name}'"
-    mirror = pgettext_iface("a mirror that is gone") if is_gone(record.mirror) else f"'{record.mirror.name}'"
-    layout.label(text=pgettext_iface("Light of {lamp}, thrown by {mirror}").format(lamp=lamp, mirror=mirror),
-                 translate=False)
-    if obj.type == "MESH":
-        layout.label(text=_size(obj), translate=False)
-
-
-def _draw_result(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
-    record = obj.reflection_mesh
-    layout.label(text=obj.name, icon="MOD_MIRROR", translate=False)
-    mirror = pgettext_iface("a mirror that is gone") if lost_mirror(obj) else f"'{record.mirror.name}'"
-    layout.label(text=pgettext_iface("Reflection in {mirror}").format(mirror=mirror), translate=False)
-    layout.label(text=pgettext_iface("Shows {names}").format(names=_names(record.sources)), translate=False)
-    if plays(obj):
-        layout.label(text="Plays baked frames")
-        return
-    if obj.type != "MESH":
-        # Object > Convert
-        layout.label(text="It is no mesh any more: Generate", icon="ERROR")
-        layout.label(text="makes a new one.", icon="BLANK1")
-        return
-    layout.label(text=_size(obj), translate=False)
-    if obj.library is not None:
-        layout.label(text="It is linked from another file:", icon="LINKED")
-        layout.label(text="there it is updated and lit.", icon="BLANK1")
-        return
-    if lost_mirror(obj):
-        return
-    if tuple(record.resolution) != render_size(context.scene):
-        layout.label(text="The render has another size now:", icon="ERROR")
-        layout.label(text="press Generate Reflection again.", icon="BLANK1")
-    for number, line in enumerate(light_lines(obj)):
-        layout.label(text=line, icon="BLANK1" if number else "LIGHT")
+    return told
 
 
 def _names(sources) -> str:

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import bpy
-from bpy.app.translations import pgettext_iface
 
 from ..reading import can_take_part
 from ..settings import holder_of, mirror_of
@@ -16,11 +15,7 @@ def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: b
     """Those that hold for an object, and whose they are."""
     mirror = possible_mirror(obj)
     if mirror is not None:
-        row = layout.row()
-        # names are long: across the whole width
-        row.use_property_split = False
-        row.prop(mirror.reflection_mesh, "own_settings",
-                 text=pgettext_iface("Only for '{name}'").format(name=mirror.name), translate=False)
+        layout.prop(mirror.reflection_mesh, "own_settings")
     holder = holder_of(mirror, context.scene)
     for names in (SHOWN, LIGHT):
         column = layout.column()

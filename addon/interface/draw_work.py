@@ -4,10 +4,11 @@ from __future__ import annotations
 import bpy
 
 from ..comparison import show_comparison
+from .draw_lines import draw_sentence
 
 # in the order in which they are used
 WORK = (("reflection_mesh.generate", "MOD_MIRROR"), ("reflection_mesh.light", "LIGHT"),
-        ("reflection_mesh.caustics", "LIGHT_POINT"),
+        ("reflection_mesh.caustics", "LIGHT_POINT"), ("reflection_mesh.update", "FILE_REFRESH"),
         ("reflection_mesh.bake", "FILE_CACHE"), ("reflection_mesh.clear", "TRASH"))
 TOOLS = (("reflection_mesh.compare", "IMAGE_DATA"), ("reflection_mesh.mirror_uvs", "UV"),
          ("reflection_mesh.print_sheet", "OUTPUT"))
@@ -20,14 +21,14 @@ def draw_buttons(layout: bpy.types.UILayout, operators: tuple) -> None:
         column.operator(name, icon=icon)
 
 
-def draw_comparison(layout: bpy.types.UILayout, scene: bpy.types.Scene) -> None:
+def draw_comparison(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """The numbers of the last comparison, and the way to its page."""
-    told = show_comparison.lines(scene)
+    told = show_comparison.lines(context.scene)
     if not told:
         return
     box = layout.box()
     for line in told:
-        box.label(text=line, translate=False)
-    address = show_comparison.page_address(scene)
+        draw_sentence(box, context, line, icon="NONE")
+    address = show_comparison.page_address(context.scene)
     if address:
         box.operator("wm.url_open", text="Open the Report", icon="URL").url = address

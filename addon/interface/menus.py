@@ -20,7 +20,7 @@ class VIEW3D_MT_reflection_mesh(bpy.types.Menu):
         for name, icon in WORK:
             layout.operator(name, icon=icon)
         layout.operator("reflection_mesh.live", icon="PLAY")
-        layout.operator("reflection_mesh.update", icon="FILE_REFRESH")
+        layout.operator("reflection_mesh.select", icon="RESTRICT_SELECT_OFF")
         layout.separator()
         for name, icon in TOOLS:
             layout.operator(name, icon=icon)

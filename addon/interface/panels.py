@@ -10,7 +10,8 @@ from ..frames import plays
 from ..reading import can_take_part, is_result
 from .draw_live import draw_live
 from .draw_mattes import draw_mattes
-from .draw_object import draw_figures, draw_object
+from .draw_object import draw_figures, draw_object, shown_result
+from .draw_prompt import draw_prompt
 from .draw_settings import draw_limits, draw_settings, possible_mirror
 from .draw_work import TOOLS, WORK, draw_buttons, draw_comparison
 from .preset_buttons import REFLECTION_MESH_PT_presets
@@ -38,6 +39,7 @@ class _Main:
         draw_object(layout.box().column(), context, active(context))
         draw_buttons(layout, WORK)
         draw_live(layout, context)
+        draw_prompt(layout, context, active(context))
 
 
 class _Settings:
@@ -62,11 +64,11 @@ class _Mattes:
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        obj = active(context)
+        obj = shown_result(context, active(context))
         return obj is not None and is_result(obj)
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_mattes(self.layout, active(context))
+        draw_mattes(self.layout, shown_result(context, active(context)))
 
 
 class _Figures:
@@ -74,11 +76,11 @@ class _Figures:
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        obj = active(context)
-        return obj is not None and is_result(obj) and not plays(obj)
+        obj = shown_result(context, active(context))
+        return obj is not None and not plays(obj)
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_figures(self.layout, active(context))
+        draw_figures(self.layout.column(align=True), context, shown_result(context, active(context)))
 
 
 class REFLECTION_MESH_PT_main(_Sidebar, _Main, bpy.types.Panel):
@@ -97,18 +99,6 @@ class REFLECTION_MESH_PT_limits(_Sidebar, _Limits, bpy.types.Panel):
     bl_parent_id = "REFLECTION_MESH_PT_settings"
 
 
-class REFLECTION_MESH_PT_mattes(_Sidebar, _Mattes, bpy.types.Panel):
-    """Passes for compositing, of single objects in the reflection"""
-
-    bl_parent_id = "REFLECTION_MESH_PT_main"
-
-
-class REFLECTION_MESH_PT_figures(_Sidebar, _Figures, bpy.types.Panel):
-    """Numbers for engineers"""
-
-    bl_parent_id = "REFLECTION_MESH_PT_main"
-
-
 class REFLECTION_MESH_PT_tools(_Sidebar, bpy.types.Panel):
     """Comparison with Cycles, and pictures that look right in a mirror alone"""
 
@@ -116,7 +106,19 @@ class REFLECTION_MESH_PT_tools(_Sidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_buttons(self.layout, TOOLS)
-        draw_comparison(self.layout, context.scene)
+        draw_comparison(self.layout, context)
+
+
+class REFLECTION_MESH_PT_mattes(_Sidebar, _Mattes, bpy.types.Panel):
+    """Passes for compositing, of single objects in the reflection"""
+
+    bl_parent_id = "REFLECTION_MESH_PT_main"
+
+
+class REFLECTION_MESH_PT_figures(_Sidebar, _Figures, bpy.types.Panel):
+    """Numbers for engineers; last, so that no other panel moves when a result appears"""
+
+    bl_parent_id = "REFLECTION_MESH_PT_main"
 
 
 class REFLECTION_MESH_PT_object(_Properties, _Main, bpy.types.Panel):
@@ -166,10 +168,10 @@ def aligned(layout: bpy.types.UILayout) -> bpy.types.UILayout:
     return layout
 
 
-CLASSES = (REFLECTION_MESH_PT_main, REFLECTION_MESH_PT_settings, REFLECTION_MESH_PT_limits, REFLECTION_MESH_PT_mattes,
-           REFLECTION_MESH_PT_figures, REFLECTION_MESH_PT_tools, REFLECTION_MESH_PT_object,
-           REFLECTION_MESH_PT_object_settings,
-           REFLECTION_MESH_PT_object_limits, REFLECTION_MESH_PT_object_mattes, REFLECTION_MESH_PT_object_figures)
+CLASSES = (REFLECTION_MESH_PT_main, REFLECTION_MESH_PT_settings, REFLECTION_MESH_PT_limits, REFLECTION_MESH_PT_tools,
+           REFLECTION_MESH_PT_mattes, REFLECTION_MESH_PT_figures, REFLECTION_MESH_PT_object,
+           REFLECTION_MESH_PT_object_settings, REFLECTION_MESH_PT_object_limits, REFLECTION_MESH_PT_object_mattes,
+           REFLECTION_MESH_PT_object_figures)
 
 
 def register() -> None:

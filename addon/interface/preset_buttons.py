@@ -25,7 +25,7 @@ class REFLECTION_MESH_PT_presets(PresetPanel, bpy.types.Panel):
 
 
 class REFLECTION_MESH_OT_preset_add(AddPresetBase, bpy.types.Operator):
-    """Save these settings as a preset, or remove one"""
+    """Save these settings as a preset or remove a preset"""
 
     bl_idname = "reflection_mesh.preset_add"
     bl_label = "Add Reflection Preset"

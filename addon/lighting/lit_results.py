@@ -80,15 +80,15 @@ def dull_objects(result: bpy.types.Object) -> list[str]:
     return [name for name in names if isinstance(name, str)] if isinstance(names, list) else []
 
 
-def light_lines(result: bpy.types.Object) -> list[str]:
-    """What there is to say of a result's light, in short sentences."""
+def light_sentence(result: bpy.types.Object) -> str:
+    """Return what there is to say of a result's light; nothing of one that needs none."""
     record = result.reflection_mesh
     if record.light_stale:
-        return ["The scene has changed since it was lit:", "press Light Reflection again."]
+        return "The scene has changed since the reflection was lit. Click Light Reflection."
     if record.light_material is not None:
-        return ["Lit; gloss is seen as from one place:", "in the picture it would be exact."] if dull_objects(result) \
-            else ["Lit."]
-    return ["Its light is still to come:", "press Light Reflection."] if needs_light(result) else []
+        return "Lit, with gloss as seen from one place. Light: Picture shows it exactly." if dull_objects(result) else (
+            "Lit.")
+    return "Not lit yet. Click Light Reflection." if needs_light(result) else ""
 
 
 def _show(result: bpy.types.Object, material: bpy.types.Material, told: str, light_map: bpy.types.Mesh | None,

@@ -119,6 +119,10 @@ def _preview(source: bpy.types.Material | None, mirror: tuple, around: Surroundi
     shader = surface_shader(tree)
     if shader is None:
         return material
+    colour = colour_of(shader)
+    if colour is not None and not colour.is_linked:
+        # viewports in Solid show no nodes
+        material.diffuse_color = (*colour.default_value[:3], 1.0)
     build = _Source(tree, GREY if source is None else tuple(source.diffuse_color))
     light, opacity = build.shown(shader)
     if opacity != 1.0:
@@ -135,6 +139,11 @@ def _preview(source: bpy.types.Material | None, mirror: tuple, around: Surroundi
     build.put_out(reflecting.before_the_mirror(surface, mirror), surface)
     build.forget_unused(before)
     return material
+
+
+def colour_of(shader: bpy.types.Node) -> bpy.types.NodeSocket | None:
+    """Return the input that tells the colour of a shader node; None for one without a colour, as a mix."""
+    return shader.inputs.get("Base Color") or shader.inputs.get("Color")
 
 
 class _Source(ShaderBuilder):
@@ -162,7 +171,7 @@ class _Source(ShaderBuilder):
             return self.vector("ADD", first, second), opacity
         if shader.type == "EMISSION":
             return self.scaled(given(shader.inputs["Color"]), given(shader.inputs["Strength"])), 1.0
-        colour = shader.inputs.get("Base Color") or shader.inputs.get("Color")
+        colour = colour_of(shader)
         shown = self.shaded(self.plain if colour is None else given(colour))
         return self.principled(shader, shown) if shader.type == "BSDF_PRINCIPLED" else (shown, 1.0)
 

@@ -14,9 +14,9 @@ from .updater import LiveUpdater
 INTERVAL = 0.02     # seconds between two looks
 WAIT = 0.25         # the same while something else is at work
 EYES = (
-    ("CAMERA", "Camera", "Reflections are kept right for the scene's camera"),
-    ("VIEW", "Viewport", "Reflections are kept right for the largest 3D viewport; Generate makes them right for the "
-     "camera again"),
+    ("CAMERA", "Camera", "Update reflections for the scene's camera"),
+    ("VIEW", "Viewport", "Update reflections for the largest 3D viewport. Generate Reflection makes them for the "
+                         "camera again"),
 )
 JOBS = ("RENDER", "OBJECT_BAKE", "COMPOSITE")
 
@@ -140,15 +140,15 @@ def _choose_eye(live: bpy.types.PropertyGroup, _context: bpy.types.Context) -> N
 class ReflectionLive(bpy.types.PropertyGroup):
     """`WindowManager.reflection_mesh_live`: whether results are kept right, and for whom. No file remembers it."""
 
-    on: BoolProperty(name="Live", description="Keep reflections right while the camera, mirrors or objects move: "
-                     "coarse on the way, exact at rest", get=lambda live: updater is not None, set=_switch,
+    on: BoolProperty(name="Live", description="Update reflections while the camera, mirrors or objects move: coarsely "
+                     "while they move, exactly afterwards", get=lambda live: updater is not None, set=_switch,
                      options={"SKIP_SAVE"})
-    eye: EnumProperty(name="Seen From", description="For whom Live keeps reflections right", items=EYES,
+    eye: EnumProperty(name="Seen From", description="View that Live updates reflections for", items=EYES,
                       default="CAMERA", update=_choose_eye, options={"SKIP_SAVE"})
 
 
 class REFLECTION_MESH_OT_live(bpy.types.Operator):
-    """Keep reflections right while the camera, mirrors or objects move: coarse on the way, exact at rest"""
+    """Update reflections while the camera, mirrors or objects move: coarsely while they move, exactly afterwards"""
 
     bl_idname = "reflection_mesh.live"
     bl_label = "Live Reflections"

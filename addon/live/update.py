@@ -16,7 +16,7 @@ NOTHING_STALE = "No reflection is stale."
 
 
 class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
-    """Make the reflections and the light of mirrors anew that no longer show what there is"""
+    """Update the reflections and caustics that are out of date"""
 
     bl_idname = "reflection_mesh.update"
     bl_label = "Update Reflections"

@@ -7,7 +7,7 @@ from ..faults import AllOrNothing, in_one_sentence, one_or_more, tell
 from ..frames import plays, stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_previews, update_mattes
-from ..reading import has_linked_results, is_result, mirrors_of
+from ..reading import has_linked_results, is_result, named_by_selection, redraw_lines
 from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes, set_free
 from . import polls
 
@@ -21,14 +21,7 @@ def chosen_results(context: bpy.types.Context) -> list:
     """The selected results, or those of selected mirrors; where the selection names none, all of the scene."""
     results = [obj for obj in context.scene.objects
                if is_result(obj) and obj.library is None]
-    selected = set(context.selected_objects)
-    named = [obj for obj in results if is_named(obj, selected)]
-    return named or results
-
-
-def is_named(result: bpy.types.Object, selected: set) -> bool:
-    """Return True if a result, its mirror, or a part of that is selected."""
-    return not selected.isdisjoint((result, result.reflection_mesh.mirror, *mirrors_of(result)))
+    return named_by_selection(context, results) or results
 
 
 def clear(context: bpy.types.Context, results: list) -> None:
@@ -44,6 +37,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
     if mirror is not None and mirror.name in layer.objects:
         layer.objects.active = mirror
     _remove(results)
+    redraw_lines(context.scene)
     for group in nodes:
         forget_nodes(group)
     for material in lights:
@@ -60,8 +54,7 @@ def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:
     """The caustics that are selected or whose mirrors are, or all of the scene where none are; whether any are."""
     every = [obj for obj in context.scene.objects
              if obj.reflection_mesh.role == "CAUSTICS" and obj.library is None]
-    selected = set(context.selected_objects)
-    named = [obj for obj in every if is_named(obj, selected)]
+    named = named_by_selection(context, every)
     return named or every, bool(named)
 
 
@@ -103,7 +96,7 @@ def _set_free(context: bpy.types.Context, results: list) -> None:
 
 
 class REFLECTION_MESH_OT_clear(bpy.types.Operator):
-    """Remove the selected reflections, or all of the scene, and restore what they changed"""
+    """Remove the results of the selected mirrors, or all results in the scene, and restore what they changed"""
 
     bl_idname = "reflection_mesh.clear"
     bl_label = "Clear Reflections"
@@ -120,8 +113,7 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
             tell(self, {"ERROR"}, IN_OBJECT_MODE)
             return {"CANCELLED"}
         results, (caustics, named) = chosen_results(context), chosen_caustics(context)
-        selected = set(context.selected_objects)
-        if named != any(is_named(obj, selected) for obj in results):
+        if named != bool(named_by_selection(context, results)):
             results, caustics = ([], caustics) if named else (results, [])
         if not results and not caustics and not _bring_back() and not any(
                 obj.reflection_mesh.camera_hidden for obj in context.scene.objects):
@@ -132,8 +124,8 @@ class REFLECTION_MESH_OT_clear(bpy.types.Operator):
         clear_caustics(caustics)
         told = one_or_more(len(results), "1 reflection", "{count} reflections")
         if caustics:
-            words = ("{told} and 1 mesh of thrown light", "{told} and {count} meshes of thrown light") if results else (
-                "1 mesh of thrown light", "{count} meshes of thrown light")
+            words = ("{told} and 1 caustics object", "{told} and {count} caustics objects") if results else (
+                "1 caustics object", "{count} caustics objects")
             told = one_or_more(len(caustics), *words, told=told)
         tell(self, {"INFO"}, f"{told} cleared.")
         return {"FINISHED"}

@@ -140,10 +140,10 @@ def _measured(renders: Renders) -> tuple[Measurement, dict | None]:
             renders.exact and without_packing(*pictures, renders.exact, renders.shown))
 
 
-WHAT = (("AUTO", "By What There Is", "Caustics where these are selected, or the mirrors have no reflection but "
-         "caustics; else reflections"),
-        ("REFLECTIONS", "Reflections", "What the mirrors show to the camera"),
-        ("CAUSTICS", "Caustics", "The light of lamps that the mirrors throw"))
+WHAT = (("AUTO", "Automatic", "Caustics if they are selected or if the mirrors have no reflections, otherwise "
+                                     "reflections"),
+        ("REFLECTIONS", "Reflections", "What the camera sees in the mirrors"),
+        ("CAUSTICS", "Caustics", "Light of lamps that the mirrors reflect onto other objects"))
 REFERENCE, RAYS = 512, 400_000
 
 
@@ -166,7 +166,7 @@ def means_caustics(context: bpy.types.Context) -> bool:
 
 
 class REFLECTIONMESH_OT_compare(UsesSettings, BrowsingOperator, SettingsOptions, bpy.types.Operator):
-    """Compare reflections or caustics with Cycles; leaves pictures and errors in a folder"""
+    """Compare reflections or caustics with Cycles, and write images and errors to a folder"""
 
     bl_idname = "reflection_mesh.compare"
     bl_label = "Compare with Cycles"
@@ -177,16 +177,16 @@ class REFLECTIONMESH_OT_compare(UsesSettings, BrowsingOperator, SettingsOptions,
                                        options=compat.RELATIVE_PATH)
     samples: bpy.props.IntProperty(name="Samples", default=16, min=0, soft_max=1024,
                                    options={"SKIP_SAVE"},
-                                   description="Samples per pixel of the pictures; 0: as the scene is set")
+                                   description="Samples per pixel of the images. 0 uses the scene's samples")
     what: bpy.props.EnumProperty(name="What", items=WHAT, options={"SKIP_SAVE"},
                                 description="What is compared with Cycles")
     converged: bpy.props.IntProperty(name="Reference Samples", default=REFERENCE, min=1, soft_max=65536,
                                      options={"SKIP_SAVE"},
-                                     description="Of caustics: samples per pixel of Cycles' own that all is compared "
-                                     "with")
+                                     description="Samples per pixel of the Cycles image that caustics are compared "
+                                                 "with")
     rays: bpy.props.IntProperty(name="Rays", default=RAYS, min=1, soft_max=100_000_000,
                                options={"SKIP_SAVE"},
-                                description="Of caustics: rays traced one by one for each of them")
+                                description="Number of rays that are traced for each caustics object")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -17,10 +17,9 @@ from ..reading import (
     NothingSeen,
     Participants,
     choose,
-    is_opaque,
     is_part,
     lines_drawn,
-    looked_through,
+    opacities_of,
     read_view,
 )
 from ..settings import (
@@ -34,19 +33,25 @@ from ..settings import (
     option,
 )
 from ..standing import Kept, Stage
-from ..writing import MeshArrays, Reflection, mesh_arrays, point_arrays
+from ..writing import MeshArrays, Reflection, mesh_arrays, nearer, point_arrays, what_is_in_the_way
 from . import polls
 from .assembled import assembled
-from .shortcomings import Refused, left_out, scene_shortcomings, shortcomings, window_shortcomings
+from .pressed import ProtectsResults
+from .shortcomings import (
+    NONE_SEEN,
+    TOO_CLOSE,
+    Refused,
+    left_out,
+    scene_shortcomings,
+    shortcomings,
+    too_close,
+    window_shortcomings,
+)
 from .write_results import Manners, Outcome, write_results
 
 # share of the work that reading takes, before the mirrors are reflected one by one
 READING = 0.1
 IN_OBJECT_MODE = "Reflections are generated in Object Mode: leave the present mode first."
-NOTHING_SEEN = ("The camera sees none of the reflected objects in this mirror; move the camera, the mirror or the "
-                "objects.")
-# what whoever presses a button gets unless it is set otherwise
-FOR_THE_EYE = ("preview", "collect", "select_alone")
 
 
 def generation(context: bpy.types.Context, chosen: Participants, settings: core.Settings | SettingsOfMirrors,
@@ -80,26 +85,27 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     origins = _origins(depsgraph, view, mirrors, sources)
     joined = partial(kept.joined, mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
-    scene, surfaces = stage.scene, stage.surfaces
-    if not all(map(is_opaque, scene.materials)) or looked_through(depsgraph, chosen.mirrors, chosen.diffuse):
-        own = [replace(one, hidden_faces=True) for one in own]
+    scene, surfaces, opacity = stage.scene, stage.surfaces, opacities_of(depsgraph, stage.scene)
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     yield from _trees(stage, kinds)
     prepared, refused, unseen, lacks, share = [], [], [], [], (1.0 - READING) / len(surfaces)
     for index, (joint, surface) in enumerate(zip(mirrors, surfaces)):
         mirror = joint.mirror
-        steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index])
+        steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index], opacity=opacity)
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
             if not len(result.positions):
-                raise core.NothingInView(NOTHING_SEEN)
+                raise core.ReflectionError(TOO_CLOSE) if too_close(result, scene.materials) else \
+                    core.NothingInView(NONE_SEEN)
             if own[index].placement == "VIRTUAL":
-                lacks += window_shortcomings(context, joint, view, result, chosen.mirrors)
+                found = what_is_in_the_way(context, view, result, chosen.mirrors)
+                lacks += window_shortcomings(joint, found)
+                result = nearer(view, result, found)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             unseen += refused[-1:] * isinstance(error, core.NothingInView)
             continue
-        lacks += shortcomings(mirror.name, result)
+        lacks += shortcomings(mirror.name, result, scene.materials)
         written = partial(_written, result, scene, (surface, surfaces), view, lines)
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")
@@ -160,45 +166,40 @@ def _trees(stage: Stage, kinds: list) -> Steps[None]:
     for number, kind in enumerate(dict.fromkeys(kinds)):
         if not stage.has(kind):
             start = READING * (0.5 + 0.25 * number)
-            yield start, "Building the tree"
-            yield from part(core.in_steps(partial(stage.built, kind)), start, 0.25 * READING, "Building the tree")
+            yield start, "Preparing the scene"
+            yield from part(core.in_steps(partial(stage.built, kind)), start, 0.25 * READING, "Preparing the scene")
 
 
-class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions, bpy.types.Operator):
-    """Make what each mirror shows as an object of its own, as the scene's camera sees it"""
+class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator, SettingsOptions, bpy.types.Operator):
+    """Create an object for each mirror that shows its reflection, as the scene's camera sees it"""
 
     bl_idname = "reflection_mesh.generate"
     bl_label = "Generate Reflection"
     bl_options = {"REGISTER", "UNDO"}
     uses = SETTINGS + WRITTEN_SETTINGS
+    on_if_pressed = ("preview", "collect", "select_alone", "protect")
 
     preview: bpy.props.BoolProperty(name="Preview", default=False, options={"SKIP_SAVE"},
-                                    description="Until it is lit, show the colours of what is reflected in the "
-                                    "mirror's tint, untouched by lamps: on where a button is pressed")
+                                    description="Show the colors of the reflected objects, unaffected by lamps, until"
+                                                " the reflection is lit. On if a button is pressed")
     attributes: option("attributes")
     join_parts: option("join_parts")
     collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
-                                    description="A new result goes into the collection Reflections, instead of those "
-                                    "of its mirror: on where a button is pressed")
+                                    description="Put a new result into the collection Reflections instead of the "
+                                                "collections of its mirror. On if a button is pressed")
     select_alone: bpy.props.BoolProperty(name="Select Alone", default=False, options={"SKIP_SAVE"},
-                                         description="Only the result is selected afterwards: on where a button is "
-                                         "pressed")
+                                         description="Deselect all other objects afterwards. On if a button is "
+                                                     "pressed")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return polls.passes(cls, context, polls.in_object_mode(IN_OBJECT_MODE), polls.has_mirror, polls.has_camera)
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set:
-        # so that whoever pressed a button sees the result; scripts get what they ask for
-        for name in FOR_THE_EYE:
-            if not self.properties.is_property_set(name):
-                setattr(self, name, True)
-        return SteppedOperator.invoke(self, context, event)
-
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         started = time.perf_counter()
         chosen, wanted = choose(context), self.wanted(context)
-        outcome = yield from generation(context, chosen, wanted, self.preview, Manners(self.collect))
+        outcome = yield from generation(context, chosen, wanted, self.preview,
+                                        Manners(self.collect, protect=self.protect))
         self.show_used(wanted, chosen.mirrors)
         lacks = scene_shortcomings(context, chosen, wanted)
         # the view layer knows new objects only from its next update on
@@ -209,6 +210,9 @@ class REFLECTION_MESH_OT_generate(UsesSettings, SteppedOperator, SettingsOptions
         for obj, _ in outcome.results:
             if obj.name in context.view_layer.objects:
                 obj.select_set(True)
+                if not obj.select_get():
+                    # clicks pass by it: the mirror is selected in its place
+                    obj.reflection_mesh.mirror.select_set(True)
                 context.view_layer.objects.active = obj
         tell_done(self, [*gathered(outcome.news), outcome.summary(time.perf_counter() - started)],
                   outcome.remarks + lacks)

@@ -117,7 +117,7 @@ def _stay_linked(linked: list, whole: AllOrNothing) -> None:
 
 
 class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator):
-    """Let the reflections look as the mirrors do, with the scene's lamps, materials and the mirrors' own tint"""
+    """Render the light that the mirrors show and put it on the reflections"""
 
     bl_idname = "reflection_mesh.light"
     bl_label = "Light Reflection"
@@ -127,9 +127,9 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
 
     samples: option("light_samples", name="Samples")
     kind: option("light_kind")
-    every: bpy.props.BoolProperty(name="Even Those That Need None", default=False, options={"SKIP_SAVE"},
-                                  description="Also reflections that look right as they are: for files that carry "
-                                  "pictures but not all materials, as glTF and USD")
+    every: bpy.props.BoolProperty(name="Light All", default=False, options={"SKIP_SAVE"},
+                                  description="Also light reflections that look right without it, for files that "
+                                              "carry images but not all materials, such as glTF and USD")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -35,7 +35,7 @@ from ..reading.materials import reflecting_materials
 from ..rendering import shown_while
 
 NAME = "Reflection Light"
-RENDERING = "Cycles renders the light"
+RENDERING = "Rendering light"
 
 
 def light_in_picture(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing,
@@ -49,7 +49,7 @@ def light_in_picture(context: bpy.types.Context, lit: list, view: View, samples:
         density = yield from shown_while(needed_density(scene, window, samples, white), 0.02, RENDERING)
         make_denser(scene, window, density)
         light = yield from shown_while(scene.light(samples, density), 0.04, RENDERING)
-        coverage, shining = yield from shown_while(scene.coverage(), 0.9, "Cycles renders what reflections cover")
+        coverage, shining = yield from shown_while(scene.coverage(), 0.9, "Rendering the area of the reflections")
     # what was clear for a while counts as changed only now
     context.view_layer.update()
     cycles = context.scene.cycles

@@ -24,21 +24,29 @@ from ..anamorphosis import (
     write_own_map,
 )
 from ..faults import AllOrNothing, SteppedOperator, Steps, one_or_more, part, tell_done
-from ..reading import Participants, choose, read_mirror, read_scene, read_view, with_square_pixels
+from ..reading import (
+    Participants,
+    choose,
+    opacities_of,
+    read_mirror,
+    read_scene,
+    read_view,
+    with_square_pixels,
+)
 from ..settings import UsesSettings, Wanted, option
 from . import polls
 from .shortcomings import left_out
 
 TARGETS = (
-    ("COPY", "A Copy", "Faces are cut where the map bends, on a copy that stands in for the object, which is hidden"),
-    ("ORIGINAL", "The Object Itself", "No face is cut: the map is right at corners, and wrong between them where it "
-     "bends"),
+    ("COPY", "A Copy", "Write the map on a copy whose faces are cut where the map bends, and hide the object"),
+    ("ORIGINAL", "The Object Itself", "Write the map on the object without cutting faces. Between vertices the map is"
+                                      " less accurate"),
 )
 FRAMES = (
-    ("CAMERA", "The Camera's View", "The picture fills what the camera sees"),
-    ("WHOLE", "As Much As Is Shown Whole", "The picture keeps its proportions and is as large as the mirror can show "
-     "without cutting it off"),
-    ("MIRROR", "What the Mirror Shows", "The picture fills the box around what the mirror shows of the objects"),
+    ("CAMERA", "The Camera's View", "The image fills the camera's view"),
+    ("WHOLE", "As Much As Is Shown Whole", "The image keeps its proportions and is as large as the mirror can show "
+                                           "completely"),
+    ("MIRROR", "What the Mirror Shows", "The image fills the bounding box of what the mirror shows of the objects"),
 )
 IN_OBJECT_MODE = "Mirror UVs are written in Object Mode: leave the present mode first."
 # shares of the work
@@ -105,10 +113,11 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
             depsgraph = context.evaluated_depsgraph_get()
             surface = read_mirror(depsgraph, mirror)
             scene = read_scene(depsgraph, sources)
-        result = yield from part(core.reflection_steps(view, surface.mesh, scene.mesh, settings), READING, REFLECTING,
-                                 mirror.name)
+            opacity = opacities_of(depsgraph, scene)
+        result = yield from part(core.reflection_steps(view, surface.mesh, scene.mesh, settings, opacity=opacity),
+                                 READING, REFLECTING, mirror.name)
         pieces = yield from part(core.in_steps(lambda: core.picture_pieces(view, result)), READING + REFLECTING,
-                                 PIECES, "Finding what is shown")
+                                 PIECES, "Finding visible faces")
         indices = np.unique(scene.source_object[pieces.face]).tolist()
         if not indices:
             raise core.ReflectionError("The camera sees none of the objects in this mirror; move the camera, the "
@@ -120,7 +129,7 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
         frame = Frame.of(choices.frame, view, pieces.pixels, image.size[0] / image.size[1] if image else 1.0)
         if choices.target == "ORIGINAL":
             maps = yield from part(core.in_steps(lambda: [own_map(index, scene, pieces) for index in indices]),
-                                   1.0, 0.0, "Finding what is shown")
+                                   1.0, 0.0, "Finding visible faces")
             remarks += [f"Between the corners of '{entry.source.name}' the picture is up to {entry.straying:.1f} px "
                         "off: subdivide it, or choose A Copy." for entry in maps if entry.straying > TOLD]
         else:
@@ -162,7 +171,7 @@ def _check(context: bpy.types.Context, chosen: Participants, choices: Choices) -
 
 
 class REFLECTION_MESH_OT_mirror_uvs(UsesSettings, SteppedOperator, bpy.types.Operator):
-    """Give the reflected objects a UV map by which a picture looks right in the mirror alone (anamorphosis)"""
+    """Add a UV map to the reflected objects with which an image looks right only in the mirror (anamorphosis)"""
 
     bl_idname = "reflection_mesh.mirror_uvs"
     bl_label = "Write Mirror UVs"
@@ -172,12 +181,12 @@ class REFLECTION_MESH_OT_mirror_uvs(UsesSettings, SteppedOperator, bpy.types.Ope
 
     tolerance: option("tolerance")
     memory: option("memory")
-    target: bpy.props.EnumProperty(name="Write On", description="What gets the UV map", items=TARGETS, default="COPY",
-                                   options={"SKIP_SAVE"})
-    frame: bpy.props.EnumProperty(name="Picture Fills", description="What the borders of the picture stand for",
+    target: bpy.props.EnumProperty(name="Write On", description="Object that gets the UV map", items=TARGETS,
+                                   default="COPY", options={"SKIP_SAVE"})
+    frame: bpy.props.EnumProperty(name="Picture Fills", description="Area that the image fills",
                                   items=FRAMES, default="CAMERA", options={"SKIP_SAVE"})
-    picture: bpy.props.StringProperty(name="Picture", description="Image in this file, or image file, to put on the "
-                                      "copies; empty for the map alone", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    picture: bpy.props.StringProperty(name="Picture", description="Image in this file or image file that the copies "
+                                      "show. Empty writes only the map", subtype="FILE_PATH", options={"SKIP_SAVE"})
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

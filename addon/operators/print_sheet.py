@@ -67,7 +67,7 @@ def check_print(path: str, dpi: float) -> None:
 
 
 class REFLECTION_MESH_OT_print_sheet(BrowsingOperator, bpy.types.Operator):
-    """Save the active flat object with its picture as a PNG or SVG file, to print in its size"""
+    """Save the active flat object with its image as a PNG or SVG file, to print at its real size"""
 
     bl_idname = "reflection_mesh.print_sheet"
     bl_label = "Save Sheet to Print"
@@ -76,9 +76,9 @@ class REFLECTION_MESH_OT_print_sheet(BrowsingOperator, bpy.types.Operator):
     filepath: bpy.props.StringProperty(name="File", description="PNG or SVG file", default="//sheet.png",
                                        subtype="FILE_PATH", options=compat.RELATIVE_PATH)
     filter_glob: bpy.props.StringProperty(default="*.png;*.svg", options={"HIDDEN"})
-    picture: bpy.props.StringProperty(name="Picture", description="Image in this file, or image file; empty for what "
-                                      "the object shows", options={"SKIP_SAVE"})
-    dpi: bpy.props.FloatProperty(name="Dots per Inch", description="How fine the print is", default=DPI, min=FEWEST,
+    picture: bpy.props.StringProperty(name="Picture", description="Image in this file or image file. Empty uses the "
+                                                                  "image that the object shows", options={"SKIP_SAVE"})
+    dpi: bpy.props.FloatProperty(name="Dots per Inch", description="Resolution of the print", default=DPI, min=FEWEST,
                                  max=MOST, precision=0, options={"SKIP_SAVE"})
 
     @classmethod

@@ -1,9 +1,11 @@
 """What a reflection lacks, in sentences for the user: the bounds that it has hit, and what its probes have missed."""
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
 
-from ...core import ReflectionError, ReflectionMesh, View
+from ...core import ReflectionError, ReflectionMesh
 from ...core.result import filled_share
 from ..reading import (
     Assembly,
@@ -18,8 +20,9 @@ from ..reading import (
     rendered_otherwise,
     without_surface,
 )
+from ..reading.materials import transparency
 from ..settings import SettingsOfMirrors, of_each
-from ..writing import what_is_in_the_way
+from ..writing import InTheWay
 
 # shares of a virtual image behind other objects: from which on that is told, from which on its mirror is no window
 PARTLY_HIDDEN, HIDDEN = 0.01, 0.5
@@ -33,6 +36,10 @@ MOTION_BLUR = ("Motion blur: the reflection is that of one moment, and is blurre
                "after the render, or switch motion blur off.")
 STEREO = ("Stereoscopy: a reflection is right for one eye, and both show the same one; choose the placement Virtual "
           "for flat mirrors, or render each eye by a camera that has its own.")
+NONE_SEEN = ("The camera sees none of the reflected objects in this mirror; move the camera, the mirror or the "
+             "objects.")
+TOO_CLOSE = ("A film or tinted pane is so close before this mirror that the reflection is left out behind it: move it "
+             "away from the mirror by a thousandth of the camera's distance.")
 CUTS = ("Markers change the camera: choose Render > Lock Interface, so that a render of the animation in this window "
         "shows each camera its own reflection.")
 
@@ -62,13 +69,20 @@ SENTENCES = {
 }
 
 
-def shortcomings(name: str, result: ReflectionMesh) -> list[str]:
-    """Sentences on the reflection in the mirror `name`."""
+def shortcomings(name: str, result: ReflectionMesh, materials: Sequence = ()) -> list[str]:
+    """Sentences on the reflection in the mirror `name` of objects with these materials."""
     counts, told = result.counts, []
     if counts.get("missed", 0) >= MISSED and result.missing_share > MISSING:
         told.append(f"About {result.missing_share:.0f} % of what the mirror shows is missing: give it a clean mesh, or "
                     "move the camera.")
+    told += [TOO_CLOSE] * too_close(result, materials)
     return [f"{name}: {sentence}" for sentence in told + bounds_hit(counts, len(result.positions))]
+
+
+def too_close(result: ReflectionMesh, materials: Sequence) -> bool:
+    """Return True if a source with one of these materials, of which a part of light goes straight through, lies so
+    close before the mirror that the reflection is left out behind it."""
+    return bool(result.counts.get("too_close")) and any(map(transparency, materials))
 
 
 def better_of_points(name: str, result: ReflectionMesh) -> list[str]:
@@ -163,9 +177,8 @@ def _hidden(found: list) -> list[str]:
             "in no reflection: show them, or hide them in renders too."]
 
 
-def window_shortcomings(context: bpy.types.Context, joint: Assembly, view: View, result: ReflectionMesh,
-                        mirrors: list) -> list[str]:
-    """Sentences on the window that a mirror, or the parts of one, are to be, beside the others in `mirrors`.
+def window_shortcomings(joint: Assembly, found: InTheWay) -> list[str]:
+    """Sentences on the window that a mirror, or the parts of one, are to be.
 
     Raises
     ------
@@ -176,11 +189,10 @@ def window_shortcomings(context: bpy.types.Context, joint: Assembly, view: View,
     if any(part.library is not None and part.visible_camera for part in joint.parts):
         return [f"{name}: this mirror is linked and cannot be hidden, so that it stands before the virtual "
                 "image; override it, or choose the placement Layered."]
-    hider, hidden, disturbed = what_is_in_the_way(context, view, result, mirrors)
-    if hidden > HIDDEN:
-        raise ReflectionError(f"'{hider}' stands before the virtual image behind this mirror and would hide it; choose "
-                              "the placement Layered, or hide that object from the camera.")
-    if disturbed > PARTLY_HIDDEN:
-        return [f"{name}: '{hider}' hides a part of the virtual image behind this mirror; the placement Layered "
-                "shows all of it."]
+    if found.hidden > HIDDEN:
+        raise ReflectionError(f"'{found.name}' stands before the virtual image behind this mirror and would hide it; "
+                              "choose the placement Layered, or hide that object from the camera.")
+    if found.hidden > PARTLY_HIDDEN:
+        return [f"{name}: '{found.name}' hides a part of the virtual image behind this mirror; the placement "
+                "Layered shows all of it."]
     return []

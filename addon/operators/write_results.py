@@ -24,6 +24,7 @@ from ..writing import (
     Reflection,
     gather,
     mesh_bytes,
+    protect,
     put_back_materials,
     show_for_camera,
     size_text,
@@ -43,10 +44,13 @@ class Manners:
         New ones go into the scene's collection of results, instead of beside their mirrors.
     preview_unlit : bool
         Those that lose their light show a preview, instead of materials on which lamps fall.
+    protect : bool
+        Clicks pass by results, and their transforms are locked.
     """
 
     collect: bool = False
     preview_unlit: bool = False
+    protect: bool = False
 
 
 @dataclass(frozen=True)
@@ -91,7 +95,7 @@ class Outcome:
         names = listed(obj.name for obj, _ in self.results)
         memory = size_text(sum(mesh_bytes(mesh) for mesh in {obj.data for obj, _ in self.results}
                                | {copy.data for copy in self.copies}))
-        light = "; the light is still to come, by Light Reflection" if self.unlit else ""
+        light = "; not lit yet" if self.unlit else ""
         return f"{names}: {size}, {memory}, error about {error:.2f} px{filled}, {seconds:.2f} s{light}"
 
 
@@ -116,6 +120,8 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
         show_previews([obj for obj in unlit if preview or obj in previewed], view, lamps, whole)
         if manners.collect:
             gather(context, [obj for obj, _ in results if obj not in there], whole)
+        if manners.protect:
+            whole.after(protect, [obj for obj, _ in results])
         whole.after(forget_previews)
         whole.after(show_for_camera, context.scene)
     update_mattes(context)

@@ -2,7 +2,7 @@
 from .assemblies import Assembly, assemblies, root_of
 from .known_results import forget_known, known_results, register, unregister
 from .light_links import link_state
-from .lines import lines_drawn
+from .lines import lines_drawn, redraw_lines
 from .looked_through import looked_through
 from .materials import all_nodes, fog_of, is_clear, is_fog, is_mirror, is_opaque, materials_of, materials_shown
 from .meshes import (
@@ -26,6 +26,7 @@ from .metaballs import is_part
 from .moves import forgets_particles, moves
 from .not_reflected import has_fog, in_background_set, rendered_alone, without_surface
 from .nothing_seen import NothingSeen
+from .opacities import opacities_of
 from .read_view import NO_CAMERA, read_view, render_size, with_square_pixels
 from .rendered_otherwise import rendered_otherwise
 from .results import (
@@ -37,6 +38,8 @@ from .results import (
     is_result,
     lost_mirror,
     mirrors_of,
+    named_by_selection,
+    result_of,
     results_of,
     with_copies,
 )
@@ -64,8 +67,8 @@ __all__ = ["Assembly", "DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA"
            "forgets_particles", "has_fog", "has_linked_results", "in_background_set", "in_viewports", "is_clear",
            "is_fog", "is_gone", "is_mirror", "is_opaque", "is_part", "is_rendered", "is_result", "join_mirror",
            "join_scene", "known_results", "lines_drawn", "link_state", "looked_through", "lost_mirror", "materials_of",
-           "materials_shown", "may_have_faces", "mirrors_of", "moves", "nothing_to_reflect", "numbers", "participants",
-           "read_meshes", "read_mirror", "read_mirrors", "read_scene", "read_view", "register", "render_size",
-           "rendered_alone", "rendered_collections", "rendered_in", "rendered_otherwise", "results_of", "root_of",
-           "says_mirror", "seen_in", "shown_by", "unregister", "vectors", "visible", "with_copies",
-           "with_square_pixels", "without_surface"]
+           "materials_shown", "may_have_faces", "mirrors_of", "moves", "named_by_selection", "nothing_to_reflect",
+           "numbers", "opacities_of", "participants", "read_meshes", "read_mirror", "read_mirrors", "read_scene",
+           "read_view", "redraw_lines", "register", "render_size", "rendered_alone", "rendered_collections",
+           "rendered_in", "rendered_otherwise", "result_of", "results_of", "root_of", "says_mirror", "seen_in",
+           "shown_by", "unregister", "vectors", "visible", "with_copies", "with_square_pixels", "without_surface"]

@@ -84,7 +84,7 @@ def root_of(obj: bpy.types.Object) -> bpy.types.Object:
 def _pointer(context: bpy.types.Context, root: bpy.types.Object, parts: list, taken: set) -> bpy.types.Object:
     """Return the object that names a group of mirrors: its root, unless that is not in the scene or has a result of
     its own."""
-    usable = context.scene in root.users_scene and root not in taken
+    usable = context.view_layer.objects.get(root.name) == root and root not in taken
     return root if len(parts) > 1 and usable else parts[0]
 
 

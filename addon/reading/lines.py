@@ -1,4 +1,4 @@
-"""Whether lines are drawn in a scene: results that no lines are drawn of need no borders closed for them."""
+"""Line Art and Freestyle in a scene: whether they draw lines, and drawing these again."""
 from __future__ import annotations
 
 import bpy
@@ -10,6 +10,16 @@ def lines_drawn(scene: bpy.types.Scene) -> bool:
     """Whether an object of the scene has Line Art, or one of its view layers Freestyle, that viewports or renders
     show."""
     return _has_freestyle(scene) or any(map(_has_line_art, scene.objects))
+
+
+def redraw_lines(scene: bpy.types.Scene) -> None:
+    """Let all Line Art of a scene be drawn again after objects were added or removed.
+
+    Blender does not do so by itself: 4.2 not after objects were removed, later versions not after objects were added.
+    """
+    for obj in scene.objects:
+        if obj.library is None and compat.line_art_of(obj):
+            obj.update_tag()
 
 
 def _has_freestyle(scene: bpy.types.Scene) -> bool:

@@ -7,7 +7,7 @@ import numpy as np
 
 def looked_through(depsgraph: bpy.types.Depsgraph, mirrors: list, diffuse: list) -> bool:
     """Whether the camera may see mirrors from within an object that it does not see itself."""
-    unseen = [obj for obj in diffuse if _is_unseen(obj, depsgraph.view_layer)]
+    unseen = [obj for obj in diffuse if is_unseen(obj, depsgraph.view_layer)]
     if not unseen:
         return False
     boxes = [_box(obj.evaluated_get(depsgraph)) for obj in mirrors]
@@ -16,7 +16,8 @@ def looked_through(depsgraph: bpy.types.Depsgraph, mirrors: list, diffuse: list)
                for obj in unseen)
 
 
-def _is_unseen(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> bool:
+def is_unseen(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> bool:
+    """Return True for an object that the camera does not see, or of whose instances it does not see all."""
     if not obj.visible_camera or obj.indirect_only_get(view_layer=layer):
         return True
     inner = obj.instance_collection if obj.instance_type == "COLLECTION" else None

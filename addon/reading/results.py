@@ -51,6 +51,28 @@ def lost_mirror(result: bpy.types.Object) -> bool:
     return all(map(is_gone, mirrors_of(result)))
 
 
+def named_by_selection(context: bpy.types.Context, results: list) -> list:
+    """Return those of the results that are selected, or whose mirrors, or parts of these, are; if there is none, the
+    active one if it is protected, and so cannot be selected."""
+    selected, active = set(context.selected_objects), context.view_layer.objects.active
+    named = [obj for obj in results
+             if not selected.isdisjoint((obj, obj.reflection_mesh.mirror, *mirrors_of(obj)))]
+    return named or [obj for obj in results if obj == active and obj.hide_select]
+
+
+def result_of(context: bpy.types.Context, obj: bpy.types.Object | None, known: list) -> bpy.types.Object | None:
+    """Return the reflection that an object stands for: itself, or the one in it that the scene's camera sees.
+
+    Parameters
+    ----------
+    known : list of bpy.types.Object
+        The results of the scene, as of `known_results`.
+    """
+    if obj is None or is_result(obj):
+        return obj
+    return next(iter(results_of(context, obj, known)), None)
+
+
 def with_copies(context: bpy.types.Context, results: list) -> list:
     """Results, and the copies that the user has made of them: those of the same mirror for the same camera."""
     found = dict.fromkeys(results)

@@ -42,25 +42,24 @@ KINDS = {"tolerance": FloatProperty, "placement": EnumProperty, "method": EnumPr
 VALUES = {
     "tolerance": {"name": "Tolerance", "default": 0.5, "min": 0.01, "soft_max": 8.0, "max": 1000.0, "precision": 2,
                   "subtype": "PIXEL",
-                  "description": "How many pixels a point may be from where the mirror shows it; more is faster"},
+                  "description": "Error in pixels that 99 % of the points stay below. Higher values are faster"},
     "placement": {"name": "Placement", "items": PLACEMENTS, "default": "LAYERED",
-                  "description": "Where the reflection lies"},
+                  "description": "Position of the reflection's geometry"},
     "method": {"name": "Made Of", "items": METHODS, "default": "GENERAL",
-               "description": "What the reflection is made of"},
+               "description": "Type of the reflection's geometry"},
     "depth": {"name": "Bounces", "default": 1, "min": 1, "soft_max": 4, "max": 16,
-              "description": "How many times the scene is followed from mirror to mirror; 1: mirrors show no mirrors"},
+              "description": "Number of reflections from mirror to mirror. With 1, mirrors do not show other mirrors"},
     "memory": {"name": "Memory (GB)", "default": 2.0, "min": 0.1, "soft_max": 64.0, "precision": 1,
-               "description": "Gigabytes that the work may take: what would need more is worked out more coarsely, or "
-               "refused"},
+               "description": "Memory that the computation may use. What needs more is computed more coarsely or "
+                              "refused"},
     "hidden_faces": {"name": "Hidden Faces", "default": False,
-                     "description": "Also the faces that nearer ones hide whole, for objects that are to be taken away "
-                     "later; what lets light through keeps them anyway"},
+                     "description": "Keep faces that nearer faces hide completely, for objects that are removed "
+                                    "later. Faces behind transparent faces are always kept"},
     "light_samples": {"name": "Light Samples", "default": SAMPLES, "min": 1, "soft_max": 4096,
-                      "description": "Light paths for each pixel of the mirrors, which are denoised; more is cleaner "
-                      "and slower"},
-    "light_kind": {"name": "Light", "items": LIGHTS, "default": "AUTO", "description": "Where the light is kept"},
+                      "description": "Number of light paths for each pixel of the mirrors. The light is denoised"},
+    "light_kind": {"name": "Light", "items": LIGHTS, "default": "AUTO", "description": "Where the light is stored"},
     "attributes": {"name": "Attributes", "items": ATTRIBUTES, "default": "ALL",
-                   "description": "What the points and faces of a reflection know"},
+                   "description": "Attributes that are stored in the reflection's mesh"},
     "join_parts": {"name": "Join Parts", "default": True,
                    "description": "Mirrors that have one topmost parent share one reflection; a mirror with settings "
                    "of its own, or with a reflection already, keeps its own"},

@@ -1,7 +1,6 @@
 """Which settings hold: what was given to an operator or a verb, over those that the file holds."""
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
@@ -84,10 +83,10 @@ class UsesSettings:
     """Mix-in of operators: options that were not given are the file's, and are shown as they were used, so that the
     panel after the run (F9) begins with them; what is changed there is given, and holds for all mirrors."""
 
-    # JSON: options that `show_used` has set, which nobody gave
-    used: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
-
-    # no annotation: Blender takes those of an operator for its properties; options whose setting is called otherwise
+    # no annotation: Blender takes those of an operator for its properties, which the Info editor lists
+    # options that `show_used` has set, which nobody gave; the panel after the run keeps the operator with them
+    used = {}
+    # options whose setting is called otherwise
     renamed = {}
     uses = SETTINGS
 
@@ -106,7 +105,7 @@ class UsesSettings:
             if not self._is_given(option):
                 setattr(self, option, wanted.value(shown, name))
                 used[option] = getattr(self, option)
-        self.used = json.dumps(used)
+        self.used = used
 
     def begin(self, context: bpy.types.Context) -> set:
         # a file browser that comes first shows the options
@@ -120,5 +119,4 @@ class UsesSettings:
     def _is_given(self, option: str) -> bool:
         if not self.properties.is_property_set(option):
             return False
-        used = json.loads(self.used or "{}")
-        return not (option in used and used[option] == getattr(self, option))
+        return not (option in self.used and self.used[option] == getattr(self, option))

@@ -25,9 +25,10 @@ from .joined_parts import set_free, told_of
 from .kept_changes import PREVIEW, place_of, put_back_materials
 from .landmarks import applied_to, forget_landmarks
 from .nodes import Builder, disc_nodes, forget_nodes, forget_unblurred, hide_discs, show_unblurred, unblurred_in
+from .protection import protect
 from .records import LONGEST as LONGEST_RECORD
 from .result_collection import forget_collection, gather, show_in_layer
-from .windows import close_abandoned_windows, set_window, what_is_in_the_way
+from .windows import InTheWay, close_abandoned_windows, nearer, set_window, what_is_in_the_way
 from .write_mesh import FIELDS, write_mesh
 from .write_object import (
     RAYS,
@@ -42,12 +43,12 @@ from .write_object import (
     write_object,
 )
 
-__all__ = ["Attribute", "Builder", "Edges", "FIELDS", "LATER_COSINE", "LATER_MATERIAL", "LONGEST_RECORD",
+__all__ = ["Attribute", "Builder", "Edges", "FIELDS", "InTheWay", "LATER_COSINE", "LATER_MATERIAL", "LONGEST_RECORD",
            "MOST_UV_MAPS", "MeshArrays", "NORMAL", "PREVIEW", "RAYS", "Reflection", "UV_MAP", "Written", "applied_to",
            "as_shown", "close_abandoned_windows", "disc_nodes", "edges_that_stray", "forget_collection",
            "forget_landmarks", "forget_mesh", "forget_nodes", "forget_unblurred", "gather", "halve_edges",
            "hide_discs", "images_of", "light_layer", "light_points", "link_beside", "mesh_arrays", "mesh_bytes",
-           "new_beside", "new_object", "place_of", "point_arrays", "put_back_materials", "remember_parts",
-           "result_name", "set_free", "set_window", "show_for_camera", "show_in_layer", "show_own_materials",
-           "show_unblurred", "shown_layers", "size_text", "told_of", "unblurred_in", "vertices_written",
-           "what_is_in_the_way", "write_mesh", "write_object"]
+           "nearer", "new_beside", "new_object", "place_of", "point_arrays", "protect", "put_back_materials",
+           "remember_parts", "result_name", "set_free", "set_window", "show_for_camera", "show_in_layer",
+           "show_own_materials", "show_unblurred", "shown_layers", "size_text", "told_of", "unblurred_in",
+           "vertices_written", "what_is_in_the_way", "write_mesh", "write_object"]

@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import bpy
 
+from ..reading import redraw_lines
+
 
 def link_beside(scene: bpy.types.Scene, obj: bpy.types.Object, other: bpy.types.Object) -> None:
     """Put an object into the collections of another, those of this scene that can be changed, which those of a library
@@ -12,3 +14,4 @@ def link_beside(scene: bpy.types.Scene, obj: bpy.types.Object, other: bpy.types.
               if collection in of_scene and collection.library is None and collection.override_library is None]
     for collection in beside or [scene.collection]:
         collection.objects.link(obj)
+    redraw_lines(scene)

@@ -12,7 +12,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..faults import still_there
-from ..reading import camera_of, is_result, mirrors_of
+from ..reading import camera_of, is_result, mirrors_of, redraw_lines
 from ..registration import Handlers
 from .windows import close_window, open_window
 
@@ -39,6 +39,7 @@ def show_for_camera(scene: bpy.types.Scene) -> None:
     for mirror in {mirror for obj in own for mirror in mirrors_of(obj)}:
         windows = [obj.reflection_mesh.window for obj in own if mirror in mirrors_of(obj)]
         (open_window if any(windows) else close_window)(mirror)
+    redraw_lines(scene)
 
 
 def _put_aside(obj: bpy.types.Object) -> None:

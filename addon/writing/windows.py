@@ -5,6 +5,8 @@ Blender has no way to hide an object as long as another exists: handlers look af
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
+from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -12,11 +14,12 @@ from bpy.app.handlers import persistent
 from mathutils import Vector
 
 from ...core import ReflectionMesh, View
-from ..reading import is_result, mirrors_of
+from ..reading import is_opaque, is_result, materials_of, mirrors_of
 from ..registration import Handlers
 
 RAYS = 200          # by which the view through a window is tried
 NEARLY = 1e-4       # of a ray's length: what lies in the image itself fights with it
+NEARER = 5e-4       # of the distance from the eye, more than twice as much
 MOST_THROUGH = 100  # objects that a ray goes on through
 TOO_SHORT = 100.0   # steps of single precision: on a shorter way what is met hangs on these
 
@@ -43,10 +46,17 @@ def set_window(result: bpy.types.Object, placement: str) -> None:
         (open_window if record.window else close_window)(mirror)
 
 
-def what_is_in_the_way(context: bpy.types.Context, view: View, result: ReflectionMesh, mirrors: list
-                       ) -> tuple[str, float, float]:
-    """Which object hides most of a virtual image, behind its mirror, the share of it that anything hides, and that
-    together with what anything lies in, as a floor does in its own image.
+class InTheWay(NamedTuple):
+    """What is in the way of a virtual image: the `name` of the object that hides most of it, empty if none does; the
+    share of the image that is `hidden`; and whether anything `touches` it, as a floor that lies in its own image."""
+
+    name: str
+    hidden: float
+    touches: bool
+
+
+def what_is_in_the_way(context: bpy.types.Context, view: View, result: ReflectionMesh, mirrors: list) -> InTheWay:
+    """Find by rays what hides a virtual image, behind its mirror.
 
     Parameters
     ----------
@@ -56,17 +66,30 @@ def what_is_in_the_way(context: bpy.types.Context, view: View, result: Reflectio
         All that are to be windows.
     """
     if not len(result.positions):
-        return "", 0.0, 0.0
+        return InTheWay("", 0.0, False)
     depsgraph = context.evaluated_depsgraph_get()
     ways = _within_faces(result, view) if len(result.triangles) else _some(result.mirror_position, result.positions)
     found: Counter = Counter()
-    before, tried = 0, 0
+    touches, tried = False, 0
     for start, end in zip(*(ends.tolist() for ends in ways)):
         name, lies_before = _first_seen(context.scene, depsgraph, Vector(start), Vector(end), mirrors)
-        found[name] += bool(name)
-        before, tried = before + lies_before, tried + 1
-    (name, _), = found.most_common(1)
-    return name, before / tried, found.total() / tried
+        found[name] += lies_before
+        touches |= bool(name) and not lies_before
+        tried += 1
+    (name, most), = found.most_common(1)
+    return InTheWay(name if most else "", found.total() / tried, touches)
+
+
+def nearer(view: View, result: ReflectionMesh, found: InTheWay) -> ReflectionMesh:
+    """Draw a virtual image, if anything touches it, so little nearer that it is seen before that; its picture stays the
+    same."""
+    if not found.touches:
+        return result
+    if view.orthographic:
+        moved = result.positions - NEARER * np.ptp(result.positions, axis=0).max() * view.forward
+    else:
+        moved = view.eye + (1.0 - NEARER) * (result.positions - view.eye)
+    return replace(result, positions=moved)
 
 
 def _some(*places: np.ndarray) -> list[np.ndarray]:
@@ -119,8 +142,8 @@ def _first_seen(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, start: V
         if not hit:
             return "", False
         original = obj.original
-        if (original not in mirrors and original.visible_camera and not original.hide_render
-                and original.reflection_mesh.role != "REFLECTION"):
+        hides = original.visible_camera and not original.hide_render and original.reflection_mesh.role != "REFLECTION"
+        if hides and original not in mirrors and any(map(is_opaque, materials_of(original) or [None])):
             return original.name, (end - place).dot(direction) > 2.0 * step
         at = place + step * direction
     return "", False

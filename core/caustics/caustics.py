@@ -95,7 +95,7 @@ def caustic_steps(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, set
     >>> mirror = TriangleMesh(np.array([[0, -1, 1], [0, 1, 1], [0, 0, 2.0]]), np.array([[0, 1, 2]]))
     >>> floor = TriangleMesh(np.array([[-9, -9, 0], [9, -9, 0], [0, 9, 0.0]]), np.array([[0, 1, 2]]))
     >>> next(caustic_steps(Lamp((1, 0, 3)), mirror, floor))  # in a generator: mesh = yield from caustic_steps(...)
-    (0.0, 'k-d tree')
+    (0.0, 'Preparing the scene')
     """
     return (yield from in_steps(lambda: caustics(lamp, mirror, receivers, settings, mirrors, blockers)))
 
@@ -114,7 +114,7 @@ def _near_origin(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, sett
             seen = reflect(view, mirror, receivers, settings, body)
         except NothingInView:
             continue
-        tell(0.9, "irradiance")
+        tell(0.9, "Computing brightness")
         if len(seen.triangles):
             parts.append(_light(lamp, seen, receivers, settings))
     return joined(parts)

@@ -5,7 +5,9 @@ what the one sees of the other.
 """
 from .candidates import Candidates, inherited, overlapping
 from .mirrors_shown import MirrorsShown
+from .opacities import Opacities
 from .scene_and_mirrors import ABOVE, SceneAndMirrors
 from .scene_pieces import ScenePieces
 
-__all__ = ["ABOVE", "Candidates", "MirrorsShown", "SceneAndMirrors", "ScenePieces", "inherited", "overlapping"]
+__all__ = ["ABOVE", "Candidates", "MirrorsShown", "Opacities", "SceneAndMirrors", "ScenePieces", "inherited",
+           "overlapping"]

@@ -5,6 +5,7 @@ asked for it is the next mirror. Convex mirrors never see themselves: their tria
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
@@ -12,13 +13,14 @@ from functools import cached_property
 import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
-from ..geometry import SceneFrames, TriangleMesh, columns, cross, dot, others, rows, unit
+from ..geometry import Opacity, SceneFrames, TriangleMesh, columns, cross, dot, others, rows
 from ..trees import Bound, Cones, Fronts, PointTree, SceneTree, Touching, first_crossed
 from ..views import View
 from .camera_families import traced
 from .candidates import Candidates
 from .convex_mirrors import outer_side
 from .mirrors_shown import MirrorsShown
+from .opacities import Opacities
 from .scene_pieces import ScenePieces
 
 ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
@@ -44,6 +46,8 @@ class SceneAndMirrors:
     mirror_tree : SceneTree
     mirror_corners : (3, m, 3) float64, of the mirrors' triangles, as [component, triangle, corner]
     size : float, of the mirrors: the longest side of the box round them, in scene units
+    opacities : Opacities, of the diffuse triangles
+    slide : float, share of what layers slide before other mirrors
     """
 
     def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh,
@@ -59,13 +63,32 @@ class SceneAndMirrors:
         self.outward: np.ndarray | None = None
         self._fronts: list[Fronts | None] = [None, None]
         self._piece_fronts: Fronts | None = None
+        self.opacities, self.slide = Opacities(), 1.0
         self._number(None)
+
+    def with_opacity(self, opacity: np.ndarray | None) -> SceneAndMirrors:
+        """The same, of a scene whose triangles (m,), as they were given, have this `Opacity`, or are all opaque."""
+        opacities = Opacities.of(None if opacity is None else opacity[self.tree.given.triangle])
+        if opacities.all_opaque:
+            return self
+        found = copy(self)
+        found.opacities = opacities
+        return found
+
+    def sliding(self, share: float) -> SceneAndMirrors:
+        """The same, before which layers slide by this share of what they slide elsewhere."""
+        found = copy(self)
+        found.slide = share
+        return found
 
     def from_outside(self, view: View) -> SceneAndMirrors:
         """The same, without what closed bodies turn away from the view, which looks from outside."""
         seen = copy(self)
         trees = self.scene, self.mirror_tree
         outward = [tree.bodies.outward_from(view) for tree in trees]
+        if self.opacities.of_scene is not None:
+            # through the open parts of a body its inner side is seen
+            outward[0] = np.where(self.scene.bodies.having(self.opacities.of_scene != Opacity.OPAQUE), 0.0, outward[0])
         seen.outward = outward[0]
         seen._fronts = [Fronts.of(tree.mesh, side) if side.any() else None for tree, side in zip(trees, outward)]
         return seen
@@ -77,6 +100,9 @@ class SceneAndMirrors:
         self._merged = sum(map(len, triangles))  # the first that is drawn together
         if pieces is not None and pieces.merged is not None:
             triangles.append(pieces.merged)
+        if pieces is not None:
+            self.opacities = self.opacities.with_pieces(
+                [pieces.source] + [np.arange(len(mesh.triangles))] * (pieces.merged is not None))
         self.diffuse = sum(map(len, triangles))
         self.positions = np.concatenate((positions, mirrors.positions))
         self.triangles = np.concatenate((*triangles, mirrors.triangles + len(positions)))
@@ -121,7 +147,7 @@ class SceneAndMirrors:
         """The mirrors that cameras may show; those for which more than `most` pairs of cameras and triangles would have
         to be looked at may show any."""
         found = self.mirrors_in(cameras, Bound(most, np.ones(len(cameras))))
-        risen = self._above(self._upper_sides(cameras), found.cone, found.triangle, RISEN)
+        risen = self._above(self.upper_sides(cameras), found.cone, found.triangle, RISEN)
         return MirrorsShown.of(cameras, (found.cone, found.triangle), risen, found.given_up)
 
     def showing_scene(self, cameras: Cameras) -> np.ndarray:
@@ -163,7 +189,7 @@ class SceneAndMirrors:
             return Touching.joined([replace(Touching.none(len(cameras)), cone=camera, triangle=triangle),
                                     found.among(asked, len(cameras))])
         # which side of its triangle the rays of a camera leave is asked once
-        sides = self._upper_sides(cameras)
+        sides = self.upper_sides(cameras)
         if len(cameras) and self._outside and cameras.mirror_map.bounce == 1:
             surface, face = cameras.mirror_map.last(cameras.face)
             if (self._outside * dot(sides[1], surface.face_normal[:, face]) > 0.0).all():
@@ -171,32 +197,32 @@ class SceneAndMirrors:
         return traced(self.mirror_tree, cameras, bound, self._fronts[1],
                        lambda camera, triangle: self._above(sides, camera, triangle))
 
-    def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
-        """The triangle (n,) that each ray, from `origin` along unit vectors `ray` (3, n), meets first, -1 where none.
-        They leave mirrors on `sides`, a place and a normal (3, n) each; what does not rise above is not met."""
+    def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray,
+                  ) -> tuple[np.ndarray, np.ndarray]:
+        """The triangle (n,) that each ray, from `origin` along unit vectors `ray` (3, n), meets first, -1 where none;
+        and how far away. They leave mirrors on `sides`, a place and a normal (3, n) each; what does not rise above is
+        not met."""
         diffuse, near = first_crossed(self.scene, origin, ray)
         mirror, nearer = first_crossed(self.mirror_tree, origin, ray, ABOVE * self.size,
                                        lambda own, triangle: self._above(sides, own, triangle))
-        return np.where(nearer < near, mirror + self.diffuse, diffuse)
+        return np.where(nearer < near, mirror + self.diffuse, diffuse), np.minimum(near, nearer)
 
     def hidden_within(self, origin: np.ndarray, ray: np.ndarray, reach: np.ndarray) -> np.ndarray:
-        """Which rays (3, n), unit vectors, meet the diffuse scene within `reach` (n,) of where they begin, on a
-        mirror."""
-        return first_crossed(self.scene, origin, ray, ABOVE * self.size, limit=reach)[0] >= 0
+        """Return True for rays (3, n), unit vectors, that meet something of the diffuse scene that must not be covered,
+        within `reach` (n,) of where they begin, on a mirror."""
+        return first_crossed(self.scene, origin, ray, ABOVE * self.size, self._if_seen(), limit=reach)[0] >= 0
+
+    def _if_seen(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
+        """Tell which pairs of a ray and a triangle count for rays of the eye; None if all do."""
+        return None if self.opacities.all_opaque else lambda _, triangle: self.opacities.not_to_cover(triangle)
 
     def first_distances(self, origin: np.ndarray, ray: np.ndarray, diffuse: bool) -> np.ndarray:
-        """How far along rays (3, n), unit vectors, the diffuse scene, or this and the mirrors lie, infinite where not
-        at all."""
-        trees = [self.scene] if diffuse else [self.scene, self.mirror_tree]
-        return np.minimum.reduce([first_crossed(tree, origin, ray)[1] for tree in trees])
+        """Distances (n,) along rays (3, n) of the eye, unit vectors, of what it sees of the diffuse scene, or of this
+        and the mirrors; infinite for rays that meet none."""
+        near = first_crossed(self.scene, origin, ray, asked=self._if_seen())[1]
+        return near if diffuse else np.minimum(near, first_crossed(self.mirror_tree, origin, ray)[1])
 
-    def shown_at(self, cameras: Cameras, places: np.ndarray) -> np.ndarray:
-        """The triangle (n,) that the ray through a place (3, n) on each camera meets first, -1 where it meets none."""
-        mirror_map = cameras.mirror_map
-        origin, ray = mirror_map.leave(cameras.face, mirror_map.coordinates(cameras.face, places))
-        return self.first_met(self._upper_sides(cameras), origin, unit(ray))
-
-    def _upper_sides(self, cameras: Cameras) -> tuple[np.ndarray, np.ndarray]:
+    def upper_sides(self, cameras: Cameras) -> tuple[np.ndarray, np.ndarray]:
         """The planes (n) of the cameras' flat triangles: a place on each, and its normal on the side that the rays
         leave."""
         mirror_map = cameras.mirror_map

@@ -43,7 +43,7 @@ def missed_probes(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, met: 
     face = face[seen]
     leaving = mirror_map.rays(face, mirror_map.coordinates(face, place))
     flat = mirror_map.surface.face_normal[:, face]
-    shown = met.first_met((place, flat * np.sign(dot(leaving, flat))), place, unit(leaving))
+    shown, _ = met.first_met((place, flat * np.sign(dot(leaving, flat))), place, unit(leaving))
     wanted = (shown >= 0) & (shown < met.diffuse)
     if isinstance(view, LampView):
         # nor is what no light falls on

@@ -5,15 +5,40 @@ import numpy as np
 
 from ..cameras import Cameras
 from ..culling import SceneAndMirrors
-from ..geometry import norm
+from ..geometry import in_order, norm, unit
 from ..result import DEPTH, GAP
 
+MOST_LAYERS = 32  # of clear triangles that one ray goes on through
+STEP = 1e-9  # of the way to a clear triangle: a ray goes on from so far behind it
 
-def shown_triangles(met: SceneAndMirrors, cameras: Cameras, places: np.ndarray) -> np.ndarray:
-    """The triangle (n,) that the ray through a place (3, n) on each camera meets first, -1 where it meets none, or
-    where the scene hides the place from as near as layers slide: what is shown there would come out before it."""
-    view, triangle = cameras.view, met.shown_at(cameras, places)
+
+def shown_triangles(met: SceneAndMirrors, cameras: Cameras, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs (k,) of a place (3, n) on each camera, rising, and a triangle that the ray through it meets: the clear
+    ones, and the first that stops light; -1 where it meets none, or where the scene hides the place from as near as
+    layers slide: what is shown there would come out before it."""
+    view, (place, triangle) = cameras.view, met_in_turn(met, cameras, places)
     back = -view.directions(places.T).T
     away = norm(back)
-    reach = (GAP + DEPTH) * (np.full(len(away), np.ptp(cameras.places, axis=1).max()) if view.orthographic else away)
-    return np.where(met.hidden_within(places, back / away, reach), -1, triangle)
+    size = np.full(len(away), np.ptp(cameras.places, axis=1).max()) if view.orthographic else away
+    reach = met.slide * (GAP + DEPTH) * size
+    return place, np.where(met.hidden_within(places, back / away, reach)[place], -1, triangle)
+
+
+def met_in_turn(met: SceneAndMirrors, cameras: Cameras, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs (k,) of a place (3, n) on each camera, rising, and a triangle that the ray through it meets: the clear
+    ones, nearest first, and the first that stops light; -1 where it meets none."""
+    mirror_map, sides = cameras.mirror_map, met.upper_sides(cameras)
+    origin, ray = mirror_map.leave(cameras.face, mirror_map.coordinates(cameras.face, places))
+    own, ray, found = np.arange(len(cameras)), unit(ray), []
+    for layer in range(MOST_LAYERS):
+        triangle, away = met.first_met(sides, origin, ray)
+        kept = (triangle >= 0) | (layer == 0)
+        found.append((own[kept], triangle[kept]))
+        on = np.flatnonzero((triangle >= 0) & ~met.opacities.stops_light(triangle))
+        if not len(on):
+            break
+        own, ray, origin = own[on], ray[:, on], origin[:, on] + (1.0 + STEP) * away[on] * ray[:, on]
+        sides = sides[0][:, on], sides[1][:, on]
+    place, triangle = (np.concatenate(part) for part in zip(*found))
+    order = in_order(place)
+    return place[order], triangle[order]

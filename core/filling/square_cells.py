@@ -9,7 +9,7 @@ import numpy as np
 
 from ..cameras import Cameras, pixels_of, places_at, true_rays, with_pieces
 from ..culling import SceneAndMirrors
-from ..geometry import groups, mask
+from ..geometry import between, groups, mask, ranges
 from .picture_squares import ASIDE, first_side, in_squares
 from .shown_triangles import shown_triangles
 from .whole_squares import WholeSquares
@@ -20,15 +20,16 @@ SMALLEST = 1e-9  # square pixels: smaller cells are nothing
 def cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, size: float,
                         squares: WholeSquares | None) -> tuple[Cameras, np.ndarray, int]:
     """Cells of crowded cameras, in those squares of `size` pixels that are not whole, that show something, the triangle
-    (m,) that each shows, and how many rays were traced for it."""
+    (m,) that each shows, and how many rays were traced for it. A cell comes once for each triangle that it shows."""
     cells, square, places = _cells(cameras, size, squares)
     # a square may begin before the picture, where it has the number -1
     first, group = groups(*(square - square.min(axis=1, keepdims=True, initial=0)))
-    triangle = shown_triangles(met, cells.select(first), places[:, first])[group]
+    place, triangle = shown_triangles(met, cells.select(first), places[:, first])
     middles = first_side(size) + (square[:, first].T + 0.5 + ASIDE) * size
     cells, cell = _round_middles(cells, first, middles)
-    shown = np.flatnonzero(triangle[cell] >= 0)
-    return cells.select(shown), triangle[cell[shown]], len(first)
+    pair, shown = ranges(*between(place, group[cell], group[cell]))
+    seen = triangle[pair] >= 0
+    return cells.select(shown[seen]), triangle[pair[seen]], len(first)
 
 
 def _round_middles(cells: Cameras, some: np.ndarray, spots: np.ndarray) -> tuple[Cameras, np.ndarray]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..cameras import Cameras, cells_before, cells_between, places_at, true_rays
 from ..culling import SceneAndMirrors
-from ..geometry import SceneFrames, columns, distinct, dot, norm, rows, unit
+from ..geometry import SceneFrames, columns, distinct, dot, mask, norm, rows, unit
 from ..result import GAP
 from ..support import breathe
 from ..views import Covered, View, planes
@@ -63,20 +63,21 @@ class WholeSquares:
     def of(cls, cameras: Cameras, met: SceneAndMirrors, grid: SquareGrid, last: bool) -> WholeSquares:
         """Squares of a grid in crowded cameras. Where light goes on, at no `last` bounce, those that show a mirror are
         left out."""
-        holders = Holders(cameras, grid)
+        holders = Holders(cameras, grid, met.slide)
         square = holders.inner
         row, column = np.divmod(square, max(grid.size[0], 1))
         owner = holders.in_middles[row, column]
         middles = places_at(cameras.select(owner), grid.pixels(column + 0.5, row + 0.5))[0]
-        triangle = shown_triangles(met, cameras.select(owner), middles)
+        place, triangle = shown_triangles(met, cameras.select(owner), middles)
         whole = np.zeros(grid.size[::-1], dtype=bool)
-        whole[row, column] = last | (triangle < met.diffuse)
-        shown = np.flatnonzero((triangle >= 0) & (triangle < met.diffuse))
-        row, column, triangle = row[shown], column[shown], triangle[shown]
+        whole[row, column] = last | ~mask(len(square), place[triangle >= met.diffuse])
+        shown = np.flatnonzero((triangle >= 0) & (triangle < met.diffuse) & whole[row, column][place])
+        place, triangle = place[shown], triangle[shown]
+        row, column, owner = row[place], column[place], owner[place]
         point, corner = distinct(((row[:, None] + (0, 0, 1, 1)) * (grid.size[0] + 1)
                                   + column[:, None] + (0, 1, 1, 0)).ravel())
         holder, spots, moved = holders.corners(whole, point)
-        holder = np.concatenate((holder, owner[shown]))
+        holder = np.concatenate((holder, owner))
         spots = np.concatenate((spots, np.stack((column, row), axis=1) + 0.5 + ASIDE))
         places, face = places_at(cameras.select(holder), grid.pixels(*spots.T))[0], cameras.face[holder]
         breathe()
@@ -84,7 +85,7 @@ class WholeSquares:
         corner, middle = corner.reshape(-1, 4), len(point) + np.arange(len(row))
         five = np.column_stack((corner, middle))
         straying = np.sqrt(2.0) * grid.side * _straying(met, triangle, (places[:, five], rays[:, five]), cameras.view)
-        straying[_sunk(places[:, five], cameras) | ~(moved[corner[:, :2]] | moved[corner[:, 2:]]).T] = np.inf
+        straying[_sunk(places[:, five], cameras, met.slide) | ~(moved[corner[:, :2]] | moved[corner[:, 2:]]).T] = np.inf
         corners, of_square = _faces(five, straying)
         return cls(grid, cells_before(whole), corners, face[middle][of_square], triangle[of_square], places, origins,
                    rays, face, len(square))
@@ -111,8 +112,8 @@ class Holders:
         cameras, between those side by side the mirror does not leap, and it does not rise at the sides.
     """
 
-    def __init__(self, cameras: Cameras, grid: SquareGrid) -> None:
-        self.cameras, self.size = cameras, grid.size
+    def __init__(self, cameras: Cameras, grid: SquareGrid, slide: float) -> None:
+        self.cameras, self.size, self.slide = cameras, grid.size, slide
         self._spots = grid.spots(rows(cameras.view.pixels(cameras.places.T)))[:, cameras.corners.T]
         lattice = self._at(2, np.zeros(2))
         self.inner = self._inner(lattice)
@@ -151,8 +152,8 @@ class Holders:
             return ((columns(slope, camera.ravel()) * spot.reshape(2, -1)).sum(axis=0)
                     + columns(base, camera.ravel())).reshape(camera.shape)
         own = near(holder, spots)
-        room = np.broadcast_to(HALF * GAP * (np.ptp(self.cameras.places, axis=1).max() if view.orthographic else own),
-                               own.shape)
+        size = np.ptp(self.cameras.places, axis=1).max() if view.orthographic else own
+        room = np.broadcast_to(self.slide * HALF * GAP * size, own.shape)
         first, middle, last = SIDES
         uneven = (own[:, middle] - 0.5 * (own[:, first] + own[:, last]) > SINKING * room[:, middle]).any(axis=1)
         square, pair = np.nonzero(holder[:, BESIDE[0]] != holder[:, BESIDE[1]])
@@ -193,12 +194,12 @@ def _straying(met: SceneAndMirrors, triangle: np.ndarray, five: tuple[np.ndarray
     return np.divide(away, motion, out=np.where(away > 0.0, np.inf, 0.0), where=motion > 0.0)
 
 
-def _sunk(places: np.ndarray, cameras: Cameras) -> np.ndarray:
+def _sunk(places: np.ndarray, cameras: Cameras, slide: float) -> np.ndarray:
     """(2, n): whether the middle of a diagonal of squares, with corners and a middle at (3, n, 5) places, lies deeper
     behind the mirror than layers surely slide before it."""
     view, middle = cameras.view, places[:, :, 4]
     ahead = view.directions(middle.T).T
-    room = HALF * GAP * (np.ptp(cameras.places, axis=1).max() if view.orthographic else dot(ahead, ahead))
+    room = slide * HALF * GAP * (np.ptp(cameras.places, axis=1).max() if view.orthographic else dot(ahead, ahead))
     return np.stack([dot(0.5 * (places[:, :, one] + places[:, :, one + 2]) - middle, ahead) > room for one in (0, 1)])
 
 

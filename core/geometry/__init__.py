@@ -9,6 +9,7 @@ from .column_arrays import ColumnArrays
 from .distinct import distinct, first_of, in_order
 from .marked import mask, numbered
 from .near_triangles import meeting
+from .opacity import Opacity
 from .scene_frames import SceneFrames, falling
 from .subdivision import (
     areas,
@@ -42,9 +43,9 @@ from .vectors import (
     unit,
 )
 
-__all__ = ["ColumnArrays", "Order", "SceneFrames", "TURNS", "TriangleMesh", "across", "area_normals", "areal", "areas",
-           "between", "borders", "columns", "connected", "corners_beyond", "cross", "distinct", "dot", "doubled_areas",
-           "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area",
+__all__ = ["ColumnArrays", "Opacity", "Order", "SceneFrames", "TURNS", "TriangleMesh", "across", "area_normals",
+           "areal", "areas", "between", "borders", "columns", "connected", "corners_beyond", "cross", "distinct", "dot",
+           "doubled_areas", "edge_lengths", "edge_numbers", "falling", "first_of", "following", "groups", "has_area",
            "in_order", "largest", "mask", "meeting", "next_corner", "norm", "numbered", "ordered", "others",
            "parent_side", "ranges", "rows", "shared_edges", "shares", "smallest", "solid_angles", "solve", "split",
            "spread_directions", "unit"]

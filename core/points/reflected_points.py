@@ -34,20 +34,21 @@ def reflected_points(cameras: Cameras, patch: Patch | None, met: SceneAndMirrors
     assert isinstance(tree, PointTree) and isinstance(mirror_map, MirrorMap)  # points follow one bounce only
     images, stood_for, counts = _images(cameras, tree, met, progress)
     if patch is not None:
-        progress.next(0.6, "projection")
+        progress.next(0.6, "Reflecting vertices")
         own, also, more = images_on_patch(patch, tree, cameras.face)
         images = own.with_others(images, mirror_map, len(stood_for))
         counts = {name: count + more[name] for name, count in counts.items()}
         stood_for |= also
     # each camera's cone goes down the tree, and all of a patch at once
     counts.update(descents=len(cameras) + (patch is not None), images=len(images), stood_for=int(stood_for.sum()))
-    progress.next(0.75, "discs")
-    return _drawn(mirror_map, tree, images, placement, counts)
+    progress.next(0.75, "Building points")
+    return _drawn(mirror_map, tree, images, (placement, met.slide), counts)
 
 
-def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, placement: str,
+def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, how: tuple[str, float],
            counts: dict[str, int]) -> ReflectionMesh:
-    """The images as points with their discs."""
+    """The images as points with their discs, by a placement and the share of what layers slide."""
+    placement, slide = how
     view, surface, count = mirror_map.view, mirror_map.surface, len(images)
     point, spot, flat = np.empty((3, count)), np.empty((3, count)), np.empty((count, 2, 3))
     axes, wanted, radius = np.empty((2, 2, count)), np.empty(count), np.empty(count)
@@ -64,7 +65,7 @@ def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, placemen
         axes[:, :, part], wanted[part] = picture_ellipses(view, seen, some.distance, normal, reach)
         point[:, part], spot[:, part] = tree.mesh.positions[some.vertex].T, seen[0]
     path = norm(point - spot)
-    drawn = placed(view, spot, path, placement)
+    drawn = placed(view, spot, path, placement, share=slide)
     for part in portions(count, AT_ONCE):
         slope = None if placement == "VIRTUAL" else columns(surface.face_normal, images.face[part])
         flat[part], radius[part] = flat_discs(view, axes[:, :, part], slope, drawn[:, part])
@@ -82,14 +83,14 @@ def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, placemen
 def _images(cameras: Cameras, tree: PointTree, met: SceneAndMirrors,
             progress: Progress) -> tuple[PointImages, np.ndarray, dict[str, int]]:
     """Images as each camera finds them, which vertices (v,) others stand for, and counts."""
-    progress.next(0.2, "cones through the tree")
+    progress.next(0.2, "Finding reflected objects")
     cones, positions = Cones.around(cameras), tree.mesh.positions
     pairs = tree.trace(cones, Magnification.of(cameras))
     counts = {"nodes_visited": pairs.visited, "pairs": len(pairs.camera), "projections": 0, "roots": 0}
     pairs.covered[pairs.vertex] = False
     found, stood, beams = [], [], Beams.of(cameras, cones)
     for part in portions(max(len(pairs.camera), 1), PAIRS_AT_ONCE):
-        progress.next(0.3 + 0.3 * part.start / max(len(pairs.camera), 1), "projection")
+        progress.next(0.3 + 0.3 * part.start / max(len(pairs.camera), 1), "Reflecting vertices")
         camera, vertex, radius = pairs.camera[part], pairs.vertex[part], pairs.stood[part]
         held = beams.hold(camera, rows(positions[vertex]))
         seen, solved, pair = images_of_pairs(cameras, positions, camera[held], vertex[held])

@@ -16,7 +16,8 @@ GAP = 2e-4  # share of the viewing distance kept free before the mirror
 DEPTH = 2e-3  # share of the viewing distance over which the layers spread
 
 
-def place(view: View, places: np.ndarray, path_length: np.ndarray, placement: str, reach: float = 0.0) -> np.ndarray:
+def place(view: View, places: np.ndarray, path_length: np.ndarray, placement: str, reach: float = 0.0,
+          share: float = 1.0) -> np.ndarray:
     """World positions (3, n) of nodes seen at `places` (3, n).
 
     Parameters
@@ -24,6 +25,7 @@ def place(view: View, places: np.ndarray, path_length: np.ndarray, placement: st
     path_length : (n,) float64, of the whole way behind the mirror, in scene units
     placement : {'LAYERED', 'SURFACE', 'VIRTUAL'}
     reach : float, length of a path over which the layers of an orthographic view spread at least
+    share : float, how much of `GAP` and `DEPTH` LAYERED uses
     """
     if placement == "SURFACE" or not len(path_length):
         return places
@@ -32,7 +34,7 @@ def place(view: View, places: np.ndarray, path_length: np.ndarray, placement: st
     if placement == "VIRTUAL":
         return places + ahead * distance
     if view.orthographic:
-        size = np.ptp(places, axis=1).max()
+        size = share * np.ptp(places, axis=1).max()
         return places - size * (GAP + DEPTH * (1.0 - path_length / max(path_length.max(), reach, 1e-300))) * ahead
-    nearer = GAP + DEPTH / (1.0 + distance)
+    nearer = share * (GAP + DEPTH / (1.0 + distance))
     return places - nearer / (1.0 + nearer) * ahead

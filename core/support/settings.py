@@ -37,8 +37,8 @@ class Settings:
         Gigabytes of arrays. What would need more is worked out more coarsely or refused, and the result says so;
         infinite for no bound.
     hidden_faces : bool
-        Also the faces that nearer ones hide whole, for scenes that let light through and for whoever takes objects
-        away; all of the geometry, at the price of work for what nobody sees.
+        Also the faces that nearer ones hide whole, for whoever takes objects away; all of the geometry, at the price
+        of work for what nobody sees. Scenes that let light through need it not: give `reflect` their opacity.
 
     Raises
     ------

@@ -102,6 +102,11 @@ class ClosedBodies:
             outside[body] = all(abs(solid_angles(start, corners).sum()) < 2.0 * np.pi for start in starts)
         return np.where((self.body >= 0) & np.append(outside, False)[self.body], self.outward, 0.0)
 
+    def having(self, some: np.ndarray) -> np.ndarray:
+        """Return True for triangles (m,) of bodies that some of the triangles, `some` (m,), bound."""
+        bodies = mask(self.low.shape[1] + 1, self.body[some])  # the last one for what bounds none
+        return (self.body >= 0) & bodies[self.body]
+
 
 @dataclass(frozen=True)
 class Fronts:

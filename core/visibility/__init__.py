@@ -3,6 +3,7 @@
 In come cameras or polygons; out come those parts that are seen, cut along outlines, which are linear in a camera's
 weights.
 """
+from .clear_panes import slide_share
 from .eye_plane import cut_before_eye
 from .lamp_light import cut_at_borders, lit, with_shades
 from .mirror_occlusion import cut_behind_mirrors
@@ -12,4 +13,4 @@ from .self_occlusion import without_occluded
 from .touching_mirrors import plainly_seen
 
 __all__ = ["cut_at_borders", "cut_before_eye", "cut_behind_mirrors", "drop_behind_contacts", "lit", "plainly_seen",
-           "with_shades", "without_hidden", "without_occluded"]
+           "slide_share", "with_shades", "without_hidden", "without_occluded"]

@@ -11,7 +11,7 @@ from itertools import chain
 import numpy as np
 
 from ..cameras import Cameras, picture_areas
-from ..culling import Candidates, inherited
+from ..culling import Candidates, Opacities, inherited
 from ..geometry import TriangleMesh, distinct, largest, mask, meeting, norm, numbered, rows, smallest
 from ..result import DEPTH, GAP
 from ..support import crowded, portions
@@ -23,14 +23,17 @@ CELLS = 256.0  # across the wider side of the picture, for what lies over what
 
 
 def drop_behind_contacts(candidates: Candidates, maximum: int,
-                         again: Callable[[Cameras, tuple[np.ndarray, np.ndarray]], Candidates]
-                         ) -> tuple[Candidates, np.ndarray, int, int]:
+                         again: Callable[[Cameras, tuple[np.ndarray, np.ndarray]], Candidates],
+                         opacities: Opacities = Opacities(),
+                         slide: float = 1.0) -> tuple[Candidates, np.ndarray, int, int]:
     """Candidates of cameras without the parts that triangles hide from as near as layers slide, or at least those that
     `maximum` cameras allow.
 
     Parameters
     ----------
     again : callable, the candidates among pairs of a camera and a column, asked for the pieces of cameras that were cut
+    opacities : Opacities, of the triangles; those that may be covered cut nothing off
+    slide : float, share of what layers slide before other mirrors
 
     Returns
     -------
@@ -39,7 +42,7 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
     count, left : int, how many were cut, and how many were not, or not along all outlines
     """
     cameras, frames = candidates.cameras, candidates.frames
-    found, left = _hidden_closely(candidates)
+    found, left = _hidden_closely(candidates, opacities, slide * (GAP + DEPTH))
     if found is None:
         return candidates, np.zeros(len(cameras), dtype=bool), 0, left
     hidden, shown = found
@@ -66,15 +69,17 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
             len(cut) + int((~shown).sum()), left)
 
 
-def _hidden_closely(candidates: Candidates) -> tuple[tuple[HiddenParts, np.ndarray] | None, int]:
-    """What triangles hide from so near that layers would slide through them, and which cameras (n,) one of them does
-    not hide altogether, None where none comes as near; and of how many cameras that was not asked."""
+def _hidden_closely(candidates: Candidates, opacities: Opacities,
+                    slid: float) -> tuple[tuple[HiddenParts, np.ndarray] | None, int]:
+    """Parts of cameras that triangles hide from so near that layers, which slide by `slid` of the distance, would come
+    out through them, and which cameras (n,) one of them does not hide altogether, None where none comes as near; and of
+    how many cameras that was not asked."""
     cameras, frames, view = candidates.cameras, candidates.frames, candidates.cameras.view
     size = float(np.ptp(cameras.places, axis=1).max(initial=0.0))
-    slid = GAP + DEPTH
     room = slid * (np.full(len(cameras), size) if view.orthographic else
                    norm(cameras.places - view.eye[:, None])[cameras.corners].max(axis=1))
     near = _near(candidates, room)
+    near = near.select(opacities.not_to_cover(frames.triangle[near.column]))
     column, row_of = distinct(near.column)
     if not len(column):
         return None, 0

@@ -7,31 +7,32 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..culling import SceneAndMirrors
 from ..geometry import in_order, meeting, norm, rows
 from ..patches import Patch
 from ..result import DEPTH, GAP
-from ..trees import Balls, SceneTree, curve_leaves, depth_for
+from ..trees import Balls, curve_leaves, depth_for
 
 FAMILY = 16  # triangles of the patch that are looked at together
 LARGE = 256.0  # pixels: larger triangles of the mirror are cut too often to be cut along pieces of the scene
 
 
-def contacts(patch: Patch, tree: SceneTree) -> tuple[np.ndarray, np.ndarray]:
-    """Triangles (n,) of the scene that come as near to the patch as faces slide; and which of the patch's triangles
-    (k,) that they meet are large."""
-    corners = patch.mirror_map.surface.corners(patch.face)
+def contacts(patch: Patch, met: SceneAndMirrors) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles (n,) of the scene that must not be covered and come as near to the patch as faces slide; and
+    which of the patch's triangles (k,) that they meet are large."""
+    tree, corners = met.scene, patch.mirror_map.surface.corners(patch.face)
     middle = corners.mean(axis=1)
-    slid = (GAP + DEPTH) * patch.far(corners - patch.eye[:, None])
+    slid = met.slide * (GAP + DEPTH) * patch.far(corners - patch.eye[:, None])
     radius = norm(corners - middle[:, None]).max(axis=0) + slid
-    near, met = [np.zeros(0, dtype=np.int64)], np.zeros(len(patch), dtype=bool)
+    near, touched = [np.zeros(0, dtype=np.int64)], np.zeros(len(patch), dtype=bool)
     family = curve_leaves(middle.T, depth_for(len(patch), FAMILY))
     order = in_order(family)
     balls = Balls(middle[:, order], radius[order])
     for place, triangle, _ in tree.traced(balls, np.ones(len(patch), dtype=bool), family[order]):
         member = order[place]
         scene = rows(tree.mesh.positions[tree.mesh.triangles[triangle].T])
-        close = meeting(corners[:, :, member], scene, slid[member])
+        close = meeting(corners[:, :, member], scene, slid[member]) & met.opacities.not_to_cover(triangle)
         near.append(np.unique(triangle[close]))
-        met[member[close]] = True
+        touched[member[close]] = True
     spots = patch.pixels((corners - patch.eye[:, None]).reshape(3, -1)).reshape(2, 3, -1)
-    return np.unique(np.concatenate(near)), met & (np.ptp(spots, axis=1).max(axis=0) > LARGE)
+    return np.unique(np.concatenate(near)), touched & (np.ptp(spots, axis=1).max(axis=0) > LARGE)

@@ -1,10 +1,12 @@
 """What lies over what: which whole faces nearer ones hide, and which are seen in order."""
 from __future__ import annotations
 
+from collections.abc import Generator
 from dataclasses import dataclass
 
 import numpy as np
 
+from ..culling import Opacities
 from ..geometry import distinct, mask, rows
 from ..result import DEPTH, GAP
 from ..support import INSIDE
@@ -18,41 +20,49 @@ APART = 1e-6  # of the nearness: what lies closer before a face does not hide it
 
 @dataclass(frozen=True)
 class Layers:
-    """What of whole faces is seen, and in which order."""
+    """What of whole faces is seen, and in which order, of a scene with such opacities."""
 
     images: Images
     sinking: Sinking
+    opacities: Opacities
 
-    def hidden_and_close(self, nodes: np.ndarray, solid: np.ndarray,
+    def hidden_and_close(self, nodes: np.ndarray, source: np.ndarray, solid: np.ndarray,
                          near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Which of the faces (3, f) nearer ones that are `solid` (f,) hide whole; and which of the others lie over one
-        another, or behind triangles of the scene with corners `near` (3, 3, t), so closely that what is seen could
-        change when they sink or slide."""
-        sinking = self.sinking
+        """Return two masks of the faces (3, f), of triangles `source` (f,): those that nearer ones hide whole, which
+        are `solid` (f,) and stop light; and those of the others that lie over one another, or behind triangles of the
+        scene with corners `near` (3, 3, t), so closely that the picture could change when they sink or slide."""
+        sinking, stops = self.sinking, self.opacities.stops_light(source)
         grid = Grid.over(sinking.patch)
         corners, order = grid.spots(self.images.pixel[:, nodes]), sinking.order(self.images)[nodes]
         covered = Covered.of(corners, order, grid.size, False)
-        hidden, pixels = _hidden(solid, covered, corners, order, grid.size), grid.size[0] * grid.size[1]
+        hidden = _hidden(solid & stops, covered, corners, order, grid.size) & solid
+        pixels = grid.size[0] * grid.size[1]
         close = np.zeros(nodes.shape[1], dtype=bool)
         if sinking.layered:
             left = ~hidden[covered.face]
             face, pixel, order_there = covered.face[left], covered.pixel[left], covered.order[left]
-            close[self._close(nodes, face, pixel, order_there, pixels)] = True
+            for one in self._close(nodes, stops, (face, pixel, order_there), pixels):
+                close[one] = True
             close[self._behind_contacts(nodes, face, pixel, grid, near)] = True
         return hidden, close
 
-    def _close(self, nodes, face, pixel, near, pixels: int) -> np.ndarray:
-        """Faces that lie before others by less than they sink, given the faces at samples."""
-        first, second = np.full(pixels, -1.0), np.full(pixels, -1.0)
-        np.maximum.at(first, pixel, near)
-        ahead = near >= first[pixel]
-        np.maximum.at(second, pixel[~ahead], near[~ahead])
-        # what lies behind may sink
-        ahead &= second[pixel] >= 0.0
-        face, pixel = face[ahead], pixel[ahead]
-        over, column = distinct(face)
-        sagitta = INSIDE * self.sinking.deepest(self.images, nodes[:, over])
-        return face[DEPTH * (first - second)[pixel] <= sagitta[column]]
+    def _close(self, nodes, stops, samples, pixels: int) -> Generator[np.ndarray, None, None]:
+        """Faces that lie before others by less than they sink, given the faces, pixels and nearness at samples: the
+        nearest first, and then those that are seen through faces of which none `stops` (f,) light."""
+        face, pixel, near = samples
+        while len(face):
+            first, second = np.full(pixels, -1.0), np.full(pixels, -1.0)
+            np.maximum.at(first, pixel, near)
+            ahead = near >= first[pixel]
+            np.maximum.at(second, pixel[~ahead], near[~ahead])
+            # what lies behind may sink
+            over = ahead & (second[pixel] >= 0.0)
+            above, column = distinct(face[over])
+            sagitta = INSIDE * self.sinking.deepest(self.images, nodes[:, above])
+            yield face[over][DEPTH * (first - second)[pixel[over]] <= sagitta[column]]
+            seen_through = ~mask(pixels, pixel[ahead & stops[face]])
+            ahead |= ~seen_through[pixel]
+            face, pixel, near = face[~ahead], pixel[~ahead], near[~ahead]
 
     def _behind_contacts(self, nodes, face, pixel, grid: Grid, near: np.ndarray) -> np.ndarray:
         """Faces that the scene hides from the eye from so near that they would slide through it."""
@@ -71,7 +81,8 @@ class Layers:
         face, pixel = face[some], pixel[some]
         over, column = distinct(face)
         depth = patch.view.depths((self.images.place[:, nodes[:, over].ravel()] + patch.eye).T).reshape(3, -1)
-        slid = (GAP + DEPTH) * (self.sinking.size if patch.mirror_map.orthographic else depth.max(axis=0))
+        size = self.sinking.size if patch.mirror_map.orthographic else depth.max(axis=0)
+        slid = self.sinking.slide * (GAP + DEPTH) * size
         lowest, highest = depth.min(axis=0) - 2.0 * slid, depth.max(axis=0)
         lowest, highest = (-end if patch.mirror_map.orthographic else 1.0 / end for end in (lowest, highest))
         return face[(front[pixel] >= highest[column]) & (front[pixel] <= lowest[column])]
@@ -79,8 +90,8 @@ class Layers:
 
 def _hidden(solid: np.ndarray, covered: Covered, corners: np.ndarray, order: np.ndarray,
             size: tuple[int, int]) -> np.ndarray:
-    """Which faces (f,) those that are `solid` hide, of their `corners` (2, 3, f) and their `order` (3, f) there on a
-    grid of this size."""
+    """Return True for faces (f,) that `solid` (f,) ones hide, by their `corners` (2, 3, f) and their `order` (3, f)
+    there, on a grid of this size."""
     front, own = np.full(size[0] * size[1], -1.0), solid[covered.face]
     np.maximum.at(front, covered.pixel[own], covered.order[own])
     shown = mask(len(solid), covered.face[covered.order >= front[covered.pixel]])
@@ -91,4 +102,4 @@ def _hidden(solid: np.ndarray, covered: Covered, corners: np.ndarray, order: np.
     inside = np.bincount(touched.face, minlength=len(doubtful)) > 0
     shown[doubtful[~inside]] = True
     shown[doubtful[touched.face[touched.order * (1.0 + APART) >= around[touched.pixel]]]] = True
-    return ~shown & solid
+    return ~shown

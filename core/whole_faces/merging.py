@@ -40,9 +40,10 @@ class Merged:
     left: np.ndarray
 
     @classmethod
-    def of(cls, patch: Patch, tree: SceneTree, least: float) -> Merged:
+    def of(cls, patch: Patch, tree: SceneTree, least: float, clear: np.ndarray) -> Merged:
         """The scene with nodes of its vertices drawn together whose images on the patch are smaller than `least`
-        pixels; as it is where that is none."""
+        pixels; as it is where that is none, and where triangles are `clear` (m,): of what is seen through, both sides
+        count."""
         mesh = tree.mesh
         points = rows(mesh.positions) - patch.eye
         descent = Descent(Walk(patch), tree.vertices, least, tree.bodies.part)
@@ -52,7 +53,8 @@ class Merged:
         if (standing == own).all():
             return cls(images, mesh.triangles, np.flatnonzero(mesh.areal))
         descent.fall_apart(_on_outline(tree, images, standing), TOGETHER_AT_OUTLINES * least)
-        descent.fall_apart(_lost(mesh, _in_one_place(mesh, descent.standing)), 0.0)
+        now = _in_one_place(mesh, descent.standing)
+        descent.fall_apart(_lost(mesh, now) | mask(len(own), now[mesh.triangles[clear]].ravel()), 0.0)
         alone = _in_one_place(mesh, descent.standing)
         new = np.flatnonzero((alone == own) & (standing != own))
         near = standing[new]

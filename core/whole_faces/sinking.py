@@ -27,12 +27,14 @@ class Sinking:
     patch : Patch
     layered : bool, whether they are apart at all
     size, reach : float, of an orthographic view: what is seen of the mirror, and the longest path
+    slide : float, share of what layers slide before other mirrors
     """
 
     patch: Patch
     layered: bool
     size: float
     reach: float
+    slide: float
 
     def order(self, images: Images, node: np.ndarray | slice = slice(None)) -> np.ndarray:
         """How near nodes (n,) come to the eye, from 0 to 1."""
@@ -40,7 +42,8 @@ class Sinking:
         return 1.0 - np.minimum(s / self.reach, 1.0) if self.patch.mirror_map.orthographic else 1.0 / (1.0 + s)
 
     def sagitta(self, images: Images, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """How far the edges (e,) from a to b sink below the mirror along view rays, to the size of the view. An edge
+        """How far the edges (e,) from a to b sink below the mirror along view rays, to the size of the view and the
+        share of what layers slide. An edge
         over two flat triangles, whose ends lie p and q below the other end's plane, sinks by p q / (p + q); over more
         of them, as over a smooth mirror, by less."""
         patch, way, depths = self.patch, images.place[:, b] - images.place[:, a], []
@@ -50,7 +53,7 @@ class Sinking:
             depths.append(np.abs(dot(flat, way)) / np.maximum(np.abs(dot(flat, arriving)), 1e-300))
         one, other = depths
         deepest = one * other / np.maximum(one + other, 1e-300)
-        return deepest / (self.size if patch.mirror_map.orthographic else 1.0)
+        return deepest / (self.slide * (self.size if patch.mirror_map.orthographic else 1.0))
 
     def deepest(self, images: Images, nodes: np.ndarray) -> np.ndarray:
         """How far the edges of faces (3, f) sink at most."""

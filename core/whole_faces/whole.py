@@ -134,18 +134,18 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, re
         return None
     patch = Patch.largest(cameras, eligible)
     if patch is not None:
-        near, large = contacts(patch, tree)
+        near, large = contacts(patch, met)
         if large.any():
             patch = Patch.largest(cameras, eligible & ~np.isin(cameras.face, patch.face[large]))
     if patch is None or len(patch) < LEAST_PATCH or not _worth_it(cameras, patch):
         return None
     # a lamp's light is not to lose a part of what it falls on
     least = 0.0 if isinstance(cameras.view, LampView) else TOGETHER * settings.tolerance
-    merged = Merged.of(patch, tree, least)
+    merged = Merged.of(patch, tree, least, ~met.opacities.stops_light(np.arange(len(triangles))))
     images = merged.images
     seen = images.place[:, images.found]
     size = float(np.ptp(seen, axis=1).max()) if seen.shape[1] else 0.0
-    sinking = Sinking(patch, settings.placement == "LAYERED", size, reach)
+    sinking = Sinking(patch, settings.placement == "LAYERED", size, reach, met.slide)
     division = Division(patch, FACE_SHARE * settings.tolerance, sinking, settings.placement == "VIRTUAL", most)
     pieces, behind = shown_or_behind(images, Pieces.of(merged.triangles[merged.left], merged.left), met.outward)
     breathe()
@@ -157,7 +157,8 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, re
     shown = shown[~division.strays_inside(images, pieces.nodes[:, shown])]
     breathe()
     near = rows(positions[triangles[near].T])
-    drawn, left = drawn_or_left(Layers(images, sinking), pieces, shown, behind, near)
+    layers = Layers(images, sinking, met.opacities)
+    drawn, left = drawn_or_left(layers, pieces, shown, behind, near)
     if met.outward is not None:
         away = turned_away(images, pieces, met.outward[pieces.source])
         drawn, left = drawn & ~away, left & ~away

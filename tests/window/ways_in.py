@@ -33,10 +33,10 @@ import bpy
 from hands import ROOT, Screen, built_zip, run, settled, shot, turned_to_tab, waiting
 from polls import polls_of_the_extension
 
-GENERATE = 106  # pixels below the upper end of the sidebar, at the resolution scale of 1
-LIVE = 216      # the same of Live, where a mirror is active
+GENERATE = 129  # pixels below the upper end of the sidebar, at the resolution scale of 1
+LIVE = 260      # the same of Live, where a mirror is active
 PANEL = 266  # the panel in Object properties, above the window's lower end
-PANEL_GENERATE = 176  # its first button
+PANEL_GENERATE = 153  # its first button
 FRAMES = 4  # that are baked
 MODES = ("EDIT", "SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "OBJECT")
 

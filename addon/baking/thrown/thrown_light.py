@@ -14,7 +14,7 @@ from ..seen_sources import fronts_seen, triangles_in, weights_of
 from .drawn_flat import drawn_flat
 
 WIDTHS = {"FLOAT": 1, "INT": 1, "FLOAT2": 2, "FLOAT_VECTOR": 3}
-DRAWING = "Cycles draws the light that mirrors throw"
+DRAWING = "Rendering caustics"
 RINGS = 2       # of texels beyond a triangle, which interpolation looks at
 TOGETHER = -1   # the picture of all sheets that lie in their frames
 CLOSE = 0.6     # of a texel beyond its frame, the outer half of whose last texels is left out of it

@@ -14,7 +14,7 @@ DONE = {
     "1 face": "1 Fläche",
     "{count} faces": "{count} Flächen",
     ", {} % filled by rays": ", {} % mit Strahlen gefüllt",
-    "; the light is still to come, by Light Reflection": "; ihr Licht fehlt noch: Spiegelung beleuchten",
+    "; not lit yet": "; noch nicht beleuchtet",
     "{}: lit in {} s": "{}: beleuchtet in {} s",
     "Nothing to light: the reflected materials emit what they show, and the mirrors add nothing.":
         "Nichts zu beleuchten: die gespiegelten Materialien leuchten selbst, und die Spiegel tun nichts hinzu.",
@@ -51,10 +51,10 @@ DONE = {
     "{} cleared.": "{} entfernt.",
     "1 reflection": "1 Spiegelung",
     "{count} reflections": "{count} Spiegelungen",
-    "1 mesh of thrown light": "1 Netz aus geworfenem Licht",
-    "{count} meshes of thrown light": "{count} Netze aus geworfenem Licht",
-    "{told} and 1 mesh of thrown light": "{told} und 1 Netz aus geworfenem Licht",
-    "{told} and {count} meshes of thrown light": "{told} und {count} Netze aus geworfenem Licht",
+    "1 caustics object": "1 Kaustik-Objekt",
+    "{count} caustics objects": "{count} Kaustik-Objekte",
+    "{told} and 1 caustics object": "{told} und 1 Kaustik-Objekt",
+    "{told} and {count} caustics objects": "{told} und {count} Kaustik-Objekte",
     "'{}' cannot be made anew: {}.": "'{}' lässt sich nicht erneuern: {}.",
     "No reflection is stale.": "Keine Spiegelung ist veraltet.",
     "The camera sees no mirror whose reflection could be judged; pictures in {}":
@@ -250,5 +250,9 @@ LACKS = {
     "to Faces.":
         "{share} % der Punkte liegen zu weit auseinander für Scheiben ohne Lücken. Unterteile die gespiegelten "
         "Objekte, oder setze Besteht aus auf Flächen.",
+    "A film or tinted pane is so close before this mirror that the reflection is left out behind it: move it away from "
+    "the mirror by a thousandth of the camera's distance.":
+        "Eine Folie oder getönte Scheibe liegt so dicht vor diesem Spiegel, dass die Spiegelung dahinter fehlt: rücke "
+        "sie um ein Tausendstel des Kameraabstands vom Spiegel ab.",
 }
 REPORTS = {**DONE, **KEPT, **LACKS}

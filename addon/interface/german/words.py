@@ -3,12 +3,13 @@
 OBJECT_MODE = ": verlasse zuerst den jetzigen Modus."
 OPERATORS = {
     "Generate Reflection": "Spiegelung erzeugen",
-    "Make what each mirror shows as an object of its own, as the scene's camera sees it":
-        "Macht aus dem, was jeder Spiegel zeigt, ein eigenes Objekt, wie die Kamera der Szene es sieht",
+    "Create an object for each mirror that shows its reflection, as the scene's camera sees it":
+        "Erzeugt für jeden Spiegel ein Objekt mit seiner Spiegelung, wie die Kamera der Szene sie sieht",
     "Preview": "Vorschau",
-    "Until it is lit, show the colours of what is reflected in the mirror's tint, untouched by lamps: on where a "
-    "button is pressed": "Zeigt, bis sie beleuchtet ist, die Farben des Gespiegelten in der Tönung des Spiegels, "
-        "von Lampen unberührt: an, wo ein Knopf gedrückt wird",
+    "Show the colors of the reflected objects, unaffected by lamps, until the reflection is lit. On if a button is "
+    "pressed":
+        "Zeigt die Farben der gespiegelten Objekte, von Lampen unberührt, bis die Spiegelung beleuchtet ist. An, wenn"
+        " ein Knopf gedrückt wird",
     "Attributes": "Attribute",
     "Matte": "Maske",
     "Mattes": "Masken",
@@ -21,194 +22,198 @@ OPERATORS = {
     "reflection already, keeps its own":
         "Spiegel mit einem gemeinsamen obersten Elternobjekt teilen sich eine Spiegelung; einer mit eigenen "
         "Einstellungen, oder der schon eine Spiegelung hat, behält seine eigene",
-    "What the points and faces of a reflection know": "Was Punkte und Flächen einer Spiegelung wissen",
+    "Attributes that are stored in the reflection's mesh": "Attribute, die im Netz der Spiegelung gespeichert sind",
     "All": "Alles",
-    "Where each point lies on the mirror and on what it shows, how long its path is, which face it shows: for light on "
-    "objects, comparisons and shaders": "Wo jeder Punkt auf dem Spiegel und auf dem Gezeigten liegt, wie lang sein Weg "
-        "ist, welche Fläche er zeigt: für Licht auf Objekten, Vergleiche und Shader",
+    "Position on the mirror and on the reflected object, path length and reflected face, for light on objects, "
+    "comparisons and shaders":
+        "Ort auf dem Spiegel und auf dem gespiegelten Objekt, Weglänge und gespiegelte Fläche, für Licht auf "
+        "Objekten, Vergleiche und Shader",
     "Shown": "Gezeigtes",
-    "Only what is seen: positions, materials, and what these read: about a third smaller":
-        "Nur was zu sehen ist: Orte, Materialien, und was diese lesen: etwa ein Drittel kleiner",
+    "Only positions, materials and the attributes that materials use. About a third smaller":
+        "Nur Orte, Materialien und die Attribute, die Materialien benutzen. Etwa ein Drittel kleiner",
     "In a Collection": "In einer Sammlung",
-    "A new result goes into the collection Reflections, instead of those of its mirror: on where a button is pressed":
-        "Ein neues Ergebnis kommt in die Sammlung Reflections, statt in die seines Spiegels: an, wo ein Knopf "
+    "Put a new result into the collection Reflections instead of the collections of its mirror. On if a button is "
+    "pressed":
+        "Legt ein neues Ergebnis in die Sammlung Reflections statt in die seines Spiegels. An, wenn ein Knopf "
         "gedrückt wird",
     "Select Alone": "Allein auswählen",
-    "Only the result is selected afterwards: on where a button is pressed":
-        "Danach ist allein das Ergebnis ausgewählt: an, wo ein Knopf gedrückt wird",
+    "Deselect all other objects afterwards. On if a button is pressed":
+        "Wählt danach alle anderen Objekte ab. An, wenn ein Knopf gedrückt wird",
     "Light Reflection": "Spiegelung beleuchten",
-    "Let the reflections look as the mirrors do, with the scene's lamps, materials and the mirrors' own tint":
-        "Lässt die Spiegelungen aussehen wie die Spiegel, mit Lampen und Materialien der Szene und der Tönung der "
-        "Spiegel",
-    "Even Those That Need None": "Auch die, die keins brauchen",
-    "Also reflections that look right as they are: for files that carry pictures but not all materials, as glTF and "
-    "USD": "Auch Spiegelungen, die so schon richtig aussehen: für Dateien, die Bilder mitnehmen, aber nicht alle "
-        "Materialien, wie glTF und USD",
+    "Render the light that the mirrors show and put it on the reflections":
+        "Rendert das Licht, das die Spiegel zeigen, und legt es auf die Spiegelungen",
+    "Light All": "Alle beleuchten",
+    "Also light reflections that look right without it, for files that carry images but not all materials, such as "
+    "glTF and USD":
+        "Beleuchtet auch Spiegelungen, die so schon richtig aussehen, für Dateien, die Bilder mitnehmen, aber nicht "
+        "alle Materialien, wie glTF und USD",
     "Generate Caustics": "Kaustik erzeugen",
-    "Compute the light of lamps that the mirrors throw on the reflected objects, as meshes that add it to them":
-        "Berechnet das Licht der Lampen, das die Spiegel auf die Objekte werfen, als Netze, die es ihnen hinzufügen",
+    "Create meshes that show the light of lamps that the mirrors reflect onto other objects":
+        "Erzeugt Netze, die das Licht von Lampen zeigen, das die Spiegel auf andere Objekte werfen",
     "What": "Was",
     "Cameras": "Kameras",
-    "For which cameras reflections are baked": "Für welche Kameras Spiegelungen gebacken werden",
+    "Cameras that reflections are baked for": "Kameras, für die Spiegelungen gebacken werden",
     "Scene's": "Die der Szene",
-    "The scene's camera, which its markers may change": "Die Kamera der Szene, die Markierungen wechseln können",
+    "The scene's camera. Markers can change it": "Die Kamera der Szene. Markierungen können sie wechseln",
     "Selected": "Ausgewählte",
-    "A sequence for each of the selected cameras": "Eine Bildfolge für jede ausgewählte Kamera",
+    "One sequence for each selected camera": "Eine Bildfolge für jede ausgewählte Kamera",
     "View Layers": "Ansichtsebenen",
-    "In which view layers reflections are baked": "In welchen Ansichtsebenen Spiegelungen gebacken werden",
+    "View layers that reflections are baked for": "Ansichtsebenen, für die Spiegelungen gebacken werden",
     "This One": "Diese",
-    "What the view layer sees that is looked at now": "Was die Ansichtsebene sieht, die gerade offen ist",
+    "The current view layer": "Die jetzige Ansichtsebene",
     "All Rendered": "Alle gerenderten",
-    "A sequence for each view layer that is rendered, which the others do not show":
-        "Eine Bildfolge für jede Ansichtsebene, die gerendert wird; die anderen zeigen sie nicht",
-    "What is written of each frame": "Was von jedem Einzelbild geschrieben wird",
+    "One sequence for each rendered view layer, hidden in the others":
+        "Eine Bildfolge für jede gerenderte Ansichtsebene, in den anderen ausgeblendet",
+    "Results that are baked for each frame": "Ergebnisse, die für jedes Einzelbild gebacken werden",
     "Reflections": "Spiegelungen",
-    "What the mirrors show to the camera": "Was die Spiegel der Kamera zeigen",
-    "The light of lamps that the mirrors throw": "Das Licht von Lampen, das die Spiegel werfen",
-    "Places on each lamp that its caustics come from; 0: as many as they were generated with":
-        "Orte auf jeder Lampe, von denen ihre Kaustik kommt; 0: so viele, wie sie beim Erzeugen hatte",
+    "What the camera sees in the mirrors": "Was die Kamera in den Spiegeln sieht",
+    "Light of lamps that the mirrors reflect onto other objects":
+        "Licht von Lampen, das die Spiegel auf andere Objekte werfen",
+    "Number of points on each lamp that its caustics come from. 0 uses as many as they were generated with":
+        "Zahl der Orte auf jeder Lampe, von denen ihre Kaustik kommt. 0 nimmt so viele, wie sie beim Erzeugen hatte",
     "Lamp Places": "Orte je Lampe",
-    "Places on each lamp that its light comes from: one is sharp, more are as soft as the lamp is large; as many as "
-    "before, where this is not given":
-        "Orte auf jeder Lampe, von denen ihr Licht kommt: einer ist scharf, mehr sind so weich, wie die Lampe groß "
-        "ist; so viele wie zuvor, wo das nicht angegeben ist",
+    "Number of points on each lamp that its light comes from. One gives sharp caustics, more give caustics as soft as"
+    " the lamp is large. If not given, as many as before":
+        "Zahl der Orte auf jeder Lampe, von denen ihr Licht kommt. Einer gibt scharfe Kaustik, mehr geben sie so "
+        "weich, wie die Lampe groß ist. Wenn nicht angegeben, so viele wie zuvor",
     "Replace Cycles' Own": "Die von Cycles ersetzen",
-    "The lamps do not light these mirrors any more, so that Cycles does not add caustics of its own; clearing brings "
-    "that back. As before, where this is not given":
-        "Die Lampen beleuchten diese Spiegel nicht mehr, damit Cycles keine eigene Kaustik hinzufügt; Entfernen stellt "
-        "das wieder her. Wie zuvor, wo das nicht angegeben ist",
+    "Stop the lamps from lighting these mirrors, so that Cycles adds no caustics of its own, until the caustics are "
+    "cleared. If not given, as before":
+        "Lässt die Lampen diese Spiegel nicht mehr beleuchten, damit Cycles keine eigene Kaustik hinzufügt, bis die "
+        "Kaustik entfernt wird. Wenn nicht angegeben, wie zuvor",
     "Bake Reflection Frames": "Spiegelungen backen",
-    "Write the reflections of a range of frames to files, and let them play; they need no extension to be seen":
-        "Schreibt die Spiegelungen einer Reihe von Einzelbildern in Dateien und spielt sie ab; zu sehen sind sie ohne "
-        "Erweiterung",
+    "Write the reflections of a range of frames to files and play them. Playing needs no extension":
+        "Schreibt die Spiegelungen einer Reihe von Einzelbildern in Dateien und spielt sie ab. Das Abspielen braucht "
+        "keine Erweiterung",
     "Folder": "Ordner",
     "Folder for the files of the frames": "Ordner für die Dateien der Einzelbilder",
     "Frames": "Einzelbilder",
-    "As 1-24, or 1-100:2 with a step; the scene's range where empty":
-        "Wie 1-24, oder 1-100:2 mit Schrittweite; leer: der Bereich der Szene",
+    "Frames to bake, such as 1-24, or 1-100:2 with a step. Empty uses the scene's range":
+        "Einzelbilder, etwa 1-24, oder 1-100:2 mit Schrittweite. Leer nimmt den Bereich der Szene",
     "Samples": "Samples",
-    "Light paths for each pixel of the mirrors; 0: no light": "Lichtpfade für jedes Pixel der Spiegel; 0: kein Licht",
+    "Number of light paths for each pixel of the mirrors. 0 bakes no light":
+        "Zahl der Lichtpfade für jedes Pixel der Spiegel. 0 backt kein Licht",
     "Overwrite": "Überschreiben",
     "Processes": "Prozesse",
-    "So many bake side by side, each on a core and with memory of its own":
-        "So viele backen nebeneinander, jeder auf einem Kern und mit Speicher für sich",
-    "Make again the frames that are there already": "Auch Einzelbilder, die es schon gibt, neu machen",
+    "Number of processes that bake at the same time. Each uses one core and memory of its own":
+        "Zahl der Prozesse, die gleichzeitig backen. Jeder braucht einen Kern und Speicher für sich",
+    "Bake frames again that exist already": "Backt auch Einzelbilder neu, die es schon gibt",
     "Compare with Cycles": "Mit Cycles vergleichen",
-    "Compare reflections or caustics with Cycles; leaves pictures and errors in a folder":
-        "Vergleicht Spiegelungen oder Kaustik mit Cycles; Bilder und Fehler liegen danach in einem Ordner",
+    "Compare reflections or caustics with Cycles, and write images and errors to a folder":
+        "Vergleicht Spiegelungen oder Kaustik mit Cycles und schreibt Bilder und Fehler in einen Ordner",
     "Folder for the pictures and the report": "Ordner für die Bilder und den Bericht",
-    "Samples per pixel of the pictures; 0: as the scene is set":
-        "Samples pro Pixel der Bilder; 0: wie in der Szene eingestellt",
+    "Samples per pixel of the images. 0 uses the scene's samples":
+        "Samples pro Pixel der Bilder. 0 nimmt die der Szene",
     "What is compared with Cycles": "Was mit Cycles verglichen wird",
-    "By What There Is": "Nach dem, was da ist",
-    "Caustics where these are selected, or the mirrors have no reflection but caustics; else reflections":
-        "Kaustik, wo sie ausgewählt ist oder die Spiegel keine Spiegelung haben, aber Kaustik; sonst Spiegelungen",
+    "Automatic": "Automatisch",
+    "Caustics if they are selected or if the mirrors have no reflections, otherwise reflections":
+        "Kaustik, wenn sie ausgewählt ist oder die Spiegel keine Spiegelungen haben, sonst Spiegelungen",
     "Reference Samples": "Samples der Referenz",
-    "Of caustics: samples per pixel of Cycles' own that all is compared with":
-        "Bei Kaustik: Samples pro Pixel der eigenen von Cycles, mit der alles verglichen wird",
+    "Samples per pixel of the Cycles image that caustics are compared with":
+        "Samples pro Pixel des Bildes von Cycles, mit dem Kaustik verglichen wird",
     "Rays": "Strahlen",
-    "Of caustics: rays traced one by one for each of them":
-        "Bei Kaustik: Strahlen, die für jede einzeln verfolgt werden",
+    "Number of rays that are traced for each caustics object":
+        "Zahl der Strahlen, die für jedes Kaustik-Objekt verfolgt werden",
     "Clear Reflections": "Spiegelungen entfernen",
-    "Remove the selected reflections, or all of the scene, and restore what they changed":
-        "Entfernt die ausgewählten Spiegelungen, oder alle der Szene, und stellt her, was sie verändert haben",
+    "Remove the results of the selected mirrors, or all results in the scene, and restore what they changed":
+        "Entfernt die Ergebnisse der ausgewählten Spiegel, oder alle der Szene, und stellt her, was sie verändert "
+        "haben",
     "Write Mirror UVs": "Spiegel-UVs schreiben",
-    "Give the reflected objects a UV map by which a picture looks right in the mirror alone (anamorphosis)":
+    "Add a UV map to the reflected objects with which an image looks right only in the mirror (anamorphosis)":
         "Gibt den gespiegelten Objekten eine UV-Karte, mit der ein Bild nur im Spiegel richtig aussieht (Anamorphose)",
     "Write On": "Schreiben auf",
-    "What gets the UV map": "Was die UV-Karte bekommt",
+    "Object that gets the UV map": "Objekt, das die UV-Karte bekommt",
     "A Copy": "Eine Kopie",
-    "Faces are cut where the map bends, on a copy that stands in for the object, which is hidden":
-        "Flächen werden zerschnitten, wo die Karte sich biegt, auf einer Kopie; das Objekt selbst wird ausgeblendet",
+    "Write the map on a copy whose faces are cut where the map bends, and hide the object":
+        "Schreibt die Karte auf eine Kopie, deren Flächen zerschnitten sind, wo die Karte sich biegt, und blendet das"
+        " Objekt aus",
     "The Object Itself": "Das Objekt selbst",
-    "No face is cut: the map is right at corners, and wrong between them where it bends":
-        "Keine Fläche wird zerschnitten: die Karte stimmt an den Ecken, dazwischen nicht, wo sie sich biegt",
+    "Write the map on the object without cutting faces. Between vertices the map is less accurate":
+        "Schreibt die Karte auf das Objekt, ohne Flächen zu zerschneiden. Zwischen den Punkten ist sie weniger genau",
     "Picture Fills": "Bild füllt",
-    "What the borders of the picture stand for": "Wofür die Ränder des Bildes stehen",
+    "Area that the image fills": "Bereich, den das Bild füllt",
     "The Camera's View": "Den Blick der Kamera",
-    "The picture fills what the camera sees": "Das Bild füllt, was die Kamera sieht",
+    "The image fills the camera's view": "Das Bild füllt den Blick der Kamera",
     "As Much As Is Shown Whole": "So viel, wie ganz zu sehen ist",
-    "The picture keeps its proportions and is as large as the mirror can show without cutting it off":
+    "The image keeps its proportions and is as large as the mirror can show completely":
         "Das Bild behält sein Seitenverhältnis und ist so groß, wie der Spiegel es ganz zeigen kann",
     "What the Mirror Shows": "Was der Spiegel zeigt",
-    "The picture fills the box around what the mirror shows of the objects":
+    "The image fills the bounding box of what the mirror shows of the objects":
         "Das Bild füllt das Rechteck um das, was der Spiegel von den Objekten zeigt",
-    "Image in this file, or image file, to put on the copies; empty for the map alone":
-        "Bild in dieser Datei, oder Bilddatei, für die Kopien; leer: nur die Karte",
+    "Image in this file or image file that the copies show. Empty writes only the map":
+        "Bild in dieser Datei oder Bilddatei, das die Kopien zeigen. Leer schreibt nur die Karte",
     "Save Sheet to Print": "Blatt zum Drucken sichern",
-    "Save the active flat object with its picture as a PNG or SVG file, to print in its size":
-        "Sichert das aktive flache Objekt mit seinem Bild als PNG- oder SVG-Datei, zum Drucken in seiner Größe",
+    "Save the active flat object with its image as a PNG or SVG file, to print at its real size":
+        "Sichert das aktive flache Objekt mit seinem Bild als PNG- oder SVG-Datei, zum Drucken in wahrer Größe",
     "File": "Datei",
     "PNG or SVG file": "PNG- oder SVG-Datei",
     "Picture": "Bild",
-    "Image in this file, or image file; empty for what the object shows":
-        "Bild in dieser Datei, oder Bilddatei; leer: was das Objekt zeigt",
+    "Image in this file or image file. Empty uses the image that the object shows":
+        "Bild in dieser Datei oder Bilddatei. Leer nimmt das Bild, das das Objekt zeigt",
     "Dots per Inch": "Punkte pro Zoll",
-    "How fine the print is": "Wie fein der Druck ist",
+    "Resolution of the print": "Auflösung des Drucks",
     "Add Reflection Preset": "Voreinstellung für Spiegelungen hinzufügen",
-    "Save these settings as a preset, or remove one":
-        "Sichert diese Einstellungen als Voreinstellung, oder entfernt eine",
+    "Save these settings as a preset or remove a preset":
+        "Sichert diese Einstellungen als Voreinstellung oder entfernt eine",
 }
 SETTINGS = {
     "Tolerance": "Toleranz",
-    "How many pixels a point may be from where the mirror shows it; more is faster":
-        "Wie viele Pixel ein Punkt von da entfernt sein darf, wo der Spiegel ihn zeigt; mehr ist schneller",
+    "Error in pixels that 99 % of the points stay below. Higher values are faster":
+        "Fehler in Pixeln, unter dem 99 % der Punkte bleiben. Höhere Werte sind schneller",
     "Placement": "Lage",
-    "Where the reflection lies": "Wo die Spiegelung liegt",
+    "Position of the reflection's geometry": "Ort der Geometrie der Spiegelung",
     "Layered": "Geschichtet",
-    "In front of the mirror, near images before far ones, so that they hide each other rightly":
-        "Vor dem Spiegel, Nahes vor Fernem, so dass eines das andere richtig verdeckt",
+    "Just in front of the mirror, with near images in front of far ones": "Knapp vor dem Spiegel, Nahes vor Fernem",
     "Surface": "Oberfläche",
-    "Exactly on the mirror, where images over one another share a plane: for light of the picture":
-        "Genau auf dem Spiegel, wo Bilder übereinander in einer Ebene liegen: für Licht des Bildes",
+    "Exactly on the mirror. Overlapping images share a plane":
+        "Genau auf dem Spiegel. Bilder, die sich überdecken, liegen in einer Ebene",
     "Virtual": "Virtuell",
-    "Behind the mirror, where its picture seems to be; the mirror, now a window, is hidden from the camera":
-        "Hinter dem Spiegel, wo sein Bild zu sein scheint; der Spiegel, jetzt ein Fenster, ist für die Kamera "
-        "unsichtbar",
+    "Behind the mirror, where the reflection appears to be. The mirror is hidden from the camera":
+        "Hinter dem Spiegel, wo die Spiegelung zu sein scheint. Der Spiegel ist für die Kamera ausgeblendet",
     "Made Of": "Besteht aus",
-    "What the reflection is made of": "Woraus die Spiegelung besteht",
+    "Type of the reflection's geometry": "Art der Geometrie der Spiegelung",
     "Faces": "Flächen",
-    "Faces that show what the mirror shows, for all scenes":
-        "Flächen, die zeigen, was der Spiegel zeigt; für alle Szenen",
+    "Faces, for all scenes": "Flächen, für alle Szenen",
     "Faces, Parallel Cameras": "Flächen, parallele Kameras",
-    "A simpler way, to compare with: it tears between the mirror's triangles":
-        "Ein einfacherer Weg, zum Vergleich: er reißt zwischen den Dreiecken des Spiegels",
+    "A simpler method for comparisons, with gaps between the mirror's triangles":
+        "Ein einfacheres Verfahren für Vergleiche, mit Lücken zwischen den Dreiecken des Spiegels",
     "Points": "Punkte",
-    "A small disc for each point that the mirror shows: for dense scans, with triangles smaller than a pixel":
-        "Ein Scheibchen für jeden Punkt, den der Spiegel zeigt: für dichte Scans, mit Dreiecken kleiner als ein Pixel",
+    "A small disc for each vertex that the mirror shows, for dense scans with triangles smaller than a pixel":
+        "Eine kleine Scheibe für jeden Punkt, den der Spiegel zeigt, für dichte Scans mit Dreiecken kleiner als ein "
+        "Pixel",
     "Bounces": "Tiefe",
-    "How many times the scene is followed from mirror to mirror; 1: mirrors show no mirrors":
-        "Wie oft die Szene von Spiegel zu Spiegel verfolgt wird; 1: Spiegel zeigen keine Spiegel",
+    "Number of reflections from mirror to mirror. With 1, mirrors do not show other mirrors":
+        "Zahl der Spiegelungen von Spiegel zu Spiegel. Mit 1 zeigen Spiegel keine anderen Spiegel",
     "Memory (GB)": "Speicher (GB)",
-    "Gigabytes that the work may take: what would need more is worked out more coarsely, or refused":
-        "Gigabyte, die die Arbeit brauchen darf: was mehr bräuchte, wird gröber gerechnet oder abgelehnt",
+    "Memory that the computation may use. What needs more is computed more coarsely or refused":
+        "Speicher, den die Berechnung brauchen darf. Was mehr braucht, wird gröber berechnet oder abgelehnt",
     "Hidden Faces": "Verdeckte Flächen",
-    "Also the faces that nearer ones hide whole, for objects that are to be taken away later; what lets light through "
-    "keeps them anyway": "Auch Flächen, die nähere ganz verdecken, für Objekte, die später verschwinden sollen; wo "
-        "Licht durchscheint, bleiben sie ohnehin",
+    "Keep faces that nearer faces hide completely, for objects that are removed later. Faces behind transparent faces"
+    " are always kept":
+        "Behält Flächen, die nähere ganz verdecken, für Objekte, die später entfernt werden. Flächen hinter "
+        "durchsichtigen bleiben immer",
     "Light Samples": "Licht-Samples",
-    "Light paths for each pixel of the mirrors, which are denoised; more is cleaner and slower":
-        "Lichtpfade für jedes Pixel der Spiegel, die entrauscht werden; mehr ist sauberer und langsamer",
+    "Number of light paths for each pixel of the mirrors. The light is denoised":
+        "Zahl der Lichtpfade für jedes Pixel der Spiegel. Das Licht wird entrauscht",
     "Light": "Licht",
-    "Where the light is kept": "Wo das Licht aufgehoben wird",
+    "Where the light is stored": "Wo das Licht gespeichert wird",
     "Automatic": "Automatisch",
-    "On the objects where the camera or a mirror is animated and few objects are reflected, else in the picture":
-        "Auf den Objekten, wo die Kamera oder ein Spiegel animiert ist und wenige Objekte gespiegelt werden, sonst im "
-        "Bild",
-    "As the mirrors show it from here: everything that Cycles knows, for this view alone":
-        "Wie die Spiegel es von hier zeigen: alles, was Cycles kann, nur für diesen Blick",
+    "Objects if the camera or a mirror is animated and few objects are reflected, otherwise Picture":
+        "Objekte, wenn die Kamera oder ein Spiegel animiert ist und wenige Objekte gespiegelt werden, sonst Bild",
+    "An image of the mirrors as Cycles renders them, right for this view only":
+        "Ein Bild der Spiegel, wie Cycles sie rendert, das nur für diesen Blick stimmt",
     "Objects": "Objekte",
-    "Baked once and kept with the reflected objects, so that camera and mirrors may move; gloss stays as it is seen "
-    "from here": "Einmal gebacken und bei den gespiegelten Objekten aufgehoben, so dass Kamera und Spiegel sich "
-        "bewegen dürfen; Glanz bleibt, wie er von hier aussieht",
+    "Images baked on the reflected objects, right while the camera and mirrors move. Gloss stays as it is seen from "
+    "here":
+        "Bilder, auf die gespiegelten Objekte gebacken, die stimmen, während Kamera und Spiegel sich bewegen. Glanz "
+        "bleibt, wie er von hier aussieht",
     "Own Settings": "Eigene Einstellungen",
-    "This mirror has settings of its own; else the scene's hold for it":
-        "Dieser Spiegel hat eigene Einstellungen; sonst gelten für ihn die der Szene",
-    "Only for '{name}'": "Nur für '{name}'",
+    "Use settings of this mirror instead of the scene's settings":
+        "Nimmt Einstellungen dieses Spiegels statt denen der Szene",
 }
 ROLES = {
     "Role": "Rolle",
-    "The part that this object plays in a reflection": "Was dieses Objekt in einer Spiegelung ist",
+    "Role of this object in reflections": "Rolle dieses Objekts in Spiegelungen",
     "A mirror if its material is one; if no selected object is, the active object is the mirror":
         "Ein Spiegel, wenn sein Material einer ist; ist kein ausgewähltes Objekt einer, so ist es das aktive",
     "Mirror": "Spiegel",
@@ -216,11 +221,11 @@ ROLES = {
     "Reflected": "Gespiegelt",
     "Mirrors show this object": "Spiegel zeigen dieses Objekt",
     "Ignored": "Unbeteiligt",
-    "This object takes no part": "Dieses Objekt bleibt aus dem Spiel",
+    "This object is neither a mirror nor reflected": "Dieses Objekt ist weder Spiegel noch gespiegelt",
     "Reflection": "Spiegelung",
     "This object is a reflection that was generated": "Dieses Objekt ist eine erzeugte Spiegelung",
     "Caustics": "Kaustik",
-    "This object is light thrown by a mirror that was generated": "Dieses Objekt ist erzeugtes Licht eines Spiegels",
+    "This object shows caustics that were generated": "Dieses Objekt zeigt erzeugte Kaustik",
 }
 PANELS = {
     "Reflection Mesh": "Reflection Mesh",
@@ -229,33 +234,55 @@ PANELS = {
     "Figures": "Zahlen",
     "Compare and Print": "Vergleichen und Drucken",
     "Reflection Presets": "Voreinstellungen für Spiegelungen",
-    "Select a mirror and what it shall show": "Wähle einen Spiegel aus, und was er zeigen soll",
-    "Reflection in {mirror}": "Spiegelung in {mirror}",
-    "a mirror that is gone": "einem Spiegel, der fehlt",
+    "Select Reflection": "Spiegelung auswählen",
+    "Select the reflection in the active mirror, to edit it. From then on clicks in the viewport select it too":
+        "Wählt die Spiegelung im aktiven Spiegel aus, um sie zu bearbeiten. Von da an wählen Klicks in der Ansicht "
+        "auch sie aus",
+    "Protect": "Schützen",
+    "Clicks in the viewport select the mirror instead of the result, and the result cannot be moved. On if a button is "
+    "pressed": "Klicks in der Ansicht wählen den Spiegel statt des Ergebnisses aus, und das Ergebnis lässt sich nicht "
+        "verschieben. An, wenn ein Knopf gedrückt wird",
+    "No Active Object": "Kein aktives Objekt",
+    "Lamp": "Lampe",
+    "Reflected By": "Gespiegelt von",
+    "Gone": "Nicht mehr da",
+    "Select a mirror, then click Generate Reflection.":
+        "Wähle einen Spiegel aus, und klicke dann Spiegelung erzeugen.",
+    "Up to date.": "Aktuell.",
+    "Plays baked frames.": "Spielt gebackene Einzelbilder.",
+    "This result is linked from another file. Update and light it there.":
+        "Dieses Ergebnis ist aus einer anderen Datei verknüpft. Aktualisiere und beleuchte es dort.",
+    "Its mirror or its lamp is gone. Click Clear Reflections.":
+        "Sein Spiegel oder seine Lampe ist nicht mehr da. Klicke Spiegelungen entfernen.",
+    "The mirror or the lamp of '{name}' is gone. Select it in the Outliner and click Clear Reflections.":
+        "Der Spiegel oder die Lampe von '{name}' ist nicht mehr da. Wähle es im Outliner aus, und klicke Spiegelungen "
+        "entfernen.",
+    "This reflection is not a mesh any more. Click Generate Reflection.":
+        "Diese Spiegelung ist kein Netz mehr. Klicke Spiegelung erzeugen.",
+    "1 result is out of date: {why}. Click Update Reflections.":
+        "1 Ergebnis ist veraltet: {why}. Klicke Spiegelungen erneuern.",
+    "{count} results are out of date: {why}. Click Update Reflections.":
+        "{count} Ergebnisse sind veraltet: {why}. Klicke Spiegelungen erneuern.",
+    "{shading} shading shows no caustics, and no light in reflections.":
+        "{shading} zeigt keine Kaustik, und kein Licht in Spiegelungen.",
+    "{shading} shading shows reflections without light and textures.":
+        "{shading} zeigt Spiegelungen ohne Licht und Texturen.",
+    "{shading} shading does not show caustics.": "{shading} zeigt keine Kaustik.",
+    "Material Preview": "Material-Vorschau",
+    "The scene has changed since the reflection was lit. Click Light Reflection.":
+        "Die Szene hat sich geändert, seit die Spiegelung beleuchtet wurde. Klicke Spiegelung beleuchten.",
+    "Lit, with gloss as seen from one place. Light: Picture shows it exactly.":
+        "Beleuchtet, mit Glanz wie von einer Stelle aus. Licht: Bild zeigt ihn genau.",
+    "Lit.": "Beleuchtet.",
+    "Not lit yet. Click Light Reflection.": "Noch nicht beleuchtet. Klicke Spiegelung beleuchten.",
     "Shows {names}": "Zeigt {names}",
     "{names} and {count} more": "{names} und {count} weitere",
-    "It is no mesh any more: Generate": "Sie ist kein Netz mehr: Spiegelung erzeugen",
-    "makes a new one.": "macht eine neue.",
     "1 object": "1 Objekt",
     "{count} objects": "{count} Objekte",
-    "Light of {lamp}, thrown by {mirror}": "Licht von {lamp}, geworfen von {mirror}",
-    "a lamp that is gone": "einer Lampe, die fehlt",
-    "Plays baked frames": "Spielt gebackene Einzelbilder",
     "1 face, {size}": "1 Fläche, {size}",
     "1 point, {size}": "1 Punkt, {size}",
     "{count:,} faces, {size}": "{count:,} Flächen, {size}",
     "{count:,} points, {size}": "{count:,} Punkte, {size}",
-    "It is linked from another file:": "Sie ist aus einer anderen Datei verknüpft:",
-    "there it is updated and lit.": "dort wird sie aktualisiert und beleuchtet.",
-    "The render has another size now:": "Das Render hat jetzt eine andere Größe:",
-    "press Generate Reflection again.": "drücke noch einmal Spiegelung erzeugen.",
-    "The scene has changed since it was lit:": "Die Szene ist anders, als sie beleuchtet wurde:",
-    "press Light Reflection again.": "drücke noch einmal Spiegelung beleuchten.",
-    "Lit; gloss is seen as from one place:": "Beleuchtet; Glanz ist wie von einer Stelle aus gesehen:",
-    "in the picture it would be exact.": "im Bild wäre er genau.",
-    "Its light is still to come:": "Ihr Licht fehlt noch:",
-    "press Light Reflection.": "drücke Spiegelung beleuchten.",
-    "Lit.": "Beleuchtet.",
     "Made for {width} x {height} px": "Gemacht für {width} x {height} px",
     "Error about {error:.2f} px": "Fehler etwa {error:.2f} px",
     "Made in {seconds:.2f} s": "Gemacht in {seconds:.2f} s",
@@ -289,6 +316,10 @@ OBSTACLES = {
     "No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
     "Reflection tab.": "Kein Spiegel: wähle aus, was sich spiegeln soll, und zuletzt, als aktives Objekt, den "
         "Spiegel, oder gib den Objekten Rollen im Reiter Reflexion.",
+    "Reflections are selected in Object Mode: leave the present mode first.":
+        "Spiegelungen werden im Objektmodus ausgewählt" + OBJECT_MODE,
+    "The active object has no reflection: make a mirror that has one the active object.":
+        "Das aktive Objekt hat keine Spiegelung: mache einen Spiegel, der eine hat, zum aktiven Objekt.",
     "No sheet: make the object that carries the mirror UVs the active one.":
         "Kein Blatt: mache das Objekt mit den Spiegel-UVs zum aktiven.",
     "The scene has no camera: add one (Add > Camera) and make it the scene's camera.":
@@ -309,20 +340,18 @@ LIVE = {
     "Live": "Live",
     "Live Reflections": "Live-Spiegelungen",
     "Stop Live": "Live beenden",
-    "Keep reflections right while the camera, mirrors or objects move: coarse on the way, exact at rest":
-        "Hält Spiegelungen richtig, während sich Kamera, Spiegel oder Objekte bewegen: grob unterwegs, genau in Ruhe",
+    "Update reflections while the camera, mirrors or objects move: coarsely while they move, exactly afterwards":
+        "Aktualisiert Spiegelungen, während sich Kamera, Spiegel oder Objekte bewegen: unterwegs grob, danach genau",
     "Seen From": "Gesehen von",
-    "For whom Live keeps reflections right": "Für wen Live die Spiegelungen richtig hält",
+    "View that Live updates reflections for": "Blick, für den Live die Spiegelungen aktualisiert",
     "Camera": "Kamera",
-    "Reflections are kept right for the scene's camera": "Spiegelungen bleiben für die Kamera der Szene richtig",
+    "Update reflections for the scene's camera": "Aktualisiert Spiegelungen für die Kamera der Szene",
     "Viewport": "Ansicht",
-    "Reflections are kept right for the largest 3D viewport; Generate makes them right for the camera again":
-        "Spiegelungen bleiben für die größte 3D-Ansicht richtig; Spiegelung erzeugen macht sie wieder für die Kamera "
-        "richtig",
+    "Update reflections for the largest 3D viewport. Generate Reflection makes them for the camera again":
+        "Aktualisiert Spiegelungen für die größte 3D-Ansicht. Spiegelung erzeugen macht sie wieder für die Kamera",
     "Update Reflections": "Spiegelungen erneuern",
-    "Make the reflections and the light of mirrors anew that no longer show what there is":
-        "Erzeugt die Spiegelungen und das Licht von Spiegeln neu, die nicht mehr zeigen, was da ist",
-    "'{name}' is stale:": "'{name}' ist veraltet:",
+    "Update the reflections and caustics that are out of date":
+        "Aktualisiert die Spiegelungen und Kaustik, die veraltet sind",
     "an object was removed": "ein Objekt wurde entfernt",
     "the camera has changed": "die Kamera hat sich geändert",
     "the picture's size has changed": "die Bildgröße hat sich geändert",
@@ -347,8 +376,8 @@ LIVE = {
     "Generate a reflection first.": "Erzeuge zuerst eine Spiegelung.",
 }
 STATUS_BAR = {
-    "ESC cancels": "ESC bricht ab",
-    "this cannot be divided, ESC cancels after it": "das lässt sich nicht teilen, ESC bricht danach ab",
+    "ESC: Cancel": "ESC: Abbrechen",
+    "ESC: Cancel After This Step": "ESC: Nach diesem Schritt abbrechen",
     "about {seconds:.0f} s left": "noch etwa {seconds:.0f} s",
     "about {minutes:.0f} min left": "noch etwa {minutes:.0f} min",
     "about {hours:.1f} h left": "noch etwa {hours:.1f} h",

@@ -13,8 +13,10 @@ from ...frames import writes_usd
 from ...illumination import meant_lamps
 from ...reading import candidates
 from ...settings import SETTINGS, SettingsOptions, UsesSettings, option
+from ...writing import protect
 from .. import polls
 from ..caustics import left_out_of
+from ..pressed import ProtectsResults
 from ..shortcomings import render_shortcomings
 from .bake import IN_OBJECT_MODE, NO_USD
 from .plan import LACKING, Plan, blur_remarks, chosen_frames, empty_remarks, layer_remarks, plan_of, summary
@@ -22,18 +24,18 @@ from .side_by_side import side_by_side, words_of
 from .view_layers import baking_layers, show_layers
 
 FOLDER = "//reflection frames"
-WHAT = (("REFLECTIONS", "Reflections", "What the mirrors show to the camera"),
-        ("CAUSTICS", "Caustics", "The light of lamps that the mirrors throw"))
+WHAT = (("REFLECTIONS", "Reflections", "What the camera sees in the mirrors"),
+        ("CAUSTICS", "Caustics", "Light of lamps that the mirrors reflect onto other objects"))
 
-CAMERAS = (("SCENE", "Scene's", "The scene's camera, which its markers may change"),
-           ("SELECTED", "Selected", "A sequence for each of the selected cameras"))
-LAYERS = (("ACTIVE", "This One", "What the view layer sees that is looked at now"),
-          ("RENDERED", "All Rendered", "A sequence for each view layer that is rendered, which the others do not show"))
+CAMERAS = (("SCENE", "Scene's", "The scene's camera. Markers can change it"),
+           ("SELECTED", "Selected", "One sequence for each selected camera"))
+LAYERS = (("ACTIVE", "This One", "The current view layer"),
+          ("RENDERED", "All Rendered", "One sequence for each rendered view layer, hidden in the others"))
 NO_CAMERAS = "No camera is selected: select the cameras, or bake what the scene's own one sees."
 
 
-class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, bpy.types.Operator):
-    """Write the reflections of a range of frames to files, and let them play; they need no extension to be seen"""
+class REFLECTION_MESH_OT_bake(UsesSettings, ProtectsResults, BrowsingOperator, SettingsOptions, bpy.types.Operator):
+    """Write the reflections of a range of frames to files and play them. Playing needs no extension"""
 
     bl_idname = "reflection_mesh.bake"
     bl_label = "Bake Reflection Frames"
@@ -42,27 +44,30 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
     uses, renamed = (*SETTINGS, "light_samples"), {"light_samples": "samples"}
 
     what: bpy.props.EnumProperty(name="What", items=WHAT, default="REFLECTIONS", options={"SKIP_SAVE"},
-                                 description="What is written of each frame")
+                                 description="Results that are baked for each frame")
     eyes: bpy.props.IntProperty(name="Lamp Places", default=0, min=0, soft_max=64, max=4096, options={"SKIP_SAVE"},
-                                description="Places on each lamp that its caustics come from; 0: as many as they were "
-                                "generated with")
+                                description="Number of points on each lamp that its caustics come from. 0 uses as "
+                                            "many as they were generated with")
     leave_out: bpy.props.BoolProperty(name="Replace Cycles' Own", default=True, options={"SKIP_SAVE"},
-                                      description="The lamps do not light these mirrors any more, so that Cycles does "
-                                      "not add caustics of its own; clearing brings that back. As before, where this "
-                                      "is not given")
+                                      description="Stop the lamps from lighting these mirrors, so that Cycles adds no"
+                                                  " caustics of its own, until the caustics are cleared. If not "
+                                                  "given, as before")
     filepath: bpy.props.StringProperty(name="Folder", description="Folder for the files of the frames", default=FOLDER,
                                        subtype="FILE_PATH", options=compat.RELATIVE_PATH)
     frames: bpy.props.StringProperty(name="Frames", default="", options={"SKIP_SAVE"},
-                                     description="As 1-24, or 1-100:2 with a step; the scene's range where empty")
+                                     description="Frames to bake, such as 1-24, or 1-100:2 with a step. Empty uses "
+                                                 "the scene's range")
     cameras: bpy.props.EnumProperty(name="Cameras", items=CAMERAS, default="SCENE", options={"SKIP_SAVE"},
-                                    description="For which cameras reflections are baked")
+                                    description="Cameras that reflections are baked for")
     layers: bpy.props.EnumProperty(name="View Layers", items=LAYERS, default="ACTIVE", options={"SKIP_SAVE"},
-                                   description="In which view layers reflections are baked")
-    samples: option("light_samples", min=0, description="Light paths for each pixel of the mirrors; 0: no light")
+                                   description="View layers that reflections are baked for")
+    samples: option("light_samples", min=0, description="Number of light paths for each pixel of the mirrors. 0 bakes"
+                                                        " no light")
     overwrite: bpy.props.BoolProperty(name="Overwrite", default=False, options={"SKIP_SAVE"},
-                                      description="Make again the frames that are there already")
+                                      description="Bake frames again that exist already")
     jobs: bpy.props.IntProperty(name="Processes", default=1, min=1, soft_max=16, max=256, options={"SKIP_SAVE"},
-                                description="So many bake side by side, each on a core and with memory of its own")
+                                description="Number of processes that bake at the same time. Each uses one core and "
+                                            "memory of its own")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -86,6 +91,8 @@ class REFLECTION_MESH_OT_bake(UsesSettings, BrowsingOperator, SettingsOptions, b
         steps = baking_layers(context, layers, planned, written.append, kept.append)
         made = yield from part(steps, start, 1.0 - start)
         objects, hidden = show_layers(context, made)
+        if self.protect:
+            protect(objects)
         self.show_used(wanted, candidates(context)[0])
         left_out = left_out_of(objects) if self.what == "CAUSTICS" else None
         if left_out is not None:

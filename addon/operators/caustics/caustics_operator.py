@@ -9,7 +9,9 @@ from ...faults import SteppedOperator, Steps, tell_done
 from ...illumination import chosen_lamps
 from ...reading import choose
 from ...settings import UsesSettings, option
+from ...writing import protect
 from .. import polls
+from ..pressed import ProtectsResults
 from ..shortcomings import other_meshes
 from .asked import asked_again, remember
 from .caustic_scene import IN_OBJECT_MODE
@@ -18,8 +20,8 @@ from .throwing import throwing
 AS_BEFORE = ("eyes", "leave_out")  # where they are not given
 
 
-class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Operator):
-    """Compute the light of lamps that the mirrors throw on the reflected objects, as meshes that add it to them"""
+class REFLECTION_MESH_OT_caustics(UsesSettings, ProtectsResults, SteppedOperator, bpy.types.Operator):
+    """Create meshes that show the light of lamps that the mirrors reflect onto other objects"""
 
     bl_idname = "reflection_mesh.caustics"
     bl_label = "Generate Caustics"
@@ -31,12 +33,13 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Opera
     depth: option("depth")
     memory: option("memory")
     eyes: bpy.props.IntProperty(name="Lamp Places", default=1, min=1, soft_max=64, max=4096, options={"SKIP_SAVE"},
-                                description="Places on each lamp that its light comes from: one is sharp, more are as "
-                                "soft as the lamp is large; as many as before, where this is not given")
+                                description="Number of points on each lamp that its light comes from. One gives sharp"
+                                            " caustics, more give caustics as soft as the lamp is large. If not "
+                                            "given, as many as before")
     leave_out: bpy.props.BoolProperty(name="Replace Cycles' Own", default=True, options={"SKIP_SAVE"},
-                                      description="The lamps do not light these mirrors any more, so that Cycles does "
-                                      "not add caustics of its own; clearing brings that back. As before, where this "
-                                      "is not given")
+                                      description="Stop the lamps from lighting these mirrors, so that Cycles adds no"
+                                                  " caustics of its own, until the caustics are cleared. If not "
+                                                  "given, as before")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -49,6 +52,8 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, SteppedOperator, bpy.types.Opera
         asked = asked_again(context, chosen, lamps, wanted, tuple(given))
         thrown = yield from throwing(context, chosen, lamps, asked)
         remember(thrown.objects, asked)
+        if self.protect:
+            protect(thrown.objects)
         self.show_used(wanted, chosen.mirrors)
         pairs = [(obj.reflection_mesh.mirror, obj.reflection_mesh.lamp) for obj in thrown.objects]
         for name, used in zip(AS_BEFORE, (asked.places, asked.leaves_out)):

@@ -171,7 +171,7 @@ def _joined(meshes: list) -> core.TriangleMesh | None:
 
 
 def _made(context: bpy.types.Context, name: str, pair: tuple, lit: list, scene: CausticScene) -> Steps[Caustic]:
-    yield 0.0, "irradiance"
+    yield 0.0, "Computing brightness"
     counts: Counter = Counter()
     for *_, mesh in lit:
         counts.update(mesh.counts)

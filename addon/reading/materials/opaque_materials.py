@@ -10,6 +10,7 @@ from .surface_shaders import surface_shaders
 OPEN_SHADERS = {"BSDF_TRANSPARENT", "BSDF_GLASS", "BSDF_REFRACTION", "HOLDOUT"}
 # sockets of a Principled BSDF, and the value at which each lets nothing through
 CLOSED = {"Alpha": 1.0, "Transmission Weight": 0.0}
+WHITE = 0.9  # of each colour, what clear glass lets through at least
 
 
 def is_opaque(material: bpy.types.Material | None) -> bool:
@@ -48,6 +49,16 @@ def is_clear(material: bpy.types.Material | None) -> bool:
         return False
     shaders = surface_shaders(material.node_tree)
     return bool(shaders) and all(map(_lets_all_through, shaders))
+
+
+def is_colourless(material: bpy.types.Material | None) -> bool:
+    """Return True for a clear material that changes no colour, so that nobody misses it where something covers it."""
+    return is_fog(material) or is_clear(material) and not any(map(_is_tinted, surface_shaders(material.node_tree)))
+
+
+def _is_tinted(shader: bpy.types.Node) -> bool:
+    colour = shader.inputs.get("Color") or shader.inputs["Base Color"]
+    return colour.is_linked or min(colour.default_value[:3]) < WHITE
 
 
 def _lets_all_through(shader: bpy.types.Node) -> bool:

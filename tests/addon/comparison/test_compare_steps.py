@@ -76,7 +76,7 @@ def test_steps_give_the_numbers_that_one_go_gives(scene, room, job, tmp_path):
     renders = [stage for _, stage in told if isinstance(stage, room("addon.faults").Undivided)]
     assert [stage.rpartition(", ")[2] for stage in renders] == [f"{number} of {RENDERS}"
                                                                for number in range(1, RENDERS + 1)]
-    assert len(set(renders)) == RENDERS and all(stage.startswith("Cycles renders the ") for stage in renders)
+    assert len(set(renders)) == RENDERS and all(stage.startswith("Rendering the ") for stage in renders)
     # the generation's own steps are among them
     assert {stage.partition(":")[0] for _, stage in told} >= {"Mirror", "Dish"}
 

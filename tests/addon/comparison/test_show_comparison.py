@@ -43,7 +43,7 @@ class Layout:
     def box(self):
         return self
 
-    def label(self, text, translate):
+    def label(self, text, icon, translate):
         self.labels.append(text)
 
     def operator(self, name, text, icon):
@@ -80,7 +80,7 @@ def test_the_panel_shows_the_last_comparison(rooms, blank, tmp_path):
     assert f"{report['picture']['mirror']['flip']:.4f}" in told[3]
     assert rooms.show_comparison.page_address(scene) == (tmp_path / "report.html").as_uri()
     layout = Layout()
-    rooms.draw_work.draw_comparison(layout, scene)
+    rooms.draw_work.draw_comparison(layout, bpy.context)
     assert layout.labels == told and layout.made[0].url == (tmp_path / "report.html").as_uri()
     assert report["generate_seconds"] > 0.0 and set(report["render_seconds"]) == {"reference", "result"}
     table = next(csv.DictReader(io.StringIO((tmp_path / "report.csv").read_text())))

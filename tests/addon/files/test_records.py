@@ -35,12 +35,19 @@ class Layout:
         return self
 
     column = row = lambda self, align=False: self
+
+    def menu(self, *_, **__):
+        pass
+
+    def split(self, factor):
+        return self
+
     use_property_split = use_property_decorate = False
 
     def label(self, text, icon="", translate=True):
         self.labels.append(text)
 
-    def prop(self, holder, name, text="", translate=True):
+    def prop(self, holder, name, text="", translate=True, emboss=True):
         assert name in holder.bl_rna.properties
         self.properties.append(name)
 
@@ -70,11 +77,14 @@ def scene(blank):
 
 
 def test_a_good_record_is_shown(scene, room):
+    def told() -> list[str]:
+        labels = drawn(room).labels
+        return labels[labels.index("Against Cycles at 64 x 48") + 1:labels.index("Shows 'Box'")]
     scene.reflection_mesh.comparison = json.dumps(GOOD)
-    assert drawn(room).labels[-4:] == ["Against Cycles at 64 x 48", "Displacement 0.050 px, 99 %: 0.250 px",
-                                       "Holes, spill, wrong layer 0.500 %", "SSIM 0.9900, FLIP 0.0100, PSNR 30.0 dB"]
+    assert told() == ["Displacement 0.050 px, 99 %: 0.250 px", "Holes, spill, wrong layer 0.500 %",
+                      "SSIM 0.9900, FLIP 0.0100, PSNR 30.0 dB"]
     scene.reflection_mesh.comparison = json.dumps(GOOD | dict.fromkeys(("median", "p99", "psnr", "ssim", "flip")))
-    assert drawn(room).labels[-2:] == ["Against Cycles at 64 x 48", "Holes, spill, wrong layer 0.500 %"]
+    assert told() == ["Holes, spill, wrong layer 0.500 %"]
 
 
 @pytest.mark.parametrize("text", [*HOSTILE, *[json.dumps(GOOD | change) for change in SPOILT],

@@ -29,11 +29,20 @@ def pressed(**options) -> bpy.types.Object:
 
 def test_a_button_asks_for_what_was_not_given(room):
     operator = room("addon.operators.generate").REFLECTION_MESH_OT_generate
-    for given in (set(), {"collect"}, {"collect", "select_alone", "preview"}):
-        button = SimpleNamespace(collect=False, select_alone=False, preview=False, execute=lambda context: {"FINISHED"},
-                                 properties=SimpleNamespace(is_property_set=given.__contains__))
-        assert operator.invoke(button, bpy.context, None) == {"FINISHED"}
-        assert {name for name in ("collect", "select_alone", "preview") if not getattr(button, name)} == given
+    options = set(operator.on_if_pressed)
+    assert options == {"collect", "select_alone", "preview", "protect"}
+
+    class Button(room("addon.operators.pressed").ProtectsResults, room("addon.faults").SteppedOperator):
+        on_if_pressed = operator.on_if_pressed
+
+        def execute(self, context):
+            return {"FINISHED"}
+    for given in (set(), {"collect"}, options):
+        button = Button()
+        button.properties = SimpleNamespace(is_property_set=given.__contains__)
+        vars(button).update(dict.fromkeys(options, False))
+        assert button.invoke(bpy.context, None) == {"FINISHED"}
+        assert {name for name in options if not getattr(button, name)} == given
 
 
 def selected() -> list:

@@ -22,8 +22,8 @@ class Layout:
     def label(self, text="", icon="", translate=True):
         self.labels.append(text)
 
-    def prop(self, holder, name, text=None, translate=True):
-        assert name in holder.bl_rna.properties and (text is None or not translate)
+    def prop(self, holder, name, text=None, translate=True, emboss=True):
+        assert name in holder.bl_rna.properties and (not text or not translate)
         self.properties[name] = holder
 
     def operator(self, name, text="", icon=""):

@@ -35,27 +35,3 @@ def test_what_fits_is_one_line_and_a_word_is_never_divided(room):
         ("One sentence of any length where nobody looks.", "TIME")]
     name = "'" + 60 * "x" + "'"
     assert [line for line, _ in drawn(room, f"The {name} is", AT_FIRST)] == ["The", name, "is"]
-
-
-def test_live_and_what_is_stale_are_drawn_so(room, monkeypatch):
-    """In German the settings that have changed were cut off."""
-    place, live = room("addon.interface.draw_live"), bpy.context.window_manager.reflection_mesh_live
-    labels: list = []
-    layout = SimpleNamespace(label=lambda text, **_: labels.append(text), prop=lambda *_, **__: None,
-                             operator=lambda *_, **__: None)
-    layout.column = lambda **_: layout
-    context = SimpleNamespace(region=SimpleNamespace(width=AT_FIRST), preferences=bpy.context.preferences,
-                              window_manager=SimpleNamespace(reflection_mesh_live=live))
-    result = SimpleNamespace(name="Ball Reflection")
-    monkeypatch.setattr(place, "kept_results", lambda context: [result])
-    for nothing in ("kept_light", "abandoned_results", "abandoned_light"):
-        monkeypatch.setattr(place, nothing, lambda context: [])
-    monkeypatch.setattr(place, "why_stale", lambda context, obj: "die Einstellungen haben sich geändert")
-    place.draw_live(layout, context)
-    assert labels[0] == "'Ball Reflection' is stale:"
-    assert len(labels) > 2 and " ".join(labels[1:]) == "die Einstellungen haben sich geändert."
-    labels.clear()
-    told = "The mirror 'Golden Ball' is hidden: show it in the viewport and in renders."
-    monkeypatch.setattr(place, "present", lambda: SimpleNamespace(told=told))
-    place.draw_live(layout, context)
-    assert len(labels) > 1 and " ".join(labels) == told

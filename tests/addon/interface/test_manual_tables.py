@@ -12,7 +12,7 @@ DOCS = Path(__file__).parents[3] / "docs"
 OPERATORS = {"Generate": "generate", "Light": "light", "Caustics": "caustics", "Bake": "bake", "Compare": "compare",
              "Mirror UVs": "mirror_uvs", "Print": "print_sheet"}
 VERBS = {"Print": "mirror-uvs", "Mirror UVs": "mirror-uvs"}
-UNTOLD = {"rna_type", "used", "filter_glob"}
+UNTOLD = {"rna_type", "filter_glob"}
 
 
 def rows(page: str, *heads: str) -> list[list[str]]:

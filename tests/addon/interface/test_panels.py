@@ -10,7 +10,8 @@ import parts
 import pytest
 from drawn_panels import Layout, drawn, pair
 
-OPERATORS = ("generate", "light", "caustics", "bake", "clear", "live", "update", "compare", "mirror_uvs", "print_sheet")
+OPERATORS = ("generate", "light", "caustics", "bake", "clear", "live", "update", "compare", "mirror_uvs", "print_sheet",
+             "select")
 
 
 @pytest.fixture
@@ -51,20 +52,36 @@ def test_a_result_tells_of_itself_in_plain_words(scene, room, space):
     mirror = bpy.data.objects["Mirror"].reflection_mesh
     mirror.own_settings = True
     layout = drawn(room, space)
-    assert layout.labels[:3] == ["Mirror Reflection", "Reflection in 'Mirror'", "Shows 'Box'"]
-    assert layout.labels[3] == f"{len(result.data.polygons)} faces, {told(room, result)}"
+    assert layout.labels[:3] == ["Mirror Reflection", "Reflected By", "Mirror"]
+    assert [line for line in layout.labels if line.startswith("Shows")] == ["Shows 'Box'"]
+    assert f"{len(result.data.polygons)} faces, {told(room, result)}" in layout.labels
     # the settings are those of its mirror, figures come last
     assert layout.properties["tolerance"] == mirror
     assert layout.labels[-4:][0] == "Made for 64 x 48 px" and "filled by rays" in layout.labels[-1]
-    assert not any("another size" in line for line in layout.labels)
+    assert not any("out of date" in line for line in layout.labels)
     scene.render.resolution_x = 80
-    assert "The render has another size now:" in drawn(room, space).labels
+    bpy.context.view_layer.update()
+    assert "1 result is out of date: the picture's size has changed. Click Update Reflections." in drawn(
+        room, space).labels
     for number in range(2):
         result.reflection_mesh.sources.add().object = parts.add("plane", f"More {number}")
     bpy.context.view_layer.objects.active = result
     assert "Shows 'Box' and 2 more" in drawn(room, space).labels
     bpy.data.objects.remove(bpy.data.objects["Mirror"])
-    assert "Reflection in a mirror that is gone" in drawn(room, space).labels
+    assert {"Gone", "Its mirror or its lamp is gone. Click Clear Reflections."} <= set(drawn(room, space).labels)
+
+
+@pytest.mark.parametrize("space", ["VIEW_3D", "PROPERTIES"])
+def test_an_active_mirror_offers_all_that_its_result_does(scene, room, space):
+    """Clicks in the viewport give the mirror."""
+    result = parts.generate()
+    seen = []
+    for obj in (result, bpy.data.objects["Mirror"]):
+        bpy.context.view_layer.objects.active = obj
+        layout = drawn(room, space)
+        seen.append((layout.buttons, layout.properties, set(layout.labels)))
+    assert seen[0][:2] == seen[1][:2] and seen[0][2] - seen[1][2] == {"Mirror Reflection", "Reflected By"}
+    assert "hide_select" in seen[1][1] and seen[1][1]["hide_select"] == result
 
 
 def test_the_size_is_that_in_a_file(blank, room, tmp_path):
@@ -84,7 +101,8 @@ def test_the_size_is_that_in_a_file(blank, room, tmp_path):
 def test_nothing_and_other_things_are_drawn_too(blank, room):
     bpy.context.view_layer.objects.active = None
     layout = drawn(room, "VIEW_3D")
-    assert layout.labels == ["Select a mirror and what it shall show"]
+    assert layout.labels[0] == "No Active Object"
+    assert "Select a mirror, then click Generate Reflection." in layout.labels
     assert layout.properties["tolerance"] == blank.scene.reflection_mesh
     bpy.context.view_layer.objects.active = bpy.data.objects["Camera"]
     assert drawn(room, "VIEW_3D").menus == ["REFLECTION_MESH_MT_role"]

@@ -142,7 +142,7 @@ class Operator:
         place = "addon.operators.bake_frames.bake_operator" if kind == "bake" else f"addon.operators.{kind}"
         self.cls = getattr(room(place), f"REFLECTION_MESH_OT_{kind}")
         self.values = {}
-        self.used = ""
+        self.used = {}
 
     @property
     def properties(self):

@@ -135,8 +135,8 @@ def test_what_was_done_is_told_in_german(blank, room, german, monkeypatch):
         return found
     monkeypatch.setattr(faults, "translated", heard)
     parts.generate()
-    assert re.fullmatch(r"'Mirror Reflection': \d+ Flächen, [\d.]+ KB, Fehler etwa [\d.]+ px, [\d.]+ s; ihr Licht "
-                        "fehlt noch: Spiegelung beleuchten", said[-1])
+    assert re.fullmatch(r"'Mirror Reflection': \d+ Flächen, [\d.]+ KB, Fehler etwa [\d.]+ px, [\d.]+ s; noch nicht "
+                        "beleuchtet", said[-1])
     parts.select()
     bpy.ops.reflection_mesh.clear()
     assert said[-1] == "1 Spiegelung entfernt."
@@ -158,6 +158,12 @@ def test_no_stage_lacks_its_german(room, german):
         assert english.count("{}") == wanted.count("{}"), english
 
 
+def test_stages_are_in_plain_words():
+    """The status bar shows them: names of data structures and of steps of the method say nothing to artists."""
+    jargon = re.compile(r"\b(k-d|trees?|cones?|rays through|projections?|irradiance|whole faces|three-ray|cameras)\b")
+    assert [stage for stage in told_sentences.stages() if jargon.search(stage)] == []
+
+
 @pytest.mark.parametrize("method", ["GENERAL", "POINTS"])
 def test_all_that_work_tells_comes_in_german(blank, room, german, method):
     parts.select(parts.add("ico_sphere", "Ball", subdivisions=4, location=(0.0, -1.5, 1.0)), parts.add_wall_mirror())
@@ -174,10 +180,10 @@ def test_all_that_work_tells_comes_in_german(blank, room, german, method):
 
 def test_the_status_bar_speaks_german(room, german):
     translated = room("addon.faults").translated_stage
-    assert translated("Cycles renders the faces in the mirror, 2 of 7") == (
-        "Cycles rendert die Flächen im Spiegel, 2 von 7")
-    assert translated("Cycles renders its own caustics at 64 samples once more, 10 of 11") == (
-        "Cycles rendert eigene Kaustik mit 64 Samples noch einmal, 10 von 11")
+    assert translated("Rendering the faces in the mirror, 2 of 7") == (
+        "Rendern: die Flächen im Spiegel, 2 von 7")
+    assert translated("Rendering Cycles caustics at 64 samples once more, 10 of 11") == (
+        "Rendern: Kaustik von Cycles mit 64 Samples noch einmal, 10 von 11")
     assert translated("Writing My {0} mirror: of gold") == "My {0} mirror wird geschrieben: of gold"
     assert translated("") == "" and translated("{}: {0}") == "{}: {0}"
     assert room("addon.faults.status_bar").time_left(10.0, 0.25) == "noch etwa 30 s"

@@ -123,10 +123,10 @@ def test_where_gloss_is_as_from_elsewhere_that_is_said(blank, room, monkeypatch,
     light(1)
     lighting = room("addon.lighting")
     assert lighting.dull_objects(result) == told
-    assert lighting.light_lines(result)[0].startswith("Lit; gloss" if told else "Lit.")
+    assert lighting.light_sentence(result).startswith("Lit, with gloss" if told else "Lit.")
     assert ("The gloss of 'Floor' is not what so close a curved mirror shows" in capsys.readouterr().out) == bool(told)
     bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
-    assert lighting.light_lines(result) == ["Lit."]
+    assert lighting.light_sentence(result) == "Lit."
 
 
 @pytest.mark.slow

@@ -61,7 +61,7 @@ def test_bands_are_denoised_in_tiles(blank, room, monkeypatch):
     sizes = np.array([size for size, denoised in made if denoised])
     assert len(sizes) and (sizes <= TILE).all() and (sizes > 24).all()
     assert len(made) - len(sizes) > len(sizes)
-    baked = [stage for stage in stages if stage.startswith("Cycles bakes the light on '")]
+    baked = [stage for stage in stages if stage.startswith("Baking light on '")]
     assert baked and not any(isinstance(stage, room("addon.faults").Undivided) for stage in baked)
 
 
@@ -135,7 +135,7 @@ def test_stopped_between_bands_it_leaves_no_trace(blank, room, monkeypatch, step
     with room("addon.faults.between_events").steps_taken(apart=True):
         steps = room("addon.operators.light").lighting(blank, [result], 4, "OBJECTS")
         while step >= 0:
-            step -= next(steps)[1].startswith("Cycles bakes")
+            step -= next(steps)[1].startswith("Baking light")
         steps.close()
     assert lit_state() == before
 

@@ -15,7 +15,7 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaqu
     scene_of(blank, "UV", "" if opaque else "Half open")
     result = parts.generate(placement=placement)
     before, lighting = lit_state(), room("addon.operators.light").lighting
-    stages = ["Reading the scene", "Cycles renders the light", "Cycles renders what reflections cover",
+    stages = ["Reading the scene", "Rendering light", "Rendering the area of the reflections",
               "Sharpening the light", "Writing"]
     # images are written in several steps
     for stage, times in [*((stage, 1) for stage in stages), *(("Writing", times) for times in (3, 5, 7, 9))]:
@@ -172,14 +172,14 @@ def test_light_that_was_kept_shows_the_same(blank, room):
 
 def test_the_panel_tells_what_there_is_to_do(blank, room):
     scene_of(blank)
-    lines = room("addon.lighting").light_lines
+    told = room("addon.lighting").light_sentence
     result = parts.generate()
-    assert lines(result) == ["Its light is still to come:", "press Light Reflection."]
+    assert told(result) == "Not lit yet. Click Light Reflection."
     bpy.ops.reflection_mesh.light(samples=1)
-    assert lines(result) == ["Lit."]
+    assert told(result) == "Lit."
     bpy.data.objects["Box"].location.x += 0.1
     blank.view_layer.update()
-    assert lines(result) == ["The scene has changed since it was lit:", "press Light Reflection again."]
+    assert told(result) == "The scene has changed since the reflection was lit. Click Light Reflection."
 
 
 def test_clear_takes_the_light_away(blank):
@@ -203,7 +203,7 @@ def test_the_verb_light(saved_scene, room, tmp_path, capsys):
     assert "no reflection to light" in capsys.readouterr().err
     assert run(["generate", "--light", "2", "--output", str(output)]) == 0
     told = capsys.readouterr().out
-    assert "lit in" in told and "still to come" not in told
+    assert "lit in" in told and "not lit" not in told
     bpy.ops.wm.open_mainfile(filepath=str(output))
     result = bpy.data.objects["Mirror Reflection"]
     assert result.reflection_mesh.light_material is not None and not result.reflection_mesh.light_stale

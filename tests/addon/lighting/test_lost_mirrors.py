@@ -1,8 +1,6 @@
 """Results that cannot be lit, since their mirror is hidden or they are no mesh any more, keep no others from it."""
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import bpy
 import parts
 import pytest
@@ -53,11 +51,8 @@ def test_a_result_that_was_made_a_curve_is_told_so(scene, room, blank):
     parts.select(scene.result)
     bpy.ops.object.convert(target="CURVE")
     blank.view_layer.update()
-    labels: list = []
-    layout = SimpleNamespace(label=lambda text, **_: labels.append(text))
-    layout.box, layout.column = lambda: layout, lambda **_: layout
-    room("addon.interface.draw_object").draw_object(layout, blank, scene.result)
-    assert "It is no mesh any more: Generate" in labels
+    told = room("addon.interface.prompts").prompt(blank, scene.result).text
+    assert told == "This reflection is not a mesh any more. Click Generate Reflection."
     assert "is no mesh any more" in parts.refusal(bpy.ops.reflection_mesh.light, samples=1)
     made = parts.generate()
     assert made != scene.result and made.type == "MESH"

@@ -44,7 +44,7 @@ def test_what_is_hidden_meanwhile_takes_no_part(blank):
 
 
 @pytest.mark.parametrize(("stage", "times"), [("Reading", 1), ("Measuring", 1), ("Copying", 1), ("Copying", 2),
-                                              ("Cycles bakes", 1), ("Cycles bakes", 2), *(("Writing", times)
+                                              ("Baking light", 1), ("Baking light", 2), *(("Writing", times)
                                                                                           for times in range(1, 6))])
 def test_stopped_after_any_step_it_leaves_no_trace(blank, room, stage, times):
     scene_of(blank, "Alpha")

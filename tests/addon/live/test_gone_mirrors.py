@@ -41,19 +41,11 @@ def reported(capfd, operator) -> str:
 
 
 def test_the_panel_says_so_and_offers_no_update(gone, room, blank):
-    labels: list = []
-    buttons: list = []
-    layout = SimpleNamespace(label=lambda text, **_: labels.append(text), prop=lambda *_, **__: None,
-                             operator=lambda name, **_: buttons.append(name))
-    layout.column = lambda **_: layout
+    prompt = room("addon.interface.prompts").prompt
     assert room("addon.freshness").why_stale(blank, gone.result) == GONE
-    room("addon.interface.draw_live").draw_live(layout, blank)
-    assert labels[0] == "'Ball Reflection' is stale:" and " ".join(labels[1:]) == f"{GONE}."
-    assert buttons == ["reflection_mesh.live"]
-    labels.clear()
-    room("addon.interface.draw_object").draw_object(SimpleNamespace(box=lambda: layout, label=layout.label), blank,
-                                                    gone.result)
-    assert "Reflection in a mirror that is gone" in labels and not any("light" in label for label in labels)
+    assert prompt(blank, gone.result).text == "Its mirror or its lamp is gone. Click Clear Reflections."
+    text = prompt(blank, None).text
+    assert text.startswith("The mirror or the lamp of 'Ball Reflection' is gone.") and "Update" not in text
 
 
 def test_update_says_so_and_clear_removes_it(gone, capfd):

@@ -254,19 +254,12 @@ def test_live_follows_the_viewport(scene, clock, room, monkeypatch):
     assert shape(scene.result) == still == generated(scene.leaf, scene.ball)
 
 
-def test_the_panel_draws_both_states(scene, clock, room):
-    draw, labels, buttons = room("addon.interface.draw_live").draw_live, [], []
-    layout = SimpleNamespace(label=lambda text, **_: labels.append(text), prop=lambda *_, **__: None,
-                             operator=lambda name, **_: buttons.append(name))
-    layout.column = lambda **_: layout
-    draw(layout, bpy.context)
-    assert labels[0].startswith("Exact") and labels[0].endswith(" ms") and len(labels) == 1
+def test_the_panel_tells_of_both_states(scene, clock, room):
+    prompt = room("addon.interface.prompts").prompt
+    text = prompt(bpy.context, scene.result).text
+    assert text.startswith("Exact") and text.endswith(" ms")
     bpy.ops.reflection_mesh.live()
     scene.camera.location.y -= 1.5
     bpy.context.view_layer.update()
-    labels.clear()
-    draw(layout, bpy.context)
-    assert len(labels) == 2 and "'Ball Reflection'" in labels[0] and "camera" in labels[1]
-    # as wide as the sidebar is at first, beside the icon
-    assert max(map(len, labels)) < 38
-    assert buttons[-1] == "reflection_mesh.update"
+    assert prompt(bpy.context, scene.result).text == (
+        "1 result is out of date: the camera has changed. Click Update Reflections.")

@@ -1,8 +1,6 @@
 """Light that a mirror threw before something moved says so where Live is off, and one click makes it anew."""
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import bpy
 import parts
 import pytest
@@ -71,13 +69,7 @@ def test_a_file_that_is_opened_again_is_not_stale(blank, told, tmp_path, capfd, 
     assert bpy.ops.reflection_mesh.update("EXEC_DEFAULT") == {"FINISHED"}
     said = "".join(capfd.readouterr())
     assert "'Mirror Caustics' cannot be made anew" in said and "faces of light" not in said
-    labels: list = []
-    buttons: list = []
-    layout = SimpleNamespace(label=lambda text, **_: labels.append(text), prop=lambda *_, **__: None,
-                             operator=lambda name, **_: buttons.append(name))
-    layout.box, layout.column = lambda: layout, lambda **_: layout
-    room("addon.interface.draw_object").draw_object(layout, bpy.context, light)
-    room("addon.interface.draw_live").draw_live(layout, bpy.context)
-    assert "Light of a lamp that is gone, thrown by 'Mirror'" in labels and buttons == ["reflection_mesh.live"]
+    assert room("addon.interface.prompts").prompt(bpy.context, light).text == (
+        "Its mirror or its lamp is gone. Click Clear Reflections.")
     # what cannot be mended is left
     assert bpy.ops.reflection_mesh.update("EXEC_DEFAULT") == {"FINISHED"} and len(light.data.polygons)

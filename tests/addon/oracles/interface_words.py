@@ -14,12 +14,13 @@ KINDS = (bpy.types.Operator, bpy.types.Panel, bpy.types.Menu)
 DRAWN = {"ReflectionScene", "ReflectionObject", "ReflectionLive"}
 # rooms whose sentences are drawn, with the names of the functions that say them; all where none is named
 TELLING = {"addon/faults/status_bar.py": set(), "addon/faults/stepped_operator.py": set(),
-           "addon/lighting/lit_results.py": {"light_lines"}, "addon/comparison/show_comparison.py": set(),
+           "addon/lighting/lit_results.py": {"light_sentence"}, "addon/interface/prompts.py": set(),
+           "addon/comparison/show_comparison.py": set(),
            "addon/freshness/made_from.py": {"why_stale", "_changed", "difference"},
            "addon/freshness/thrown_light.py": {"why_light_is_stale", "_changed", "_difference"},
            **{path.relative_to(ROOT).as_posix(): set() for path in (ROOT / "addon" / "interface").glob("draw_*.py")}}
 SENTENCES = ("IN_OBJECT_MODE", "NOTHING_TO_LIGHT", "NOTHING_TO_CLEAR", "NO_SHEET", "NO_CAMERA", "NO_MIRROR", "NO_USD",
-             "WAITS", "NOTHING_YET", "LINKED_SCENE", "LINKED_TO_LIGHT", "LINKED_TO_CLEAR")
+             "WAITS", "NOTHING_YET", "LINKED_SCENE", "LINKED_TO_LIGHT", "LINKED_TO_CLEAR", "NO_RESULT")
 
 
 def classes() -> list[type]:

@@ -39,7 +39,8 @@ def test_virtual_leaves_a_linked_mirror_alone(library, room):
     parts.select(leaf, mirror)
     parts.generate(placement="VIRTUAL")
     assert mirror.visible_camera
-    told, = room("addon.operators.shortcomings").window_shortcomings(bpy.context, mirror, None, None, [mirror])
+    nothing = room("addon.writing").InTheWay("", 0.0, False)
+    told, = room("addon.operators.shortcomings").window_shortcomings(mirror, nothing)
     assert "linked and cannot be hidden" in told
 
 
@@ -138,11 +139,8 @@ def test_the_panel_says_that_a_reflection_is_linked(linked_result, room):
     linked_result("OBJECT")
     result = next(obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION")
     bpy.context.scene.render.resolution_x = 7   # which else asks for another result
-    lines = []
-    layout = SimpleNamespace(label=lambda text="", icon="", translate=True: lines.append(text))
-    room("addon.interface.draw_object").draw_object(layout, bpy.context, result)
-    assert lines[-2:] == ["It is linked from another file:", "there it is updated and lit."]
-    assert not any("press" in line for line in lines)
+    told = room("addon.interface.prompts").prompt(bpy.context, result).text
+    assert told == "This result is linked from another file. Update and light it there."
 
 
 def test_a_second_reflection_over_a_linked_one_is_told_of(linked_result, room):

@@ -123,10 +123,10 @@ def started(place, told: list, kind: str = "SteppedOperator", error: Exception |
 def test_what_cannot_be_divided_is_shown_before_it_begins(place):
     job, window, notes = started(place, ["one", "two", place.Undivided("whole"), "three"])
     assert job.invoke(window, None) == {"RUNNING_MODAL"}
-    assert notes[-1] == "shown 0 %, one, ESC cancels" and {"timer", "modal"} <= set(notes)
+    assert notes[-1] == "shown 0 %, one, ESC: Cancel" and {"timer", "modal"} <= set(notes)
     assert job.modal(window, TIMER) == {"RUNNING_MODAL"}
     # the quick ones in one go, and not the one that takes long
-    assert notes[-1] == "shown 50 %, whole, this cannot be divided, ESC cancels after it"
+    assert notes[-1] == "shown 50 %, whole, ESC: Cancel After This Step"
     assert "after two" in notes and "after whole" not in notes
     assert job.modal(window, MOVED) == {"RUNNING_MODAL"} and notes[-1].startswith("shown 50 %, whole")
     assert job.modal(window, TIMER) == {"FINISHED"}

@@ -73,3 +73,16 @@ def test_all_of_the_geometry_where_light_comes_through(dense_scene):
     _, near, _ = dense_scene
     near.data.materials[0] = opened("alpha")
     assert shown(parts.generate(), "Far") > 2000
+
+
+def test_a_glass_object_keeps_nothing_but_what_lies_behind_it(dense_scene):
+    """Of all mirrors and sources everything was kept, ten times as many faces, once any source let light through."""
+    ball, near, far = dense_scene
+    before = {obj: shown(parts.generate(), obj.name) for obj in (near, far)}
+    glass = parts.add("uv_sphere", "Glass", segments=16, ring_count=8, radius=0.25, location=(-0.6, -2.2, 1.2))
+    glass.data.materials.append(opened("ShaderNodeBsdfGlass"))
+    parts.select(near, far, glass, ball)
+    result = parts.generate()
+    after = {obj: shown(result, obj.name) for obj in (near, far)}
+    assert shown(result, "Glass") > 100 and after[far] < 200
+    assert before[near] <= 1.02 * after[near] and after[near] < 1.1 * before[near]

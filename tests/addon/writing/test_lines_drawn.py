@@ -93,3 +93,87 @@ def test_a_copy_has_the_same_faces(floor):
     parts.select(*floor)
     parts.generate()
     assert borders(copy) == borders(result) < 0.8 * before
+
+
+def strokes(drawn: bpy.types.Object) -> int:
+    """Return how many strokes the Line Art of an evaluated object has."""
+    evaluated = drawn.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    frames = [frame for layer in evaluated.data.layers for frame in layer.frames]
+    return sum(len((frame if bpy.app.version < (4, 3, 0) else frame.drawing).strokes) for frame in frames)
+
+
+def after_tag(drawn: bpy.types.Object) -> int:
+    """Return the same after the object was tagged, as Blender draws it anew."""
+    drawn.update_tag()
+    return strokes(drawn)
+
+
+@pytest.fixture
+def still_life(blank):
+    """A cube and a monkey before a wall mirror, and Line Art of the scene that is drawn already."""
+    objects = [parts.add("cube", "Box", size=1.0, location=(1.0, -1.0, 0.8)),
+               parts.add("monkey", "Monkey", size=1.0, location=(-1.0, -1.0, 0.8)), parts.add_wall_mirror()]
+    objects[-1].reflection_mesh.role = "MIRROR"
+    add = bpy.ops.object.gpencil_add if bpy.app.version < (4, 3, 0) else bpy.ops.object.grease_pencil_add
+    add(type="LINEART_SCENE")
+    assert strokes(bpy.context.object) > 50
+    return bpy.context.object, objects
+
+
+def test_line_art_is_drawn_again_when_a_result_comes_changes_or_goes(still_life):
+    """Blender 4.2 forgets it after objects were removed, later versions after objects were added."""
+    drawn, objects = still_life
+    before, seen = strokes(drawn), []
+
+    def drawn_at_once() -> int:
+        now = strokes(drawn)
+        assert now == after_tag(drawn)
+        seen.append(now)
+        return now
+    parts.select(*objects)
+    parts.generate()
+    assert drawn_at_once() >= before + 20
+    objects[0].location.z += 0.3
+    bpy.ops.reflection_mesh.update()
+    assert drawn_at_once() >= before + 20
+    bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE", every=True)
+    assert drawn_at_once() >= before + 20
+    bpy.ops.reflection_mesh.clear()
+    assert abs(drawn_at_once() - before) < 10
+
+
+def test_line_art_is_drawn_again_after_undo_and_for_copies_with_mirror_uvs(still_life):
+    drawn, objects = still_life
+    name, before = drawn.name, strokes(drawn)
+    bpy.ops.ed.undo_push(message="Before")
+    parts.select(*objects)
+    parts.generate()
+    made = strokes(drawn)
+    bpy.ops.ed.undo_push(message="Generated")
+    bpy.ops.ed.undo()
+    assert strokes(bpy.data.objects[name]) == before
+    bpy.ops.ed.redo()
+    assert strokes(bpy.data.objects[name]) == made
+    bpy.ops.reflection_mesh.clear()
+    parts.select(*(bpy.data.objects[other] for other in ("Box", "Mirror")))
+    assert bpy.ops.reflection_mesh.mirror_uvs() == {"FINISHED"}
+    now = strokes(bpy.data.objects[name])
+    assert now == after_tag(bpy.data.objects[name])
+
+
+def test_line_art_is_drawn_again_when_another_camera_shows_its_own_results(still_life):
+    drawn, objects = still_life
+    scene, first = bpy.context.scene, bpy.context.scene.camera
+    second = bpy.data.objects.new("Second", first.data.copy())
+    scene.collection.objects.link(second)
+    second.matrix_world = first.matrix_world
+    second.location.x += 0.5
+    for camera in (first, second):
+        scene.camera = camera
+        parts.select(*objects)
+        parts.generate()
+    for camera in (first, second):
+        scene.camera = camera
+        bpy.context.view_layer.update()
+        now = strokes(drawn)
+        assert now == after_tag(drawn)

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
+from lamp_scenes import picture, psnr
 
 
 @pytest.fixture
@@ -206,15 +207,43 @@ def test_what_is_hidden_counts_by_its_pixels(scene):
     assert "'Wall' stands before the virtual image" in parts.refusal(placement="VIRTUAL")
 
 
+@pytest.mark.parametrize("orthographic", [False, True])
 @pytest.mark.parametrize("behind", [True, False])
-def test_a_floor_in_which_its_own_image_lies_is_told_of(blank, room, behind):
-    """Of the few faces of such an image all vertices lie on the borders of mirror and picture."""
+def test_a_floor_in_which_its_own_image_lies_does_not_fight_with_it(blank, room, behind, orthographic):
+    """The image is drawn a little nearer, in the same place of the picture; with nothing in it, it is where it is."""
     mirror = parts.add_wall_mirror()
+    blank.scene.camera.data.type = "ORTHO" if orthographic else "PERSP"
     floor = parts.add("plane", "Floor", size=12.0, location=(0.0, 0.0 if behind else -5.0, 0.0))
     parts.select(floor, mirror)
-    told = remarks(room)
-    assert ("Mirror: 'Floor' hides a part of the virtual image behind this mirror; the placement Layered shows all of "
-            "it." in told) == behind
+    assert not [told for told in remarks(room) if "virtual" in told]
+    result = parts.generate(placement="VIRTUAL")
+    places = np.array([result.matrix_world @ vertex.co for vertex in result.data.vertices])
+    assert (places[:, 2].max() > 1e-4) == behind and np.abs(places[:, 2]).max() < 0.01
+    view = room("addon.reading").read_view(bpy.context)
+    true_image = parts.attribute(result, "reflected_position") * (1.0, -1.0, 1.0)
+    true_image[:, 1] += 2.0 * parts.attribute(result, "mirror_position")[:, 1]
+    assert np.abs(view.pixels(places) - view.pixels(true_image)).max() < 0.02
+
+
+@pytest.mark.parametrize("bottom", [-0.3, 0.2])
+def test_a_window_over_a_floor_that_goes_on_shows_what_the_mirror_does(blank, room, bottom):
+    """Rendered by Cycles: the floor is red behind the mirror, so that what comes through the image is seen."""
+    scene = blank.scene
+    scene.render.resolution_x = scene.render.resolution_y = 96
+    scene.cycles.samples = 16
+    floor = parts.add("grid", "Floor", x_subdivisions=2, y_subdivisions=2, size=12.0, location=(0.0, 1.0, 0.0))
+    for name, colour in (("Green", (0.1, 0.7, 0.1, 1.0)), ("Red", (0.9, 0.0, 0.0, 1.0))):
+        floor.data.materials.append(parts.material(name))
+        floor.data.materials[-1].node_tree.nodes["Emission"].inputs[0].default_value = colour
+    for face in floor.data.polygons:
+        face.material_index = int(face.center[1] > 0.0)
+    mirror = parts.add("plane", "Mirror", size=2.0, location=(0.0, 1.0, bottom + 1.0), rotation=(np.pi / 2, 0.0, 0.0))
+    mirror.data.materials.append(parts.material("Chrome", "GLOSSY"))
+    mirror.data.materials[0].node_tree.nodes[0].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    parts.select(floor, mirror)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate(placement="VIRTUAL")
+    assert psnr(picture(room), reference) > psnr(other, reference) - 1.0
 
 
 def test_the_mirror_itself_and_other_windows_do_not_count(scene, room):

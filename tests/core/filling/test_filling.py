@@ -16,6 +16,7 @@ from core.culling.scene_and_mirrors import SceneAndMirrors
 from core.filling import limits
 from core.filling.limits import Limits
 from core.filling.picture_squares import first_side, in_squares
+from core.filling.shown_triangles import met_in_turn
 from core.support.crowding import crowded
 from core.visibility.eye_plane import cut_before_eye
 from tests.inputs import shapes
@@ -98,7 +99,8 @@ def test_a_cell_shows_the_triangle_that_its_middle_ray_meets_first():
     cameras = three_ray_cameras(mirror_map, case.mirror, visible_triangles(case.view, case.mirror))
     cameras = cameras.select(in_picture(cameras))
     middle = cameras.places[:, cameras.corners].mean(axis=2)
-    shown = SceneAndMirrors(tree, case.mirror).shown_at(cameras, middle)
+    place, shown = met_in_turn(SceneAndMirrors(tree, case.mirror), cameras, middle)
+    assert place.tolist() == list(range(len(cameras)))
     ray = mirror_map.rays(cameras.face, mirror_map.coordinates(cameras.face, middle))
     expected = [first_triangle(tree.mesh, middle[:, number], ray[:, number]) for number in range(len(cameras))]
     assert shown.tolist() == expected

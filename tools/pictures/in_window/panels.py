@@ -9,12 +9,12 @@ import hands
 from .taking import MIRROR, alone, corner, dragged, generate, joined, opened, part, sidebar
 
 # in pixels, below the upper end of the sidebar: where pictures of it end
-GERMAN = 590        # where another language has scrolled it
-GREY = 203
+GERMAN = 680        # where another language has scrolled it
+GREY = 226
 # the same: a button, and the headers of panels: folded, and unfolded while Settings are folded
-LIGHT, SETTINGS, FIGURES, TOOLS = 126, 315, 548, 574
-UNFOLDED_FIGURES, UNFOLDED_TOOLS, UNFOLDED_END = 341, 482, 730
-UNLIT_LIMITS = 568  # where two lines say that light is still to come
+LIGHT, SETTINGS, TOOLS, FIGURES = 149, 412, 645, 671
+UNFOLDED_TOOLS, UNFOLDED_FIGURES, UNFOLDED_END = 438, 660, 800
+LIMITS = 620
 # below the upper end of the Properties editor: a folded panel; its header and its list's grip once it alone is unfolded
 ATTRIBUTES, ATTRIBUTES_HEADER, ATTRIBUTES_GRIP = 480, 216, 366
 WIDER, LONGER = 160, 240    # what is added to the editor's width and to the list
@@ -65,17 +65,17 @@ def stale():
     bpy.ops.reflection_mesh.live()
     yield 5.0
     yield from hands.settled("live")
-    joined("stale", [sidebar(screen, name, 420) for name in ("stale", "live")])
+    joined("stale", [sidebar(screen, name, 400) for name in ("stale", "live")])
 
 
 def choices():
     screen = yield from opened("room")
     generate(screen)
     yield 1.0
-    yield from pressed(screen, UNLIT_LIMITS)
+    yield from pressed(screen, LIMITS)
     screen.point(**screen.centre)
     yield from hands.settled("unfolded")
-    yield from pressed(screen, UNLIT_LIMITS)
+    yield from pressed(screen, LIMITS)
     screen.point(screen.area.x + 120, screen.area.y + 420)
     yield 0.5
     for name, kind in (("roles", "MT_role"), ("presets", "PT_presets")):
@@ -91,7 +91,7 @@ def choices():
         yield 0.5
     side = screen.region("UI")
     joined("choices", [part("roles", 6, 345, 200, 130), part("presets", 6, 370, 236, 168),
-                       part("unfolded", side.x, 430, side.width, 328)])
+                       part("unfolded", side.x, 480, side.width, 328)])
 
 
 def attributes():
@@ -141,15 +141,15 @@ def figures():
     generate(screen)
     yield 1.0
     # the lowest first, since what is unfolded moves what is below it
-    yield from pressed(screen, TOOLS, FIGURES, SETTINGS)
+    yield from pressed(screen, FIGURES, TOOLS, SETTINGS)
     with screen.context():
         bpy.ops.reflection_mesh.compare("EXEC_DEFAULT", filepath=tempfile.mkdtemp(), samples=16)
     screen.point(**screen.centre)
     yield from hands.settled("figures")
     x, top = corner(screen)
-    joined("figures", [part("figures", x, top + UNFOLDED_FIGURES - 13, screen.region("UI").width,
-                            UNFOLDED_END - UNFOLDED_FIGURES + 13)])
-    yield from pressed(screen, UNFOLDED_TOOLS, UNFOLDED_FIGURES, SETTINGS)
+    joined("figures", [part("figures", x, top + UNFOLDED_TOOLS - 13, screen.region("UI").width,
+                            UNFOLDED_END - UNFOLDED_TOOLS + 13)])
+    yield from pressed(screen, UNFOLDED_FIGURES, UNFOLDED_TOOLS, SETTINGS)
 
 
 def pressed(screen: hands.Screen, *below: int):

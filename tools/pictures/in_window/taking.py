@@ -10,7 +10,7 @@ from hands import ROOT
 
 FOLDER = ROOT / "docs" / "pictures"
 MIRROR = "Golden Ball"
-PANELS = 648        # pixels of the sidebar, from its upper end
+PANELS = 694        # pixels of the sidebar, from its upper end
 GAP, GROUND = 12, "#303030"
 
 
@@ -30,7 +30,8 @@ def opened(sample: str):
 
 def generate(screen: hands.Screen, **options) -> None:
     with screen.context():
-        bpy.ops.reflection_mesh.generate("EXEC_DEFAULT", select_alone=True, collect=True, preview=True, **options)
+        bpy.ops.reflection_mesh.generate("EXEC_DEFAULT", select_alone=True, collect=True, preview=True,
+                                         protect=True, **options)
 
 
 def alone(name: str) -> bpy.types.Object:
