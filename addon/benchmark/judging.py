@@ -11,9 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.rivals import RivalPicture
-from ..metrics import OTHER_SURFACE
+from ..metrics import OTHER_SURFACE, percentages
 from .case import Case
 from .truth import Truth
+
+WRONG = ("hole", "spill", "wrong_layer")
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,7 @@ def look(made: Sampled, truth: Truth) -> tuple[np.ndarray, np.ndarray]:
 
 
 def errors(case: Case, truths: list[Truth], made: Sampled) -> dict:
-    """Displacement and coverage of what a method made over all places of the truths.
+    """Displacement and coverage of what a method made over all places of the truths, which show some of the scene.
 
     Returns
     -------
@@ -55,13 +57,12 @@ def errors(case: Case, truths: list[Truth], made: Sampled) -> dict:
     displacement = np.concatenate([tally.pop("displacement") for tally in tallies])
     count = {name: sum(tally[name] for tally in tallies) for name in tallies[0]}
     asked = len(displacement) + count["hole"] + count["wrong_layer"]
-    wrong = count["hole"] + count["spill"] + count["wrong_layer"]
-    share = {name: 100.0 * count[name] / max(count["judged"], 1) for name in ("hole", "spill", "wrong_layer")}
+    wrong = sum(count[name] for name in WRONG)
     values = dict.fromkeys(("median", "p95", "p99", "max"))
     if len(displacement):
         values = dict(zip(values, map(float, np.percentile(displacement, (50, 95, 99, 100)))))
-    return {"mean_error_px": float((np.minimum(displacement, 1.0).sum() + wrong) / max(asked, 1)),
-            "displacement_px": values, "coverage_percent": {**share, "all": sum(share.values())}}
+    return {"mean_error_px": float((np.minimum(displacement, 1.0).sum() + wrong) / asked), "displacement_px": values,
+            "coverage_percent": percentages({name: count[name] for name in WRONG}, count["judged"])}
 
 
 def _tally(case: Case, truth: Truth, triangle: np.ndarray, position: np.ndarray) -> dict:

@@ -7,11 +7,11 @@ import time
 import bpy
 import numpy as np
 
-from ...core import Settings, reflect
+from ...core import ReflectionError, Settings, reflect
 from ...core.rivals import PrimaryHits, drawn_mesh, primary_hits
 from ..comparison import comparison_pictures, render_pictures
 from ..faults import finished
-from ..judge import CodedMaterials, CopiedScene, copied_scene, dress, reflecting
+from ..judge import CodedMaterials, CopiedScene, copied_scene, mirror_all
 from ..metrics import NOTHING, CodedPicture, measure
 from ..reading import MirrorSurface
 from ..report import Scene
@@ -40,6 +40,9 @@ def scene_report(context: bpy.types.Context, name: str, folder: str, options: Op
     os.makedirs(folder, exist_ok=True)
     with copied_scene(context, case.mirrors, case.diffuse, []) as copied:
         contest = Contest(case, hits, render_truths(context, copied, case))
+        if not all(any(np.isfinite(truth.motion).any() for truth in truths) for truths in (
+                [contest.truths.centres], contest.truths.area)):
+            raise ReflectionError("The mirrors show none of the objects to the camera: move the camera or the objects.")
         judged = (contest.truths.centres, *contest.truths.area)
         options.tell(f"{name}: truth at {sum(len(truth.mirror) for truth in judged):,} places by Cycles, "
                      f"{time.perf_counter() - started:.1f} s")
@@ -70,8 +73,7 @@ def _shown(context: bpy.types.Context, copied: CopiedScene, contest: Contest, fo
     case = contest.case
     result = reflect(case.view, case.mirror, case.scene.mesh, Settings(SHOWN))
     _add(copied, case, result)
-    dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)],
-          CodedMaterials(copied, (0.0, 0.0, 0.0)).plain_mirror())
+    mirror_all(copied, CodedMaterials(copied, (0.0, 0.0, 0.0)).plain_mirror())
     rendered = finished(render_pictures(copied, context.scene, samples))
     picture = drawn_mesh(case.view, result, contest.hits)
     shown = picture.triangle >= 0

@@ -7,7 +7,7 @@ import os
 import bpy
 
 from ...core import ReflectionError
-from ..operators.compare import RAYS, REFERENCE, WHAT, comparison, means_caustics, summary
+from ..operators.compare import RAYS, REFERENCE, WHAT, comparison, means_caustics, remarks_on, summary
 from ..operators.compare_light import Effort, light_comparison, light_summary
 from ..settings import Wanted
 from .options import add_settings, given, text
@@ -44,7 +44,8 @@ def compare(context: bpy.types.Context, options: argparse.Namespace) -> None:
     samples = 0 if options.scene_samples else options.samples
     if options.what == "CAUSTICS" or (options.what == "AUTO" and means_caustics(context)):
         effort = Effort(samples or context.scene.cycles.samples, options.reference, options.rays)
-        print(light_summary(announced(light_comparison(context, folder, effort)), folder))
-        return
-    wanted = Wanted(context.scene, given(options))
-    print(summary(announced(comparison(context, folder, samples, wanted)), folder))
+        report, told = announced(light_comparison(context, folder, effort)), light_summary
+    else:
+        wanted = Wanted(context.scene, given(options))
+        report, told = announced(comparison(context, folder, samples, wanted)), summary
+    print(*remarks_on(context, report), told(report, folder), sep="\n")

@@ -22,6 +22,7 @@ from ..operators.light_remarks import summary as lighting_summary
 from ..operators.light_remarks import unlike_the_mirror
 from ..operators.mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mapping
 from ..operators.print_sheet import DPI, check_print, printing
+from ..operators.rounding import rounding_remarks
 from ..operators.shortcomings import other_meshes, scene_shortcomings
 from ..reading import Participants, choose, shown_by, visible, with_copies
 from ..settings import ATTRIBUTES, Wanted
@@ -142,11 +143,12 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     outcome = announced(generation(context, chosen, wanted, preview=True))
     if options.light:
         outcome = replace(outcome, unlit=[])   # their light comes next
-    told = [*gathered([*outcome.news, *outcome.remarks, *scene_shortcomings(context, chosen, wanted)]),
-            outcome.summary(time.perf_counter() - started)]
+    lacks = scene_shortcomings(context, chosen, wanted)
+    # the view layer knows new objects only from its next update on
+    context.view_layer.update()
+    lacks += rounding_remarks(context, [obj for obj, _ in outcome.results])
+    told = [*gathered([*outcome.news, *outcome.remarks, *lacks]), outcome.summary(time.perf_counter() - started)]
     if options.light:
-        # the view layer knows new objects only from its next update on
-        context.view_layer.update()
         samples = None if options.light is FILES else options.light
         told.append(_lit(context, [obj for obj, _ in outcome.results], samples, options.kind))
     save_blend(path)
@@ -171,7 +173,9 @@ def _caustics(context: bpy.types.Context, options: argparse.Namespace) -> None:
     thrown = announced(throwing(context, chosen, lamps, asked))
     remember(thrown.objects, asked)
     save_blend(path)
+    context.view_layer.update()
     told = thrown.remarks + other_meshes(context.scene, chosen.mirrors + chosen.diffuse)
+    told += rounding_remarks(context, thrown.objects)
     print(*gathered(told), thrown.summary(time.perf_counter() - started), sep="\n")
 
 

@@ -61,8 +61,8 @@ def facts(report: dict) -> dict:
         shown["the same without Cycles' rounded normals"] = _distribution(exact["displacement_px"])
         shown["what rounding moves in Cycles itself"] = _distribution(exact["shift_px"])
     coverage = report["coverage_percent"]
-    shown["hole, spill, wrong layer (%)"] = ", ".join(f"{coverage[name]:.4f}"
-                                                      for name in ("hole", "spill", "wrong_layer"))
+    shown["hole, spill, wrong layer (%)"] = "no mirror pixels" if coverage["all"] is None else ", ".join(
+        f"{coverage[name]:.4f}" for name in ("hole", "spill", "wrong_layer"))
     picture = report["picture"]
     told = [(picture["mirror"], "over the mirror"), (picture["all"], "over the picture")]
     if picture.get("noise"):

@@ -15,13 +15,11 @@ from ..judge import (
     CodedMaterials,
     CodedTruth,
     CopiedScene,
-    clear_before_mirrors,
     cycles_render,
     decode,
-    dress,
     lowest_corner,
+    mirror_all,
     polygons,
-    reflecting,
     show,
 )
 from ..metrics import CodedPicture
@@ -83,13 +81,12 @@ def _renders(context: bpy.types.Context, copied: CopiedScene, diffuse: list, res
     _code_results(copied, results, diffuse, polygons(context, diffuse))
     own = [(slot, slot.material) for copy in copied.everything for slot in copy.material_slots]
     codes = CodedMaterials(copied, lowest_corner(copied))
-    with clear_before_mirrors(copied):
-        coded = yield from _coded_pictures(copied, codes, depth)
+    coded = yield from _coded_pictures(copied, codes, depth)
     if lit(results):
         return Renders(*coded, (yield from render_lit(context, results, samples)))
     for slot, material in own:
         slot.material = material
-    dress([(copy, index) for copy, index in copied.mirrors if not reflecting(copy)], codes.plain_mirror())
+    mirror_all(copied, codes.plain_mirror())
     return Renders(*coded, (yield from render_pictures(copied, context.scene, samples)))
 
 
@@ -138,10 +135,10 @@ def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> G
     exact = (yield from truth.reflected(seen, unrounded=True)) if compat.packs_normals() else None
     truth.end()
     show(copied.results, True)
-    dress(copied.results, codes.attribute("reflection_code"))
+    codes.dress(copied.results, codes.attribute("reflection_code"))
     yield "the faces of the mesh"
     identity = yield from cycles_render.render_codes(copied.scene)
-    dress(copied.results, codes.attribute_position("reflected_position"))
+    codes.dress(copied.results, codes.attribute_position("reflected_position"))
     yield "the positions on the mesh"
     position = yield from cycles_render.render_codes(copied.scene)
     shown = decode(identity, position, codes.origin, True, face_start=1)

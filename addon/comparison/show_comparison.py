@@ -64,7 +64,8 @@ def lines(scene: bpy.types.Scene) -> list[str]:
     if known.p99 is not None:
         told.append(pgettext_iface("Displacement {median:.3f} px, 99 %: {most:.3f} px").format(median=known.median,
                                                                                                most=known.p99))
-    told.append(pgettext_iface("Holes, spill, wrong layer {share:.3f} %").format(share=known.coverage))
+    told.append(pgettext_iface("No mirror pixels to judge") if known.coverage is None else pgettext_iface(
+        "Holes, spill, wrong layer {share:.3f} %").format(share=known.coverage))
     if known.ssim is not None:
         told.append(f"SSIM {known.ssim:.4f}, FLIP {known.flip:.4f}"
                     + (f", PSNR {known.psnr:.1f} dB" if known.psnr is not None else ""))

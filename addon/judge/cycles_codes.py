@@ -6,7 +6,9 @@ from collections import Counter
 import bpy
 import numpy as np
 
+from .. import compat
 from .cycles_scene import CopiedScene
+from .see_through import NEVER, SeeThrough
 
 MIRROR_NORMAL = "reflection_mesh_normal"
 NO_LENGTH = 1e-6
@@ -21,6 +23,23 @@ class CodedMaterials:
     def __init__(self, copied: CopiedScene, origin: tuple[float, float, float]) -> None:
         self._copied = copied
         self.origin = origin
+        self._groups: dict = {}
+        self._dressed: dict = {}
+
+    def dress(self, part: list, code: bpy.types.Material, textures: str = NEVER) -> None:
+        """Put one code on every face of the copies, but where their own materials are open."""
+        for copy, _ in part:
+            for index, slot in enumerate(copy.material_slots):
+                slot.material = self.on(self._copied.own[copy][index], code, textures)
+
+    def on(self, material: bpy.types.Material | None, code: bpy.types.Material, textures: str = NEVER,
+           by_side_alone: bool = False) -> bpy.types.Material:
+        """A code in place of a material, as `SeeThrough` takes it."""
+        key = (material, code, textures, by_side_alone)
+        if key not in self._dressed:
+            see_through = SeeThrough(self._groups[code], textures, by_side_alone, self._copied.owned)
+            self._dressed[key] = see_through.dressed(material) or code
+        return self._dressed[key]
 
     def black(self) -> bpy.types.Material:
         """Hides what is behind and shows nothing."""
@@ -105,20 +124,24 @@ class CodedMaterials:
         return material
 
     def _material(self, name: str):
-        """A material that emits black, its tree, and its emission node."""
-        material = bpy.data.materials.new(f"Code: {name}")
-        self._copied.owned.append(material)
-        if material.node_tree is None:
-            material.use_nodes = True
-        # codes are no lights: nothing is to be sampled from them
-        material.cycles.emission_sampling = "NONE"
-        tree = material.node_tree
-        tree.nodes.clear()
-        emission, output = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputMaterial")
+        """A material that emits black, the tree of its group of nodes, and its emission node."""
+        group = bpy.data.node_groups.new(f"Code: {name}", "ShaderNodeTree")
+        group.interface.new_socket("Surface", in_out="OUTPUT", socket_type="NodeSocketShader")
+        emission, output = group.nodes.new("ShaderNodeEmission"), group.nodes.new("NodeGroupOutput")
         output.name = "Output"
         emission.inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
-        tree.links.new(emission.outputs["Emission"], output.inputs["Surface"])
-        return material, tree, emission
+        group.links.new(emission.outputs["Emission"], output.inputs["Surface"])
+        material = bpy.data.materials.new(f"Code: {name}")
+        self._copied.owned += [group, material]
+        self._groups[material] = group
+        # codes are no lights: nothing is to be sampled from them
+        material.cycles.emission_sampling = "NONE"
+        tree = compat.use_nodes(material)
+        tree.nodes.clear()
+        code, end = tree.nodes.new("ShaderNodeGroup"), tree.nodes.new("ShaderNodeOutputMaterial")
+        code.node_tree = group
+        tree.links.new(code.outputs["Surface"], end.inputs["Surface"])
+        return material, group, emission
 
     def _attribute(self, tree: bpy.types.NodeTree, name: str) -> bpy.types.Node:
         node = tree.nodes.new("ShaderNodeAttribute")

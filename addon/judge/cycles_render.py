@@ -12,6 +12,8 @@ LIGHT = ("sample_clamp_direct", "sample_clamp_indirect", "blur_glossy", "film_ex
          "filter_width", "caustics_reflective", "caustics_refractive", "max_bounces", "diffuse_bounces",
          "glossy_bounces", "transmission_bounces", "transparent_max_bounces", "seed")
 
+LAYERS = 256  # openings that a ray passes where it looks for a code
+
 
 def prepare(scene: bpy.types.Scene, depth: int) -> None:
     """Set a temporary scene up for Cycles on the processor, `depth` reflections and lossless linear pictures.
@@ -40,7 +42,11 @@ def render_codes(scene: bpy.types.Scene) -> Renders[np.ndarray]:
     cycles = scene.cycles
     cycles.samples, cycles.pixel_filter_type, cycles.filter_width = 1, "BOX", 0.01
     cycles.film_exposure = 1.0
-    return (yield from rendering(scene))[..., :3]
+    layers, cycles.transparent_max_bounces = cycles.transparent_max_bounces, LAYERS
+    try:
+        return (yield from rendering(scene))[..., :3]
+    finally:
+        cycles.transparent_max_bounces = layers
 
 
 def render_picture(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene,

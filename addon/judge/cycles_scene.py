@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..faults import still_there
-from ..reading import is_rendered, is_result
+from ..reading import is_rendered, is_result, takes_part
 
 RAYS = ("camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow")
 
@@ -23,6 +23,8 @@ class CopiedScene:
     scene : bpy.types.Scene
     mirrors, diffuse, results, bystanders : list of (copy, index)
         Copied objects; index is that of the mirror, diffuse object or result that a copy belongs to.
+    own : dict of bpy.types.Object to list of bpy.types.Material or None
+        The materials of each copy by slot; of a result those of its sources, which its light hides.
     lights : list of bpy.types.Object
         The user's own, which are lit in pictures alone: codes show nothing but faces.
     owned : list of bpy.types.ID
@@ -34,6 +36,7 @@ class CopiedScene:
     diffuse: list = field(default_factory=list)
     results: list = field(default_factory=list)
     bystanders: list = field(default_factory=list)
+    own: dict = field(default_factory=dict)
     lights: list = field(default_factory=list)
     owned: list = field(default_factory=list)
 
@@ -85,6 +88,7 @@ def _copy_objects(context: bpy.types.Context, copied: CopiedScene, mirrors: list
     part_of = {obj: (part, index) for part, objects in
                ((copied.mirrors, mirrors), (copied.diffuse, diffuse), (copied.results, results))
                for index, obj in enumerate(objects)}
+    by = (copied.bystanders, -1)
     seen = _rendered(context)
     old_results = {obj for obj in context.view_layer.objects if is_result(obj)} - set(results)
     meshes: dict = {}
@@ -100,17 +104,26 @@ def _copy_objects(context: bpy.types.Context, copied: CopiedScene, mirrors: list
         # what becomes a mesh, as text does, comes as that too
         if evaluated.type != "MESH":
             continue
-        part, index = part_of.get(owner, (copied.bystanders, -1))
+        # what an instancer shows, but may not take part itself, stands by
+        there = not instance.is_instance or takes_part(original)
+        part, index = part_of.get(owner, by) if there else by
         key = (evaluated.data.as_pointer(), part is copied.results)
         if key not in meshes:
             meshes[key] = _mesh(evaluated, depsgraph)
             copied.owned.append(meshes[key])
         slots = [slot.material.original if slot.material else None for slot in evaluated.material_slots]
         copy = _placed(copied, anchor, meshes[key], instance.matrix_world.copy(), slots)
+        copied.own[copy] = _own_materials(copy, original if part is copied.results else None)
         for ray in RAYS:
             setattr(copy, f"visible_{ray}", getattr(original, f"visible_{ray}"))
         part.append((copy, index))
     _copy_camera(context, copied, anchor, depsgraph)
+
+
+def _own_materials(copy: bpy.types.Object, result: bpy.types.Object | None) -> list:
+    """The materials of a copy by slot: those of its sources, if it is that of a `result`, whose light hides them."""
+    shown = [slot.material for slot in copy.material_slots] if result is None else list(result.data.materials)
+    return shown + [None] * (len(copy.material_slots) - len(shown))
 
 
 def _rendered(context: bpy.types.Context) -> set:
@@ -127,7 +140,8 @@ def _rendered(context: bpy.types.Context) -> set:
 
 def _mesh(evaluated: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bpy.types.Mesh:
     """A mesh of its own with the modifiers applied; each face knows its number."""
-    mesh = bpy.data.meshes.new_from_object(evaluated, preserve_all_data_layers=True, depsgraph=depsgraph)
+    # with all layers Blender would evaluate the object anew, and of instances of raw geometry their instancer
+    mesh = bpy.data.meshes.new_from_object(evaluated, preserve_all_data_layers=False, depsgraph=depsgraph)
     stale = mesh.attributes.get("polygon_code")
     if stale is not None:
         mesh.attributes.remove(stale)

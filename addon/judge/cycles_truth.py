@@ -12,6 +12,7 @@ from ..rendering import Renders
 from . import cycles_codes, cycles_render
 from .cycles_codes import CodedMaterials
 from .cycles_scene import CopiedScene
+from .see_through import ALWAYS, BEFORE_MIRRORS
 
 
 class CodedTruth:
@@ -22,7 +23,7 @@ class CodedTruth:
 
     def __init__(self, copied: CopiedScene, codes: CodedMaterials, depth: int) -> None:
         self._copied, self._codes = copied, codes
-        self._reflecting = {copy: reflecting(copy) for copy, _ in copied.mirrors}
+        self._reflecting = reflecting(copied)
         self._shown_camera = {copy: copy.visible_camera for copy, _ in copied.mirrors}
         self._black, self._facing, self._mirror = codes.black(), codes.mirror_facing(), codes.mirror(depth)
         self._identity, self._position, self._depth = codes.identity(), codes.position(), depth
@@ -31,14 +32,14 @@ class CodedTruth:
             copy.pass_index = index + 2
         for copy, _ in copied.bystanders:
             copy.visible_glossy = False
-        dress(copied.bystanders, self._black)
+        codes.dress(copied.bystanders, self._black, ALWAYS)
         for copy, _ in copied.mirrors:
             copy.visible_camera = True
         show(copied.results, False)
 
     def mirror(self) -> Renders[tuple[np.ndarray, np.ndarray]]:
         """Pixels (height, width) in which the eye sees a mirror, and those of them where Cycles bends the normal."""
-        dress(self._copied.diffuse, self._black)
+        self._codes.dress(self._copied.diffuse, self._black, BEFORE_MIRRORS)
         self._dress_mirrors(self._facing)
         facing = yield from cycles_render.render_codes(self._copied.scene)
         seen = facing[..., 2] > 0.5
@@ -53,10 +54,10 @@ class CodedTruth:
             cycles_codes.carry_normals(self._copied)
             self._unrounded = self._codes.mirror(self._depth, cycles_codes.MIRROR_NORMAL)
         self._dress_mirrors(self._unrounded if unrounded else self._mirror)
-        dress(self._copied.diffuse, self._identity)
+        self._codes.dress(self._copied.diffuse, self._identity, BEFORE_MIRRORS)
         yield "the faces in the mirror with exact normals" if unrounded else "the faces in the mirror"
         identity = yield from cycles_render.render_codes(self._copied.scene)
-        dress(self._copied.diffuse, self._position)
+        self._codes.dress(self._copied.diffuse, self._position, BEFORE_MIRRORS)
         yield "the positions in the mirror with exact normals" if unrounded else "the positions in the mirror"
         position = yield from cycles_render.render_codes(self._copied.scene)
         return decode(identity, position, self._codes.origin, seen, face_start=0)
@@ -65,26 +66,46 @@ class CodedTruth:
         """Mirrors are seen by the camera as they were; diffuse objects and mirrors are black."""
         for copy, _ in self._copied.mirrors:
             copy.visible_camera = self._shown_camera[copy]
-        dress(self._copied.diffuse, self._black)
-        dress(self._copied.mirrors, self._black)
+        self._codes.dress(self._copied.diffuse, self._black, BEFORE_MIRRORS)
+        self._dress_mirrors(self._black)
 
-    def _dress_mirrors(self, material: bpy.types.Material) -> None:
-        """Put a material on the faces that reflect; where no material of a mirror is one, all of them do."""
+    def _dress_mirrors(self, code: bpy.types.Material) -> None:
+        """Put a code on the faces that reflect; what else the mirrors have is black, or looked through."""
         for copy, _ in self._copied.mirrors:
             for index, slot in enumerate(copy.material_slots):
-                chosen = not self._reflecting[copy] or index in self._reflecting[copy]
-                slot.material = material if chosen else self._black
+                own = self._copied.own[copy][index]
+                if index in self._reflecting[copy]:
+                    slot.material = self._codes.on(own, code, by_side_alone=True)
+                else:
+                    slot.material = self._codes.on(own, self._black, ALWAYS)
 
 
-def dress(part: list, material: bpy.types.Material) -> None:
-    """Put one material on every face of the copies."""
-    for slot in (slot for copy, _ in part for slot in copy.material_slots):
-        slot.material = material
+def reflecting(copied: CopiedScene) -> dict:
+    """The material slots of each copy of a mirror that reflect, as sets by copy.
+
+    They are those of mirror materials. Of a mirror without any mirror material on its faces all reflect, be it one
+    object or many instances.
+    """
+    found = {copy: {slot for slot in _slots_on_faces(copy) if is_mirror(copied.own[copy][slot])}
+             for copy, _ in copied.mirrors}
+    with_mirrors = {index for copy, index in copied.mirrors if found[copy]}
+    return {copy: found[copy] if index in with_mirrors else set(range(len(copy.material_slots)))
+            for copy, index in copied.mirrors}
 
 
-def reflecting(copy: bpy.types.Object) -> set:
-    """The material slots of a mirror that reflect; empty where none is a mirror, and then all faces are to reflect."""
-    return {index for index, slot in enumerate(copy.material_slots) if is_mirror(slot.material)}
+def mirror_all(copied: CopiedScene, material: bpy.types.Material) -> None:
+    """Put a `material` that reflects on mirrors whose own materials do not."""
+    for copy, slots in reflecting(copied).items():
+        if not any(is_mirror(copied.own[copy][slot]) for slot in slots):
+            for slot in copy.material_slots:
+                slot.material = material
+
+
+def _slots_on_faces(copy: bpy.types.Object) -> list:
+    """The material slots that a copy's faces have; as in Blender, the last one where there are too few."""
+    used = np.zeros(len(copy.data.polygons), dtype=np.int32)
+    copy.data.polygons.foreach_get("material_index", used)
+    return np.unique(used.clip(0, len(copy.material_slots) - 1)).tolist()
 
 
 def show(part: list, visible: bool) -> None:

@@ -10,8 +10,10 @@ from .pixel_errors import (
     Measurement,
     measure,
     motion_per_pixel,
+    percentages,
     without_packing,
 )
 
 __all__ = ["CodedPicture", "ITSELF", "Measurement", "NOTHING", "OTHER_SURFACE", "Squares", "added", "light_errors",
-           "light_in_squares", "line_offsets", "measure", "motion_per_pixel", "picture_errors", "without_packing"]
+           "light_in_squares", "line_offsets", "measure", "motion_per_pixel", "percentages",
+           "picture_errors", "without_packing"]

@@ -41,7 +41,7 @@ class Measurement:
         |point shown - true point| in units of that point's motion per pixel; NaN where it is not measured.
     mirror, judged, hole, spill, wrong_layer : (height, width) bool
     numbers : dict
-        Counts of pixels, displacement in pixels, coverage in per cent of the judged pixels.
+        Counts of pixels, displacement in pixels, coverage in per cent of the judged pixels; None without such pixels.
     """
 
     displacement: np.ndarray
@@ -119,15 +119,14 @@ def measure(mirror: np.ndarray, bent: np.ndarray, truth: CodedPicture, shown: Co
     breathe()
     measured = displacement[np.isfinite(displacement)]
     count = int(judged.sum())
-    share = {name: 100.0 * int(mask.sum()) / max(count, 1)
-             for name, mask in (("hole", hole), ("spill", spill), ("wrong_layer", wrong))}
+    share = percentages({"hole": int(hole.sum()), "spill": int(spill.sum()), "wrong_layer": int(wrong.sum())}, count)
     breathe()
     numbers = {
         "mirror_pixels": int(mirror.sum()), "judged_pixels": count, "measured_pixels": len(measured),
         "left_out_mirror_in_mirror": int((mirror & (truth.source == ITSELF)).sum()),
         "left_out_bent_normal": int((mirror & bent & (truth.source != ITSELF)).sum()),
         "displacement_px": _distribution(measured),
-        "coverage_percent": {**share, "all": sum(share.values())},
+        "coverage_percent": share,
     }
     return Measurement(displacement, mirror, judged, hole, spill, wrong, numbers)
 
@@ -153,6 +152,12 @@ def without_packing(mirror: np.ndarray, bent: np.ndarray, packed: CodedPicture, 
     shift = shift[same & np.isfinite(shift)]
     return {"displacement_px": numbers["displacement_px"], "coverage_percent": numbers["coverage_percent"],
             "shift_px": _distribution(shift)}
+
+
+def percentages(counts: dict[str, int], total: int) -> dict[str, float | None]:
+    """Return counts in per cent of a total by name, with their sum as `all`; None if the total is zero."""
+    counts = {**counts, "all": sum(counts.values())}
+    return {name: 100.0 * count / total if total else None for name, count in counts.items()}
 
 
 def _distribution(values: np.ndarray) -> dict:

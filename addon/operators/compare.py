@@ -29,6 +29,7 @@ from . import polls
 from .clear import clear
 from .compare_light import Effort, light_comparison, light_summary
 from .generate import generation
+from .rounding import rounding_remarks
 
 IN_OBJECT_MODE = "Reflections are compared in Object Mode: leave the present mode first."
 # shares of the work: of all of it what generating takes, where something is missing, and of the rest what follows
@@ -204,9 +205,17 @@ class REFLECTIONMESH_OT_compare(UsesSettings, BrowsingOperator, SettingsOptions,
             self.show_used(wanted)
             told, pictures = summary(report, folder), REFLECTION_PICTURES
         remember(context.scene, report, folder)
+        for sentence in remarks_on(context, report):
+            tell(self, {"WARNING"}, sentence)
         if not bpy.app.background:
             show_picture(context.window_manager, load_pictures(folder, pictures)[-1])
         tell(self, {"INFO"}, told)
+
+
+def remarks_on(context: bpy.types.Context, report: dict) -> list[str]:
+    """What to know of a report's numbers."""
+    results = map(context.scene.objects.get, report["results"])
+    return rounding_remarks(context, [result for result in results if result is not None])
 
 
 def summary(report: dict, folder: str) -> str:

@@ -37,6 +37,7 @@ from ..writing import MeshArrays, Reflection, mesh_arrays, nearer, point_arrays,
 from . import polls
 from .assembled import assembled
 from .pressed import ProtectsResults
+from .rounding import rounding_remarks
 from .shortcomings import (
     NONE_SEEN,
     TOO_CLOSE,
@@ -204,6 +205,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator
         lacks = scene_shortcomings(context, chosen, wanted)
         # the view layer knows new objects only from its next update on
         context.view_layer.update()
+        lacks += rounding_remarks(context, [obj for obj, _ in outcome.results])
         if self.select_alone:
             for obj in context.selected_objects:
                 obj.select_set(False)

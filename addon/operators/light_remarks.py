@@ -13,6 +13,7 @@ from ..illumination import is_bumped
 from ..lighting import dull_objects
 from ..reading import has_fog, join_mirror, mirrors_of, read_meshes, read_view, vectors
 from ..reading.materials import reflecting_materials, surface_shaders
+from .rounding import rounding_remarks
 
 NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
 FOG = "Fog before what mirrors show is not in light on the objects: choose Light: Picture for a still."
@@ -39,7 +40,7 @@ def unlike_the_mirror(context: bpy.types.Context, lit: list) -> list[str]:
                f"own."] * bool(random)
             + [f"The material of {listed(bumped)} bends its normals or displaces it, which light on the objects does "
                f"not follow: choose Light: Picture for a still, or model it."] * bool(bumped)
-            + _lost_in_windows(context, lit))
+            + _lost_in_windows(context, lit) + rounding_remarks(context, lit))
 
 
 def _lies_before_mirror(result: bpy.types.Object) -> bool:

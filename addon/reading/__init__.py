@@ -20,6 +20,7 @@ from .meshes import (
     read_mirror,
     read_mirrors,
     read_scene,
+    takes_part,
     vectors,
 )
 from .metaballs import is_part
@@ -71,4 +72,5 @@ __all__ = ["Assembly", "DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA"
            "numbers", "opacities_of", "participants", "read_meshes", "read_mirror", "read_mirrors", "read_scene",
            "read_view", "redraw_lines", "register", "render_size", "rendered_alone", "rendered_collections",
            "rendered_in", "rendered_otherwise", "result_of", "results_of", "root_of", "says_mirror", "seen_in",
-           "shown_by", "unregister", "vectors", "visible", "with_copies", "with_square_pixels", "without_surface"]
+           "shown_by", "takes_part", "unregister", "vectors", "visible", "with_copies", "with_square_pixels",
+           "without_surface"]

@@ -20,7 +20,7 @@ class Comparison(NamedTuple):
     """The numbers of a comparison with Cycles; None where there was nothing to measure."""
 
     resolution: tuple[int, int]
-    coverage: float
+    coverage: float | None
     median: float | None
     p99: float | None
     psnr: float | None
@@ -85,7 +85,10 @@ def _comparison(text: str) -> Comparison | None:
     if not _is_size(size):
         return None
     numbers = {name: known.get(name) for name in Comparison._fields[1:]}
-    if not _is_number(numbers["coverage"]) or not all(value is None or _is_number(value) for value in numbers.values()):
+    if not all(value is None or _is_number(value) for value in numbers.values()):
+        return None
+    # without pixels to judge there is no number at all
+    if numbers["coverage"] is None and any(value is not None for value in numbers.values()):
         return None
     for one, other in (("median", "p99"), ("ssim", "flip")):    # which come together
         if (numbers[one] is None) != (numbers[other] is None):

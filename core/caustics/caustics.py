@@ -20,6 +20,7 @@ from .hiding import screens_of, shades_of
 from .joining import joined
 from .lamps import Lamp
 from .refinement import LitFaces, refined
+from .slivers import Stitched, without_slivers
 
 DETAIL = 1024
 """Pixels across the mirror in the lamp's picture, in which the settings' tolerance is counted."""
@@ -127,8 +128,9 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
     sent = seen.mirror_position[seen.triangles]
     whole = (flux_of(view, sent) * lamp.mean_share(sent)).sum()
     reach = np.ptp(seen.reflected_position, axis=0).max()
+    stitched, bounces = without_slivers(seen), np.asarray(seen.bounces)
     for number, ray_map in enumerate(seen.maps, 1):
-        chosen = np.flatnonzero(seen.bounces == number)
+        chosen = stitched.select(bounces[stitched.origin] == number)
         if not len(chosen):
             continue
         breathe()
@@ -142,15 +144,15 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
     return lit
 
 
-def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, chosen: np.ndarray, receivers: TriangleMesh,
+def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, stitched: Stitched, receivers: TriangleMesh,
            lamp: Lamp) -> LitFaces:
     assert seen.map_face is not None  # a lamp's view tells it
-    triangles, face = seen.triangles[chosen], seen.map_face[chosen]
-    source, points = seen.source_face[chosen], seen.reflected_position.T
+    triangles, face = stitched.triangles, seen.map_face[stitched.origin]
+    source, points = seen.source_face[stitched.origin], seen.reflected_position.T
     normal, parts = receivers.face_normals()[source].T, []
-    for own in portions(len(chosen), AT_ONCE):
+    for own in portions(len(triangles), AT_ONCE):
         corner, owner = triangles[own].T.ravel(), np.tile(face[own], 3)
         uv = ray_map.coordinates(owner, seen.mirror_position[corner].T)
         parts.append(light_at(ray_map, owner, uv, points[:, corner], np.tile(normal[:, own], 3), lamp).of_faces())
-    return LitFaces(triangles, points, face, normal, source, chosen, seen.source_sides[chosen] >= 0,
-                    np.full((len(chosen), 3), np.nan), Corners.joined(parts))
+    return LitFaces(triangles, points, face, normal, source, stitched.origin, stitched.on_side,
+                    np.full((len(triangles), 3), np.nan), Corners.joined(parts))

@@ -12,7 +12,9 @@ from ..support import NothingInView, breathe
 from .caustic_mesh import CausticMesh
 from .energy import amounting, balanced, on_faces, shown_area
 from .refinement import LitFaces
+from .slivers import merged
 
+OF_VERTICES = ("positions", "mirror_position", "image_parity")  # arrays of `CausticMesh`; all others are of faces
 ON_CAUSTIC = 1e-5  # growth of a bundle below which bisection has put a vertex on the caustic
 STRAY = 1e-6  # of the flux: with less, faces with a corner to which no light comes are rounding
 
@@ -42,7 +44,11 @@ def joined(parts: list) -> CausticMesh:
         more = most - entry["met"].shape[1]
         entry["met"] = np.pad(entry["met"], ((0, 0), (0, more)), constant_values=-1)
         entry["cosine"] = np.pad(entry["cosine"], ((0, 0), (0, 0), (0, more)))
-    mesh = CausticMesh(**{name: np.concatenate([entry[name] for entry in found]) for name in found[0]}, counts=counts)
+    arrays = {name: np.concatenate([entry[name] for entry in found]) for name in found[0]}
+    breathe()
+    vertices, triangles, faces = merged(arrays["positions"], arrays["triangles"])
+    kept = {name: values[vertices if name in OF_VERTICES else faces] for name, values in arrays.items()}
+    mesh = CausticMesh(**{**kept, "triangles": triangles}, counts=counts)
     breathe()
     area = areas(mesh.positions[mesh.triangles])
     return replace(mesh, irradiance=amounting(mesh.irradiance, mesh.flux, area))

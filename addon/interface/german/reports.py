@@ -92,6 +92,10 @@ KEPT = {
     "Updated too, as a copy: {}.": "Auch erneuert, als Kopie: {}.",
     "'{}' shows other faces than before, and has lost what was made for those: {}.":
         "'{}' zeigt andere Flächen als vorher, und hat verloren, was für diese gemacht war: {}.",
+    "Blender rounds places so far from the origin to {} units, or {} pixels, and renders are noisy. Move the whole "
+    "scene to the origin, or import it with an offset.":
+        "So weit vom Ursprung rundet Blender Orte auf {} Einheiten, oder {} Pixel, und Bilder rauschen. Verschiebe die "
+        "ganze Szene zum Ursprung, oder importiere sie mit einem Versatz.",
     "Left out because it is hidden: '{}'.": "Ausgelassen, weil ausgeblendet: '{}'.",
     "Left out because it has no faces: '{}'.": "Ausgelassen, weil ohne Flächen: '{}'.",
     "Left out because it is not in this scene: '{}'.": "Ausgelassen, weil nicht in dieser Szene: '{}'.",

@@ -289,6 +289,7 @@ PANELS = {
     "{share:.3f} % filled by rays": "{share:.3f} % mit Strahlen gefüllt",
     "Against Cycles at {width} x {height}": "Gegen Cycles bei {width} x {height}",
     "Displacement {median:.3f} px, 99 %: {most:.3f} px": "Verschoben um {median:.3f} px, 99 %: {most:.3f} px",
+    "No mirror pixels to judge": "Keine Spiegelpixel zu beurteilen",
     "Holes, spill, wrong layer {share:.3f} %": "Löcher, Überstand, falsche Schicht {share:.3f} %",
     "Caustics PSNR {mesh:.1f} dB; Cycles' own, {samples} samples: {own:.1f} dB":
         "Kaustik PSNR {mesh:.1f} dB; die von Cycles, {samples} Samples: {own:.1f} dB",

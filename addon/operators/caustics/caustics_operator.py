@@ -12,6 +12,7 @@ from ...settings import UsesSettings, option
 from ...writing import protect
 from .. import polls
 from ..pressed import ProtectsResults
+from ..rounding import rounding_remarks
 from ..shortcomings import other_meshes
 from .asked import asked_again, remember
 from .caustic_scene import IN_OBJECT_MODE
@@ -61,6 +62,7 @@ class REFLECTION_MESH_OT_caustics(UsesSettings, ProtectsResults, SteppedOperator
                 setattr(self, name, used(*pairs[0]))
         context.view_layer.update()
         remarks = thrown.remarks + other_meshes(context.scene, chosen.mirrors + chosen.diffuse)
+        remarks += rounding_remarks(context, thrown.objects)
         tell_done(self, [thrown.summary(time.perf_counter() - started)], remarks)
 
 

@@ -129,7 +129,7 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, kno
         owner = owner_of.get(instance.parent.original if instance.is_instance else original)
         if owner is None:
             continue
-        if instance.is_instance and not (is_rendered(instance, given) and _takes_part(original)
+        if instance.is_instance and not (is_rendered(instance, given) and takes_part(original)
                                          and (mirror or unmirrored or original.visible_glossy)):
             continue
         materials = tuple(slot.material.original if slot.material else None for slot in evaluated.material_slots)
@@ -182,7 +182,8 @@ def _name(instance: bpy.types.DepsgraphObjectInstance, materials: tuple, mirror:
             asked[materials]), frozenset(uids)
 
 
-def _takes_part(obj: bpy.types.Object) -> bool:
+def takes_part(obj: bpy.types.Object) -> bool:
+    """Return True for an object that may be read as an instance, by its role."""
     return obj.reflection_mesh.role not in {"IGNORE", "REFLECTION", "CAUSTICS"}
 
 

@@ -24,7 +24,7 @@ def faces_of(lamp: Lamp, mirror: TriangleMesh, receiver: TriangleMesh):
     view, = lamp.views(mirror, None, None, room.DETAIL)
     seen = reflect(view, mirror, receiver, SETTINGS, mirror)
     ray_map, = seen.maps
-    faces = room._faces(ray_map, seen, np.arange(len(seen.triangles)), receiver, lamp)
+    faces = room._faces(ray_map, seen, room.without_slivers(seen), receiver, lamp)
     whole = flux_of(view, seen.mirror_position[seen.triangles]).sum()
     reach = np.ptp(seen.reflected_position, axis=0).max()
     faces, _ = refined(ray_map, faces, receiver, lamp, (room.LEAST * whole, room.FINEST * reach), 10**6)
