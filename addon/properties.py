@@ -14,6 +14,7 @@ from bpy.props import (
 )
 
 from . import compat
+from .lighting import update_mattes
 from .reading import forget_known
 from .settings import SettingsOfMirror, SettingsOfScene, make_own
 
@@ -40,8 +41,13 @@ def _after_role(_record, _context: bpy.types.Context) -> None:
     forget_known()
 
 
+def _after_matte(_record, context: bpy.types.Context) -> None:
+    if context.scene is not None:
+        update_mattes(context)
+
+
 class ReflectionSource(bpy.types.PropertyGroup):
-    """One diffuse object of a result."""
+    """One diffuse object of a result, or one part of its mirror."""
 
     object: PointerProperty(name="Object", type=bpy.types.Object, override=OVERRIDABLE)
 
@@ -58,10 +64,15 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
 
     role: EnumProperty(name="Role", description="Role of this object in reflections", items=ROLES,
                        default="AUTO", override=OVERRIDABLE, update=_after_role)
+    matte: BoolProperty(name="Matte", description="Reflections show this object in a pass of its own, for compositing: "
+                        "1 where it is seen in a mirror, 0 elsewhere", default=False, override=OVERRIDABLE,
+                        options=set(), update=_after_matte)
     own_settings: BoolProperty(name="Own Settings", description="Use settings of this mirror instead of the scene's "
                                "settings", default=False, override=OVERRIDABLE, options=set(), update=_begin_own)
     mirror: PointerProperty(name="Mirror", description="The mirror of this reflection", type=bpy.types.Object,
                             override=OVERRIDABLE)
+    parts: CollectionProperty(name="Parts", description="The objects that its mirror is joined from; none: it is one",
+                              type=ReflectionSource, override=GROWING)
     lamp: PointerProperty(name="Lamp", description="The lamp of these caustics", type=bpy.types.Object,
                           override=OVERRIDABLE)
     eyes: IntProperty(name="Lamp Places", description="On how many places of its lamp these caustics come from")
@@ -122,6 +133,7 @@ class ReflectionScene(SettingsOfScene, bpy.types.PropertyGroup):
     comparison: StringProperty(name="Comparison", description="Numbers of the last comparison with Cycles, as JSON")
     seen_by: PointerProperty(name="Seen By", description="The camera whose reflections are shown; none: all are",
                              type=bpy.types.Object)
+    mattes: StringProperty(name="Mattes", description="Passes that view layers have for mattes, a line each")
     collection: PointerProperty(name="Collection", description="Where results made in a window go",
                                 type=bpy.types.Collection)
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...core import View, breathe
 from ...core.geometry import doubled_areas
-from ..reading import DiffuseScene, corner_vertices, moves, numbers, vectors
+from ..reading import DiffuseScene, corner_vertices, mirrors_of, moves, numbers, vectors
 from .seen_sources import triangle_of, weights_of
 
 TURNED = 0.17      # sine of the angle by which a mirror may still be turned, or moved, before it shows other sides
@@ -38,7 +38,7 @@ def pixels_shown(results: list, view: View) -> float:
 def sides_before_mirrors(results: list, scene: DiffuseScene) -> np.ndarray:
     """Whether mirrors may show the front, and the back, of triangles, (2, m) bool, from wherever they are looked at:
     they do not see what looks away from all of them."""
-    mirrors = [result.reflection_mesh.mirror for result in results]
+    mirrors = [mirror for result in results for mirror in mirrors_of(result)]
     if any(mirror.type != "MESH" or moves(mirror) for mirror in mirrors) or any(map(_shows_mirrors, results)):
         return np.ones((2, len(scene.mesh.triangles)), dtype=bool)
     corners = scene.mesh.positions[scene.mesh.triangles]

@@ -10,7 +10,7 @@ import numpy as np
 from ...core import TriangleMesh, View, breathe
 from ...core.geometry import area_normals, unit
 from ...core.trees import BoxTree, first_hits
-from ..reading import corner_vertices, join_scene, numbers, read_meshes, vectors
+from ..reading import corner_vertices, join_scene, mirrors_of, numbers, read_meshes, vectors
 
 NEAR = 1e-5     # of what mirrors measure: what comes nearer touches
 ASKED = 1024    # faces of a result that tell which side of its mirror reflects
@@ -61,7 +61,7 @@ class MirrorBodies:
 
 def mirror_bodies(context: bpy.types.Context, results: list, view: View) -> MirrorBodies:
     """The mirrors of `results`, that `view` sees."""
-    mirrors = list(dict.fromkeys(result.reflection_mesh.mirror for result in results))
+    mirrors = list(dict.fromkeys(mirror for result in results for mirror in mirrors_of(result)))
     placed = read_meshes(context.evaluated_depsgraph_get(), mirrors, mirror=True)
     if not placed:
         nothing = TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))

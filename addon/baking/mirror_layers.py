@@ -8,8 +8,8 @@ import numpy as np
 from ...core import View
 from ...core.geometry import unit
 from ...core.trees import BoxTree, first_hits
-from ..mirror_part import BACK, MATERIAL, OWN_NORMAL, OWN_PLACE, own_layer
-from ..reading import DiffuseScene, corner_vertices, numbers, read_scene, vectors
+from ..mirror_part import BACK, GENERATED, MATERIAL, OWN_NORMAL, OWN_PLACE, own_layer
+from ..reading import DiffuseScene, corner_vertices, mirrors_of, numbers, read_scene, seen_in, vectors
 from ..reading.materials import reflecting_materials
 from ..writing import FIELDS, NORMAL
 from .seen_sources import barycentric
@@ -21,35 +21,48 @@ def write_mirror_layers(result: bpy.types.Object, view: View, asked: set[str]) -
     A face lies in one triangle of the mirror, or over several: there those of its middle are carried on, so that no
     seam between islands runs through it.
     """
-    mirror, mesh = result.reflection_mesh.mirror, result.data
-    if mirror is None:
+    mirrors, mesh = mirrors_of(result), result.data
+    own = {own_layer(name) for mirror in mirrors if mirror.type == "MESH" for name in mirror.data.attributes.keys()}
+    by_part = {OWN_NORMAL, OWN_PLACE, own_layer(GENERATED)} if len(mirrors) > 1 else set()
+    if not mirrors or asked.isdisjoint(own | by_part | {BACK, MATERIAL}):
+        if mirrors:
+            _write_own_space(mesh, mirrors, np.zeros(len(mesh.vertices), dtype=np.int64), asked)
         return
-    to_world = np.array(mirror.matrix_world, dtype=np.float64)
-    if OWN_NORMAL in asked and NORMAL in mesh.attributes:
-        _write(mesh, OWN_NORMAL, "FLOAT_VECTOR", "POINT", unit((vectors(mesh, NORMAL) @ to_world[:3, :3]).T).T)
-    if OWN_PLACE in asked:
-        # a mirror of no thickness has no way back along it
-        own_place = (vectors(mesh, "mirror_position") - to_world[:3, 3]) @ np.linalg.pinv(to_world[:3, :3]).T
-        _write(mesh, OWN_PLACE, "FLOAT_VECTOR", "POINT", own_place)
-    own = {own_layer(name) for name in mirror.data.attributes.keys()} if mirror.type == "MESH" else set()
-    if asked.isdisjoint(own | {BACK, MATERIAL}):
-        return
-    surface = read_scene(bpy.context.evaluated_depsgraph_get(), [mirror])
-    places = vectors(mesh, "mirror_position")[corner_vertices(mesh)]
+    known, is_seen = reflecting_materials(mirrors), seen_in(bpy.context)
+    mirrors = [mirror for mirror in mirrors if is_seen(mirror)] or mirrors
+    surface = read_scene(bpy.context.evaluated_depsgraph_get(), mirrors)
+    corner_points = corner_vertices(mesh)
+    places = vectors(mesh, "mirror_position")[corner_points]
     triangle = _triangles(mesh, surface, places, view)
+    part = np.zeros(len(mesh.vertices), dtype=np.int64)
+    part[corner_points] = surface.source_object[triangle][:, None]
+    _write_own_space(mesh, mirrors, part, asked)
     corners = surface.mesh.positions[surface.mesh.triangles[triangle]]
     if BACK in asked:
         _, ahead = view.rays(view.pixels(places.mean(axis=1)))
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         _write(mesh, BACK, "FLOAT", "FACE", np.einsum("ni,ni->n", normals, ahead) > 0.0)
     if MATERIAL in asked:
-        known = reflecting_materials(mirror)
         number = np.array([known.index(one) if one in known else 0 for one in surface.materials])
         _write(mesh, MATERIAL, "FLOAT", "FACE", number[surface.material[triangle]])
     weights = barycentric(corners, places)
     for name, (kind, values) in _layers(surface):
         if own_layer(name) in asked:
             _write(mesh, own_layer(name), kind, "CORNER", np.matmul(weights, values[triangle]))
+
+
+def _write_own_space(mesh: bpy.types.Mesh, mirrors: list, part: np.ndarray, asked: set[str]) -> None:
+    """Tell each point of a result its mirror's normal and its place in the mirror's own space; `part` (n,) numbers the
+    mirrors."""
+    to_world = np.array([mirror.matrix_world for mirror in mirrors], dtype=np.float64)
+    if OWN_NORMAL in asked and NORMAL in mesh.attributes:
+        turned = np.einsum("ni,nij->nj", vectors(mesh, NORMAL), to_world[part, :3, :3])
+        _write(mesh, OWN_NORMAL, "FLOAT_VECTOR", "POINT", unit(turned.T).T)
+    if OWN_PLACE in asked:
+        # a mirror of no thickness has no way back along it
+        back = np.linalg.pinv(to_world[:, :3, :3])[part]
+        own_place = np.einsum("nij,nj->ni", back, vectors(mesh, "mirror_position") - to_world[part, :3, 3])
+        _write(mesh, OWN_PLACE, "FLOAT_VECTOR", "POINT", own_place)
 
 
 def _write(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, values: np.ndarray) -> None:
@@ -65,6 +78,7 @@ def _layers(surface: DiffuseScene):
     for name, (_, values) in surface.colours.items():
         yield name, ("FLOAT_COLOR", values)
     yield from surface.numbers.items()
+    yield GENERATED, ("FLOAT_VECTOR", surface.generated)
 
 
 class _Padded:

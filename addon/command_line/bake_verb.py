@@ -9,6 +9,7 @@ from itertools import chain
 import bpy
 
 from ...core import ReflectionError
+from ..faults import gathered
 from ..files import check_place, chosen_folder, save_blend
 from ..frames import FrameRecord
 from ..illumination import meant_lamps
@@ -98,7 +99,7 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
         save_blend(path)
         told.append(f"Saved: '{path}'")
     plans = [baked.plan for baked in made]
-    print(*told, summary(plans, elsewhere + len(done), time.perf_counter() - started), sep="\n", flush=True)
+    print(*gathered(told), summary(plans, elsewhere + len(done), time.perf_counter() - started), sep="\n", flush=True)
 
 
 def _check(options: argparse.Namespace) -> None:

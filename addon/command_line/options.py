@@ -54,6 +54,12 @@ def add_settings(parser: argparse.ArgumentParser, only: tuple[str, ...] = SETTIN
         parser.add_argument(f"--{name.replace('_', '-')}", **asked[name])
 
 
+def add_join_parts(parser: argparse.ArgumentParser) -> None:
+    """The option for mirrors of several parts."""
+    parser.add_argument("--join-parts", action=argparse.BooleanOptionalAction,
+                        help="mirrors that have one topmost parent share one reflection (else as the file has it)")
+
+
 def add_light(parser: argparse.ArgumentParser, option: str) -> None:
     """The option for where light is kept."""
     parser.add_argument(option, dest="kind", choices=[item[0] for item in LIGHTS],

@@ -11,7 +11,7 @@ from dataclasses import replace
 import bpy
 
 from ... import core
-from ..faults import STATUS, sentence
+from ..faults import STATUS, gathered, sentence
 from ..files import check_place, save_blend
 from ..illumination import chosen_lamps
 from ..operators.caustics import asked_again, remember, throwing
@@ -30,7 +30,7 @@ from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
 from .compare_verb import add_compare
 from .opening import open_file
-from .options import add_light, add_own, add_settings, given, text
+from .options import add_join_parts, add_light, add_own, add_settings, given, text
 from .place import add_place, placed
 from .progress import announced
 
@@ -68,6 +68,7 @@ def _parser() -> argparse.ArgumentParser:
     add_settings(generate)
     generate.add_argument("--attributes", choices=[item[0] for item in ATTRIBUTES],
                           help="what points and faces know (else as the file has it)")
+    add_join_parts(generate)
     _add_participants(generate)
     generate.add_argument("--light", type=int, nargs="?", const=FILES, default=0, metavar="N",
                           help="light them too, with N samples per pixel (else the file's)")
@@ -146,7 +147,8 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
     # the view layer knows new objects only from its next update on
     context.view_layer.update()
     lacks += rounding_remarks(context, [obj for obj, _ in outcome.results])
-    told = [*outcome.news, *outcome.remarks, *outcome.dropped, *lacks, outcome.summary(time.perf_counter() - started)]
+    told = [*gathered([*outcome.news, *outcome.remarks, *outcome.dropped, *lacks]),
+            outcome.summary(time.perf_counter() - started)]
     if options.light:
         samples = None if options.light is FILES else options.light
         told.append(_lit(context, [obj for obj, _ in outcome.results], samples, options.kind))
@@ -175,7 +177,7 @@ def _caustics(context: bpy.types.Context, options: argparse.Namespace) -> None:
     context.view_layer.update()
     told = thrown.remarks + other_meshes(context.scene, chosen.mirrors + chosen.diffuse)
     told += rounding_remarks(context, thrown.objects)
-    print(*told, thrown.summary(time.perf_counter() - started), sep="\n")
+    print(*gathered(told), thrown.summary(time.perf_counter() - started), sep="\n")
 
 
 def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None:
@@ -188,7 +190,7 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     settings = map_settings(Wanted(context.scene, given(options)), chosen)
     choices = Choices(options.target, options.fills, options.picture or "")
     outcome = announced(mapping(context, chosen, settings, choices))
-    told = [*outcome.remarks, outcome.summary(time.perf_counter() - started)]
+    told = [*gathered(outcome.remarks), outcome.summary(time.perf_counter() - started)]
     if sheet is not None:
         if len(outcome.objects) > 1:
             raise core.ReflectionError("One sheet is printed at a time: name it with --mirror and --diffuse.")

@@ -41,7 +41,7 @@ def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
     known.update({name: tuple(getattr(record, name)) for name in NUMBERS})
     made_of = [entry.material for entry in record.materials]
     hidden = obj.hide_render, obj.hide_viewport
-    sources = [source.object for source in record.sources]
+    lists = [(entries, [entry.object for entry in entries]) for entries in (record.sources, record.parts)]
     slots = [(slot.link, slot.material) for slot in obj.material_slots]
 
     def back() -> None:
@@ -51,9 +51,10 @@ def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
             setattr(obj, name, values)
         for name, value in known.items():
             setattr(record, name, value)
-        record.sources.clear()
-        for source in sources:
-            record.sources.add().object = source
+        for entries, objects in lists:
+            entries.clear()
+            for one in objects:
+                entries.add().object = one
         obj.hide_render, obj.hide_viewport = hidden
         record.materials.clear()
         for material in made_of:

@@ -11,6 +11,8 @@ from collections.abc import Iterable
 import bpy
 from bpy.app.translations import pgettext_iface, pgettext_rpt
 
+from .gathered import ALSO, gathered
+
 DEEPEST = 3     # sentences inside sentences
 FIELD = re.compile(r"\{(\w*)\}")
 ANYTHING, NUMBERS = "(.*?)", r"([\d., ]+?)"
@@ -26,12 +28,14 @@ def know_sentences(sentences: Iterable[str]) -> None:
     """Look for these sentences, which translations are registered of, in what is told from now on."""
     _known.clear()
     # first those that say most by themselves
-    for sentence in sorted(sentences, key=lambda sentence: -len(FIELD.sub("", sentence))):
+    for sentence in sorted(sentences, key=lambda sentence: (sentence != ALSO, -len(FIELD.sub("", sentence)))):
         letters = sum(map(str.isalpha, FIELD.sub("", sentence)))
         part = 0 < letters <= SHORT and ":" not in sentence and not sentence.endswith(".")
-        words = map(re.escape, re.split(r"\{\w*\}", sentence))
-        pattern = re.compile((NUMBERS if part else ANYTHING).join(words), re.DOTALL)
-        _known.append((pattern, sentence, FIELD.findall(sentence)))
+        # texts and the names of the fields between them take turns
+        pieces = FIELD.split(sentence)
+        pieces[::2] = map(re.escape, pieces[::2])
+        pieces[1::2] = [NUMBERS if part and name != "names" else ANYTHING for name in pieces[1::2]]
+        _known.append((re.compile("".join(pieces), re.DOTALL), sentence, FIELD.findall(sentence)))
 
 
 def one_or_more(count: int, one: str, many: str, **more) -> str:
@@ -45,11 +49,11 @@ def tell(operator: bpy.types.Operator, kinds: set[str], sentence: str) -> None:
 
 
 def tell_done(operator: bpy.types.Operator, done: list[str], remarks: list[str]) -> None:
-    """Report what was done, and then what is to be said against it, what matters most last: that is what the status bar
-    shows, and the rest stands in the Info editor."""
+    """Report what was done, and then what is to be said against it, each kind once, what matters most last: that is
+    what the status bar shows, and the rest stands in the Info editor."""
     for sentence in done:
         tell(operator, {"INFO"}, sentence)
-    for remark in reversed(remarks):
+    for remark in reversed(gathered(remarks)):
         tell(operator, {"WARNING"}, remark)
 
 

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 import bpy
 
 from ..faults import still_there
+from ..reading import mirrors_of
 from ..writing import as_shown
 
 RECORD = ("mirror", "camera", "window")
@@ -16,9 +17,10 @@ RECORD = ("mirror", "camera", "window")
 def set_aside(context: bpy.types.Context, mirrors: list, role: str = "REFLECTION") -> Iterator[None]:
     """Within, `mirrors` have no results of a role and renders show none; the frame and the camera may change."""
     scene = context.scene
+    parts = set(mirrors)
     frame, subframe, camera = scene.frame_current, scene.frame_subframe, scene.camera
     results = [obj for obj in scene.objects if obj.reflection_mesh.role == role and obj.library is None
-               and obj.reflection_mesh.mirror in mirrors]
+               and not parts.isdisjoint(mirrors_of(obj))]
     shown = as_shown(scene)
     hidden = [(obj, obj.hide_render) for obj in results]
     known = [(obj, {name: getattr(obj.reflection_mesh, name) for name in RECORD}) for obj in results]

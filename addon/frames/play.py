@@ -9,8 +9,16 @@ import numpy as np
 
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from ..lighting import forget_light, forget_previews, new_material
-from ..reading import camera_of, every_result_of, render_size, results_of
-from ..writing import forget_nodes, hide_discs, new_object, result_name, set_window, show_own_materials
+from ..reading import Assembly, camera_of, every_result_of, render_size, results_of
+from ..writing import (
+    forget_nodes,
+    hide_discs,
+    new_object,
+    remember_parts,
+    result_name,
+    set_window,
+    show_own_materials,
+)
 from .play_nodes import NAME, unpacking_nodes
 from .sequence import Sequence, keyed
 from .write_frame import MESH_PATH, OBJECT_PATH
@@ -33,7 +41,7 @@ class Player:
         Whether there are frames that show `materials`, from slots of their own, beside those that show light.
     """
 
-    mirror: bpy.types.Object
+    joint: Assembly
     sequence: Sequence
     cache: bpy.types.CacheFile
     nodes: bpy.types.NodeTree
@@ -41,8 +49,13 @@ class Player:
     light: bpy.types.Material | None
     unlit_apart: bool
 
+    @property
+    def mirror(self) -> bpy.types.Object:
+        """The object that the result points to."""
+        return self.joint.mirror
 
-def player_of(sequence: Sequence, mirror: bpy.types.Object, light: bpy.types.Material | None,
+
+def player_of(sequence: Sequence, joint: Assembly, light: bpy.types.Material | None,
               whole: AllOrNothing, key: str = "") -> Player:
     """Read the files of one mirror; nothing that the user has is changed.
 
@@ -53,7 +66,7 @@ def player_of(sequence: Sequence, mirror: bpy.types.Object, light: bpy.types.Mat
     light : bpy.types.Material or None
         What shows the sequence's light, from `light_of`.
     """
-    known = [record.results[key or mirror.name] for record in sequence.records]
+    known = [record.results[key or joint.mirror.name] for record in sequence.records]
     materials = sorted({entry for result in known for entry in result.materials})
     attributes = sorted({entry for result in known for entry in result.attributes})
     lit = light is not None and any(result.lit for result in known)
@@ -61,14 +74,15 @@ def player_of(sequence: Sequence, mirror: bpy.types.Object, light: bpy.types.Mat
     nodes = unpacking_nodes(attributes, materials, apart)
     whole.undo(_remove, nodes)
     cache = _cache(sequence, [result.file for result in known], whole)
-    return Player(mirror, sequence, cache, nodes, materials, light if lit else None, apart)
+    return Player(joint, sequence, cache, nodes, materials, light if lit else None, apart)
 
 
 def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOrNothing) -> bpy.types.Object:
     """Let the result of a mirror play: the one that it has, or a new one."""
     mirror = player.mirror
     obj = _object(context, player, whole)
-    keep_mirror(mirror, whole)
+    for part in player.joint.members:
+        keep_mirror(part, whole)
     show_own_materials(obj)
     whole.after(forget_previews)
     record = obj.reflection_mesh
@@ -80,6 +94,7 @@ def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOr
         record.materials.add().material = material
     record.role, record.mirror, record.faces, record.points = "REFLECTION", mirror, 0, 0
     record.resolution = render_size(context.scene)
+    remember_parts(record, player.joint)
     record.sources.clear()
     for source in sources:
         record.sources.add().object = source
@@ -160,7 +175,7 @@ def _object(context: bpy.types.Context, player: Player, whole: AllOrNothing) -> 
     earlier = results_to_play(context, player)
     if not earlier:
         others = every_result_of(context, mirror)
-        obj = new_object(context, mirror, whole)
+        obj = new_object(context, player.joint, whole)
         if sequence.name or (sequence.camera and others):
             # the scene's camera may be another one
             obj.name = result_name(mirror, sequence.name or sequence.camera)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..reading import Participants, read_view
+from ..reading import Assembly, Participants, read_view
 from .lamps import lamps_of
 from .made_from import difference, origin_of, read_record, record_of
 
@@ -13,11 +13,13 @@ LIGHT = ""  # no mirror is called so
 def frame_origin(context: bpy.types.Context, chosen: Participants | None, lit: bool) -> dict[str, str]:
     """The records of what the open frame's results are made from, by the names of their mirrors; where the frame is
     `lit`, a digest of its lamps as well."""
-    mirrors = [] if chosen is None else chosen.mirrors
+    mirrors = [] if chosen is None else [one.among(chosen.mirrors) for one in chosen.assemblies or
+                                         map(Assembly.of, chosen.mirrors)]
     # in an order that does not go by what is selected
     sources = [] if chosen is None else sorted(chosen.diffuse, key=lambda obj: obj.name_full)
     depsgraph, view = context.evaluated_depsgraph_get(), read_view(context)
-    made = {mirror.name: record_of(origin_of(depsgraph, view, mirror, sources), {}) for mirror in mirrors}
+    made = {one.mirror.name: record_of(origin_of(depsgraph, view, one.parts, sources), {}) for one in mirrors
+            if one.parts}
     return {**made, LIGHT: lamps_of(context)} if lit else made
 
 

@@ -12,7 +12,7 @@ import bpy
 
 from ...core import ReflectionError, View
 from ..frames import plays
-from ..reading import is_gone, is_result, read_view, render_size
+from ..reading import is_result, lost_mirror, mirrors_of, read_view, render_size
 from .answers import answer
 from .made_from import LONGEST, SIZE_DIFFERS, same_view, view_numbers
 from .materials import SIZE
@@ -35,7 +35,7 @@ FAST_GI = ("ao_factor", "distance")  # of the world's light_settings
 def lit_record(context: bpy.types.Context, view: View, lit: Iterable[bpy.types.Object], settings: dict) -> dict:
     """Return by result the text that it keeps, if `lit` are lit together now; `settings` are those of the operator."""
     lit = list(lit)
-    mirrors = [result.reflection_mesh.mirror for result in lit]
+    mirrors = [mirror for result in lit for mirror in mirrors_of(result)]
     names = sorted({mirror.name_full for mirror in mirrors})
     known = {"view": [float(f"{number:.8g}") for number in view_numbers(view)], "mirrors": names, "lit_with": settings}
     return {result: json.dumps({**known, **_inputs(context, result, _sources(result), mirrors)}) for result in lit}
@@ -52,7 +52,7 @@ def why_light_differs(context: bpy.types.Context, result: bpy.types.Object) -> s
     As cheap as a look: the answer is kept until something changes again.
     """
     record = result.reflection_mesh
-    if record.light_material is None or not record.lit_from or plays(result) or is_gone(record.mirror):
+    if record.light_material is None or not record.lit_from or plays(result) or lost_mirror(result):
         return ""
     camera = context.scene.camera
     return answer(_changed, context, result, (record.lit_from, _settings(context), render_size(context.scene),
@@ -80,12 +80,12 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
             return SIZE_DIFFERS
         if not same_view(made["view"], numbers):
             return DIFFERENT["view"]
-    names, mirrors = set(made["mirrors"]), {record.mirror}
+    names, mirrors = set(made["mirrors"]), {*mirrors_of(result)}
     for obj in context.scene.objects:
         if obj.name_full in names:
             mirrors.add(obj)
         elif is_result(obj) and obj.reflection_mesh.light_material == record.light_material:
-            mirrors.add(obj.reflection_mesh.mirror)
+            mirrors |= {*mirrors_of(obj)}
     now = _inputs(context, result, sources, mirrors - {None})
     left_out = set() if record.light_map is None else OF_A_VIEW
     return next((sentence for name, sentence in DIFFERENT.items()
@@ -95,15 +95,15 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
 def _inputs(context: bpy.types.Context, result: bpy.types.Object, sources: list,
             mirrors: Iterable[bpy.types.Object]) -> dict:
     """Digests of all that a result's light depends on but its view, by the names of `DIFFERENT`."""
-    shown, own = rendered(context), result.reflection_mesh.mirror
+    shown, own = rendered(context), {mirror.session_uid for mirror in mirrors_of(result)}
     moving = {mirror.session_uid for mirror in mirrors}
     part_of = [shown.objects.get(source.session_uid, b"") for source in sources if source is not None]
     others = [digest for uid, digest in shown.objects.items() if uid not in moving]
     # what moves with the view may be another mirror of the same light
-    mirror = [shown.objects.get(uid, b"") for uid in moving - {own.session_uid}]
+    mirror = [shown.objects.get(uid, b"") for uid in moving - own]
     materials = [shown.materials[uid] + (b"" if uid in moving else shown.objects[uid]) for uid in shown.materials]
     return {"sources": _digest(part_of),
-            "mirror": _digest([*mirror, b"own" + shown.objects.get(own.session_uid, b"")]),
+            "mirror": _digest([*mirror, *(b"own" + shown.objects.get(uid, b"") for uid in own)]),
             "objects": _digest(others), "materials": _digest(materials), "lamps": shown.lamps,
             "settings": _settings(context)}
 

@@ -10,7 +10,7 @@ import numpy as np
 from ...core import ReflectionError, View
 from ..frames import plays
 from ..lighting import shows_preview
-from ..reading import is_gone, lines_drawn, looked_through, read_view
+from ..reading import is_gone, lines_drawn, looked_through, lost_mirror, mirrors_of, read_view
 from ..settings import SETTINGS, Wanted
 from . import digests
 from .answers import answer
@@ -37,12 +37,12 @@ class Origin(NamedTuple):
     through: bool | None
 
 
-def origin_of(depsgraph: bpy.types.Depsgraph, view: View, mirror: bpy.types.Object, sources: list) -> Origin:
-    """What a result would be made from now."""
-    return Origin(view_numbers(view), digests.digest_of(depsgraph, [mirror]),
+def origin_of(depsgraph: bpy.types.Depsgraph, view: View, mirrors: list, sources: list) -> Origin:
+    """What a result of `mirrors`, one or the parts of one, would be made from now."""
+    return Origin(view_numbers(view), digests.digest_of(depsgraph, mirrors),
                   digests.digest_of_shown(depsgraph, sources),
-                  materials_of([mirror, *sources]), colours_of([mirror, *sources]), lines_drawn(depsgraph.scene),
-                  looked_through(depsgraph, [mirror], sources))
+                  materials_of([*mirrors, *sources]), colours_of([*mirrors, *sources]), lines_drawn(depsgraph.scene),
+                  looked_through(depsgraph, mirrors, sources))
 
 
 def record_of(origin: Origin, settings: dict) -> str:
@@ -74,7 +74,7 @@ def why_stale(context: bpy.types.Context, result: bpy.types.Object) -> str:
     record = result.reflection_mesh
     if plays(result):
         return ""
-    if is_gone(record.mirror):
+    if lost_mirror(result):
         return "its mirror is gone, deleted or joined to another object: clear it"
     if not record.made_from:
         return ""
@@ -95,7 +95,7 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
     if any(map(is_gone, sources)):
         return "an object was removed"
     try:
-        now = origin_of(context.evaluated_depsgraph_get(), read_view(context), record.mirror, sources)
+        now = origin_of(context.evaluated_depsgraph_get(), read_view(context), mirrors_of(result), sources)
     except ReflectionError:
         # nothing can be made for it either, which whoever tries is told
         return "the camera has changed"

@@ -8,7 +8,7 @@ from ..settings import holder_of, mirror_of
 
 # what is behind the closed door of "Limits"
 SHOWN, LIGHT, LIMITS = ("tolerance", "placement", "method", "depth"), ("light_kind", "light_samples"), (
-    "memory", "hidden_faces", "attributes")
+    "memory", "hidden_faces", "attributes", "join_parts")
 
 
 def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:
@@ -33,6 +33,9 @@ def draw_limits(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
 def possible_mirror(obj: bpy.types.Object | None) -> bpy.types.Object | None:
     """The object that may have settings of its own: a result's mirror, or what may be one."""
     mirror = mirror_of(obj)
+    if mirror is not None and len(obj.reflection_mesh.parts):
+        # the root of a hierarchy may be an empty
+        return mirror
     if mirror is None or mirror.reflection_mesh.role == "DIFFUSE" or not can_take_part(mirror):
         return None
     return mirror

@@ -7,8 +7,9 @@ from __future__ import annotations
 import bpy
 
 from ..frames import plays
-from ..reading import can_take_part
+from ..reading import can_take_part, is_result
 from .draw_live import draw_live
+from .draw_mattes import draw_mattes
 from .draw_object import draw_figures, draw_object, shown_result
 from .draw_prompt import draw_prompt
 from .draw_settings import draw_limits, draw_settings, possible_mirror
@@ -58,6 +59,18 @@ class _Limits:
         draw_limits(aligned(self.layout), context, active(context))
 
 
+class _Mattes:
+    bl_label, bl_options = "Mattes", {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        obj = shown_result(context, active(context))
+        return obj is not None and is_result(obj)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_mattes(self.layout, shown_result(context, active(context)))
+
+
 class _Figures:
     bl_label, bl_options = "Figures", {"DEFAULT_CLOSED"}
 
@@ -96,6 +109,12 @@ class REFLECTION_MESH_PT_tools(_Sidebar, bpy.types.Panel):
         draw_comparison(self.layout, context)
 
 
+class REFLECTION_MESH_PT_mattes(_Sidebar, _Mattes, bpy.types.Panel):
+    """Passes for compositing, of single objects in the reflection"""
+
+    bl_parent_id = "REFLECTION_MESH_PT_main"
+
+
 class REFLECTION_MESH_PT_figures(_Sidebar, _Figures, bpy.types.Panel):
     """Numbers for engineers; last, so that no other panel moves when a result appears"""
 
@@ -124,6 +143,12 @@ class REFLECTION_MESH_PT_object_limits(_Properties, _Limits, bpy.types.Panel):
     bl_parent_id = "REFLECTION_MESH_PT_object_settings"
 
 
+class REFLECTION_MESH_PT_object_mattes(_Mattes, _Properties, bpy.types.Panel):
+    """Passes for compositing, of single objects in the reflection"""
+
+    bl_parent_id = "REFLECTION_MESH_PT_object"
+
+
 class REFLECTION_MESH_PT_object_figures(_Figures, _Properties, bpy.types.Panel):
     """Numbers for engineers"""
 
@@ -144,8 +169,9 @@ def aligned(layout: bpy.types.UILayout) -> bpy.types.UILayout:
 
 
 CLASSES = (REFLECTION_MESH_PT_main, REFLECTION_MESH_PT_settings, REFLECTION_MESH_PT_limits, REFLECTION_MESH_PT_tools,
-           REFLECTION_MESH_PT_figures, REFLECTION_MESH_PT_object, REFLECTION_MESH_PT_object_settings,
-           REFLECTION_MESH_PT_object_limits, REFLECTION_MESH_PT_object_figures)
+           REFLECTION_MESH_PT_mattes, REFLECTION_MESH_PT_figures, REFLECTION_MESH_PT_object,
+           REFLECTION_MESH_PT_object_settings, REFLECTION_MESH_PT_object_limits, REFLECTION_MESH_PT_object_mattes,
+           REFLECTION_MESH_PT_object_figures)
 
 
 def register() -> None:

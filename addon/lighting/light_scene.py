@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import compat
 from ..faults import still_there
-from ..reading import goes_by_name, is_linked, is_opaque, materials_of, read_view
+from ..reading import goes_by_name, is_linked, is_opaque, materials_of, mirrors_of, read_view
 from ..reading.materials import all_materials_of, is_exact
 from ..rendering import (
     SEEN,
@@ -121,7 +121,7 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         own = OwnCollections(context, scene, back)
         look_through(scene, sharp_camera(context.scene.camera), back)
         mirrors = {mirror: _shown_mirror(mirror, own, back)
-                   for mirror in {result.reflection_mesh.mirror for result in results} - {None}}
+                   for mirror in {mirror for result in results for mirror in mirrors_of(result)}}
         own.leave_out(results)
         others = [obj for obj in own.shown if obj not in mirrors.values()]
         # where a mirror stands in fog, Cycles knows of it on the way from there by the way to there alone
@@ -129,7 +129,8 @@ def light_scene(context: bpy.types.Context, results: list, window: Window) -> It
         others = [obj for obj in others if obj not in fog]
         fog = clear_air(scene, own, fog, back)
         materials = [material for mirror in mirrors for material in all_materials_of(mirror)]
-        alone = len(mirrors) == len(results) and all(map(is_opaque, materials)) and not _seen_lamps(context, {*mirrors})
+        no_copies = len({result.reflection_mesh.mirror for result in results}) == len(results)
+        alone = no_copies and all(map(is_opaque, materials)) and not _seen_lamps(context, {*mirrors})
         before = _cutting(context, {*mirrors}, others) if alone else []
         own.hold_out(before)
         # were what lets light through in the picture of light too, it would be seen twice; the rest only costs samples,

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 from .. import compat
-from ..reading import has_fog
+from ..reading import has_fog, mirrors_of
 from ..reading.materials import all_materials_of, emits_alike, is_mirror, surface_shader
 
 WHITE = 0.999
@@ -18,10 +18,10 @@ PLAIN = {"Metallic": 1.0, "Roughness": 0.0, "Alpha": 1.0, "Transmission Weight":
 
 def needs_light(result: bpy.types.Object) -> bool:
     """Whether a result does not yet look as its mirror does."""
-    mirror = result.reflection_mesh.mirror
-    if mirror is None or not all(map(emits_alike, _shown(result))):
+    parts = mirrors_of(result)
+    if not parts or not all(map(emits_alike, _shown(result))):
         return True
-    mirrors = list(filter(is_mirror, all_materials_of(mirror)))
+    mirrors = [material for part in parts for material in filter(is_mirror, all_materials_of(part))]
     # fog is looked for last: objects are many
     return not mirrors or not all(map(is_plain, mirrors)) or any(map(has_fog, result.users_scene))
 

@@ -20,6 +20,7 @@ from ..mirror_part import (
     copied_shaders,
     write_later_tints,
 )
+from ..reading import mirrors_of
 from ..reading.materials import (
     asked_attributes,
     feeding,
@@ -53,7 +54,7 @@ def show_previews(results: Iterable[bpy.types.Object], view: View, shown: list[S
     made: dict = {}
     for result in results:
         mirror, faces = _mirror_materials(result), len(result.data.polygons) > 0
-        around = Surroundings(result.reflection_mesh.mirror if asks_for_places(mirror) else None,
+        around = Surroundings(tuple(mirrors_of(result)) if asks_for_places(mirror) else (),
                               tuple(lamps_before(result, shown)), _later(result), not result.reflection_mesh.window,
                               faces and knows_mirror_normals(result.data))
         asked: set = set()
@@ -84,9 +85,8 @@ def forget_previews() -> None:
 def _mirror_materials(result: bpy.types.Object) -> tuple:
     """The materials of a result's mirror that reflect; None where all of the light is shown, as by what is a mirror by
     its role alone."""
-    mirror = result.reflection_mesh.mirror
     known = tuple(one if _mirrors(one) and not is_plain(one) else None
-                  for one in ([] if mirror is None else reflecting_materials(mirror)))
+                  for one in reflecting_materials(mirrors_of(result)))
     return known if len(set(known)) > 1 else (*known, None)[:1]
 
 
@@ -94,7 +94,7 @@ def _later(result: bpy.types.Object) -> LaterMirrors:
     """What a preview knows of later mirrors: in a window, and on what is a mirror by its role alone, nothing is behind
     it that would know better."""
     found, record = LaterMirrors.of(result), result.reflection_mesh
-    mirrors = not record.window and any(map(_mirrors, reflecting_materials(record.mirror)))
+    mirrors = not record.window and any(map(_mirrors, reflecting_materials(mirrors_of(result))))
     return replace(found, unknown=found.unknown and mirrors)
 
 

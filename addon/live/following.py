@@ -71,7 +71,7 @@ class Following:
 
         `started` is when whoever asks began to look, which counts as a part of it.
         """
-        wanted = {mirror.session_uid for group in current.chosen for mirror in group.mirrors}
+        wanted = {one.mirror.session_uid for group in current.chosen for one in group.assemblies}
         if shown is None or not self.tracks or {track.mirror for track in self.tracks} != wanted:
             return False
         if current.record.members != shown.members:
@@ -130,7 +130,7 @@ def _read(context: bpy.types.Context, current: Watched) -> dict:
     depsgraph = context.evaluated_depsgraph_get()
     meshes = {}
     for group in current.chosen:
-        stage = Kept.of(depsgraph).read(depsgraph, group.mirrors, group.diffuse)
-        meshes.update({mirror.session_uid: (surface.mesh, stage.scene.mesh)
-                       for mirror, surface in zip(group.mirrors, stage.surfaces)})
+        stage = Kept.of(depsgraph).read(depsgraph, list(group.assemblies), group.diffuse)
+        meshes.update({one.mirror.session_uid: (surface.mesh, stage.scene.mesh)
+                       for one, surface in zip(group.assemblies, stage.surfaces)})
     return meshes

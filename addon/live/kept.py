@@ -1,24 +1,36 @@
 """What Live keeps right: the results of a scene, those that show the same objects together."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
 
 from ...core import ReflectionError
 from ..frames import plays
-from ..reading import Participants, is_gone, is_result, known_results, results_of, visible
+from ..reading import (
+    Assembly,
+    Participants,
+    is_gone,
+    is_result,
+    known_results,
+    lost_mirror,
+    mirrors_of,
+    results_of,
+    visible,
+)
 
 
 def kept_results(context: bpy.types.Context) -> list:
     """The results of the scene that are made anew when something moves."""
     known = known_results(context.scene, context.view_layer)
-    return [obj for obj in _made_here(known) if not is_gone(obj.reflection_mesh.mirror)
+    return [obj for obj in _made_here(known) if not lost_mirror(obj)
             and obj in results_of(context, obj.reflection_mesh.mirror, known)]
 
 
 def abandoned_results(context: bpy.types.Context) -> list:
     """The results of the scene that nothing makes anew, since their mirror is gone."""
     known = known_results(context.scene, context.view_layer)
-    return [obj for obj in _made_here(known) if obj.library is None and is_gone(obj.reflection_mesh.mirror)]
+    return [obj for obj in _made_here(known) if obj.library is None and lost_mirror(obj)]
 
 
 def abandoned_light(context: bpy.types.Context) -> list:
@@ -41,22 +53,25 @@ def groups(context: bpy.types.Context) -> list[Participants]:
     """The mirrors and objects of these results; what is hidden takes no part."""
     found: dict = {}
     for obj in kept_results(context):
-        record, sources = obj.reflection_mesh, _sources(obj)
-        if sources and record.mirror not in sources:
-            found.setdefault(sources, {})[record.mirror] = None
+        mirrors, sources = mirrors_of(obj), _sources(obj)
+        if sources and set(mirrors).isdisjoint(sources):
+            found.setdefault(sources, {})[obj.reflection_mesh.mirror] = mirrors
     chosen = []
-    for sources, mirrors in found.items():
+    for sources, joint in found.items():
         try:
-            chosen.append(visible(context, list(mirrors), list(sources)))
+            seen = visible(context, [part for parts in joint.values() for part in parts], list(sources))
         except ReflectionError:
             continue
+        there = set(seen.mirrors)
+        own = (Assembly(mirror, [part for part in parts if part in there], parts) for mirror, parts in joint.items())
+        chosen.append(replace(seen, assemblies=tuple(one for one in own if one.parts)))
     return chosen
 
 
 def why_not_kept(context: bpy.types.Context, result: bpy.types.Object) -> str:
     """The sentence that says why one of the kept results cannot be made anew now; empty where it can be."""
     try:
-        visible(context, [result.reflection_mesh.mirror], list(_sources(result)))
+        visible(context, mirrors_of(result), list(_sources(result)))
     except ReflectionError as error:
         return str(error)
     return ""

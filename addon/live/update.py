@@ -5,7 +5,7 @@ from dataclasses import replace
 import bpy
 
 from ...core import ReflectionError
-from ..faults import SteppedOperator, Steps, one_or_more, part, tell, tell_done
+from ..faults import SteppedOperator, Steps, listed, one_or_more, part, tell, tell_done
 from ..freshness import why_light_differs, why_light_is_stale, why_stale
 from ..lighting import is_lit
 from ..operators import polls
@@ -46,7 +46,7 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
         lit = list(filter(is_lit, kept_results(context)))
         outdated = {obj for obj in lit if why_light_differs(context, obj)}
         chosen = [group for group in groups(context)
-                  if any(obj.reflection_mesh.mirror in group.mirrors for obj in stale)]
+                  if any(obj.reflection_mesh.mirror == one.mirror for obj in stale for one in group.assemblies)]
         lost = _lost(context)
         thrown = [obj for obj in kept_light(context) if obj not in lost and why_light_is_stale(context, obj)]
         if not stale and not outdated and not thrown and not lost:
@@ -65,7 +65,7 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
         # what was generated anew has lost light that no longer fits
         unlit = [obj for obj in lit if obj in outdated or not is_lit(obj)]
         remarks += yield from part(self._relight(context, unlit, told), share, 1.0 - share)
-        tell_done(self, told + list(map(self._summary, thrown)), remarks)
+        tell_done(self, told + [self._summary(thrown)] * bool(thrown), remarks)
 
     def _relight(self, context: bpy.types.Context, results: list, told: list) -> Steps[list]:
         """Light results as they were lit, adding to what is told; return sentences on what kept some from it."""
@@ -86,9 +86,10 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
             if pairs & group.pairs:
                 yield from made_anew(context, group, {mirror: wanted(mirror) for mirror, _ in group.pairs})
 
-    def _summary(self, light: bpy.types.Object) -> str:
-        faces = one_or_more(len(light.data.polygons), "1 face", "{count} faces")
-        return f"'{light.name}': {faces} of light, {light.reflection_mesh.seconds:.2f} s"
+    def _summary(self, lights: list) -> str:
+        faces = one_or_more(sum(len(light.data.polygons) for light in lights), "1 face", "{count} faces")
+        seconds = sum(light.reflection_mesh.seconds for light in lights)
+        return f"{listed(light.name for light in lights)}: {faces} of light, {seconds:.2f} s"
 
 
 def _lost(context: bpy.types.Context) -> dict:

@@ -59,11 +59,11 @@ def watched(context: bpy.types.Context, view: View, known: Record | None = None)
     """What the results of the scene are made from, seen by `view`; mirrors and objects are as `known` where that is
     given."""
     chosen, wanted = groups(context), Wanted(context.scene)
-    settings = {mirror.session_uid: wanted(mirror) for group in chosen for mirror in group.mirrors}
+    mirrors = [(one, group) for group in chosen for one in group.assemblies]
+    settings = {one.mirror.session_uid: wanted(one.mirror) for one, _ in mirrors}
     if known is None:
         depsgraph, previewed = context.evaluated_depsgraph_get(), _previewed(context)
-        origins = [(mirror, origin_of(depsgraph, view, mirror, group.diffuse))
-                   for group in chosen for mirror in group.mirrors]
+        origins = [(one.mirror, origin_of(depsgraph, view, one.members, group.diffuse)) for one, group in mirrors]
         digests = tuple((origin.mirror, origin.sources, origin.materials, origin.through) for _, origin in origins)
         colours = tuple(origin.colours if mirror in previewed else None for mirror, origin in origins)
         lines = any(origin.lines for _, origin in origins)

@@ -2,7 +2,7 @@
 are."""
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import bpy
 import numpy as np
@@ -12,6 +12,8 @@ from ..reading.materials import all_nodes
 from ..writing.nodes.box_projection import project_by
 from ..writing.nodes.shader_builder import ShaderBuilder
 
+GENERATED = "Generated"
+"""The layer that tells these coordinates of the parts of a mirror."""
 LONGEST_NAME = 60  # of an attribute, which Blender cuts
 BACK = "mirror_back"
 """The attribute that is 1 on faces in which the eye sees the mirror's back, by which Cycles turns Fresnel over."""
@@ -38,10 +40,12 @@ def asks_for_places(materials: Iterable[bpy.types.Material | None]) -> bool:
 
 
 class MirrorCoordinates:
-    """The coordinates and attributes of `mirror` as nodes of a tree, each made where it is asked for first."""
+    """The coordinates and attributes of a mirror, or of the parts of one, as nodes of a tree, each made where it is
+    asked for first."""
 
-    def __init__(self, build: ShaderBuilder, mirror: bpy.types.Object) -> None:
-        self.build, self.mirror, self.made = build, mirror, {}
+    def __init__(self, build: ShaderBuilder, mirrors: Sequence[bpy.types.Object]) -> None:
+        self.build, self.mirrors, self.made = build, mirrors, {}
+        self.meshes = [mirror.data for mirror in mirrors if mirror.type == "MESH"]
 
     def take_over(self, nodes: list) -> None:
         """Let those of the nodes that go by the result's coordinates and attributes go by the mirror's."""
@@ -67,15 +71,14 @@ class MirrorCoordinates:
 
     def _rename(self, node: bpy.types.Node, field: str) -> None:
         """Let a node read the mirror's attribute, which the result knows by another name."""
-        if self.mirror.type != "MESH":
-            return
-        mesh = self.mirror.data
-        colours = mesh.color_attributes
-        name = getattr(node, field)
-        if not name and node.type == "VERTEX_COLOR" and colours.render_color_index >= 0:
-            name = colours[colours.render_color_index].name
-        if name in mesh.attributes:
-            setattr(node, field, own_layer(name))
+        for mesh in self.meshes:
+            colours = mesh.color_attributes
+            name = getattr(node, field)
+            if not name and node.type == "VERTEX_COLOR" and colours.render_color_index >= 0:
+                name = colours[colours.render_color_index].name
+            if name in mesh.attributes:
+                setattr(node, field, own_layer(name))
+                return
 
     def _feed(self, links: list, name: str, uv_map: str = "") -> None:
         coordinates = self._named(name, uv_map) if links else None
@@ -92,8 +95,10 @@ class MirrorCoordinates:
                 self.made[key] = self.build.add("ShaderNodeAttribute", attribute_name=OWN_PLACE).outputs["Vector"]
             elif matrix is not None:
                 self.made[key] = self._linear(self._named("Object"), matrix)
+            elif name == "UV":
+                self.made[key] = self._layer(uv_map)
             else:
-                self.made[key] = self._layer(uv_map) if name == "UV" else None
+                self.made[key] = self._attribute(GENERATED) if len(self.mirrors) > 1 else None
         return self.made[key]
 
     def _normal(self) -> bpy.types.NodeSocket:
@@ -102,16 +107,16 @@ class MirrorCoordinates:
     def _layer(self, uv_map: str) -> bpy.types.NodeSocket | None:
         """A UV map that is not linear all over the mirror, from the result's corners."""
         layer = self._uv_layer(uv_map)
-        if layer is None:
-            return None
-        return self.build.add("ShaderNodeAttribute", attribute_name=own_layer(layer.name)).outputs["Vector"]
+        return None if layer is None else self._attribute(layer.name)
+
+    def _attribute(self, name: str) -> bpy.types.NodeSocket:
+        return self.build.add("ShaderNodeAttribute", attribute_name=own_layer(name)).outputs["Vector"]
 
     def _uv_layer(self, uv_map: str) -> bpy.types.MeshUVLoopLayer | None:
         """The UV map of that name, or the active one."""
-        if self.mirror.type != "MESH":
-            return None
-        layers = self.mirror.data.uv_layers
-        return layers.get(uv_map) if uv_map else next((one for one in layers if one.active_render), None)
+        layers = [layer for mesh in self.meshes for layer in mesh.uv_layers
+                  if (layer.name == uv_map if uv_map else layer.active_render)]
+        return next(iter(layers), None)
 
     def _linear(self, at: bpy.types.NodeSocket, matrix: np.ndarray) -> bpy.types.NodeSocket:
         """What a matrix (3, 4) makes of a place."""
@@ -120,15 +125,16 @@ class MirrorCoordinates:
 
     def _matrix(self, name: str, uv_map: str) -> np.ndarray | None:
         """How coordinates follow from places in the mirror's own space, where they do so evenly."""
-        if self.mirror.type != "MESH":
+        # parts have each their own
+        if len(self.mirrors) > 1 or not self.meshes:
             return None
-        mesh = self.mirror.data
+        mesh, = self.meshes
         if name == "Generated":
             size, middle = np.array(mesh.texspace_size), np.array(mesh.texspace_location)
             scale = 0.5 / np.where(size == 0.0, 1.0, size)
             return np.column_stack((np.diag(scale), 0.5 - middle * scale))
         layer = self._uv_layer(uv_map)
-        if layer is None or not len(mesh.loops) or self.mirror.modifiers:
+        if layer is None or not len(mesh.loops) or self.mirrors[0].modifiers:
             return None
         places, corners = (np.empty(size, dtype=kind) for size, kind in (
             ((len(mesh.vertices), 3), np.float32), (len(mesh.loops), np.int32)))

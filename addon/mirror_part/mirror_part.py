@@ -27,8 +27,8 @@ class Surroundings:
 
     Attributes
     ----------
-    mirror : bpy.types.Object or None
-        On which its textures lie.
+    mirrors : tuple of bpy.types.Object
+        On which its textures lie, the parts of one mirror; empty where that does not matter.
     lamps : tuple of ShownLamp
         That stand before what is shown.
     later : LaterMirrors
@@ -39,7 +39,7 @@ class Surroundings:
         Whether the attribute `NORMAL` tells how the mirror stands; else faces stand as it does.
     """
 
-    mirror: bpy.types.Object | None = None
+    mirrors: tuple[bpy.types.Object, ...] = ()
     lamps: tuple[ShownLamp, ...] = ()
     later: LaterMirrors = LaterMirrors()
     behind: bool = False
@@ -70,8 +70,8 @@ class MirrorPart(ShaderBuilder):
         """What materials become that have these shaders and nodes of their `own` in the tree; all other nodes that are
         there stay as they are."""
         others = set(self.tree.nodes) - set(own)
-        if self.around.mirror is not None:
-            MirrorCoordinates(self, self.around.mirror).take_over(list(own))
+        if self.around.mirrors:
+            MirrorCoordinates(self, self.around.mirrors).take_over(list(own))
         parts = [self.part(one, shader) for one, shader in zip(mirror, shaders, strict=True)]
         nodes = [node for node in self.tree.nodes if node not in others]
         layer_weights_as_fresnel(self, nodes)

@@ -6,7 +6,7 @@ import bpy
 from ..faults import AllOrNothing, in_one_sentence, one_or_more, tell
 from ..frames import plays, stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
-from ..lighting import forget_light, forget_previews
+from ..lighting import forget_light, forget_previews, update_mattes
 from ..reading import has_linked_results, is_result, named_by_selection, redraw_lines
 from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes, set_free
 from . import polls
@@ -47,6 +47,7 @@ def clear(context: bpy.types.Context, results: list) -> None:
     forget_previews()
     close_abandoned_windows()
     forget_collection(context.scene)
+    update_mattes(context)
 
 
 def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:

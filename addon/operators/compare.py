@@ -93,7 +93,7 @@ def comparison(context: bpy.types.Context, folder: str, samples: int = 16,
 
 
 def _results(context: bpy.types.Context, mirrors: list) -> list:
-    return [result for mirror in mirrors for result in results_of(context, mirror)]
+    return list(dict.fromkeys(result for mirror in mirrors for result in results_of(context, mirror)))
 
 
 def _clear(context: bpy.types.Context, results: list) -> None:

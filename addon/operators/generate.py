@@ -8,9 +8,10 @@ from functools import partial
 import bpy
 
 from ... import core
-from ..faults import SteppedOperator, Steps, part, tell_done
+from ..faults import SteppedOperator, Steps, gathered, part, tell_done
 from ..freshness import light_difference, origin_of, record_of, settings_of
 from ..reading import (
+    Assembly,
     DiffuseScene,
     MirrorSurface,
     NothingSeen,
@@ -35,6 +36,7 @@ from ..settings import (
 from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, nearer, point_arrays, what_is_in_the_way
 from . import polls
+from .assembled import assembled
 from .pressed import ProtectsResults
 from .rounding import rounding_remarks
 from .shortcomings import (
@@ -77,40 +79,39 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     yield 0.0, "Reading the scene"
     hidden, view = left_out(context, chosen.hidden), view or read_view(context)
     kept = Kept.of(depsgraph := context.evaluated_depsgraph_get())
-    chosen, meshes, faceless = _with_faces(chosen, *kept.looked_at(depsgraph, chosen.mirrors, chosen.diffuse))
-    own = list(map(of_each(settings), chosen.mirrors))
+    mirrors = assembled(context, chosen, settings)
+    mirrors, meshes, faceless = _with_faces(mirrors, *kept.looked_at(depsgraph, mirrors, chosen.diffuse))
+    own = [of_each(settings)(one.mirror) for one in mirrors]
     sources, lines = chosen.diffuse + chosen.waiting, lines_drawn(context.scene)
-    origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources), settings_of(context.scene, mirror))
-               for mirror in chosen.mirrors}
-    unfit = _unfit(context, view, chosen.mirrors, sources)
-    joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
+    origins = _origins(depsgraph, view, mirrors, sources)
+    unfit = _unfit(context, view, [one.mirror for one in mirrors], sources)
+    joined = partial(kept.joined, mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
     scene, surfaces, opacity = stage.scene, stage.surfaces, opacities_of(depsgraph, stage.scene)
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     yield from _trees(stage, kinds)
     prepared, refused, unseen, lacks, share = [], [], [], [], (1.0 - READING) / len(surfaces)
-    for index, (mirror, surface) in enumerate(zip(chosen.mirrors, surfaces)):
+    for index, (joint, surface) in enumerate(zip(mirrors, surfaces)):
+        mirror = joint.mirror
         steps = core.reflection_steps(view, surface.mesh, stage.built(kinds[index]), own[index], opacity=opacity)
         try:
             result = yield from part(steps, READING + index * share, share, mirror.name)
+            if not len(result.positions):
+                raise core.ReflectionError(TOO_CLOSE) if too_close(result, scene.materials) else \
+                    core.NothingInView(NONE_SEEN)
             if own[index].placement == "VIRTUAL":
                 found = what_is_in_the_way(context, view, result, chosen.mirrors)
-                lacks += window_shortcomings(mirror, found)
+                lacks += window_shortcomings(joint, found)
                 result = nearer(view, result, found)
         except core.ReflectionError as error:
             refused.append(f"{mirror.name}: {error}")
             unseen += refused[-1:] * isinstance(error, core.NothingInView)
             continue
-        if not len(result.positions):
-            covered = too_close(result, scene.materials)
-            refused.append(f"{mirror.name}: {TOO_CLOSE if covered else NONE_SEEN}")
-            unseen += refused[-1:] * (not covered)
-            continue
         lacks += shortcomings(mirror.name, result, scene.materials)
         written = partial(_written, result, scene, (surface, surfaces), view, lines)
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")
-        prepared.append(Reflection(mirror, context.scene.camera, sources, result, arrays, view.resolution,
+        prepared.append(Reflection(joint, context.scene.camera, sources, result, arrays, view.resolution,
                                    own[index].placement, attributes_of(settings, mirror, context.scene)))
     if not prepared:
         raise NothingSeen(refused[0]) if unseen == refused else Refused(refused)
@@ -120,7 +121,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     _record(outcome, origins, time.perf_counter() - started)
     return replace(outcome, remarks=hidden + faceless + lacks + outcome.remarks + refused,
                    lacks=lacks + [sentence for sentence in refused if sentence not in unseen],
-                   read=(view, dict(zip(chosen.mirrors, surfaces)), scene))
+                   read=(view, {one.mirror: surface for one, surface in zip(mirrors, surfaces)}, scene))
 
 
 def _written(result: core.ReflectionMesh, scene: DiffuseScene, mirrors: tuple[MirrorSurface, list[MirrorSurface]],
@@ -135,14 +136,23 @@ def _written(result: core.ReflectionMesh, scene: DiffuseScene, mirrors: tuple[Mi
     return result, mesh_arrays(result, scene, surface, view, every)
 
 
-def _with_faces(chosen: Participants, of_mirrors: list, placed: list) -> tuple[Participants, tuple, list[str]]:
-    """Without the mirrors that have no faces, as curves that others follow, where some have, and sentences on these."""
-    faceless = [mirror for mirror, own in zip(chosen.mirrors, of_mirrors) if not own]
-    if not 0 < len(faceless) < len(chosen.mirrors):
-        return chosen, (of_mirrors, placed), []
-    return (replace(chosen, mirrors=[mirror for mirror in chosen.mirrors if mirror not in faceless]),
-            ([own for own in of_mirrors if own], placed),
-            [f"Left out because it has no faces: '{obj.name}'." for obj in faceless if not is_part(obj)])
+def _with_faces(mirrors: list[Assembly], of_mirrors: list, placed: list) -> tuple[list, tuple, list[str]]:
+    """Return the mirrors without those that have no faces, as curves that others follow, unless none has; their meshes
+    and those of the scene; and sentences on what has no faces."""
+    if not any(of_mirrors):
+        return mirrors, (of_mirrors, placed), []
+    faceless = []
+    for mirror, own in zip(mirrors, of_mirrors):
+        there = {owner for item in own for owner in item.owners.tolist()}
+        faceless += [obj for number, obj in enumerate(mirror.parts) if number not in there and not is_part(obj)]
+    return ([mirror for mirror, own in zip(mirrors, of_mirrors) if own], ([own for own in of_mirrors if own], placed),
+            [f"Left out because it has no faces: '{obj.name}'." for obj in faceless])
+
+
+def _origins(depsgraph: bpy.types.Depsgraph, view: core.View, mirrors: list[Assembly], sources: list) -> dict:
+    """Return what the result of each mirror is made from."""
+    return {one.mirror: record_of(origin_of(depsgraph, view, one.members, sources),
+                                  settings_of(depsgraph.scene.original, one.mirror)) for one in mirrors}
 
 
 def _unfit(context: bpy.types.Context, view: core.View, mirrors: list, sources: list) -> dict[bpy.types.Object, str]:
@@ -182,6 +192,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator
                                     description="Show the colors of the reflected objects, unaffected by lamps, until"
                                                 " the reflection is lit. On if a button is pressed")
     attributes: option("attributes")
+    join_parts: option("join_parts")
     collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
                                     description="Put a new result into the collection Reflections instead of the "
                                                 "collections of its mirror. On if a button is pressed")
@@ -213,7 +224,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator
                     # clicks pass by it: the mirror is selected in its place
                     obj.reflection_mesh.mirror.select_set(True)
                 context.view_layer.objects.active = obj
-        tell_done(self, [*outcome.news, outcome.summary(time.perf_counter() - started)],
+        tell_done(self, [*gathered(outcome.news), outcome.summary(time.perf_counter() - started)],
                   outcome.remarks + outcome.dropped + lacks)
 
 

@@ -10,8 +10,8 @@ from ..baking import are_few, can_be_baked
 from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
 from ..freshness import lit_record, lit_with
 from ..lamps import lamps_before, lamps_that_show
-from ..lighting import needs_light
-from ..reading import has_linked_results, moves, read_view, with_copies
+from ..lighting import needs_light, update_mattes
+from ..reading import has_linked_results, mirrors_of, moves, read_view, with_copies
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, Wanted, option
 from ..writing import forget_mesh
 from . import polls
@@ -94,6 +94,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
             result.reflection_mesh.lit_from = text
         for linked in meshes.values():
             _stay_linked(linked, whole)
+    update_mattes(context)
     return everything
 
 
@@ -113,7 +114,7 @@ def lit_again(context: bpy.types.Context, results: list) -> Steps[list]:
 
 def _view_moves(context: bpy.types.Context, lit: list) -> bool:
     """Whether the camera or a mirror is animated."""
-    return any(map(moves, [context.scene.camera, *(result.reflection_mesh.mirror for result in lit)]))
+    return any(map(moves, [context.scene.camera, *(mirror for result in lit for mirror in mirrors_of(result))]))
 
 
 def _keep_apart(mesh: bpy.types.Mesh, linked: list, whole: AllOrNothing) -> None:

@@ -8,13 +8,13 @@ import numpy as np
 
 from ...core import View, draw
 from ..baking import random_by_island
+from ..faults import listed
 from ..illumination import is_bumped
 from ..lighting import dull_objects
-from ..reading import has_fog, read_mirror, read_view, vectors
+from ..reading import has_fog, join_mirror, mirrors_of, read_meshes, read_view, vectors
 from ..reading.materials import reflecting_materials, surface_shaders
 from .rounding import rounding_remarks
 
-NAMED = 3
 NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
 FOG = "Fog before what mirrors show is not in light on the objects: choose Light: Picture for a still."
 ACROSS = 256     # pixels of the picture in which it is looked for what windows do not show
@@ -30,15 +30,15 @@ def unlike_the_mirror(context: bpy.types.Context, lit: list) -> list[str]:
     astray = sorted({result.reflection_mesh.mirror.name for result in on_objects
                      if not _lies_before_mirror(result) and _is_matte(result.reflection_mesh.light_material)})
     bumped = sorted({result.reflection_mesh.mirror.name for result in on_objects
-                     if any(map(is_bumped, reflecting_materials(result.reflection_mesh.mirror)))})
+                     if any(map(is_bumped, reflecting_materials(mirrors_of(result))))})
     return ([FOG] * bool(on_objects and has_fog(context.scene))
-            + [f"The gloss of {_listed(dull)} is not what so close a curved mirror shows: choose Light: Picture for a "
+            + [f"The gloss of {listed(dull)} is not what so close a curved mirror shows: choose Light: Picture for a "
              f"still."] * bool(dull)
-            + [f"The matte part of {_listed(astray)} is lit where the reflection lies: choose Placement: Layered, or "
+            + [f"The matte part of {listed(astray)} is lit where the reflection lies: choose Placement: Layered, or "
                f"Light: Picture for a still."] * bool(astray)
-            + [f"What is random by island on {_listed(random)} is so in other colours: choose Light: Picture for its "
+            + [f"What is random by island on {listed(random)} is so in other colours: choose Light: Picture for its "
                f"own."] * bool(random)
-            + [f"The material of {_listed(bumped)} bends its normals or displaces it, which light on the objects does "
+            + [f"The material of {listed(bumped)} bends its normals or displaces it, which light on the objects does "
                f"not follow: choose Light: Picture for a still, or model it."] * bool(bumped)
             + _lost_in_windows(context, lit) + rounding_remarks(context, lit))
 
@@ -58,21 +58,22 @@ def _lost_in_windows(context: bpy.types.Context, results: list) -> list[str]:
     for result in results:
         # discs have no faces
         if result.reflection_mesh.window and len(result.data.polygons):
-            shown.setdefault(result.reflection_mesh.mirror, []).append(result)
+            shown.setdefault((result.reflection_mesh.mirror, *mirrors_of(result)), []).append(result)
     if not shown:
         return []
     view = read_view(context)
     size = np.ceil(np.array(view.resolution) * min(1.0, ACROSS / max(view.resolution))).astype(int).tolist()
     view = replace(view, resolution=tuple(size))
     depsgraph = context.evaluated_depsgraph_get()
-    lost = [mirror.name for mirror, own in shown.items() if _share_without(view, depsgraph, mirror, own) > LOST]
-    return [f"With Placement: Virtual, what {_listed(sorted(lost))} would show beside what is reflected, as the sky, "
+    lost = [mirror.name for (mirror, *parts), own in shown.items()
+            if _share_without(view, depsgraph, parts, own) > LOST]
+    return [f"With Placement: Virtual, what {listed(sorted(lost))} would show beside what is reflected, as the sky, "
             "lamps or itself, is not seen: choose Layered to see it."] * bool(lost)
 
 
-def _share_without(view: View, depsgraph: bpy.types.Depsgraph, mirror: bpy.types.Object, results: list) -> float:
+def _share_without(view: View, depsgraph: bpy.types.Depsgraph, parts: list, results: list) -> float:
     """The share of the pixels of a mirror in which none of `results` has anything."""
-    surface = read_mirror(depsgraph, mirror).mesh
+    surface = join_mirror(read_meshes(depsgraph, parts, mirror=True), parts).mesh
     of_mirror = draw(view, surface.positions, surface.triangles).triangle >= 0
     bare = of_mirror.copy()
     for result in results:
@@ -88,13 +89,8 @@ def _is_matte(material: bpy.types.Material) -> bool:
     return any(shader.type not in NOT_LIT for shader in surface_shaders(material.node_tree))
 
 
-def _listed(names: list[str]) -> str:
-    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
-    return ", ".join(f"'{name}'" for name in names[:NAMED]) + more
-
-
 def summary(lit: list, seconds: float) -> str:
     """One line on what was lit."""
     if not lit:
         return "Nothing to light: the reflected materials emit what they show, and the mirrors add nothing."
-    return f"{', '.join(repr(obj.name) for obj in lit)}: lit in {seconds:.2f} s"
+    return f"{listed(obj.name for obj in lit)}: lit in {seconds:.2f} s"

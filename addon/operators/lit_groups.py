@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ...core import ReflectionError
-from ..reading import camera_of, in_viewports, is_gone
+from ..reading import camera_of, in_viewports, lost_mirror, mirrors_of
 
 
 def with_mirrors(context: bpy.types.Context, groups: list[tuple[list, int, str]]) -> list[tuple[list, int, str]]:
@@ -12,16 +12,16 @@ def with_mirrors(context: bpy.types.Context, groups: list[tuple[list, int, str]]
     tells of."""
     # those that are hidden in renders alone are lit as ever
     there = in_viewports(context)
-    own = [([result for result in results if result.type == "MESH" and result.reflection_mesh.mirror in there],
+    own = [([result for result in results if result.type == "MESH" and not there.isdisjoint(mirrors_of(result))],
             samples, kind)
            for results, samples, kind in groups]
     if not any(results for results, _, _ in own):
         lost = next(result for results, _, _ in groups for result in results)
-        mirror = lost.reflection_mesh.mirror
-        if is_gone(mirror):
+        if lost_mirror(lost):
             raise ReflectionError(f"The mirror of '{lost.name}' is gone: clear it, or select another mirror.")
         if lost.type != "MESH":
             raise ReflectionError(f"'{lost.name}' is no mesh any more: generate the reflection again.")
+        mirror, *_ = mirrors_of(lost)
         raise ReflectionError(f"The mirror '{mirror.name}' is hidden: show it in the viewport and in renders.")
     return own
 

@@ -30,7 +30,7 @@ from ..lighting import (
     white_of,
 )
 from ..mirror_part import LaterMirrors, Surroundings, new_object_material
-from ..reading import is_opaque, read_scene, seen_in
+from ..reading import is_opaque, mirrors_of, read_scene, seen_in
 from ..reading.materials import reflecting_materials
 from ..rendering import shown_while
 
@@ -96,7 +96,7 @@ def light_on_objects(context: bpy.types.Context, lit: list, view: View, samples:
         light_map = kept_map(NAME, light.uv, light.frames)
         whole.undo(bpy.data.meshes.remove, light_map)
         for result in lit:
-            around = Surroundings(result.reflection_mesh.mirror, lamps_before(result, lamps),
+            around = Surroundings(tuple(mirrors_of(result)), lamps_before(result, lamps),
                                   LaterMirrors.of(result), not result.reflection_mesh.window)
             material = new_object_material(NAME, image, _mirror_materials(result), opaque, around, whole)
             yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets, light.dull),
@@ -106,5 +106,5 @@ def light_on_objects(context: bpy.types.Context, lit: list, view: View, samples:
 
 def _mirror_materials(result: bpy.types.Object) -> list[bpy.types.Material | None]:
     """The materials of a result's mirror that reflect; None where all of the light is shown."""
-    reflecting = reflecting_materials(result.reflection_mesh.mirror)
+    reflecting = reflecting_materials(mirrors_of(result))
     return [None if is_plain(one) else one for one in reflecting] if not all(map(is_plain, reflecting)) else [None]

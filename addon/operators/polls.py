@@ -71,7 +71,8 @@ def has_mirror(context: bpy.types.Context) -> str:
     mirrors = set(filter(is_mirror, bpy.data.materials)).__contains__
     # what is selected may have been a mirror, or the roles say who is one
     if selected and _any(context.scene.objects, lambda obj: (
-            obj.reflection_mesh.mirror in selected or obj.reflection_mesh.role == "MIRROR")):
+            obj.reflection_mesh.mirror in selected or obj.reflection_mesh.role == "MIRROR"
+            or not {part.object for part in obj.reflection_mesh.parts}.isdisjoint(selected))):
         return ""
     return "" if _any(chosen or objects, lambda obj: says_mirror(obj, mirrors)) else NO_MIRROR
 

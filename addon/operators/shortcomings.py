@@ -6,14 +6,16 @@ from collections.abc import Sequence
 import bpy
 
 from ...core import ReflectionError, ReflectionMesh
-from ..faults import one_or_more
+from ...core.result import filled_share
 from ..reading import (
+    Assembly,
     Participants,
     camera_of,
     every_result_of,
     in_background_set,
     is_result,
     known_results,
+    mirrors_of,
     rendered_alone,
     rendered_otherwise,
     without_surface,
@@ -26,6 +28,7 @@ from ..writing import InTheWay
 PARTLY_HIDDEN, HIDDEN = 0.01, 0.5
 MISSING = 3.0  # per cent of what the mirror shows
 MANY = 200_000  # faces: of fewer nobody waits for long
+WORTH_TELLING = 0.1  # per cent of a reflection
 MISSED = 3  # probes: fewer may lie on an outline
 DEPTH_OF_FIELD = ("Depth of field: the camera focuses on the mirror and not on what it shows; choose the placement "
                   "Virtual for flat mirrors, or blur after the render.")
@@ -50,36 +53,19 @@ class Refused(ReflectionError):
         self.sentences = sentences
 
 
-# what is said where the result counts one of it, or more
+# what is said if the result counts any of it; `share` is in per cent
 SENTENCES = {
-    "crowded": (
-        "In one part of the mirror more lies over one another than the picture or the memory allows to be cut exactly, "
-        "and rays show it to a pixel: simplify the meshes or raise the memory.",
-        "In {count} parts of the mirror more lies over one another than the picture or the memory allows to be cut "
-        "exactly, and rays show it to a pixel: simplify the meshes or raise the memory."),
-    "overlaid": (
-        "In one part of the mirror too much of it lies over itself to be cut exactly, and something hidden may show: "
-        "simplify the mirror.",
-        "In {count} parts of the mirror too much of it lies over itself to be cut exactly, and something hidden may "
-        "show: simplify the mirror."),
-    "pierced": (
-        "Through one part of the mirror pass more faces than can be followed, and something behind them may show: "
-        "simplify the objects that pass through the mirror.",
-        "Through {count} parts of the mirror pass more faces than can be followed, and something behind them may show: "
-        "simplify the objects that pass through the mirror."),
-    "many_outlines": (
-        "In one part of the mirror more outlines of mirrors cross than can be cut along, and their edges are rough: "
-        "simplify the mirrors.",
-        "In {count} parts of the mirror more outlines of mirrors cross than can be cut along, and their edges are "
-        "rough: simplify the mirrors."),
-    "bounded": 2 * (
-        "Refinement stopped at the largest number of faces, so that the error may exceed the tolerance: raise the "
-        "tolerance or the memory.",),
-    "coarse": (
-        "One of {points} points is too far from its neighbours to be a disc without gaps: subdivide the reflected "
-        "objects, or let the reflection be made of faces.",
-        "{count} of {points} points are too far from their neighbours to be discs without gaps: subdivide the "
-        "reflected objects, or let the reflection be made of faces."),
+    "crowded": "Dense areas were sampled at one ray per pixel ({share} % of this reflection). Raise Memory for exact "
+               "outlines.",
+    "overlaid": "The mirror overlaps itself too often to be cut exactly, so hidden objects may show. Simplify the "
+                "mirror.",
+    "pierced": "Too many faces pass through the mirror, so objects behind them may show. Simplify the objects that "
+               "pass through it.",
+    "many_outlines": "Too many outlines of mirrors cross, so some edges are rough. Simplify the mirrors.",
+    "bounded": "Refinement stopped at the largest number of faces, so the error may exceed the tolerance. Raise "
+               "Tolerance or Memory.",
+    "coarse": "{share} % of the points are too far apart for discs without gaps. Subdivide the reflected objects, or "
+              "set Made Of to Faces.",
 }
 
 
@@ -110,8 +96,11 @@ def better_of_points(name: str, result: ReflectionMesh) -> list[str]:
 
 
 def bounds_hit(counts: dict, points: int = 0) -> list[str]:
-    """Sentences on the bounds that were hit, as counts tell them, of what has so many `points`."""
-    return [one_or_more(counts[what], *said, points=points) for what, said in SENTENCES.items() if counts.get(what)]
+    """Sentences on the bounds that were hit, as counts tell them, of what has so many `points`; nothing on areas that
+    are too small to be seen."""
+    shares = {"crowded": filled_share(counts), "coarse": 100.0 * counts.get("coarse", 0) / max(points, 1)}
+    return [said.format(share=f"{shares.get(what, 0.0):.1f}") for what, said in SENTENCES.items()
+            if counts.get(what) and shares.get(what, 100.0) >= WORTH_TELLING]
 
 
 def left_out(context: bpy.types.Context, objects: list) -> list[str]:
@@ -154,8 +143,7 @@ def render_shortcomings(context: bpy.types.Context, mirrors: list, diffuse: list
 
 def _has_linked_result(context: bpy.types.Context, mirror: bpy.types.Object) -> bool:
     """Whether a reflection that is linked from another file lies on a mirror, in sight."""
-    return any(obj.library is not None and obj.reflection_mesh.mirror == mirror and obj.visible_get()
-               and is_result(obj)
+    return any(obj.library is not None and mirror in mirrors_of(obj) and obj.visible_get() and is_result(obj)
                for obj in known_results(context.scene, context.view_layer))
 
 
@@ -189,21 +177,22 @@ def _hidden(found: list) -> list[str]:
             "in no reflection: show them, or hide them in renders too."]
 
 
-def window_shortcomings(mirror: bpy.types.Object, found: InTheWay) -> list[str]:
-    """Sentences on the window that `mirror` is to be.
+def window_shortcomings(joint: Assembly, found: InTheWay) -> list[str]:
+    """Sentences on the window that a mirror, or the parts of one, are to be.
 
     Raises
     ------
     ReflectionError
         Where something hides most of what would be seen through it.
     """
-    if mirror.library is not None and mirror.visible_camera:
-        return [f"{mirror.name}: this mirror is linked and cannot be hidden, so that it stands before the virtual "
+    name = joint.mirror.name
+    if any(part.library is not None and part.visible_camera for part in joint.parts):
+        return [f"{name}: this mirror is linked and cannot be hidden, so that it stands before the virtual "
                 "image; override it, or choose the placement Layered."]
     if found.hidden > HIDDEN:
         raise ReflectionError(f"'{found.name}' stands before the virtual image behind this mirror and would hide it; "
                               "choose the placement Layered, or hide that object from the camera.")
     if found.hidden > PARTLY_HIDDEN:
-        return [f"{mirror.name}: '{found.name}' hides a part of the virtual image behind this mirror; the placement "
+        return [f"{name}: '{found.name}' hides a part of the virtual image behind this mirror; the placement "
                 "Layered shows all of it."]
     return []

@@ -6,10 +6,19 @@ from dataclasses import dataclass, field
 import bpy
 
 from ...core import View
-from ..faults import AllOrNothing, one_or_more
+from ..faults import AllOrNothing, listed, one_or_more
 from ..frames import stop_playing
 from ..lamps import lamps_before, lamps_that_show
-from ..lighting import forget_previews, is_lit, keep_light, needs_light, show_previews, shows_preview
+from ..lighting import (
+    forget_previews,
+    is_lit,
+    keep_light,
+    lacks_mattes,
+    needs_light,
+    show_previews,
+    shows_preview,
+    update_mattes,
+)
 from ..reading import DiffuseScene, results_of
 from ..writing import (
     Reflection,
@@ -22,10 +31,9 @@ from ..writing import (
     told_of,
     write_object,
 )
-from .shortcomings import better_of_points
+from .shortcomings import WORTH_TELLING, better_of_points
 
 CUT = "it shows other faces"
-WORTH_TELLING = 0.1     # per cent of the mirrors' pixels
 
 
 @dataclass(frozen=True)
@@ -92,7 +100,7 @@ class Outcome:
         error = max(result.estimated_error for _, result in self.results)
         share = max(result.filled_share for _, result in self.results)
         filled = f", {share:.1f} % filled by rays" if share >= WORTH_TELLING else ""
-        names = ", ".join(f"'{obj.name}'" for obj, _ in self.results)
+        names = listed(obj.name for obj, _ in self.results)
         memory = size_text(sum(mesh_bytes(mesh) for mesh in {obj.data for obj, _ in self.results}
                                | {copy.data for copy in self.copies}))
         light = "; not lit yet" if self.unlit else ""
@@ -127,6 +135,9 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
         whole.after(show_for_camera, context.scene)
     dropped = [f"The light of '{entry.obj.name}' no longer fits: {unfit.get(entry.obj) or CUT}. Click Light Reflection."
                for entry in entries if entry.obj in lit and not is_lit(entry.obj)]
+    update_mattes(context)
+    remarks += [f"'{entry.obj.name}' has no mattes, because Attributes is Shown. Set Attributes to All and generate "
+                "again." for entry in entries if lacks_mattes(entry.obj)]
     news = _told(entries) + [hint for made in prepared for hint in better_of_points(made.mirror.name, made.result)]
     return Outcome(results, remarks, unlit, news, [entry.obj for entry in entries if entry.copy], dropped)
 
@@ -139,5 +150,5 @@ def _told(written: list) -> list[str]:
             for name in moved]
     copies = [entry.obj.name for entry in written if entry.copy]
     if copies:
-        news.append(f"Updated too, as a copy: {', '.join(map(repr, copies))}.")
+        news.append(f"Updated too, as a copy: {listed(copies)}.")
     return news

@@ -1,4 +1,5 @@
 """Blender's data as arrays: who takes part, meshes with their layers, materials, the view."""
+from .assemblies import Assembly, assemblies, root_of
 from .known_results import forget_known, known_results, register, unregister
 from .light_links import LINKS, is_linked, link_state
 from .lines import lines_drawn, redraw_lines
@@ -46,6 +47,8 @@ from .results import (
     has_linked_results,
     is_gone,
     is_result,
+    lost_mirror,
+    mirrors_of,
     named_by_selection,
     result_of,
     results_of,
@@ -69,14 +72,15 @@ from .roles import (
     visible,
 )
 
-__all__ = ["DiffuseScene", "LINKS", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen",
-           "Participants", "Placed", "RESULTS", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
-           "corner_vertices", "drawn_meshes", "every_result_of", "fog_of", "forget_known", "forgets_particles",
-           "goes_by_name", "has_fog", "has_linked_results", "in_background_set", "in_viewports", "is_clear", "is_fog",
-           "is_gone", "is_linked", "is_mirror", "is_opaque", "is_part", "is_rendered", "is_result", "join_mirror",
-           "join_scene", "known_results", "lines_drawn", "link_state", "looked_through", "materials_of",
-           "materials_shown", "may_have_faces", "moves", "named_by_selection", "nothing_to_reflect", "numbers",
-           "opacities_of", "participants", "read_meshes", "read_mirror", "read_mirrors", "read_scene", "read_view",
-           "redraw_lines", "register", "render_size", "rendered_alone", "rendered_collections", "rendered_in",
-           "rendered_otherwise", "result_of", "results_of", "says_mirror", "seen_in", "shown_by", "takes_part",
-           "unregister", "vectors", "visible", "with_copies", "with_square_pixels", "without_surface"]
+__all__ = ["Assembly", "DiffuseScene", "LINKS", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen",
+           "Participants", "Placed", "RESULTS", "all_nodes", "assemblies", "camera_of", "can_take_part", "candidates",
+           "choose", "corner_vertices", "drawn_meshes", "every_result_of", "fog_of", "forget_known",
+           "forgets_particles", "goes_by_name", "has_fog", "has_linked_results", "in_background_set", "in_viewports",
+           "is_clear", "is_fog", "is_gone", "is_linked", "is_mirror", "is_opaque", "is_part", "is_rendered",
+           "is_result", "join_mirror", "join_scene", "known_results", "lines_drawn", "link_state", "looked_through",
+           "lost_mirror", "materials_of", "materials_shown", "may_have_faces", "mirrors_of", "moves",
+           "named_by_selection", "nothing_to_reflect", "numbers", "opacities_of", "participants", "read_meshes",
+           "read_mirror", "read_mirrors", "read_scene", "read_view", "redraw_lines", "register", "render_size",
+           "rendered_alone", "rendered_collections", "rendered_in", "rendered_otherwise", "result_of", "results_of",
+           "root_of", "says_mirror", "seen_in", "shown_by", "takes_part", "unregister", "vectors", "visible",
+           "with_copies", "with_square_pixels", "without_surface"]

@@ -32,14 +32,31 @@ def results_of(context: bpy.types.Context, mirror: bpy.types.Object, among: list
 def every_result_of(context: bpy.types.Context, mirror: bpy.types.Object, among: list | None = None) -> list:
     """As `results_of`, for every camera."""
     return [obj for obj in (context.scene.objects if among is None else among) if is_result(obj)
-            and obj.reflection_mesh.mirror == mirror and obj.type == "MESH" and obj.library is None]
+            and (obj.reflection_mesh.mirror == mirror or mirror in mirrors_of(obj))
+            and obj.type == "MESH" and obj.library is None]
+
+
+def mirrors_of(result: bpy.types.Object) -> list:
+    """Return the objects that reflect in a result: its mirror, or the parts that are joined in it, without those that
+    have been deleted unless all have."""
+    record = result.reflection_mesh
+    if record.mirror is None:
+        return []
+    parts = [part.object for part in record.parts if part.object is not None]
+    return [obj for obj in parts if not is_gone(obj)] or parts or [record.mirror]
+
+
+def lost_mirror(result: bpy.types.Object) -> bool:
+    """Return True if the mirror of a result, or all of its parts, have been deleted."""
+    return all(map(is_gone, mirrors_of(result)))
 
 
 def named_by_selection(context: bpy.types.Context, results: list) -> list:
-    """Return those of the results that are selected, or whose mirrors are; if there is none, the active one if it is
-    protected, and so cannot be selected."""
+    """Return those of the results that are selected, or whose mirrors, or parts of these, are; if there is none, the
+    active one if it is protected, and so cannot be selected."""
     selected, active = set(context.selected_objects), context.view_layer.objects.active
-    named = [obj for obj in results if obj in selected or obj.reflection_mesh.mirror in selected]
+    named = [obj for obj in results
+             if not selected.isdisjoint((obj, obj.reflection_mesh.mirror, *mirrors_of(obj)))]
     return named or [obj for obj in results if obj == active and obj.hide_select]
 
 
@@ -65,6 +82,17 @@ def with_copies(context: bpy.types.Context, results: list) -> list:
     return list(found)
 
 
+def with_joined(context: bpy.types.Context, mirrors: list) -> list:
+    """Return `mirrors`, and the parts that are joined with one of them in a result."""
+    found = dict.fromkeys(mirrors)
+    for result in context.scene.objects:
+        if is_result(result) and len(result.reflection_mesh.parts):
+            parts = mirrors_of(result)
+            if not found.keys().isdisjoint(parts):
+                found.update(dict.fromkeys(part for part in parts if part.reflection_mesh.role in {"AUTO", "MIRROR"}))
+    return list(found)
+
+
 def camera_of(result: bpy.types.Object) -> bpy.types.Object | None:
     """The camera that a result is right for; None where that is whichever looks, or has been deleted."""
     camera = result.reflection_mesh.camera
@@ -84,7 +112,8 @@ def meant(context: bpy.types.Context, active: bpy.types.Object | None) -> list:
                 if obj.select_get() or (obj == active and obj.reflection_mesh.role in RESULTS)]
     selected.sort(key=lambda obj: obj != active)
     # asked for those alone that are a mirror: thousands of others may be selected
-    reflected = {obj.reflection_mesh.mirror for obj in context.scene.objects if is_result(obj)}
+    results = [obj for obj in context.scene.objects if is_result(obj)]
+    reflected = {mirror for obj in results for mirror in (obj.reflection_mesh.mirror, *mirrors_of(obj))}
     found: dict = {}
     for obj in selected:
         made = obj.reflection_mesh.role in RESULTS
@@ -107,7 +136,7 @@ def of_results(results: list) -> tuple[list, list]:
     if other is not None:
         raise ReflectionError(f"'{results[0].name}' and '{other.name}' show different objects: select one of them, or "
                               "the mirrors together with what they shall show.")
-    mirrors = list(dict.fromkeys(result.reflection_mesh.mirror for result in results))
+    mirrors = list(dict.fromkeys(mirror for result in results for mirror in mirrors_of(result)))
     both = next((mirror for mirror in mirrors if mirror in diffuse), None)
     if both is not None:
         raise ReflectionError(f"'{both.name}' is both the mirror and a source of '{results[0].name}': choose another "

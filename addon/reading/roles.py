@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 import bpy
 
 from ...core import ReflectionError
+from .assemblies import Assembly
 from .materials import all_fog, is_mirror, materials_on_faces, own_materials
 from .moves import comes_and_goes
 from .nothing_seen import NothingSeen
-from .results import RESULTS, is_gone, meant, of_results
+from .results import RESULTS, is_gone, lost_mirror, meant, of_results, with_joined
 
 NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active object, the mirror, or set roles in the "
              "Reflection tab.")
@@ -20,12 +21,14 @@ GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 @dataclass(frozen=True)
 class Participants:
     """Mirrors and diffuse objects that take part, and those that would, were they not hidden; of these the diffuse ones
-    of the scene, which take part again when they are shown."""
+    of the scene, which take part again when they are shown. `assemblies` tell which mirrors are joined, if that does
+    not follow from results and settings."""
 
     mirrors: list
     diffuse: list
     hidden: list
     waiting: list = field(default_factory=list)
+    assemblies: tuple[Assembly, ...] = ()
 
 
 def participants(context: bpy.types.Context) -> tuple[list, list]:
@@ -52,14 +55,21 @@ def choose(context: bpy.types.Context, all_seen: bool = True, unmirrored: bool =
     """
     mirrors, diffuse = candidates(context, all_seen, unmirrored)
     active = context.view_layer.objects.active
-    if not mirrors and active is not None and active.reflection_mesh.role in RESULTS and is_gone(
-            active.reflection_mesh.mirror):
+    if not mirrors and active is not None and active.reflection_mesh.role in RESULTS and lost_mirror(active):
         raise ReflectionError(f"The mirror of '{active.name}' is gone: clear it, or select another mirror.")
     return visible(context, mirrors, diffuse, unmirrored)
 
 
 def candidates(context: bpy.types.Context, all_seen: bool = True, unmirrored: bool = False) -> tuple[list, list]:
-    """The mirrors and the diffuse objects that `choose` chooses from, hidden ones among them."""
+    """The mirrors and the diffuse objects that `choose` chooses from, hidden ones among them; with a mirror all parts
+    that are joined with it."""
+    mirrors, diffuse = _candidates(context, all_seen, unmirrored)
+    mirrors = with_joined(context, mirrors)
+    reflecting = set(mirrors)
+    return mirrors, [obj for obj in diffuse if obj not in reflecting]
+
+
+def _candidates(context: bpy.types.Context, all_seen: bool, unmirrored: bool) -> tuple[list, list]:
     # materials that Geometry Nodes give are known of what is evaluated
     context.evaluated_depsgraph_get()
     active = context.view_layer.objects.active

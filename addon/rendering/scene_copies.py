@@ -3,9 +3,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from itertools import product
 
 import bpy
 
+from ..reading import mirrors_of
 from .cycles_pictures import with_cycles
 
 MOST_SEED = 2**31  # before which Blender's numbers end
@@ -72,8 +74,7 @@ def show_mirrors(results: list, back: ExitStack) -> None:
     for result in results:
         back.callback(setattr, result, "hide_render", result.hide_render)
         result.hide_render = True
-        mirror = result.reflection_mesh.mirror
-        for name, seen in SEEN.items() if mirror is not None else ():
+        for mirror, (name, seen) in product(mirrors_of(result), SEEN.items()):
             if getattr(mirror, name) != seen:
                 back.callback(setattr, mirror, name, not seen)
                 setattr(mirror, name, seen)

@@ -2,8 +2,9 @@
 from .choices import ATTRIBUTES, LIGHTS, METHODS, PLACEMENTS
 from .declared import LIGHT_SETTINGS, SAMPLES, SETTINGS, WRITTEN_SETTINGS, option
 from .holders import SettingsOfMirror, SettingsOfScene, SettingsOptions, holder_of, make_own, mirror_of
-from .wanted import SettingsOfMirrors, UsesSettings, Wanted, attributes_of, of_each
+from .wanted import SettingsOfMirrors, UsesSettings, Wanted, attributes_of, joins, of_each
 
 __all__ = ["ATTRIBUTES", "LIGHTS", "LIGHT_SETTINGS", "METHODS", "PLACEMENTS", "SAMPLES", "SETTINGS",
            "SettingsOfMirror", "SettingsOfMirrors", "SettingsOfScene", "SettingsOptions", "UsesSettings",
-           "WRITTEN_SETTINGS", "Wanted", "attributes_of", "holder_of", "make_own", "mirror_of", "of_each", "option"]
+           "WRITTEN_SETTINGS", "Wanted", "attributes_of", "holder_of", "joins", "make_own", "mirror_of", "of_each",
+           "option"]

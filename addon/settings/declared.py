@@ -10,7 +10,7 @@ SAMPLES = 64    # of light, per pixel
 SETTINGS = ("tolerance", "placement", "method", "depth", "memory", "hidden_faces")
 LIGHT_SETTINGS = ("light_samples", "light_kind")
 # what is written of it; a result remembers what it has
-WRITTEN_SETTINGS = ("attributes",)
+WRITTEN_SETTINGS = ("attributes", "join_parts")
 
 
 def declared(names: tuple[str, ...], **more) -> dict:
@@ -38,7 +38,7 @@ def option(setting: str, /, **more):
 
 KINDS = {"tolerance": FloatProperty, "placement": EnumProperty, "method": EnumProperty, "depth": IntProperty,
          "memory": FloatProperty, "hidden_faces": BoolProperty, "light_samples": IntProperty,
-         "light_kind": EnumProperty, "attributes": EnumProperty}
+         "light_kind": EnumProperty, "attributes": EnumProperty, "join_parts": BoolProperty}
 VALUES = {
     "tolerance": {"name": "Tolerance", "default": 0.5, "min": 0.01, "soft_max": 8.0, "max": 1000.0, "precision": 2,
                   "subtype": "PIXEL",
@@ -60,4 +60,7 @@ VALUES = {
     "light_kind": {"name": "Light", "items": LIGHTS, "default": "AUTO", "description": "Where the light is stored"},
     "attributes": {"name": "Attributes", "items": ATTRIBUTES, "default": "ALL",
                    "description": "Attributes that are stored in the reflection's mesh"},
+    "join_parts": {"name": "Join Parts", "default": True,
+                   "description": "Mirrors that have one topmost parent share one reflection; a mirror with settings "
+                   "of its own, or with a reflection already, keeps its own"},
 }

@@ -67,6 +67,13 @@ def attributes_of(settings: Settings | SettingsOfMirrors, mirror: bpy.types.Obje
         holder_of(mirror, scene).attributes
 
 
+def joins(settings: Settings | SettingsOfMirrors, scene: bpy.types.Scene, mirror: bpy.types.Object) -> bool:
+    """Return True if a mirror is to share one result with the other mirrors of its hierarchy; one with settings of its
+    own has a result of its own."""
+    wanted = settings if isinstance(settings, Wanted) else Wanted(scene)
+    return not mirror.reflection_mesh.own_settings and wanted.value(mirror, "join_parts")
+
+
 def of_each(settings: Settings | SettingsOfMirrors) -> SettingsOfMirrors:
     """Settings that are the same for all mirrors as those of each."""
     return settings if callable(settings) else lambda mirror: settings

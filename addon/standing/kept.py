@@ -9,6 +9,7 @@ import numpy as np
 
 from ...core import PointTree, SceneTree, Standing, TriangleMesh
 from ..reading import (
+    Assembly,
     DiffuseScene,
     LocalMesh,
     MirrorSurface,
@@ -29,6 +30,7 @@ class Stage:
     ----------
     scene : DiffuseScene
     surfaces : list of MirrorSurface
+        Of each mirror; the parts of an assembly are one.
     mirrors : core.TriangleMesh
         All mirrors joined.
     trees : dict
@@ -92,7 +94,7 @@ class Kept:
         _last.depsgraph = name
         return _last if trust else Kept()
 
-    def read(self, depsgraph: bpy.types.Depsgraph, mirrors: list, diffuse: list) -> Stage:
+    def read(self, depsgraph: bpy.types.Depsgraph, mirrors: list[Assembly], diffuse: list) -> Stage:
         """The mirrors and the diffuse objects, of which what is new is read; what takes no part any more is let go.
 
         Raises
@@ -101,7 +103,7 @@ class Kept:
         """
         return self.joined(mirrors, diffuse, *self.looked_at(depsgraph, mirrors, diffuse))
 
-    def looked_at(self, depsgraph: bpy.types.Depsgraph, mirrors: list,
+    def looked_at(self, depsgraph: bpy.types.Depsgraph, mirrors: list[Assembly],
                   diffuse: list) -> tuple[list[list[Placed]], list[Placed]]:
         """Where the meshes of each mirror stand, and those of the diffuse objects: all that Blender is asked for."""
         used: dict[tuple, tuple[LocalMesh, frozenset]] = {}
@@ -112,14 +114,15 @@ class Kept:
             if mesh is not None:
                 used[name] = mesh, depends
             return mesh
-        found = [read_meshes(depsgraph, [mirror], True, known) for mirror in mirrors]
+        found = [read_meshes(depsgraph, mirror.parts, True, known) for mirror in mirrors]
         placed = read_meshes(depsgraph, diffuse, False, known)
         self.meshes = used
         return found, placed
 
-    def joined(self, mirrors: list, diffuse: list, of_mirrors: list[list[Placed]], placed: list[Placed]) -> Stage:
+    def joined(self, mirrors: list[Assembly], diffuse: list, of_mirrors: list[list[Placed]],
+               placed: list[Placed]) -> Stage:
         """What `read` returns, of what was looked at."""
-        surfaces = {mirror.session_uid: self._surface(mirror, own) for mirror, own in zip(mirrors, of_mirrors)}
+        surfaces = {one.mirror.session_uid: self._surface(one, own) for one, own in zip(mirrors, of_mirrors)}
         self.surfaces = surfaces
         before, own = self.stage, [surface for *_, surface in surfaces.values()]
         same = before is not None and list(map(id, own)) == list(map(id, before.surfaces))
@@ -138,12 +141,12 @@ class Kept:
         if self is _last and held_bytes(self) > 1e9 * gigabytes:
             _forget(None)
 
-    def _surface(self, mirror: bpy.types.Object, placed: list[Placed]) -> tuple:
+    def _surface(self, mirror: Assembly, placed: list[Placed]) -> tuple:
         reflecting = [is_mirror(material) for item in placed for material in item.mesh.materials or (None,)]
-        known = self.surfaces.get(mirror.session_uid)
+        known = self.surfaces.get(mirror.mirror.session_uid)
         if known is not None and known[1] == reflecting and _same(placed, known[0]):
             return known
-        return placed, reflecting, join_mirror(placed, mirror)
+        return placed, reflecting, join_mirror(placed, mirror.parts)
 
 
 _last = Kept()

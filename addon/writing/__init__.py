@@ -37,6 +37,7 @@ from .write_object import (
     forget_mesh,
     new_beside,
     new_object,
+    remember_parts,
     result_name,
     show_own_materials,
     write_object,
@@ -45,9 +46,9 @@ from .write_object import (
 __all__ = ["Attribute", "Builder", "Edges", "FIELDS", "InTheWay", "LATER_COSINE", "LATER_MATERIAL", "LONGEST_RECORD",
            "MOST_UV_MAPS", "MeshArrays", "NORMAL", "PREVIEW", "RAYS", "Reflection", "UV_MAP", "Written", "applied_to",
            "as_shown", "close_abandoned_windows", "disc_nodes", "edges_that_stray", "forget_collection",
-           "forget_landmarks", "forget_mesh", "forget_nodes", "forget_unblurred", "gather", "halve_edges", "hide_discs",
-           "images_of", "light_layer", "light_points", "link_beside", "mesh_arrays", "mesh_bytes", "nearer",
-           "new_beside", "new_object", "place_of", "point_arrays", "protect", "put_back_materials", "result_name",
-           "set_free", "set_window", "show_for_camera", "show_in_layer", "show_own_materials", "show_unblurred",
-           "shown_layers", "size_text", "told_of", "unblurred_in", "vertices_written", "what_is_in_the_way",
-           "write_mesh", "write_object"]
+           "forget_landmarks", "forget_mesh", "forget_nodes", "forget_unblurred", "gather", "halve_edges",
+           "hide_discs", "images_of", "light_layer", "light_points", "link_beside", "mesh_arrays", "mesh_bytes",
+           "nearer", "new_beside", "new_object", "place_of", "point_arrays", "protect", "put_back_materials",
+           "remember_parts", "result_name", "set_free", "set_window", "show_for_camera", "show_in_layer",
+           "show_own_materials", "show_unblurred", "shown_layers", "size_text", "told_of", "unblurred_in",
+           "vertices_written", "what_is_in_the_way", "write_mesh", "write_object"]

@@ -12,7 +12,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..faults import still_there
-from ..reading import camera_of, is_result, redraw_lines
+from ..reading import camera_of, is_result, mirrors_of, redraw_lines
 from ..registration import Handlers
 from .windows import close_window, open_window
 
@@ -36,8 +36,8 @@ def show_for_camera(scene: bpy.types.Scene) -> None:
             bring_back(obj)
         elif not any(obj.reflection_mesh.aside):
             _put_aside(obj)
-    for mirror in {obj.reflection_mesh.mirror for obj in own}:
-        windows = [obj.reflection_mesh.window for obj in own if obj.reflection_mesh.mirror == mirror]
+    for mirror in {mirror for obj in own for mirror in mirrors_of(obj)}:
+        windows = [obj.reflection_mesh.window for obj in own if mirror in mirrors_of(obj)]
         (open_window if any(windows) else close_window)(mirror)
     redraw_lines(scene)
 
@@ -61,7 +61,7 @@ def bring_back(obj: bpy.types.Object) -> None:
 def as_shown(scene: bpy.types.Scene) -> Callable[[], None]:
     """What brings back which results a scene shows, and which of their mirrors are windows, as it is now."""
     results = [obj for obj in scene.objects if is_result(obj) and obj.library is None]
-    mirrors = {obj.reflection_mesh.mirror for obj in results} - {None}
+    mirrors = {mirror for obj in results for mirror in mirrors_of(obj)}
     shown = [(obj, tuple(getattr(obj, switch) for switch in SWITCHES), tuple(obj.reflection_mesh.aside))
              for obj in results]
     windows = [(obj, obj.visible_camera, obj.reflection_mesh.camera_hidden) for obj in mirrors if obj.library is None]

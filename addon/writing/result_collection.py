@@ -4,7 +4,7 @@ from __future__ import annotations
 import bpy
 
 from ..faults import AllOrNothing
-from ..reading import rendered_collections
+from ..reading import mirrors_of, rendered_collections
 
 NAME = "Reflections"
 LAYER = "reflection_mesh_layer"  # custom property of the collections that one view layer alone shows
@@ -15,7 +15,7 @@ def gather(context: bpy.types.Context, objects: list, whole: AllOrNothing) -> No
     where they are where that is hidden, and where their mirror is held out or seen by indirect rays alone, as they then
     are too."""
     scene, layer = context.scene, context.view_layer
-    mirrors = {obj: obj.reflection_mesh.mirror for obj in objects}
+    mirrors = {obj: mirrors_of(obj)[0] for obj in objects}
     objects = [obj for obj, mirror in mirrors.items()
                if not (mirror.holdout_get(view_layer=layer) or mirror.indirect_only_get(view_layer=layer))]
     if not objects:

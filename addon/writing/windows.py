@@ -14,7 +14,7 @@ from bpy.app.handlers import persistent
 from mathutils import Vector
 
 from ...core import ReflectionMesh, View
-from ..reading import is_opaque, is_result, materials_of
+from ..reading import is_opaque, is_result, materials_of, mirrors_of
 from ..registration import Handlers
 
 RAYS = 200          # by which the view through a window is tried
@@ -42,7 +42,8 @@ def set_window(result: bpy.types.Object, placement: str) -> None:
     """Make a window of a result's mirror, or none, as the placement asks for."""
     record = result.reflection_mesh
     record.window = placement == "VIRTUAL"
-    (open_window if record.window else close_window)(record.mirror)
+    for mirror in mirrors_of(result):
+        (open_window if record.window else close_window)(mirror)
 
 
 class InTheWay(NamedTuple):
@@ -154,8 +155,8 @@ def close_abandoned_windows() -> None:
     if not hidden:
         return
     # what is deleted may live on where something still points to it, but in no scene
-    shown = {obj.reflection_mesh.mirror for scene in bpy.data.scenes for obj in scene.objects
-             if is_result(obj) and _needs_window(obj.reflection_mesh)}
+    shown = {mirror for scene in bpy.data.scenes for obj in scene.objects
+             if is_result(obj) and _needs_window(obj.reflection_mesh) for mirror in mirrors_of(obj)}
     for obj in hidden:
         if obj not in shown:
             close_window(obj)

@@ -8,7 +8,7 @@ import bpy
 
 from ...core import ReflectionMesh
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object, still_there
-from ..reading import every_result_of, results_of
+from ..reading import Assembly, every_result_of, results_of
 from .arrays import MeshArrays
 from .beside import link_beside
 from .cameras import bring_back
@@ -27,7 +27,8 @@ class Reflection:
 
     Attributes
     ----------
-    mirror : bpy.types.Object
+    joint : Assembly
+        The mirror, or the parts that are one.
     camera : bpy.types.Object
         That it is right for.
     sources : list of bpy.types.Object
@@ -43,7 +44,7 @@ class Reflection:
         What of the arrays is written.
     """
 
-    mirror: bpy.types.Object
+    joint: Assembly
     camera: bpy.types.Object
     sources: list
     result: ReflectionMesh
@@ -51,6 +52,11 @@ class Reflection:
     resolution: tuple[int, int]
     placement: str
     attributes: str = "ALL"
+
+    @property
+    def mirror(self) -> bpy.types.Object:
+        """The object that the result points to."""
+        return self.joint.mirror
 
 
 @dataclass(frozen=True)
@@ -76,9 +82,10 @@ def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothi
         The result, and its copies.
     """
     earlier = results_of(context, made.mirror)
-    keep_mirror(made.mirror, whole)
+    for part in made.joint.members:
+        keep_mirror(part, whole)
     if not earlier:
-        obj = new_object(context, made.mirror, whole)
+        obj = new_object(context, made.joint, whole)
         _fill(obj, made, whole, Changes(None, [], []), obj.data)
         set_window(obj, made.placement)
         return [Written(obj, Changes(None, [], []), False)]
@@ -130,14 +137,14 @@ def _fill(obj: bpy.types.Object, made: Reflection, whole: AllOrNothing, changes:
     place(obj, arrays.origin, changes)
 
 
-def new_object(context: bpy.types.Context, mirror: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object:
+def new_object(context: bpy.types.Context, joint: Assembly, whole: AllOrNothing) -> bpy.types.Object:
     """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet, and a hole where
     the mirror is one; its name tells its camera where the mirror has results for others."""
-    camera = context.scene.camera.name if every_result_of(context, mirror) else ""
-    obj = new_beside(context, result_name(mirror, camera), mirror, whole)
+    camera = context.scene.camera.name if every_result_of(context, joint.mirror) else ""
+    obj = new_beside(context, result_name(joint.mirror, camera), joint.members[0], whole)
     for rays in RAYS:
         setattr(obj, rays, False)
-    obj.is_holdout = mirror.is_holdout
+    obj.is_holdout = joint.members[0].is_holdout
     # Line Art takes creases from the sharp edges alone, and no lines where layers that touch sink into each other
     obj.lineart.use_crease_override, obj.lineart.crease_threshold = True, 0.0
     obj.lineart.usage = "NO_INTERSECTION"
@@ -168,6 +175,7 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     record, result = obj.reflection_mesh, made.result
     record.role = "REFLECTION"
     record.mirror = made.mirror
+    remember_parts(record, made.joint)
     record.camera = made.camera
     bring_back(obj)
     record.attributes = made.attributes
@@ -180,6 +188,13 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     record.estimated_error = result.estimated_error
     record.counts = json.dumps({name: int(count) for name, count in result.counts.items()})
     record.resolution = made.resolution
+
+
+def remember_parts(record: bpy.types.PropertyGroup, joint: Assembly) -> None:
+    """Let a result know the objects that its mirror is joined from."""
+    record.parts.clear()
+    for part in joint.members if joint.is_joined else ():
+        record.parts.add().object = part
 
 
 def _count(obj: bpy.types.Object, made: Reflection) -> None:

@@ -2,6 +2,8 @@
 
 DONE = {
     "{}: {}": "{}: {}",
+    "{} Also: {}.": "{} Ebenso: {}.",
+    "{names} and {count} more": "{names} und {count} weitere",
     "{}: cancelled, {}.": "{}: abgebrochen, {}.",
     "nothing has changed": "nichts hat sich geändert",
     "the frames that are done are kept, the file has not changed":
@@ -79,6 +81,8 @@ DONE = {
         "neben dem von Strahlen; Bilder in {}",
 }
 KEPT = {
+    "'{}' has no mattes, because Attributes is Shown. Set Attributes to All and generate again.":
+        "'{}' hat keine Masken, weil Attribute auf Gezeigtes steht. Setze Attribute auf Alles und erzeuge es neu.",
     "'{}' stays moved, as you left it: clear it and generate again to have it on its mirror.":
         "'{}' bleibt verschoben, wie du es gelassen hast: entferne und erzeuge es neu, um es auf dem Spiegel zu "
         "haben.",
@@ -233,53 +237,29 @@ LACKS = {
     "{}: '{}' hides a part of the virtual image behind this mirror; the placement Layered shows all of it.":
         "{}: '{}' verdeckt einen Teil des virtuellen Bildes hinter diesem Spiegel; die Lage Geschichtet zeigt es "
         "ganz.",
-    "In one part of the mirror more lies over one another than the picture or the memory allows to be cut exactly, and "
-    "rays show it to a pixel: simplify the meshes or raise the memory.":
-        "In einem Teil des Spiegels liegt mehr übereinander, als Bild oder Speicher genau zu schneiden erlauben, und "
-        "Strahlen zeigen es auf ein Pixel: vereinfache die Netze, oder erhöhe den Speicher.",
-    "In {count} parts of the mirror more lies over one another than the picture or the memory allows to be cut "
-    "exactly, and rays show it to a pixel: simplify the meshes or raise the memory.":
-        "In {count} Teilen des Spiegels liegt mehr übereinander, als Bild oder Speicher genau zu schneiden "
-        "erlauben, und Strahlen zeigen es auf ein Pixel: vereinfache die Netze, oder erhöhe den Speicher.",
-    "In one part of the mirror too much of it lies over itself to be cut exactly, and something hidden may show: "
-    "simplify the mirror.":
-        "In einem Teil des Spiegels liegt zu viel von ihm über sich selbst, um genau geschnitten zu werden, und "
-        "Verdecktes kann zu sehen sein: vereinfache den Spiegel.",
-    "In {count} parts of the mirror too much of it lies over itself to be cut exactly, and something hidden may show: "
-    "simplify the mirror.":
-        "In {count} Teilen des Spiegels liegt zu viel von ihm über sich selbst, um genau geschnitten zu werden, und "
-        "Verdecktes kann zu sehen sein: vereinfache den Spiegel.",
+    "Dense areas were sampled at one ray per pixel ({share} % of this reflection). Raise Memory for exact outlines.":
+        "Dichte Bereiche sind mit einem Strahl je Pixel abgetastet ({share} % dieser Spiegelung). Erhöhe Speicher, "
+        "damit Umrisse genau werden.",
+    "The mirror overlaps itself too often to be cut exactly, so hidden objects may show. Simplify the mirror.":
+        "Der Spiegel überdeckt sich zu oft selbst, um genau geschnitten zu werden; Verdecktes kann zu sehen sein. "
+        "Vereinfache den Spiegel.",
+    "Too many faces pass through the mirror, so objects behind them may show. Simplify the objects that pass through "
+    "it.":
+        "Zu viele Flächen gehen durch den Spiegel; Objekte dahinter können zu sehen sein. Vereinfache die Objekte, die "
+        "durch ihn gehen.",
+    "Too many outlines of mirrors cross, so some edges are rough. Simplify the mirrors.":
+        "Zu viele Umrisse von Spiegeln kreuzen sich; manche Ränder sind rau. Vereinfache die Spiegel.",
+    "Refinement stopped at the largest number of faces, so the error may exceed the tolerance. Raise Tolerance or "
+    "Memory.":
+        "Die Verfeinerung endete bei der größten Zahl von Flächen; der Fehler kann größer als die Toleranz sein. "
+        "Erhöhe Toleranz oder Speicher.",
+    "{share} % of the points are too far apart for discs without gaps. Subdivide the reflected objects, or set Made Of "
+    "to Faces.":
+        "{share} % der Punkte liegen zu weit auseinander für Scheiben ohne Lücken. Unterteile die gespiegelten "
+        "Objekte, oder setze Besteht aus auf Flächen.",
     "A film or tinted pane is so close before this mirror that the reflection is left out behind it: move it away from "
     "the mirror by a thousandth of the camera's distance.":
         "Eine Folie oder getönte Scheibe liegt so dicht vor diesem Spiegel, dass die Spiegelung dahinter fehlt: rücke "
         "sie um ein Tausendstel des Kameraabstands vom Spiegel ab.",
-    "Through one part of the mirror pass more faces than can be followed, and something behind them may show: simplify "
-    "the objects that pass through the mirror.":
-        "Durch einen Teil des Spiegels gehen mehr Flächen, als sich verfolgen lassen, und etwas dahinter kann zu sehen "
-        "sein: vereinfache die Objekte, die durch ihn gehen.",
-    "Through {count} parts of the mirror pass more faces than can be followed, and something behind them may show: "
-    "simplify the objects that pass through the mirror.":
-        "Durch {count} Teile des Spiegels gehen mehr Flächen, als sich verfolgen lassen, und etwas dahinter kann zu "
-        "sehen sein: vereinfache die Objekte, die durch ihn gehen.",
-    "In one part of the mirror more outlines of mirrors cross than can be cut along, and their edges are rough: "
-    "simplify the mirrors.":
-        "In einem Teil des Spiegels kreuzen sich mehr Umrisse von Spiegeln, als sich schneiden lassen, und ihre Ränder "
-        "sind rau: vereinfache die Spiegel.",
-    "In {count} parts of the mirror more outlines of mirrors cross than can be cut along, and their edges are rough: "
-    "simplify the mirrors.":
-        "In {count} Teilen des Spiegels kreuzen sich mehr Umrisse von Spiegeln, als sich schneiden lassen, und ihre "
-        "Ränder sind rau: vereinfache die Spiegel.",
-    "Refinement stopped at the largest number of faces, so that the error may exceed the tolerance: raise the "
-    "tolerance or the memory.":
-        "Die Verfeinerung endete bei der größten Zahl von Flächen, so dass der Fehler größer als die Toleranz sein "
-        "kann: erhöhe die Toleranz oder den Speicher.",
-    "One of {points} points is too far from its neighbours to be a disc without gaps: subdivide the reflected objects, "
-    "or let the reflection be made of faces.":
-        "Einer von {points} Punkten ist zu weit von seinen Nachbarn für eine Scheibe ohne Lücken: unterteile die "
-        "Objekte, oder lasse die Spiegelung aus Flächen bestehen.",
-    "{count} of {points} points are too far from their neighbours to be discs without gaps: subdivide the reflected "
-    "objects, or let the reflection be made of faces.":
-        "{count} von {points} Punkten sind zu weit von ihren Nachbarn für Scheiben ohne Lücken: unterteile die "
-        "Objekte, oder lasse die Spiegelung aus Flächen bestehen.",
 }
 REPORTS = {**DONE, **KEPT, **LACKS}

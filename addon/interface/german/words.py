@@ -11,6 +11,17 @@ OPERATORS = {
         "Zeigt die Farben der gespiegelten Objekte, von Lampen unberührt, bis die Spiegelung beleuchtet ist. An, wenn"
         " ein Knopf gedrückt wird",
     "Attributes": "Attribute",
+    "Matte": "Maske",
+    "Mattes": "Masken",
+    "Reflections show this object in a pass of its own, for compositing: 1 where it is seen in a mirror, 0 elsewhere":
+        "Spiegelungen zeigen dieses Objekt in einem eigenen Durchgang zum Compositing: 1, wo es in einem Spiegel zu "
+        "sehen ist, sonst 0",
+    "Select objects to list them here": "Wähle Objekte aus, um sie hier zu sehen",
+    "Join Parts": "Teile verbinden",
+    "Mirrors that have one topmost parent share one reflection; a mirror with settings of its own, or with a "
+    "reflection already, keeps its own":
+        "Spiegel mit einem gemeinsamen obersten Elternobjekt teilen sich eine Spiegelung; einer mit eigenen "
+        "Einstellungen, oder der schon eine Spiegelung hat, behält seine eigene",
     "Attributes that are stored in the reflection's mesh": "Attribute, die im Netz der Spiegelung gespeichert sind",
     "All": "Alles",
     "Position on the mirror and on the reflected object, path length and reflected face, for light on objects, "

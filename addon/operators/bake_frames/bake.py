@@ -2,10 +2,10 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
-from itertools import combinations
 
 import bpy
 
@@ -25,8 +25,9 @@ from ...frames import (
     writes_usd,
 )
 from ...freshness import frame_origin
-from ...reading import NothingSeen, candidates, choose, read_view
+from ...reading import Assembly, NothingSeen, Participants, candidates, choose, read_view
 from ...settings import of_each
+from ..assembled import assembled
 from ..clear import clear
 from ..generate import generation
 from ..light import lighting
@@ -35,9 +36,9 @@ from .plan import (
     Plan,
     compared,
     found_frames,
+    joined_or_none,
     lacking,
     open_frame,
-    visible_or_none,
 )
 from .thrown_light import ThrownLight
 
@@ -51,12 +52,13 @@ class Reflections:
 
     Attributes
     ----------
-    mirrors, diffuse : list of bpy.types.Object
+    mirrors : list of Assembly
+    diffuse : list of bpy.types.Object
     lacks : dict
         What mirrors lack, in sentences, by frames that were made.
     """
 
-    mirrors: list
+    mirrors: list[Assembly]
     diffuse: list
     lacks: dict = field(default_factory=dict)
 
@@ -65,7 +67,7 @@ class Reflections:
     @property
     def keys(self) -> list[str]:
         """Of the results in the records of frames."""
-        return [mirror.name for mirror in self.mirrors]
+        return [one.mirror.name for one in self.mirrors]
 
     def take(self, name: str) -> str:
         """What the records of a sequence are called."""
@@ -75,16 +77,19 @@ class Reflections:
         return f"{told_apart(self.keys)[key]} Reflection {take}".strip()
 
     def made_with(self, context: bpy.types.Context, plan: Plan, camera: bpy.types.Object | None) -> dict:
-        return plan.made_with(context, camera, self.mirrors)
+        return plan.made_with(context, camera, [one.mirror for one in self.mirrors])
 
     def origin(self, context: bpy.types.Context, plan: Plan) -> dict:
         """What the open frame is made from."""
-        return frame_origin(context, visible_or_none(context, self.mirrors, self.diffuse), bool(plan.samples))
+        return frame_origin(context, self._chosen(context), bool(plan.samples))
+
+    def _chosen(self, context: bpy.types.Context) -> Participants | None:
+        return joined_or_none(context, self.mirrors, self.diffuse)
 
     def frame(self, context: bpy.types.Context, plan: Plan, results: list) -> Steps[None]:
         """Generate and light the open frame, adding to `results` as soon as they are there."""
         lacks = self.lacks.setdefault(context.scene.frame_current, [])
-        return _results(context, plan, visible_or_none(context, self.mirrors, self.diffuse), results, lacks)
+        return _results(context, plan, self._chosen(context), results, lacks)
 
     def by_key(self, results: list) -> dict:
         return {obj.reflection_mesh.mirror.name: obj for obj in results}
@@ -126,11 +131,12 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
     mirrors, diffuse = candidates(context, unmirrored=bool(plan.lamps))
     if not (mirrors and diffuse):
         choose(context)     # which says what is missing
-    for one, other in combinations(mirrors, 2):
-        if one.name == other.name:
-            # one of them is linked; frames know mirrors by their names
-            raise core.ReflectionError(f"Two mirrors are called '{one.name}': rename one of them.")
-    baked = ThrownLight.of(context, plan, mirrors, diffuse) if plan.lamps else Reflections(mirrors, diffuse)
+    joint = assembled(context, Participants(mirrors, diffuse, []), plan.settings)
+    twice = [name for name, count in Counter(mirror.name for mirror in mirrors).items() if count > 1]
+    if twice:
+        # one of them is linked; frames know mirrors by their names
+        raise core.ReflectionError(f"Two mirrors are called '{twice[0]}': rename one of them.")
+    baked = ThrownLight.of(context, plan, mirrors, diffuse) if plan.lamps else Reflections(joint, diffuse)
     if not (plan.cameras or plan.lamps):
         read_view(context)
     takes = plan.takes
@@ -140,7 +146,7 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
         check_folder(plan.folder)
     with set_aside(context, mirrors, baked.role):
         for (_, camera), known in zip(takes, found):
-            yield from part(compared(context, plan, camera, (mirrors, diffuse), known, remark), 0.0, 0.0)
+            yield from part(compared(context, plan, camera, (joint, diffuse), known, remark), 0.0, 0.0)
         for index, ((name, camera), known) in enumerate(zip(takes, found)):
             for number, frame in enumerate(plan.frames):
                 start = (index * len(plan.frames) + number) * share
@@ -152,7 +158,7 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
                     tell(known[frame])
     for sentence in lacking(baked.lacks):
         remark(sentence)
-    placements = {mirror.name: of_each(plan.settings)(mirror).placement for mirror in mirrors}
+    placements = {one.mirror.name: of_each(plan.settings)(one.mirror).placement for one in joint}
     render = context.scene.render
     stretch = render.frame_map_old / render.frame_map_new
     return [Sequence(plan.folder, [known[frame] for frame in plan.frames], name, placements,

@@ -3,15 +3,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import bpy
 
 from .... import core
-from ...faults import Steps, one_or_more
+from ...faults import Steps, gathered, listed, one_or_more
 from ...frames import Sequence, frame_numbers, frame_text, is_done, read_record, record_path, told_apart
 from ...freshness import frame_difference, frame_origin
-from ...reading import NothingSeen, Participants, candidates, render_size, visible
+from ...reading import Assembly, NothingSeen, Participants, candidates, render_size, visible
 from ...settings import SAMPLES, SettingsOfMirrors, Wanted, of_each
 from ..shortcomings import DEPTH_OF_FIELD, STEREO
 
@@ -114,16 +114,16 @@ def compared(context: bpy.types.Context, plan: Plan, camera: bpy.types.Object | 
         if record is not None and record.made_from:
             yield 0.0, f"Comparing frame {frame}"
             open_frame(context, frame, camera)
-            chosen = visible_or_none(context, *everything)
+            chosen = joined_or_none(context, *everything)
             why = frame_difference(record.made_from, frame_origin(context, chosen, bool(plan.samples)))
             reason = reason or why
             changed += [frame] if why else []
     if changed:
-        remark(f"Kept although they were baked from another state of the scene ({reason}): {listed(changed)} "
+        remark(f"Kept although they were baked from another state of the scene ({reason}): {frames_listed(changed)} "
                f"in '{plan.folder}'; overwrite them, or choose another folder, to have all alike.")
 
 
-def listed(frames: list[int]) -> str:
+def frames_listed(frames: list[int]) -> str:
     """Some frames in words, the first of them where they are many."""
     if len(frames) == 1:
         return f"frame {frames[0]}"
@@ -136,16 +136,17 @@ def lacking(lacks: dict) -> list[str]:
     numbers alone as one."""
     frames: dict = {}
     for frame, sentences in lacks.items():
-        for sentence in sentences:
+        for sentence in gathered(sentences):
             _, those = frames.setdefault(NUMBER.sub("", sentence), (sentence, []))
             those.append(frame)
-    return [f"In {listed(sorted({*those}))}: {sentence}" for sentence, those in frames.values()]
+    return [f"In {frames_listed(sorted({*those}))}: {sentence}" for sentence, those in frames.values()]
 
 
-def visible_or_none(context: bpy.types.Context, mirrors: list, diffuse: list) -> Participants | None:
+def joined_or_none(context: bpy.types.Context, mirrors: list[Assembly], diffuse: list) -> Participants | None:
     """Who takes part in the open frame; None where all mirrors or all else are hidden."""
     try:
-        return visible(context, mirrors, diffuse)
+        seen = visible(context, [part for one in mirrors for part in one.parts], diffuse)
+        return replace(seen, assemblies=tuple(mirrors))
     except NothingSeen:
         return None
 
@@ -181,8 +182,7 @@ def empty_remarks(sequences: list[Sequence]) -> list[str]:
     empty = sorted(set().union(*(sequence.empty for sequence in sequences)) - seen)
     if not empty:
         return []
-    named = ", ".join([*map(repr, empty[:NAMED]), *["..."] * (len(empty) > NAMED)])
-    return [f"Empty in every baked frame, since hidden, out of sight or with nothing to show: {named}."]
+    return [f"Empty in every baked frame, since hidden, out of sight or with nothing to show: {listed(empty)}."]
 
 
 def layer_remarks(scene: bpy.types.Scene, layers: list) -> list[str]:

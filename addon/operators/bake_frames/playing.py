@@ -3,20 +3,23 @@ from __future__ import annotations
 
 import bpy
 
-from ...faults import AllOrNothing
+from ...faults import AllOrNothing, listed
 from ...frames import Sequence, light_of, make_way, play, player_of, results_to_play, show_always, show_by_camera
-from ...reading import candidates
+from ...lighting import update_mattes
+from ...reading import Participants, candidates
 from ...writing import set_free, told_of
+from ..assembled import assembled
 from .plan import Plan
 from .thrown_light import playing_light
 
 
-def playing(context: bpy.types.Context, sequences: list[Sequence]) -> tuple[list, list]:
+def playing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -> tuple[list, list]:
     """Let the results of the file play sequences, all or none of them; the objects, and sentences on what is hidden."""
     mirrors, diffuse = candidates(context)
+    joint = assembled(context, Participants(mirrors, diffuse, []), plan.settings)
     with AllOrNothing() as whole:
         players = [player_of(sequence, mirror, light, whole)
-                   for sequence in sequences for light in [light_of(sequence, whole)] for mirror in mirrors]
+                   for sequence in sequences for light in [light_of(sequence, whole)] for mirror in joint]
         freed = [sentence for player in players for result in results_to_play(context, player)[:1]
                  for sentence in told_of(result, set_free(context, result, whole))]
         shown = [(play(context, player, diffuse, whole), player.sequence.camera) for player in players]
@@ -24,16 +27,13 @@ def playing(context: bpy.types.Context, sequences: list[Sequence]) -> tuple[list
         if sequences[0].camera:
             show_by_camera(context.scene, shown)
             if hidden := make_way(context, shown, whole):
-                told += [f"Hidden where cameras have sequences of their own: {_listed(hidden)}."]
+                told += [f"Hidden where cameras have sequences of their own: {listed(obj.name for obj in hidden)}."]
         elif hidden := [other for obj, _ in shown for other in show_always(context, obj, whole)]:
-            told += [f"Hidden, since what plays is right for every camera: {_listed(hidden)}."]
+            told += [f"Hidden, since what plays is right for every camera: {listed(obj.name for obj in hidden)}."]
+    update_mattes(context)
     return [obj for obj, _ in shown], told
-
-
-def _listed(objects: list) -> str:
-    return ", ".join(repr(obj.name) for obj in objects)
 
 
 def showing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -> tuple[list, list]:
     """Let the file play what was baked by a plan: the objects, and sentences on what is left out."""
-    return playing_light(context, plan, sequences[0]) if plan.lamps else playing(context, sequences)
+    return playing_light(context, plan, sequences[0]) if plan.lamps else playing(context, plan, sequences)

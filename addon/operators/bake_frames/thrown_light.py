@@ -9,7 +9,7 @@ from .... import core
 from ...faults import AllOrNothing, Steps, still_there
 from ...frames import Sequence, play_caustics, player_of, told_apart
 from ...illumination import follow_layers, leave_out, places_kept, results_with
-from ...reading import NothingSeen, candidates, materials_shown, seen_in, visible
+from ...reading import Assembly, NothingSeen, candidates, materials_shown, seen_in, visible
 from ...settings import of_each
 from ...writing import set_free, told_of
 from ..caustics import Asked, NothingThrown, keep_own, left_out_before, name_of, throwing
@@ -133,7 +133,8 @@ def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) ->
     told: list = []
     shown = materials_shown(context.evaluated_depsgraph_get(), [mirror for mirror, _ in pairs.values()])
     with AllOrNothing() as whole:
-        players = {key: player_of(sequence, mirror, None, whole, key) for key, (mirror, _) in pairs.items()}
+        players = {key: player_of(sequence, Assembly.of(mirror), None, whole, key)
+                   for key, (mirror, _) in pairs.items()}
         for key, player in players.items():
             for earlier in results_with(context, *pairs[key])[:1]:
                 told += told_of(earlier, set_free(context, earlier, whole))

@@ -12,7 +12,7 @@ import numpy as np
 
 from .... import core
 from ....core.caustics import most_layers
-from ...faults import AllOrNothing, Steps, one_or_more, part
+from ...faults import AllOrNothing, Steps, listed, one_or_more, part
 from ...frames import stop_playing
 from ...illumination import (
     Caustic,
@@ -79,7 +79,7 @@ class Thrown:
     lacks: list = field(default_factory=list)
 
     def summary(self, seconds: float) -> str:
-        names = ", ".join(f"'{obj.name}'" for obj in self.objects)
+        names = listed(obj.name for obj in self.objects)
         faces = one_or_more(sum(obj.reflection_mesh.faces for obj in self.objects), "1 face", "{count} faces")
         return f"{names}: {faces} of light, {seconds:.2f} s"
 

@@ -39,11 +39,15 @@ def materials_on_faces(obj: bpy.types.Object) -> list:
     return [own[index] for index in np.flatnonzero(np.bincount(used.clip(0, len(own) - 1))).tolist()]
 
 
-def reflecting_materials(mirror: bpy.types.Object) -> list:
-    """The distinct materials of a mirror that reflect; all that it has where none does."""
+def reflecting_materials(mirrors: list) -> list:
+    """The distinct materials of `mirrors` that reflect; of one that has none that do, all of them."""
+    return list(dict.fromkeys(material for mirror in mirrors for material in _reflecting(mirror)))
+
+
+def _reflecting(mirror: bpy.types.Object) -> list:
     collected = mirror.instance_type == "COLLECTION" and mirror.instance_collection is not None
     known = (materials_of(mirror) if collected else materials_on_faces(mirror)) + _of_instances(mirror)
-    known = list(dict.fromkeys(material for material in known if material is not None))
+    known = [material for material in known if material is not None]
     return [material for material in known if is_mirror(material)] or known
 
 

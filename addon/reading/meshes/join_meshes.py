@@ -112,7 +112,7 @@ def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> Mirror
     ReflectionError
         Where the mirror has no faces, `NothingSeen`, or a coordinate or a normal is not a finite number.
     """
-    return join_mirror(read_meshes(depsgraph, [obj], mirror=True), obj)
+    return join_mirror(read_meshes(depsgraph, [obj], mirror=True), [obj])
 
 
 def read_mirrors(depsgraph: bpy.types.Depsgraph, mirrors: list) -> tuple[dict[bpy.types.Object, MirrorSurface], list]:
@@ -134,19 +134,23 @@ def read_mirrors(depsgraph: bpy.types.Depsgraph, mirrors: list) -> tuple[dict[bp
     return surfaces, list(map(str, faceless))
 
 
-def join_mirror(placed: list[Placed], obj: bpy.types.Object) -> MirrorSurface:
-    """As `read_mirror`, of meshes that have been read."""
+def join_mirror(placed: list[Placed], parts: list) -> MirrorSurface:
+    """As `read_mirror`, of meshes that have been read; their owners are numbers of `parts`, which are counted on."""
     if not placed:
+        obj = parts[0]
         if is_part(obj):
             raise ReflectionError(f"The mirror '{obj.name}' is a part of the metaball '{basis_of(obj).name}': choose "
                                   "that instead.")
         raise NothingSeen(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
-    positions, triangles, _, faces, material, materials = _join(placed, 1)
+    positions, triangles, owners, _, material, materials = _join(placed, len(parts))
     reflects = np.array([is_mirror(entry) for entry in materials])[material]
-    kept = np.flatnonzero(reflects) if reflects.any() else np.arange(len(triangles))
+    with_mirror = np.zeros(len(parts), dtype=bool)
+    with_mirror[owners[reflects]] = True
+    kept = np.flatnonzero(reflects | ~with_mirror[owners])
     material = material[kept]
     normals = told_apart(normals_of(placed)[kept], material)
-    return MirrorSurface(_triangle_mesh([obj], positions, triangles[kept], normals), faces[kept], material, materials)
+    return MirrorSurface(_triangle_mesh(parts, positions, triangles[kept], normals), kept.astype(np.int32), material,
+                         materials)
 
 
 def _triangle_mesh(objects: list, positions, triangles, normals=None) -> TriangleMesh:

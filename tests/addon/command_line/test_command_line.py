@@ -68,7 +68,7 @@ def test_generate_points(saved, room, tmp_path, capsys):
     output = tmp_path / "points.blend"
     assert room("addon.command_line").run(["generate", "--output", str(output), "--method", "POINTS"]) == 0
     printed = capsys.readouterr().out
-    assert "8 points" in printed and "subdivide the reflected objects" in printed
+    assert "8 points" in printed and "Subdivide the reflected objects" in printed
     assert faces_in(output) == 0 and len(bpy.data.objects["Mirror Reflection"].data.vertices) == 8
 
 

@@ -134,7 +134,7 @@ def test_an_error_leaves_no_trace(moving, room, tmp_path, monkeypatch, failing):
     monkeypatch.setattr(playing if hasattr(playing, failing) else bake_module, failing, fails)
     plan = bake_module.Plan(str(tmp_path / "out"), [1], room("core").Settings(), 1, cameras)
     with pytest.raises(RuntimeError, match="on purpose"):
-        playing.playing(bpy.context, room("addon.faults").finished(bake_module.baking(bpy.context, plan)))
+        playing.playing(bpy.context, plan, room("addon.faults").finished(bake_module.baking(bpy.context, plan)))
     assert parts.state() == before and set(bpy.data.cache_files) == known
 
 

@@ -39,8 +39,9 @@ def test_bounds_that_light_has_hit_are_told(lit, room):
     ([{"probes": 90, "missed": 4}, {"probes": 10, "missed": 3}],
      ["Lake Caustics: About 7 % of the light that the mirror throws is missing"]),
     ([{"probes": 90, "missed": 2}], []), ([{"probes": 290, "missed": 5}], []),
-    ([{"crowded": 2}, {"crowded": 3, "pierced": 1}],
-     ["Lake Caustics: In 3 parts of the mirror more lies", "Lake Caustics: Through one part of the mirror"])])
+    ([{"crowded": 2, "filled_pixels": 30, "mirror_pixels": 900},
+      {"crowded": 3, "filled_pixels": 90, "mirror_pixels": 900, "pierced": 1}],
+     ["Lake Caustics: Dense areas were sampled at one ray per pixel (10.0 %", "Lake Caustics: Too many faces pass"])])
 def test_what_places_on_a_lamp_lack_is_told_once(room, counts, told):
     """Each sees about the same parts of the mirror; probes are told apart by all of them."""
     core = room("core")

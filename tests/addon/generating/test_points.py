@@ -213,4 +213,4 @@ def test_coarse_objects_are_told(blank, room):
     generate, choose = room("addon.operators.generate").generation, room("addon.reading.roles").choose
     steps = generate(bpy.context, choose(bpy.context), room("core").Settings(method="POINTS"))
     outcome = room("addon.faults").finished(steps)
-    assert len(outcome.remarks) == 1 and outcome.remarks[0].startswith("Mirror: 3 of 3 points")
+    assert len(outcome.remarks) == 1 and outcome.remarks[0].startswith("Mirror: 100.0 % of the points")

@@ -7,6 +7,7 @@ import numpy as np
 import parts
 import pytest
 
+PIXELS = {"filled_pixels": 500, "mirror_pixels": 4000}
 COUNTS = ("crowded", "overlaid", "pierced", "many_outlines", "bounded", "coarse")
 
 
@@ -20,13 +21,19 @@ def told(room):
 
 @pytest.mark.parametrize("count", COUNTS)
 def test_each_count_has_a_sentence(told, count):
-    (sentence,) = told(**{count: 7})
-    assert re.fullmatch(r"Lake: [A-Z0-9][^.]+: [a-z][^.]+\.", sentence)
-    assert "7" in sentence or count == "bounded"
+    (sentence,) = told(**{count: 7}, **PIXELS)
+    # what happened and why, and what to do
+    assert re.fullmatch(r"Lake: [A-Z0-9].+\. [A-Z][^.]+\.", sentence)
+    shares = {"crowded": "12.5 %", "coarse": "14.0 %"}
+    assert (count in shares) == ("%" in sentence) and shares.get(count, "") in sentence
+
+
+def test_what_is_too_small_to_be_seen_is_not_told(told):
+    assert told(crowded=3, filled_pixels=1, mirror_pixels=4000) == []
 
 
 def test_sentences_differ_and_a_good_result_has_none(told):
-    assert len({one for count in COUNTS for one in told(**{count: 1})}) == len(COUNTS)
+    assert len({one for count in COUNTS for one in told(**{count: 1}, **PIXELS)}) == len(COUNTS)
     assert told(**dict.fromkeys(COUNTS, 0), missed=0) == []
     assert told(missed=2) == [] and "About 12 %" in told(missed=3)[0]
 

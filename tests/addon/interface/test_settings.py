@@ -11,7 +11,7 @@ from tools.extension_zip import PACKAGE
 
 OTHERS = {"tolerance": 2.0, "placement": "SURFACE", "method": "PARALLEL", "depth": 3, "memory": 4.0,
           "hidden_faces": True, "light_samples": 7, "light_kind": "PICTURE",
-          "attributes": "SHOWN"}
+          "attributes": "SHOWN", "join_parts": False}
 
 
 @pytest.fixture
@@ -52,7 +52,7 @@ def held(holder) -> dict:
 
 
 def core_settings(room, values: dict):
-    known = {name: value for name, value in values.items() if not name.startswith("light") and name != "attributes"}
+    known = {name: value for name, value in values.items() if name in room("addon.settings").SETTINGS}
     return room("core").Settings(maximum_memory=known.pop("memory"), **known)
 
 
@@ -175,7 +175,7 @@ def test_the_panel_after_a_run_shows_what_was_used_and_changes_that_alone(pair, 
     wanted = operator.wanted(pair)
     operator.show_used(wanted, [left, right])
     assert operator.values == {**{name: OTHERS[name] for name in room("addon.settings").SETTINGS}, "tolerance": 0.75,
-                               "attributes": OTHERS["attributes"]}
+                               "attributes": OTHERS["attributes"], "join_parts": OTHERS["join_parts"]}
     # run again without a change, and with one
     assert operator.wanted(pair).given == {"tolerance": 0.75}
     operator.method = "GENERAL"

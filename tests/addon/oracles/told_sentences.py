@@ -11,7 +11,8 @@ from interface_words import ROOT
 ELSEWHERE = ("addon/command_line", "addon/benchmark", "addon/report", "addon/comparison/compare_im",
              "addon/comparison/compare_page", "addon/comparison/light_page", "addon/interface",
              "addon/run_with_bpy", "core/rivals", "core/solver")
-WHOLE = {"summary", "light_summary", "listed"}   # functions that put a sentence together: each of their parts counts
+# functions that put a sentence together: each of their parts counts
+WHOLE = {"summary", "light_summary", "frames_listed"}
 COUNTED = "one_or_more"     # a call of which each text counts: what is said of one thing, and of more
 SHORTEST = 12
 UNSHOWN = ("addon/command_line", "addon/benchmark", "core/rivals", "core/solver")   # work that no status bar tells of
