@@ -4,8 +4,9 @@ What reads, computes and writes stands in other packages; here it is put in orde
 results or none.
 """
 from ..registration import together
-from . import bake_frames, caustics, clear, compare, generate, light, mirror_uvs, print_sheet
+from . import bake_frames, caustics, clear, compare, generate, light, make_mirror, mirror_uvs, print_sheet
 
 __all__ = ["register", "unregister"]
 
-register, unregister = together(generate, light, caustics, bake_frames, mirror_uvs, print_sheet, compare, clear)
+register, unregister = together(generate, light, caustics, bake_frames, mirror_uvs, print_sheet, compare, clear,
+                                make_mirror)

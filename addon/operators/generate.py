@@ -35,7 +35,14 @@ from ..settings import (
 from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, point_arrays
 from . import polls
-from .shortcomings import Refused, left_out, scene_shortcomings, shortcomings, window_shortcomings
+from .shortcomings import (
+    Refused,
+    left_out,
+    rough_shortcomings,
+    scene_shortcomings,
+    shortcomings,
+    window_shortcomings,
+)
 from .write_results import Manners, Outcome, write_results
 
 # share of the work that reading takes, before the mirrors are reflected one by one
@@ -66,17 +73,17 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         raise core.ReflectionError(IN_OBJECT_MODE)
     started = time.perf_counter()
     yield 0.0, "Reading the scene"
-    hidden, view = left_out(context, chosen.hidden), view or read_view(context)
+    told, view = left_out(context, chosen), view or read_view(context)
     depsgraph = context.evaluated_depsgraph_get()
     kept = Kept.of(depsgraph)
     chosen, meshes, faceless = _with_faces(chosen, *kept.looked_at(depsgraph, chosen.mirrors, chosen.diffuse))
-    own = list(map(of_each(settings), chosen.mirrors))
-    sources, lines = chosen.diffuse + chosen.waiting, lines_drawn(context.scene)
+    own, sources = list(map(of_each(settings), chosen.mirrors)), chosen.diffuse + chosen.waiting
     origins = {mirror: record_of(origin_of(depsgraph, view, mirror, sources), settings_of(context.scene, mirror))
                for mirror in chosen.mirrors}
     joined = partial(kept.joined, chosen.mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
     scene, surfaces = stage.scene, stage.surfaces
+    told += faceless + rough_shortcomings(chosen.mirrors, surfaces)
     if not all(map(is_opaque, scene.materials)) or looked_through(depsgraph, chosen.mirrors, chosen.diffuse):
         own = [replace(one, hidden_faces=True) for one in own]
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
@@ -98,7 +105,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
             unseen += refused[-1:]
             continue
         lacks += shortcomings(mirror.name, result)
-        written = partial(_written, result, scene, (surface, surfaces), view, lines)
+        written = partial(_written, result, scene, (surface, surfaces), view, lines_drawn(context.scene))
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")
         prepared.append(Reflection(mirror, context.scene.camera, sources, result, arrays, view.resolution,
@@ -109,7 +116,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     yield 1.0, "Writing"
     outcome = write_results(context, prepared, view, scene, preview, manners)
     _record(outcome, origins, time.perf_counter() - started)
-    return replace(outcome, remarks=hidden + faceless + lacks + outcome.remarks + refused,
+    return replace(outcome, remarks=told + lacks + outcome.remarks + refused,
                    lacks=lacks + [sentence for sentence in refused if sentence not in unseen],
                    read=(view, dict(zip(chosen.mirrors, surfaces)), scene))
 

@@ -16,10 +16,12 @@ from ..reading import (
     NO_CAMERA,
     NO_MIRROR,
     RESULTS,
+    SHARP_ROUGHNESS,
     can_take_part,
     has_linked_results,
-    is_mirror,
     is_result,
+    may_be_mirror,
+    may_say_mirror,
     nothing_to_reflect,
     says_mirror,
 )
@@ -56,8 +58,7 @@ def has_camera(context: bpy.types.Context) -> str:
 
 
 def has_mirror(context: bpy.types.Context) -> str:
-    """Something is selected that may be a mirror, or else active as a result or a mirror, or an object's role or
-    material is that of a mirror."""
+    """The scene has a mirror by role or material, or what is selected or active may be one, or is shown by one."""
     objects = context.view_layer.objects
     active = objects.active
     if active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}:
@@ -67,13 +68,17 @@ def has_mirror(context: bpy.types.Context) -> str:
     if (len(selected) > LOOKED_AT or len(chosen) > 1 or len(bpy.data.materials) > LOOKED_THROUGH
             or any(obj.reflection_mesh.role in RESULTS for obj in selected)):
         return ""
+    # what is selected may have been a mirror, or be shown by one that has no material of a mirror any more
+    found = _may_be_mirrors(objects, SHARP_ROUGHNESS) or _may_be_mirrors(chosen, float("inf")) or (
+        selected and _any(context.scene.objects, lambda obj: _knows_any(obj.reflection_mesh, selected)))
+    return "" if found else NO_MIRROR
+
+
+def _may_be_mirrors(objects, roughness: float) -> bool:
+    """Whether any of the objects may be a mirror, up to a roughness."""
     # each is asked once, however many objects have it
-    mirrors = set(filter(is_mirror, bpy.data.materials)).__contains__
-    # what is selected may have been a mirror, or the roles say who is one
-    if selected and _any(context.scene.objects, lambda obj: (
-            obj.reflection_mesh.mirror in selected or obj.reflection_mesh.role == "MIRROR")):
-        return ""
-    return "" if _any(chosen or objects, lambda obj: says_mirror(obj, mirrors)) else NO_MIRROR
+    mirrors = {material for material in bpy.data.materials if may_be_mirror(material, roughness)}
+    return _any(objects, lambda obj: can_take_part(obj) and may_say_mirror(obj, mirrors))
 
 
 def has_reflected(context: bpy.types.Context) -> str:
@@ -147,6 +152,11 @@ def has_what_is_kept_right(sentence: str) -> Obstacle:
 def _any(objects, asked: Callable) -> bool:
     """Whether one of the objects is as asked; of too many to look through, one may be."""
     return len(objects) > LOOKED_THROUGH or any(map(asked, objects))
+
+
+def _knows_any(record: bpy.types.PropertyGroup, selected: list) -> bool:
+    return record.mirror in selected or record.role == "REFLECTION" and any(
+        source.object in selected for source in record.sources)
 
 
 def _is_result(obj: bpy.types.Object) -> bool:

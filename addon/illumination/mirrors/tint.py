@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ... import compat
-from ...reading.materials import FULL_METALLIC, MIRRORS, is_mirror, shown_output
+from ...reading.materials import is_mirror, shown_output
 from .coat import WHOLE, Coat, as_opaque, gloss_of, layers_of
 from .lobes import Lobe, lobes_of
 
@@ -137,19 +137,12 @@ def _tints_of_lobe(material: bpy.types.Material, lobe: Lobe) -> list[Tint]:
     below, opaque = as_opaque(below, shader)
     known = lobe.known and known and opaque
     coats = [] if over is None else [Tint(white, white, False, known, as_opaque(over, shader)[0])]
-    if lobe.is_sharp and (shader.type in MIRRORS or _is_metal(lobe)):
+    if lobe.is_sharp and lobe.is_metal:
         return [_of_metal(material, lobe, below, known), *coats]
     gloss = gloss_of(shader)
     if gloss is None:
         return coats
     return [Tint(gloss.colour, white, gloss.metal, gloss.known and known, replace(gloss.coat, within=below)), *coats]
-
-
-def _is_metal(lobe: Lobe) -> bool:
-    if lobe.shader.type != "BSDF_PRINCIPLED":
-        return False
-    metallic, known = lobe.told("Metallic")
-    return known and bool(metallic >= FULL_METALLIC)
 
 
 def _of_metal(material: bpy.types.Material, lobe: Lobe, coat: Coat, known: bool) -> Tint:

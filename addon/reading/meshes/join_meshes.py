@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ....core import ReflectionError, TriangleMesh, breathe
-from ..materials import is_mirror
+from ..materials import which_reflect
 from ..metaballs import basis_of, is_part
 from ..nothing_seen import NothingSeen
 from .join_layers import join_layers
@@ -142,8 +142,9 @@ def join_mirror(placed: list[Placed], obj: bpy.types.Object) -> MirrorSurface:
                                   "that instead.")
         raise NothingSeen(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
     positions, triangles, _, faces, material, materials = _join(placed, 1)
-    reflects = np.array([is_mirror(entry) for entry in materials])[material]
-    kept = np.flatnonzero(reflects) if reflects.any() else np.arange(len(triangles))
+    on_faces = np.unique(material)
+    reflecting = on_faces[which_reflect([materials[index] for index in on_faces])]
+    kept = np.flatnonzero(np.isin(material, reflecting))
     material = material[kept]
     normals = told_apart(normals_of(placed)[kept], material)
     return MirrorSurface(_triangle_mesh([obj], positions, triangles[kept], normals), faces[kept], material, materials)
