@@ -38,11 +38,6 @@ def look_again() -> None:
             del _known[image.session_uid]
 
 
-def forget_samples() -> None:
-    """Let all images be read anew, as after another file was opened."""
-    _known.clear()
-
-
 def _stamp(image: bpy.types.Image) -> tuple:
     return image.filepath, image.source, image.colorspace_settings.name
 
@@ -57,17 +52,18 @@ def _written(image: bpy.types.Image) -> float:
 
 def _read(image: bpy.types.Image) -> np.ndarray | None:
     loaded = image.has_data
-    width, height = image.size
-    if not 0 < width * height <= LARGEST or not image.channels:
+    # each of which loads it
+    (width, height), channels = image.size, image.channels
+    if not 0 < width * height <= LARGEST or not channels:
         return None
-    texels = np.empty(width * height * image.channels, dtype=np.float32)
+    encoded = image.colorspace_settings.name == "sRGB" and not image.is_float
+    texels = np.empty(width * height * channels, dtype=np.float32)
     image.pixels.foreach_get(texels)
-    across, up = (((np.arange(SIDE) + 0.5) / SIDE * size).astype(int) for size in (width, height))
-    chosen = texels.reshape(height, width, -1)[np.ix_(up, across)].reshape(COUNT, -1).astype(np.float64)
     if not loaded and image.source in {"FILE", "TILED"} and not image.is_dirty:
         image.buffers_free()
-    colours = chosen[:, :3] if image.channels >= 3 else np.repeat(chosen[:, :1], 3, axis=1)
-    if image.colorspace_settings.name == "sRGB" and not image.is_float:
+    across, up = (((np.arange(SIDE) + 0.5) / SIDE * size).astype(int) for size in (width, height))
+    chosen = texels.reshape(height, width, channels)[np.ix_(up, across)].reshape(COUNT, channels).astype(np.float64)
+    colours = chosen[:, :3] if channels >= 3 else np.repeat(chosen[:, :1], 3, axis=1)
+    if encoded:
         colours = np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055)**2.4)
-    alpha = chosen[:, 3:] if image.channels == 4 else np.ones((COUNT, 1))
-    return np.hstack((colours, alpha))
+    return np.hstack((colours, chosen[:, 3:] if channels == 4 else np.ones((COUNT, 1))))
