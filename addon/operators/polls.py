@@ -20,7 +20,7 @@ from ..reading import (
     can_take_part,
     has_linked_results,
     is_result,
-    may_be_mirror,
+    least_roughness,
     may_say_mirror,
     nothing_to_reflect,
     says_mirror,
@@ -69,16 +69,13 @@ def has_mirror(context: bpy.types.Context) -> str:
             or any(obj.reflection_mesh.role in RESULTS for obj in selected)):
         return ""
     # what is selected may have been a mirror, or be shown by one that has no material of a mirror any more
-    found = _may_be_mirrors(objects, SHARP_ROUGHNESS) or _may_be_mirrors(chosen, float("inf")) or (
+    # each material is asked once, however many objects have it
+    rough = {one: roughness for one in bpy.data.materials if (roughness := least_roughness(one)) is not None}
+    sharp = {one for one, roughness in rough.items() if roughness <= SHARP_ROUGHNESS}
+    found = any(may_say_mirror(obj, set(rough)) for obj in chosen) or _any(
+        objects, lambda obj: may_say_mirror(obj, sharp) and can_take_part(obj)) or (
         selected and _any(context.scene.objects, lambda obj: _knows_any(obj.reflection_mesh, selected)))
     return "" if found else NO_MIRROR
-
-
-def _may_be_mirrors(objects, roughness: float) -> bool:
-    """Whether any of the objects may be a mirror, up to a roughness."""
-    # each is asked once, however many objects have it
-    mirrors = {material for material in bpy.data.materials if may_be_mirror(material, roughness)}
-    return _any(objects, lambda obj: can_take_part(obj) and may_say_mirror(obj, mirrors))
 
 
 def has_reflected(context: bpy.types.Context) -> str:

@@ -22,9 +22,9 @@ from .materials import (
     is_fog,
     is_mirror,
     is_opaque,
+    least_roughness,
     materials_of,
     materials_shown,
-    may_be_mirror,
     mirror_roughness,
 )
 from .meshes import (
@@ -68,10 +68,9 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "corner_vertices", "drawn_meshes", "every_result_of", "fog_of", "forget_known", "forgets_particles",
            "has_fog", "has_linked_results", "in_background_set", "in_viewports", "is_clear", "is_fog", "is_gone",
            "is_mirror", "is_opaque", "is_part", "is_rendered", "is_result", "join_mirror", "join_scene",
-           "known_results", "lines_drawn", "link_state", "looked_through", "materials_of", "materials_shown",
-           "may_be_mirror", "may_have_faces", "may_say_mirror", "mirror_roughness", "moves", "nothing_to_reflect",
+           "known_results", "least_roughness", "lines_drawn", "link_state", "looked_through", "materials_of",
+           "materials_shown", "may_have_faces", "may_say_mirror", "mirror_roughness", "moves", "nothing_to_reflect",
            "numbers", "participants", "read_meshes", "read_mirror", "read_mirrors", "read_scene", "read_view",
            "register", "render_size", "rendered_alone", "rendered_collections", "rendered_in", "rendered_otherwise",
-           "results_of", "says_mirror", "seen_by_camera", "seen_in", "shown_by", "unregister",
-           "vectors", "visible", "why_caught", "with_copies", "with_square_pixels", "without_shadow_catchers",
-           "without_surface"]
+           "results_of", "says_mirror", "seen_by_camera", "seen_in", "shown_by", "unregister", "vectors", "visible",
+           "why_caught", "with_copies", "with_square_pixels", "without_shadow_catchers", "without_surface"]

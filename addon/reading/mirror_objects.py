@@ -43,8 +43,9 @@ def may_say_mirror(obj: bpy.types.Object, mirrors: set) -> bool:
     """As `says_mirror`, without a look at instances: those of Geometry Nodes or particles may have any of the materials
     that are `mirrors`."""
     role = obj.reflection_mesh.role
-    may = bool(mirrors) and (instances_otherwise(obj) or _share(obj, [], mirrors.__contains__) > NONE)
-    return role == "MIRROR" or (role == "AUTO" and may)
+    if role != "AUTO" or not mirrors:
+        return role == "MIRROR"
+    return instances_otherwise(obj) or _share(obj, [], mirrors.__contains__) > NONE
 
 
 def mirrors_among(objects: list) -> list:

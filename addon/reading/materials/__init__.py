@@ -23,7 +23,7 @@ from .mirror_materials import (
     is_metal,
     is_mirror,
     is_sharp,
-    may_be_mirror,
+    least_roughness,
     mirror_roughness,
     mirrors_in_part,
     shines,
@@ -37,7 +37,7 @@ from .transparency import transparency
 __all__ = ["Groups", "MIRRORS", "MIXING", "SHARP_ROUGHNESS", "all_fog", "all_materials_of", "all_nodes",
            "asked_attributes", "emits", "emits_alike", "fed_by", "feeding", "fog_of", "glows", "has_sharp_coat",
            "index_of", "instanced_materials", "instances_otherwise", "is_clear", "is_exact", "is_fog", "is_metal",
-           "is_mirror", "is_opaque", "is_sharp", "look_again", "materials_of", "materials_on_faces",
-           "materials_shown", "may_be_mirror", "mirror_roughness", "mirrors_in_part", "one_output", "outermost",
+           "is_mirror", "is_opaque", "is_sharp", "least_roughness", "look_again", "materials_of",
+           "materials_on_faces", "materials_shown", "mirror_roughness", "mirrors_in_part", "one_output", "outermost",
            "outshines_paper", "own_materials", "reflecting_materials", "sends_light", "shines", "shown_output",
            "surface_shader", "surface_shaders", "transparency", "upright", "which_reflect"]

@@ -26,13 +26,12 @@ def is_mirror(material: bpy.types.Material | None) -> bool:
     return roughness is not None and roughness <= SHARP_ROUGHNESS
 
 
-def may_be_mirror(material: bpy.types.Material | None, roughness: float = SHARP_ROUGHNESS) -> bool:
-    """Return True for a mirror up to a roughness, and for what only images could tell that have not been read."""
+def least_roughness(material: bpy.types.Material | None) -> float | None:
+    """Return `mirror_roughness` without a look at images that have not been read: 0 where only they could tell."""
     try:
-        own = mirror_roughness(material, read=False)
+        return mirror_roughness(material, read=False)
     except Unread:
-        return True
-    return own is not None and own <= roughness
+        return 0.0
 
 
 def mirror_roughness(material: bpy.types.Material | None, read: bool = True) -> float | None:
@@ -127,16 +126,21 @@ def emits(material: bpy.types.Material | None) -> bool:
 
 def _roughness(shader: bpy.types.Node, groups: Groups, read: bool) -> float | None:
     """Return the roughness of a shader as `mirror_roughness` does of a material."""
-    inputs = Inputs(shader, groups, read)
-    metal = np.array([shader.type in MIRRORS])
+    inputs, metal = Inputs(shader, groups, read), np.array([True])
     if shader.type == "BSDF_PRINCIPLED":
+        metallic = shader.inputs["Metallic"]
+        if not metallic.is_linked and metallic.default_value < FULL_METALLIC:
+            # as most materials are, of which each redraw asks
+            return None
         try:
             metal = inputs["Metallic"] >= FULL_METALLIC
         except Unread:
             raise
         except Unknown:
             return None
-    if metal.mean() < 0.5:
+        if metal.mean() < 0.5:
+            return None
+    elif shader.type not in MIRRORS:
         return None
     try:
         metal, values = np.broadcast_arrays(metal, inputs["Roughness"])

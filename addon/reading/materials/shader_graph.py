@@ -85,7 +85,8 @@ def surface_shader(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
 
 
 def _link(socket: bpy.types.NodeSocket) -> bpy.types.NodeLink | None:
-    return next((link for link in socket.links if not link.is_muted), None)
+    # Blender looks for the links of a socket among all of the tree
+    return next((link for link in socket.links if not link.is_muted), None) if socket.is_linked else None
 
 
 def _passed_on(node: bpy.types.Node, output: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:

@@ -53,6 +53,17 @@ def test_groups_are_entered_and_say_the_same_everywhere(reading, room, kind, rou
     assert room("addon.illumination.mirrors").has_mirrors(made) is expected
 
 
+@pytest.mark.parametrize("grouped", [False, True])
+def test_rough_metal_throws_light_in_its_colour(reading, room, grouped):
+    made = parts.material("Gold", "PRINCIPLED", 0.2)
+    shader_of(made).inputs["Base Color"].default_value = (0.9, 0.5, 0.2, 1.0)
+    if grouped:
+        into_a_group(made, 0.2)
+    mirrors = room("addon.illumination.mirrors")
+    assert mirrors.Tint.of_material(made).colour == pytest.approx((0.9, 0.5, 0.2))
+    assert not mirrors.has_mirrors(made)
+
+
 def test_muted_nodes_and_links_are_passed(reading):
     made = parts.material("M", "GLOSSY")
     node = into_a_group(made, 0.4)
@@ -210,11 +221,12 @@ def test_images_are_read_once_and_again_where_they_are_others(reading, room, mon
     monkeypatch.setattr(samples, "_read", lambda one: read.append(one.name) or work(one))
     own = bpy.data.images["Roughness"]
     # a button that asks on every redraw reads nothing, and is not grey
-    assert reading.may_be_mirror(made) and not read
-    assert reading.is_mirror(made) and reading.is_mirror(made) and reading.may_be_mirror(made) and len(read) == 1
+    assert reading.least_roughness(made) == 0.0 and not read
+    assert reading.is_mirror(made) and reading.is_mirror(made) and len(read) == 1
+    assert reading.least_roughness(made) == pytest.approx(0.05, abs=0.004)
     own.pixels.foreach_set(np.dstack((grey(0.7), np.ones((SIZE, SIZE)))).astype(np.float32).ravel())
     reading.look_again()
-    assert not reading.is_mirror(made) and not reading.may_be_mirror(made) and len(read) == 2
+    assert not reading.is_mirror(made) and len(read) == 2
     # and so is a file that another program writes, which is in no memory afterwards
     own.filepath_raw, own.file_format = str(tmp_path / "rough.png"), "PNG"
     own.save()
