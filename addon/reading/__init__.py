@@ -61,7 +61,7 @@ from .results import (
     results_of,
     with_copies,
 )
-from .roles import candidates, choose, participants, seen_by_camera, shown_by, without_shadow_catchers
+from .roles import candidates, choose, participants, seen_by_camera, shadow_catchers, shown_by, without_shadow_catchers
 
 __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR", "NothingSeen", "Participants",
            "Placed", "RESULTS", "SHARP_ROUGHNESS", "all_nodes", "camera_of", "can_take_part", "candidates", "choose",
@@ -72,5 +72,6 @@ __all__ = ["DiffuseScene", "LocalMesh", "MirrorSurface", "NO_CAMERA", "NO_MIRROR
            "materials_shown", "may_have_faces", "may_say_mirror", "mirror_roughness", "moves", "nothing_to_reflect",
            "numbers", "participants", "read_meshes", "read_mirror", "read_mirrors", "read_scene", "read_view",
            "register", "render_size", "rendered_alone", "rendered_collections", "rendered_in", "rendered_otherwise",
-           "results_of", "says_mirror", "seen_by_camera", "seen_in", "shown_by", "unregister", "vectors", "visible",
-           "why_caught", "with_copies", "with_square_pixels", "without_shadow_catchers", "without_surface"]
+           "results_of", "says_mirror", "seen_by_camera", "seen_in", "shadow_catchers", "shown_by", "unregister",
+           "vectors", "visible", "why_caught", "with_copies", "with_square_pixels", "without_shadow_catchers",
+           "without_surface"]

@@ -77,8 +77,12 @@ def without_shadow_catchers(mirrors: list) -> tuple[list, list]:
 def candidates(context: bpy.types.Context, all_seen: bool = True, unmirrored: bool = False) -> tuple[list, list]:
     """The mirrors and the diffuse objects that `choose` chooses from, hidden ones among them."""
     mirrors, diffuse = _named_or_found(context, all_seen, unmirrored)
-    shown = [obj for obj in mirrors if unmirrored or not catches_shadows(obj)]
-    return shown or mirrors, diffuse
+    return [obj for obj in mirrors if unmirrored or not catches_shadows(obj)], diffuse
+
+
+def shadow_catchers(context: bpy.types.Context) -> list:
+    """The mirrors that `candidates` leaves out."""
+    return list(filter(catches_shadows, _named_or_found(context, True, False)[0]))
 
 
 def _named_or_found(context: bpy.types.Context, all_seen: bool, unmirrored: bool) -> tuple[list, list]:

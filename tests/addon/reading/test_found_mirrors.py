@@ -220,12 +220,13 @@ CAUGHT = ("'Kettle' is a shadow catcher, in which Cycles shows no reflection: sw
           "Properties > Visibility.")
 
 
-def test_a_shadow_catcher_is_refused_alone_and_left_out_among_others(scene, room, monkeypatch):
+def test_a_shadow_catcher_is_refused_alone_and_left_out_among_others(scene, room, monkeypatch, tmp_path):
     kettle = scene["kettle"]
     kettle.is_shadow_catcher = True
     for selected in ((kettle,), (kettle, scene["monkey"]), ()):
         parts.select(*selected)
         assert parts.refusal() == CAUGHT
+        assert parts.refusal(bpy.ops.reflection_mesh.bake, filepath=str(tmp_path / "frames")) == CAUGHT
     vase = parts.add("cylinder", "Vase", location=(2.0, 1.0, 1.0))
     vase.data.materials.append(kettle.data.materials[0])
     parts.select()
