@@ -19,6 +19,7 @@ from ..reading import (
     SHARP_ROUGHNESS,
     can_take_part,
     has_linked_results,
+    instances_otherwise,
     is_result,
     least_roughness,
     may_say_mirror,
@@ -82,7 +83,9 @@ def has_reflected(context: bpy.types.Context) -> str:
     """Not a mirror alone is selected where no role or result says what it shows."""
     objects = context.view_layer.objects
     selected = list(islice(objects.selected, 2))
-    if len(selected) != 1 or not can_take_part(selected[0]) or not says_mirror(selected[0]) or _any(
+    # a run looks through instances, which may be many
+    if len(selected) != 1 or instances_otherwise(selected[0]) or not (
+            can_take_part(selected[0]) and says_mirror(selected[0])) or _any(
             objects, lambda obj: obj.reflection_mesh.role in {"DIFFUSE", *RESULTS}):
         return ""
     return nothing_to_reflect(selected[0])

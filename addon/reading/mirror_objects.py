@@ -18,7 +18,9 @@ from .materials import (
 from .results import RESULTS
 
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
-RECOGNISABLE = 0.3  # roughness: what is rougher mirrors no shapes, and is taken where it is selected alone
+# roughness at which Cycles still shows cubes in a ball as spots of their colours; what is rougher is no mirror among
+# others that are selected
+RECOGNISABLE = 0.3
 NONE, IN_PART, WHOLE = range(3)
 IsMirror = Callable[[bpy.types.Material | None], bool]
 
