@@ -18,17 +18,15 @@ from ..operators.bake_frames import (
     WHAT,
     Plan,
     baking_layers,
-    blur_remarks,
     chosen_frames,
     empty_remarks,
     layer_remarks,
     plan_of,
+    scene_remarks,
     show_layers,
     side_by_side,
     summary,
 )
-from ..operators.shortcomings import render_shortcomings
-from ..reading import candidates
 from ..settings import Wanted
 from .options import Names, add_own, given, text, whole_number
 from .place import camera_of, forget_chance, layer_of
@@ -90,7 +88,7 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
                        overwrite=options.overwrite and options.jobs == 1, eyes=options.eyes or 0,
                        lamps=tuple(meant_lamps(context)) if thrown else (), leave_out=options.leave_out)
     made = announced(baking_layers(context, layers, planned, tell, remarks.append), options.progress)
-    told = remarks + render_shortcomings(context, *candidates(context)) + blur_remarks(scene, cameras, thrown)
+    told = remarks + scene_remarks(context, cameras, thrown)
     told += layer_remarks(scene, layers)
     if not options.frames_only:
         # of a farm's chunk others have more frames

@@ -24,7 +24,7 @@ from ..operators.mirror_uvs import FRAMES, TARGETS, Choices, map_settings, mappi
 from ..operators.print_sheet import DPI, check_print, printing
 from ..operators.rounding import rounding_remarks
 from ..operators.shortcomings import other_meshes, scene_shortcomings
-from ..reading import Participants, choose, shown_by, visible, with_copies
+from ..reading import Participants, choose, seen_by_camera, shown_by, with_copies, without_shadow_catchers
 from ..settings import ATTRIBUTES, Wanted
 from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
@@ -234,8 +234,9 @@ def _chosen(context: bpy.types.Context, options: argparse.Namespace, unmirrored:
         raise core.ReflectionError(f"'{min(both)}' is named both as a mirror and as reflected: name it once.")
     mirrors = [objects[name] for name in options.mirror]
     if not options.diffuse:
-        return visible(context, mirrors, shown_by(context, mirrors, unmirrored=unmirrored), unmirrored)
-    return Participants(mirrors, [objects[name] for name in options.diffuse], [])
+        return seen_by_camera(context, mirrors, shown_by(context, mirrors, unmirrored=unmirrored), unmirrored)
+    mirrors, caught = (mirrors, []) if unmirrored else without_shadow_catchers(mirrors)
+    return Participants(mirrors, [objects[name] for name in options.diffuse], [], caught=caught)
 
 
 def register() -> None:

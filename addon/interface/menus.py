@@ -19,6 +19,7 @@ class VIEW3D_MT_reflection_mesh(bpy.types.Menu):
         layout.operator_context = "INVOKE_REGION_WIN"
         for name, icon in WORK:
             layout.operator(name, icon=icon)
+        layout.operator("reflection_mesh.make_mirror", icon="MOD_MIRROR")
         layout.operator("reflection_mesh.live", icon="PLAY")
         layout.operator("reflection_mesh.select", icon="RESTRICT_SELECT_OFF")
         layout.separator()

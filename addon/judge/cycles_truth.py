@@ -8,6 +8,7 @@ import numpy as np
 
 from ..metrics import ITSELF, NOTHING, CodedPicture
 from ..reading import is_mirror
+from ..reading.materials import which_reflect
 from ..rendering import Renders
 from . import cycles_codes, cycles_render
 from .cycles_codes import CodedMaterials
@@ -83,14 +84,17 @@ class CodedTruth:
 def reflecting(copied: CopiedScene) -> dict:
     """The material slots of each copy of a mirror that reflect, as sets by copy.
 
-    They are those of mirror materials. Of a mirror without any mirror material on its faces all reflect, be it one
-    object or many instances.
+    Those reflect that reading takes for the mirror, by all materials on the faces of one mirror, be it one object or
+    many instances.
     """
-    found = {copy: {slot for slot in _slots_on_faces(copy) if is_mirror(copied.own[copy][slot])}
-             for copy, _ in copied.mirrors}
-    with_mirrors = {index for copy, index in copied.mirrors if found[copy]}
-    return {copy: found[copy] if index in with_mirrors else set(range(len(copy.material_slots)))
-            for copy, index in copied.mirrors}
+    found: dict = {copy: set() for copy, _ in copied.mirrors}
+    for index in {index for _, index in copied.mirrors}:
+        faces = [(copy, slot) for copy, number in copied.mirrors if number == index for slot in _slots_on_faces(copy)]
+        known = which_reflect([copied.own[copy][slot] for copy, slot in faces])
+        for (copy, slot), reflects in zip(faces, known, strict=True):
+            if reflects:
+                found[copy].add(slot)
+    return found
 
 
 def mirror_all(copied: CopiedScene, material: bpy.types.Material) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from .. import compat
 from ..illumination import MirrorColours, Tint
 from ..reading import corner_vertices, numbers
-from ..reading.materials import glows, is_mirror, is_opaque, surface_shader
+from ..reading.materials import glows, is_mirror, is_opaque, surface_shaders
 from ..writing import LATER_COSINE, LATER_MATERIAL
 from ..writing.nodes.shader_builder import ShaderBuilder
 
@@ -92,6 +92,6 @@ def _is_whole(result: bpy.types.Object) -> list[bool]:
 
 
 def _has_coat(material: bpy.types.Material) -> bool:
-    shader = surface_shader(material.node_tree) if compat.uses_nodes(material) else None
-    weight = None if shader is None else shader.inputs.get("Coat Weight")
-    return weight is not None and (weight.is_linked or weight.default_value > 0.0)
+    weights = [shader.inputs["Coat Weight"] for shader in (
+        surface_shaders(material.node_tree) if compat.uses_nodes(material) else ()) if "Coat Weight" in shader.inputs]
+    return any(weight.is_linked or weight.default_value > 0.0 for weight in weights)

@@ -11,6 +11,7 @@ from ..lamps import ShownLamp, lamp_light
 from ..reading.materials import has_sharp_coat, index_of, is_opaque, is_sharp, sends_light, surface_shader
 from ..writing import NORMAL
 from ..writing.nodes.copied_nodes import copied
+from ..writing.nodes.opened_groups import groups_of_shaders, open_groups
 from ..writing.nodes.shader_builder import ShaderBuilder, cut, given, node_behind
 from .later_mirrors import LaterMirrors
 from .layer_weights import layer_weights_as_fresnel
@@ -51,8 +52,13 @@ def copied_shaders(mirror: Iterable[bpy.types.Material], tree: bpy.types.NodeTre
     """The shaders of materials that have nodes, copied into a tree with all that feeds them."""
     shader_of = {}
     for material in dict.fromkeys(mirror):
-        nodes = [node for node in material.node_tree.nodes if node.type not in {"OUTPUT_MATERIAL", "FRAME"}]
-        shader_of[material] = copied(nodes, tree).get(surface_shader(material.node_tree))
+        opened = material.copy() if groups_of_shaders(material.node_tree) else material
+        if opened != material:
+            open_groups(opened.node_tree)
+        nodes = [node for node in opened.node_tree.nodes if node.type not in {"OUTPUT_MATERIAL", "FRAME"}]
+        shader_of[material] = copied(nodes, tree).get(surface_shader(opened.node_tree))
+        if opened != material:
+            bpy.data.materials.remove(opened)
     return shader_of
 
 

@@ -9,6 +9,7 @@ from .. import compat
 from ..faults import AllOrNothing, remove_new
 from ..reading.materials import one_output, surface_shader
 from ..writing import UV_MAP, show_unblurred
+from ..writing.nodes.opened_groups import open_groups
 from .mirror_part import MirrorPart, Surroundings, copied_shaders
 
 
@@ -58,5 +59,6 @@ def _merged(name: str, mirror: Sequence[bpy.types.Material | None], whole: AllOr
     if not with_nodes:
         tree.nodes.clear()
         tree.nodes.new("ShaderNodeOutputMaterial")
+    open_groups(tree)
     shader_of = {one: surface_shader(tree) for one in with_nodes[:1]} | copied_shaders(with_nodes[1:], tree)
     return material, [shader_of.get(one) for one in mirror]

@@ -4,9 +4,20 @@ What reads, computes and writes stands in other packages; here it is put in orde
 results or none.
 """
 from ..registration import together
-from . import bake_frames, caustics, clear, compare, generate, light, mirror_uvs, print_sheet, select_result
+from . import (
+                                 bake_frames,
+                                 caustics,
+                                 clear,
+                                 compare,
+                                 generate,
+                                 light,
+                                 make_mirror,
+                                 mirror_uvs,
+                                 print_sheet,
+                                 select_result,
+)
 
 __all__ = ["register", "unregister"]
 
 register, unregister = together(generate, light, caustics, bake_frames, mirror_uvs, print_sheet, compare, clear,
-                                select_result)
+                                 select_result, make_mirror)

@@ -44,6 +44,7 @@ from .shortcomings import (
     TOO_CLOSE,
     Refused,
     left_out,
+    rough_shortcomings,
     scene_shortcomings,
     shortcomings,
     too_close,
@@ -77,7 +78,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         raise core.ReflectionError(IN_OBJECT_MODE)
     started = time.perf_counter()
     yield 0.0, "Reading the scene"
-    hidden, view = left_out(context, chosen.hidden), view or read_view(context)
+    told, view = left_out(context, chosen), view or read_view(context)
     kept = Kept.of(depsgraph := context.evaluated_depsgraph_get())
     mirrors = assembled(context, chosen, settings)
     mirrors, meshes, faceless = _with_faces(mirrors, *kept.looked_at(depsgraph, mirrors, chosen.diffuse))
@@ -88,6 +89,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     joined = partial(kept.joined, mirrors, chosen.diffuse, *meshes)
     stage = yield from part(core.in_steps(joined), 0.0, 0.5 * READING, "Reading the scene")
     scene, surfaces, opacity = stage.scene, stage.surfaces, opacities_of(depsgraph, stage.scene)
+    told += faceless + rough_shortcomings([one.mirror for one in mirrors], surfaces)
     kinds = [core.PointTree if one.method == "POINTS" else core.SceneTree for one in own]
     yield from _trees(stage, kinds)
     prepared, refused, unseen, lacks, share = [], [], [], [], (1.0 - READING) / len(surfaces)
@@ -119,7 +121,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     yield 1.0, "Writing"
     outcome = write_results(context, prepared, view, scene, replace(manners, preview=preview), unfit)
     _record(outcome, origins, time.perf_counter() - started)
-    return replace(outcome, remarks=hidden + faceless + lacks + outcome.remarks + refused,
+    return replace(outcome, remarks=told + lacks + outcome.remarks + refused,
                    lacks=lacks + [sentence for sentence in refused if sentence not in unseen],
                    read=(view, {one.mirror: surface for one, surface in zip(mirrors, surfaces)}, scene))
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -122,7 +122,7 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
         if not indices:
             raise core.ReflectionError("The camera sees none of the objects in this mirror; move the camera, the "
                                        "mirror or the objects.")
-        remarks = left_out(context, [obj for obj in chosen.hidden if obj not in sources])
+        remarks = left_out(context, replace(chosen, hidden=[obj for obj in chosen.hidden if obj not in sources]))
         remarks += [f"Left out because the mirror does not show it: '{obj.name}'." for index, obj in enumerate(sources)
                     if index not in indices]
         yield READING + REFLECTING + PIECES, "Cutting faces"

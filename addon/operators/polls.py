@@ -16,10 +16,13 @@ from ..reading import (
     NO_CAMERA,
     NO_MIRROR,
     RESULTS,
+    SHARP_ROUGHNESS,
     can_take_part,
     has_linked_results,
-    is_mirror,
+    instances_otherwise,
     is_result,
+    least_roughness,
+    may_say_mirror,
     nothing_to_reflect,
     says_mirror,
 )
@@ -56,8 +59,7 @@ def has_camera(context: bpy.types.Context) -> str:
 
 
 def has_mirror(context: bpy.types.Context) -> str:
-    """Something is selected that may be a mirror, or else active as a result or a mirror, or an object's role or
-    material is that of a mirror."""
+    """The scene has a mirror by role or material, or what is selected or active may be one, or is shown by one."""
     objects = context.view_layer.objects
     active = objects.active
     if active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}:
@@ -67,21 +69,23 @@ def has_mirror(context: bpy.types.Context) -> str:
     if (len(selected) > LOOKED_AT or len(chosen) > 1 or len(bpy.data.materials) > LOOKED_THROUGH
             or any(obj.reflection_mesh.role in RESULTS for obj in selected)):
         return ""
-    # each is asked once, however many objects have it
-    mirrors = set(filter(is_mirror, bpy.data.materials)).__contains__
-    # what is selected may have been a mirror, or the roles say who is one
-    if selected and _any(context.scene.objects, lambda obj: (
-            obj.reflection_mesh.mirror in selected or obj.reflection_mesh.role == "MIRROR"
-            or not {part.object for part in obj.reflection_mesh.parts}.isdisjoint(selected))):
-        return ""
-    return "" if _any(chosen or objects, lambda obj: says_mirror(obj, mirrors)) else NO_MIRROR
+    # what is selected may have been a mirror, or be shown by one that has no material of a mirror any more
+    # each material is asked once, however many objects have it
+    rough = {one: roughness for one in bpy.data.materials if (roughness := least_roughness(one)) is not None}
+    sharp = {one for one, roughness in rough.items() if roughness <= SHARP_ROUGHNESS}
+    found = any(may_say_mirror(obj, set(rough)) for obj in chosen) or _any(
+        objects, lambda obj: may_say_mirror(obj, sharp) and can_take_part(obj)) or (
+        selected and _any(context.scene.objects, lambda obj: _knows_any(obj.reflection_mesh, selected)))
+    return "" if found else NO_MIRROR
 
 
 def has_reflected(context: bpy.types.Context) -> str:
     """Not a mirror alone is selected where no role or result says what it shows."""
     objects = context.view_layer.objects
     selected = list(islice(objects.selected, 2))
-    if len(selected) != 1 or not can_take_part(selected[0]) or not says_mirror(selected[0]) or _any(
+    # a run looks through instances, which may be many
+    if len(selected) != 1 or instances_otherwise(selected[0]) or not (
+            can_take_part(selected[0]) and says_mirror(selected[0])) or _any(
             objects, lambda obj: obj.reflection_mesh.role in {"DIFFUSE", *RESULTS}):
         return ""
     return nothing_to_reflect(selected[0])
@@ -148,6 +152,13 @@ def has_what_is_kept_right(sentence: str) -> Obstacle:
 def _any(objects, asked: Callable) -> bool:
     """Whether one of the objects is as asked; of too many to look through, one may be."""
     return len(objects) > LOOKED_THROUGH or any(map(asked, objects))
+
+
+def _knows_any(record: bpy.types.PropertyGroup, selected: list) -> bool:
+    known = {record.mirror, *(part.object for part in record.parts)}
+    if record.role == "REFLECTION":
+        known.update(source.object for source in record.sources)
+    return not known.isdisjoint(selected)
 
 
 def _is_result(obj: bpy.types.Object) -> bool:

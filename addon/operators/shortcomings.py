@@ -4,20 +4,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import bpy
+import numpy as np
 
 from ...core import ReflectionError, ReflectionMesh
 from ...core.result import filled_share
 from ..reading import (
+    SHARP_ROUGHNESS,
     Assembly,
+    MirrorSurface,
     Participants,
     camera_of,
     every_result_of,
     in_background_set,
     is_result,
     known_results,
+    mirror_roughness,
     mirrors_of,
     rendered_alone,
     rendered_otherwise,
+    why_caught,
     without_surface,
 )
 from ..reading.materials import transparency
@@ -103,11 +108,34 @@ def bounds_hit(counts: dict, points: int = 0) -> list[str]:
             if counts.get(what) and shares.get(what, 100.0) >= WORTH_TELLING]
 
 
-def left_out(context: bpy.types.Context, objects: list) -> list[str]:
-    """Sentences on what would take part, were it to be seen: it is hidden, or has been deleted or taken out."""
+def left_out(context: bpy.types.Context, chosen: Participants) -> list[str]:
+    """Sentences on what would take part, were it to be seen: it is hidden, has been deleted or taken out, or is a
+    mirror that catches shadows."""
     there = set(context.scene.objects)
     return [f"Left out because it is hidden: '{obj.name}'." if obj in there else
-            f"Left out because it is not in this scene: '{obj.name}'." for obj in objects]
+            f"Left out because it is not in this scene: '{obj.name}'." for obj in chosen.hidden
+            ] + list(map(why_caught, chosen.caught))
+
+
+def rough_shortcomings(mirrors: list, surfaces: list[MirrorSurface]) -> list[str]:
+    """A sentence on those of the mirrors that are rough, since their reflections are sharp."""
+    found = []
+    for mirror, surface in zip(mirrors, surfaces, strict=True):
+        seen = [surface.materials[index] for index in np.unique(surface.material).tolist()]
+        roughness = max((one for one in map(mirror_roughness, seen) if one is not None), default=0.0)
+        if roughness > SHARP_ROUGHNESS:
+            found.append((mirror.name, roughness))
+    if not found:
+        return []
+    name, roughness = found[0]
+    if len(found) > 1:
+        return [f"{len(found)} mirrors are rough, '{name}' among them, and their reflections are sharp: only Light: "
+                "Picture blurs them as Cycles does."]
+    if roughness == float("inf"):
+        return [f"The roughness of '{name}' is not known, and its reflection is sharp: only Light: Picture blurs it as "
+                "Cycles does."]
+    return [f"'{name}' has a roughness of {roughness:.2f}, and its reflection is sharp: only Light: Picture blurs it "
+            "as Cycles does."]
 
 
 def scene_shortcomings(context: bpy.types.Context, chosen: Participants, settings: SettingsOfMirrors) -> list[str]:

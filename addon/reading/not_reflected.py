@@ -3,8 +3,9 @@ from __future__ import annotations
 
 import bpy
 
+from .hidden_objects import rendered_in, seen_in
 from .materials import all_fog, fog_of
-from .roles import can_take_part, rendered_in, seen_in
+from .mirror_objects import can_take_part
 
 NO_SURFACES = {"CURVES", "POINTCLOUD", "VOLUME"}
 

@@ -123,6 +123,15 @@ def meant(context: bpy.types.Context, active: bpy.types.Object | None) -> list:
     return list(found)
 
 
+def showing(context: bpy.types.Context, objects: list) -> list:
+    """Return the results of mirrors that show any of some objects to the scene's camera."""
+    chosen = set(objects)
+    mirrors = {obj.reflection_mesh.mirror: None for obj in (context.scene.objects if chosen else ())
+               if is_result(obj) and not is_gone(obj.reflection_mesh.mirror) and chosen.intersection(_sources(obj))}
+    return [result for mirror in mirrors for result in results_of(context, mirror)
+            if chosen.intersection(_sources(result))]
+
+
 def of_results(results: list) -> tuple[list, list]:
     """The mirrors of results, and what all of these show.
 

@@ -14,11 +14,11 @@ from ..reading import (
     LocalMesh,
     MirrorSurface,
     Placed,
-    is_mirror,
     join_mirror,
     join_scene,
     read_meshes,
 )
+from ..reading.materials import which_reflect
 from .told import listen, trusted
 
 
@@ -142,7 +142,7 @@ class Kept:
             _forget(None)
 
     def _surface(self, mirror: Assembly, placed: list[Placed]) -> tuple:
-        reflecting = [is_mirror(material) for item in placed for material in item.mesh.materials or (None,)]
+        reflecting = which_reflect([one for item in placed for one in item.mesh.materials or (None,)])
         known = self.surfaces.get(mirror.mirror.session_uid)
         if known is not None and known[1] == reflecting and _same(placed, known[0]):
             return known

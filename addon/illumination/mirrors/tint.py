@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ... import compat
-from ...reading.materials import FULL_METALLIC, MIRRORS, is_mirror, shown_output
+from ...reading.materials import is_mirror, shown_output
 from .coat import WHOLE, Coat, as_opaque, gloss_of, layers_of
 from .lobes import Lobe, lobes_of
 
@@ -73,7 +73,8 @@ class Tint:
         white = np.ones(3)
         if material is not None and not compat.uses_nodes(material) and is_mirror(material):
             return cls(np.array(material.diffuse_color[:3], dtype=np.float64), white, True, True)
-        found = _tints_of(material)
+        # rough metal that is a mirror all the same has its colour
+        found = _tints_of(material) or _tints_of(material, rough=True)
         if len(found) < 2:
             return found[0] if found else cls(white, white, False, True)
         # of several the texture of one is known, if all others are one colour
@@ -121,14 +122,14 @@ def has_mirrors(material: bpy.types.Material | None) -> bool:
     return bool(_tints_of(material))
 
 
-def _tints_of(material: bpy.types.Material | None) -> list[Tint]:
-    """Those of all that mirrors sharply in a material's nodes."""
+def _tints_of(material: bpy.types.Material | None, rough: bool = False) -> list[Tint]:
+    """Those of all that mirrors sharply in a material's nodes, and of `rough` metal."""
     output = shown_output(material.node_tree) if material is not None and compat.uses_nodes(material) else None
     lobes = [] if output is None else lobes_of(output.inputs["Surface"])
-    return [tint for lobe in lobes for tint in _tints_of_lobe(material, lobe)]
+    return [tint for lobe in lobes for tint in _tints_of_lobe(material, lobe, rough)]
 
 
-def _tints_of_lobe(material: bpy.types.Material, lobe: Lobe) -> list[Tint]:
+def _tints_of_lobe(material: bpy.types.Material, lobe: Lobe, rough: bool) -> list[Tint]:
     """That of what a shader is, and that of its coat."""
     shader, white = lobe.shader, np.ones(3)
     layers = layers_of(shader) if shader.type == "BSDF_PRINCIPLED" and lobe.is_sharp else None
@@ -137,19 +138,12 @@ def _tints_of_lobe(material: bpy.types.Material, lobe: Lobe) -> list[Tint]:
     below, opaque = as_opaque(below, shader)
     known = lobe.known and known and opaque
     coats = [] if over is None else [Tint(white, white, False, known, as_opaque(over, shader)[0])]
-    if lobe.is_sharp and (shader.type in MIRRORS or _is_metal(lobe)):
+    if lobe.is_metal and (rough or lobe.is_sharp):
         return [_of_metal(material, lobe, below, known), *coats]
     gloss = gloss_of(shader)
     if gloss is None:
         return coats
     return [Tint(gloss.colour, white, gloss.metal, gloss.known and known, replace(gloss.coat, within=below)), *coats]
-
-
-def _is_metal(lobe: Lobe) -> bool:
-    if lobe.shader.type != "BSDF_PRINCIPLED":
-        return False
-    metallic, known = lobe.told("Metallic")
-    return known and bool(metallic >= FULL_METALLIC)
 
 
 def _of_metal(material: bpy.types.Material, lobe: Lobe, coat: Coat, known: bool) -> Tint:

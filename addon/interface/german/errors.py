@@ -77,6 +77,9 @@ CHOICE = {
     "'{}' is both the mirror and a source of '{}': choose another mirror or remove it from the sources.":
         "'{}' ist zugleich der Spiegel von '{}' und etwas, das darin zu sehen ist: wähle einen anderen Spiegel, "
         "oder nimm ihn aus den Quellen.",
+    "'{}' is a shadow catcher, in which Cycles shows no reflection: switch off Shadow Catcher in Object Properties > "
+    "Visibility.": "'{}' ist ein Schattenfänger, in dem Cycles keine Spiegelung zeigt: schalte Schattenfänger in "
+        "Objekteigenschaften > Sichtbarkeit aus.",
     "The mirror '{}' is hidden: show it in the viewport and in renders.":
         "Der Spiegel '{}' ist ausgeblendet: zeige ihn in der Ansicht und im Render.",
     "'{}' is not in this scene: add it to one of the scene's collections.":

@@ -99,6 +99,21 @@ KEPT = {
     "scene to the origin, or import it with an offset.":
         "So weit vom Ursprung rundet Blender Orte auf {} Einheiten, oder {} Pixel, und Bilder rauschen. Verschiebe die "
         "ganze Szene zum Ursprung, oder importiere sie mit einem Versatz.",
+    "'{}' is a mirror now, by its own material.": "'{}' ist jetzt ein Spiegel, mit dem eigenen Material.",
+    "'{}' is a mirror now, by a new material.": "'{}' ist jetzt ein Spiegel, mit einem neuen Material.",
+    "'{}' is a mirror now, and its mesh keeps its materials: set the Link of the material slots to Data to have them "
+    "back.": "'{}' ist jetzt ein Spiegel, und sein Mesh behält seine Materialien: stelle die Verknüpfung der "
+        "Materialslots auf Daten, um sie zurückzuhaben.",
+    "'{}' has the role Mirror now: give what it consists of a mirror's material.":
+        "'{}' hat jetzt die Rolle Spiegel: gib dem, woraus es besteht, das Material eines Spiegels.",
+    "'{}' has a roughness of {}, and its reflection is sharp: only Light: Picture blurs it as Cycles does.":
+        "'{}' hat die Rauheit {}, und die Spiegelung ist scharf: nur Licht: Bild macht sie so unscharf wie Cycles.",
+    "The roughness of '{}' is not known, and its reflection is sharp: only Light: Picture blurs it as Cycles does.":
+        "Die Rauheit von '{}' ist nicht bekannt, und die Spiegelung ist scharf: nur Licht: Bild macht sie so unscharf "
+        "wie Cycles.",
+    "{} mirrors are rough, '{}' among them, and their reflections are sharp: only Light: Picture blurs them as Cycles "
+    "does.": "{} Spiegel sind rau, darunter '{}', und ihre Spiegelungen sind scharf: nur Licht: Bild macht sie so "
+        "unscharf wie Cycles.",
     "Left out because it is hidden: '{}'.": "Ausgelassen, weil ausgeblendet: '{}'.",
     "Left out because it has no faces: '{}'.": "Ausgelassen, weil ohne Flächen: '{}'.",
     "Left out because it is not in this scene: '{}'.": "Ausgelassen, weil nicht in dieser Szene: '{}'.",

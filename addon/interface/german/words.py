@@ -2,6 +2,10 @@
 
 OBJECT_MODE = ": verlasse zuerst den jetzigen Modus."
 OPERATORS = {
+    "Make It a Mirror": "Zum Spiegel machen",
+    "Give the active object the role Mirror, and a mirror's material where it has none; its mesh keeps its own":
+        "Gibt dem aktiven Objekt die Rolle Spiegel, und das Material eines Spiegels, wo es keines hat; sein Mesh "
+        "behält die eigenen",
     "Generate Reflection": "Spiegelung erzeugen",
     "Create an object for each mirror that shows its reflection, as the scene's camera sees it":
         "Erzeugt für jeden Spiegel ein Objekt mit seiner Spiegelung, wie die Kamera der Szene sie sieht",
@@ -228,6 +232,9 @@ ROLES = {
     "This object shows caustics that were generated": "Dieses Objekt zeigt erzeugte Kaustik",
 }
 PANELS = {
+    "The scene has no mirror. A mirror is metal with a Roughness up to 0.1, or has the role Mirror.":
+        "Die Szene hat keinen Spiegel. Ein Spiegel ist Metall mit einer Rauheit bis 0,1 oder hat die Rolle Spiegel.",
+    "Make '{name}' a Mirror": "'{name}' zum Spiegel machen",
     "Reflection Mesh": "Reflection Mesh",
     "Settings": "Einstellungen",
     "Limits": "Grenzen",
@@ -297,6 +304,11 @@ PANELS = {
     "Open the Report": "Bericht öffnen",
 }
 OBSTACLES = {
+    "No object to make a mirror of: make one with faces the active object.":
+        "Kein Objekt für einen Spiegel: mache eines mit Flächen zum aktiven Objekt.",
+    "The active object is linked from another file: make a library override of it, or open that file.":
+        "Das aktive Objekt ist aus einer anderen Datei verknüpft: erstelle eine Bibliotheksüberschreibung, oder öffne "
+        "jene Datei.",
     "Reflections are generated in Object Mode: leave the present mode first.":
         "Spiegelungen entstehen im Objektmodus" + OBJECT_MODE,
     "Caustics are generated in Object Mode: leave the present mode first.":

@@ -17,9 +17,8 @@ from ...writing import protect
 from .. import polls
 from ..caustics import left_out_of
 from ..pressed import ProtectsResults
-from ..shortcomings import render_shortcomings
 from .bake import IN_OBJECT_MODE, NO_USD
-from .plan import LACKING, Plan, blur_remarks, chosen_frames, empty_remarks, layer_remarks, plan_of, summary
+from .plan import LACKING, Plan, chosen_frames, empty_remarks, layer_remarks, plan_of, scene_remarks, summary
 from .side_by_side import side_by_side, words_of
 from .view_layers import baking_layers, show_layers
 
@@ -99,8 +98,7 @@ class REFLECTION_MESH_OT_bake(UsesSettings, ProtectsResults, BrowsingOperator, S
             self.leave_out = left_out
         remarks = [line for line in heard if line.startswith(LACKING)] + kept + hidden
         remarks += empty_remarks([sequence for baked in made for sequence in baked.sequences])
-        remarks += render_shortcomings(context, *candidates(context))
-        remarks += blur_remarks(context.scene, cameras, self.what == "CAUSTICS")
+        remarks += scene_remarks(context, cameras, self.what == "CAUSTICS")
         remarks += layer_remarks(context.scene, layers)
         tell_done(self, [summary([baked.plan for baked in made], elsewhere + len(written),
                                  time.perf_counter() - started)], remarks)

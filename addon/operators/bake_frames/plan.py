@@ -11,9 +11,18 @@ from .... import core
 from ...faults import Steps, gathered, listed, one_or_more
 from ...frames import Sequence, frame_numbers, frame_text, is_done, read_record, record_path, told_apart
 from ...freshness import frame_difference, frame_origin
-from ...reading import Assembly, NothingSeen, Participants, candidates, render_size, visible
+from ...reading import (
+    Assembly,
+    NothingSeen,
+    Participants,
+    candidates,
+    render_size,
+    shadow_catchers,
+    visible,
+    why_caught,
+)
 from ...settings import SAMPLES, SettingsOfMirrors, Wanted, of_each
-from ..shortcomings import DEPTH_OF_FIELD, STEREO
+from ..shortcomings import DEPTH_OF_FIELD, STEREO, render_shortcomings
 
 NUMBER = re.compile(r"[\d.,]+")
 NAMED = 8   # so many frames are named one by one
@@ -162,7 +171,14 @@ def chosen_frames(scene: bpy.types.Scene, text: str) -> list[int]:
     return frame_numbers(text or frame_text(scene.frame_start, scene.frame_end, scene.frame_step))
 
 
-def blur_remarks(scene: bpy.types.Scene, cameras: tuple, thrown: bool = False) -> list[str]:
+def scene_remarks(context: bpy.types.Context, cameras: tuple, thrown: bool = False) -> list[str]:
+    """Sentences on what renders of the scene show otherwise than what was baked, and on mirrors that were left out."""
+    caught = [] if thrown else shadow_catchers(context)
+    return [*map(why_caught, caught), *render_shortcomings(context, *candidates(context)),
+            *_blur_remarks(context.scene, cameras, thrown)]
+
+
+def _blur_remarks(scene: bpy.types.Scene, cameras: tuple, thrown: bool = False) -> list[str]:
     """What baked reflections, or light that mirrors have `thrown`, cannot do of what the scene asks for."""
     told = []
     if scene.render.use_motion_blur:

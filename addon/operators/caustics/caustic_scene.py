@@ -97,5 +97,5 @@ def reading_caustics(context: bpy.types.Context, chosen: Participants, lamps: li
         origins[pair] = light_record(context, *pair, sources)
         yield 0.0, "Reading the scene"
     return CausticScene(depsgraph, pairs, dark, surfaces, places, receivers, blockers, scene, sources, origins,
-                        [*left_out(context, chosen.hidden), *faceless,
+                        [*left_out(context, chosen), *faceless,
                          *remarks_on_instances(instancers_of_lamps(context))], remarks_on_taking(scene, surfaces))

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 import bpy
 
 from .material_nodes import all_nodes, feeding
-from .mirror_materials import emits, surface_shader
+from .mirror_materials import emits
+from .shader_graph import surface_shader
 
 BY_VALUES = {"BLACKBODY", "BRIGHTCONTRAST", "CLAMP", "COMBINE_COLOR", "COMBRGB", "COMBXYZ", "CURVE_FLOAT",
              "CURVE_RGB", "CURVE_VEC", "FRAME", "GAMMA", "GROUP", "GROUP_INPUT", "GROUP_OUTPUT", "HUE_SAT", "INVERT",

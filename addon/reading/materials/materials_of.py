@@ -1,11 +1,13 @@
 """The materials that an object shows, be they its own or those of the collection that it is an instance of."""
 from __future__ import annotations
 
+from itertools import compress
+
 import bpy
 import numpy as np
 
 from .material_nodes import all_nodes
-from .mirror_materials import is_mirror
+from .mirror_materials import which_reflect
 from .opaque_materials import is_fog
 
 INSTANCING = {"NODES", "PARTICLE_SYSTEM"}
@@ -46,25 +48,33 @@ def reflecting_materials(mirrors: list) -> list:
 
 def _reflecting(mirror: bpy.types.Object) -> list:
     collected = mirror.instance_type == "COLLECTION" and mirror.instance_collection is not None
-    known = (materials_of(mirror) if collected else materials_on_faces(mirror)) + _of_instances(mirror)
-    known = [material for material in known if material is not None]
-    return [material for material in known if is_mirror(material)] or known
+    known = (materials_of(mirror) if collected else materials_on_faces(mirror)) + instanced_materials([mirror])[mirror]
+    known = list(dict.fromkeys(material for material in known if material is not None))
+    return list(compress(known, which_reflect(known)))
 
 
 def all_materials_of(mirror: bpy.types.Object) -> list:
     """As `materials_of`, with those of what it instances by Geometry Nodes, particles, vertices or faces."""
-    return materials_of(mirror) + _of_instances(mirror)
+    return materials_of(mirror) + instanced_materials([mirror])[mirror]
 
 
-def _of_instances(obj: bpy.types.Object) -> list:
-    """The materials of what an object instances otherwise than as a collection, as it was evaluated last."""
-    by_itself = obj.instance_type in {"VERTS", "FACES"}
+def instanced_materials(objects: list) -> dict:
+    """The materials of what each of some objects instances otherwise than as a collection, as it was evaluated last."""
+    found: dict = {obj: [] for obj in objects}
     depsgraph = getattr(getattr(bpy.context, "view_layer", None), "depsgraph", None)
-    if depsgraph is None or not (by_itself or any(modifier.type in INSTANCING for modifier in obj.modifiers)):
-        return []
-    return [None if slot.material is None else slot.material.original
-            for instance in depsgraph.object_instances
-            if instance.is_instance and instance.parent.original == obj for slot in instance.object.material_slots]
+    if depsgraph is None or not any(map(instances_otherwise, objects)):
+        return found
+    for instance in depsgraph.object_instances:
+        owner = instance.parent.original if instance.is_instance else None
+        if owner in found and instances_otherwise(owner):
+            found[owner] += [None if slot.material is None else slot.material.original
+                             for slot in instance.object.material_slots]
+    return found
+
+
+def instances_otherwise(obj: bpy.types.Object) -> bool:
+    """Return True for an object that may instance others by Geometry Nodes, particles, vertices or faces."""
+    return obj.instance_type in {"VERTS", "FACES"} or any(modifier.type in INSTANCING for modifier in obj.modifiers)
 
 
 def _shown(obj: bpy.types.Object) -> bpy.types.Object:

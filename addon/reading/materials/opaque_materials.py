@@ -5,7 +5,7 @@ import bpy
 
 from ... import compat
 from .material_nodes import all_nodes, shown_output
-from .surface_shaders import surface_shaders
+from .shader_graph import surface_shaders
 
 OPEN_SHADERS = {"BSDF_TRANSPARENT", "BSDF_GLASS", "BSDF_REFRACTION", "HOLDOUT"}
 # sockets of a Principled BSDF, and the value at which each lets nothing through

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ....core import ReflectionError, TriangleMesh, breathe
-from ..materials import is_mirror
+from ..materials import which_reflect
 from ..metaballs import basis_of, is_part
 from ..nothing_seen import NothingSeen
 from .join_layers import join_layers
@@ -143,10 +143,13 @@ def join_mirror(placed: list[Placed], parts: list) -> MirrorSurface:
                                   "that instead.")
         raise NothingSeen(f"The mirror '{obj.name}' has no faces: choose an object with faces.")
     positions, triangles, owners, _, material, materials = _join(placed, len(parts))
-    reflects = np.array([is_mirror(entry) for entry in materials])[material]
-    with_mirror = np.zeros(len(parts), dtype=bool)
-    with_mirror[owners[reflects]] = True
-    kept = np.flatnonzero(reflects | ~with_mirror[owners])
+    reflects = np.zeros(len(triangles), dtype=bool)
+    for number in range(len(parts)):
+        own = owners == number
+        on_faces = np.unique(material[own])
+        reflecting = on_faces[which_reflect([materials[index] for index in on_faces])]
+        reflects |= own & np.isin(material, reflecting)
+    kept = np.flatnonzero(reflects)
     material = material[kept]
     normals = told_apart(normals_of(placed)[kept], material)
     return MirrorSurface(_triangle_mesh(parts, positions, triangles[kept], normals), kept.astype(np.int32), material,

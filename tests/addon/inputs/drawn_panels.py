@@ -26,7 +26,7 @@ class Layout:
         assert name in holder.bl_rna.properties and (not text or not translate)
         self.properties[name] = holder
 
-    def operator(self, name, text="", icon=""):
+    def operator(self, name, text="", icon="", translate=True):
         assert getattr(bpy.ops, name.split(".")[0]), name
         self.buttons.append(name)
         return SimpleNamespace()

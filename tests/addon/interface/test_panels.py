@@ -10,8 +10,8 @@ import parts
 import pytest
 from drawn_panels import Layout, drawn, pair
 
-OPERATORS = ("generate", "light", "caustics", "bake", "clear", "live", "update", "compare", "mirror_uvs", "print_sheet",
-             "select")
+OPERATORS = ("generate", "light", "caustics", "bake", "clear", "make_mirror", "live", "update", "compare", "mirror_uvs",
+             "print_sheet", "select")
 
 
 @pytest.fixture
@@ -100,6 +100,8 @@ def test_the_size_is_that_in_a_file(blank, room, tmp_path):
 
 def test_nothing_and_other_things_are_drawn_too(blank, room):
     bpy.context.view_layer.objects.active = None
+    parts.add_wall_mirror().data.materials.append(parts.material("Glass", "GLOSSY"))
+    bpy.context.view_layer.objects.active = None
     layout = drawn(room, "VIEW_3D")
     assert layout.labels[0] == "No Active Object"
     assert "Select a mirror, then click Generate Reflection." in layout.labels
@@ -111,6 +113,28 @@ def test_nothing_and_other_things_are_drawn_too(blank, room):
     assert not drawn(room, "PROPERTIES").properties
     poll = room("addon.interface.panels").REFLECTION_MESH_PT_object.poll
     assert not poll(SimpleNamespace()) and not poll(SimpleNamespace(view_layer=None))
+
+
+@pytest.mark.parametrize("space", ["VIEW_3D", "PROPERTIES"])
+def test_a_scene_without_a_mirror_says_what_makes_one(blank, room, space):
+    """In the panel itself, with a button that makes the active object one; a mirror anywhere ends that."""
+    box = parts.add("cube", "Box", size=1.0, location=(0.0, -1.5, 1.0))
+    box.data.materials.append(parts.material("Paint"))
+    parts.select(box)
+    layout = drawn(room, space)
+    assert [text for text in layout.labels if text.startswith("The scene has no mirror.")]
+    assert "reflection_mesh.make_mirror" in layout.buttons and not bpy.ops.reflection_mesh.generate.poll()
+    wall = parts.add_wall_mirror()
+    parts.select(wall)
+    assert bpy.ops.reflection_mesh.make_mirror() == {"FINISHED"}
+    for chosen in ((wall,), (box,), ()):
+        parts.select(*chosen)
+        assert bpy.ops.reflection_mesh.generate.poll() and bpy.ops.reflection_mesh.bake.poll()
+        layout = drawn(room, space)
+        assert not [text for text in layout.labels if "no mirror" in text]
+        assert "reflection_mesh.make_mirror" not in layout.buttons
+    parts.select(box)
+    assert parts.generate().reflection_mesh.mirror == wall
 
 
 def test_every_operator_is_in_the_menu(room):

@@ -38,8 +38,8 @@ def test_a_mirror_that_is_not_seen_as_it_is_lights_its_result_all_the_same(blank
     """As one that is hidden by hand, so that the result alone is seen; it stays that."""
     wall = scene_of(blank, "UV", "Tint")
     reference, other = picture(room), picture(room, seed=7)
-    setattr(wall, name, value)
     result = parts.generate()
+    setattr(wall, name, value)
     assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
     assert getattr(wall, name) == value
     # of the mirror itself nothing is seen beside the result

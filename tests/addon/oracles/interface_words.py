@@ -20,7 +20,8 @@ TELLING = {"addon/faults/status_bar.py": set(), "addon/faults/stepped_operator.p
            "addon/freshness/thrown_light.py": {"why_light_is_stale", "_changed", "_difference"},
            **{path.relative_to(ROOT).as_posix(): set() for path in (ROOT / "addon" / "interface").glob("draw_*.py")}}
 SENTENCES = ("IN_OBJECT_MODE", "NOTHING_TO_LIGHT", "NOTHING_TO_CLEAR", "NO_SHEET", "NO_CAMERA", "NO_MIRROR", "NO_USD",
-             "SIZE_DIFFERS", "WAITS", "NOTHING_YET", "LINKED_SCENE", "LINKED_TO_LIGHT", "LINKED_TO_CLEAR", "NO_RESULT")
+             "SIZE_DIFFERS", "WAITS", "NOTHING_YET", "LINKED_SCENE", "LINKED_TO_LIGHT", "LINKED_TO_CLEAR", "NO_RESULT",
+             "NO_OBJECT", "LINKED_OBJECT")
 
 
 def classes() -> list[type]:

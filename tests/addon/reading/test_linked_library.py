@@ -40,7 +40,8 @@ def test_virtual_leaves_a_linked_mirror_alone(library, room):
     parts.generate(placement="VIRTUAL")
     assert mirror.visible_camera
     nothing = room("addon.writing").InTheWay("", 0.0, False)
-    told, = room("addon.operators.shortcomings").window_shortcomings(mirror, nothing)
+    told, = room("addon.operators.shortcomings").window_shortcomings(
+            room("addon.reading").Assembly.of(mirror), nothing)
     assert "linked and cannot be hidden" in told
 
 

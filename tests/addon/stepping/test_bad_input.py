@@ -29,12 +29,6 @@ def test_only_the_mirror_selected(scene):
     assert "select" in parts.refusal()
 
 
-def test_no_diffuse_role(scene):
-    scene[0].reflection_mesh.role = "MIRROR"
-    parts.select()
-    assert "Nothing to reflect" in parts.refusal()
-
-
 def test_no_camera(scene):
     bpy.context.scene.camera = None
     assert "camera" in parts.refusal()

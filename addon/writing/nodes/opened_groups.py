@@ -1,0 +1,66 @@
+"""Groups of nodes that make shaders, put in place of their group nodes."""
+from __future__ import annotations
+
+import bpy
+
+from .copied_nodes import copied
+
+BORDERS = {"GROUP_INPUT", "GROUP_OUTPUT", "FRAME"}
+
+
+def groups_of_shaders(tree: bpy.types.NodeTree) -> list[bpy.types.Node]:
+    """Return the group nodes of a tree that make shaders."""
+    return [node for node in tree.nodes if node.type == "GROUP" and node.node_tree is not None and not node.mute
+            and any(output.type == "SHADER" and output.is_linked for output in node.outputs)]
+
+
+def open_groups(tree: bpy.types.NodeTree) -> None:
+    """Put what is in groups that make shaders in the place of these, in a tree which is our own."""
+    while groups := groups_of_shaders(tree):
+        for group in groups:
+            _open(tree, group)
+
+
+def _open(tree: bpy.types.NodeTree, group: bpy.types.Node) -> None:
+    inner = group.node_tree
+    made = copied([node for node in inner.nodes if node.type not in BORDERS], tree)
+    given = {socket.identifier: socket for socket in group.inputs}
+    # what comes in
+    for node in inner.nodes:
+        if node.type == "GROUP_INPUT":
+            for link in [link for output in node.outputs for link in output.links if link.to_node in made]:
+                target = made[link.to_node].inputs[list(link.to_node.inputs).index(link.to_socket)]
+                _hand_on(tree, given.get(link.from_socket.identifier), target)
+    # and what goes out
+    ends = [node for node in inner.nodes if node.type == "GROUP_OUTPUT" and node.is_active_output]
+    for inside in [socket for end in ends for socket in end.inputs if socket.is_linked]:
+        source = inside.links[0].from_socket
+        output = next((one for one in group.outputs if one.identifier == inside.identifier), None)
+        for target in [link.to_socket for link in (() if output is None else output.links)]:
+            if source.node.type == "GROUP_INPUT":
+                _hand_on(tree, given.get(source.identifier), target)
+            else:
+                tree.links.new(made[source.node].outputs[list(source.node.outputs).index(source)], target)
+    tree.nodes.remove(group)
+
+
+def _hand_on(tree: bpy.types.NodeTree, given: bpy.types.NodeSocket | None, target: bpy.types.NodeSocket) -> None:
+    """Give a socket what a group's own socket gets, a link or a value."""
+    if given is None:
+        return
+    if given.is_linked:
+        tree.links.new(given.links[0].from_socket, target)
+    elif hasattr(given, "default_value") and hasattr(target, "default_value"):
+        target.default_value = _as(given, target)
+
+
+def _as(given: bpy.types.NodeSocket, target: bpy.types.NodeSocket):
+    """Return the value of a socket as another one takes it: a number for a colour, or a colour for a number."""
+    value = given.default_value
+    if given.type == target.type or (hasattr(value, "__len__") and hasattr(target.default_value, "__len__")
+                                     and len(value) == len(target.default_value)):
+        return value
+    numbers = list(value)[:3] if hasattr(value, "__len__") else [float(value)] * 3
+    if not hasattr(target.default_value, "__len__"):
+        return type(target.default_value)(sum(numbers) / 3.0)
+    return (numbers + [1.0])[:len(target.default_value)]

@@ -1,0 +1,45 @@
+"""Mirrors whose shader stands in a group of nodes look as Cycles shows them, in a preview and with light."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import parts
+import pytest
+from grouped_shaders import into_a_group
+from lamp_scenes import picture, principled, psnr, scene_of
+
+GOLD = (0.9, 0.5, 0.2)
+
+
+@pytest.fixture
+def wall(blank) -> bpy.types.Object:
+    """A golden wall by the group's material alone, before a box; another material stands beside it on no face."""
+    scene_of(blank)
+    wall = bpy.data.objects["Mirror"]
+    wall.data.materials.clear()
+    wall.reflection_mesh.role = "AUTO"
+    wall.data.materials.append(principled("Gold", GOLD, Metallic=1.0, Roughness=0.0))
+    parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], wall)
+    return wall
+
+
+def test_light_on_objects_is_tinted_as_in_cycles(wall, room):
+    into_a_group(wall.data.materials[0], 0.0)
+    reference, other = picture(room), picture(room, seed=7)
+    result = parts.generate()
+    assert result.reflection_mesh.mirror == wall
+    bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
+    assert psnr(picture(room), reference) > psnr(other, reference) - 1.5
+
+
+def test_a_preview_is_that_of_the_same_shader_without_a_group(wall, room):
+    shown = []
+    for grouped in (False, True):
+        if grouped:
+            into_a_group(wall.data.materials[0], 0.0)
+        parts.generate(preview=True)
+        assert "Gold.001" not in bpy.data.materials
+        shown.append(picture(room))
+        bpy.ops.reflection_mesh.clear()
+        parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], wall)
+    assert np.abs(shown[0] - shown[1]).mean() < 0.002
