@@ -2,8 +2,8 @@
 
     python -m tools.measure [name or path of a .blend ...] [--tolerance 0.5] [--runs 3] [--folder FOLDER]
 
-Cycles is timed on the file as it is, at its own resolution, one sample per pixel, in the same process; both times are
-medians over the runs. Judge on Blender 4.5: Cycles 5.2 packs shading normals and so moves its own reflections.
+Cycles is timed on the file as it is, and with a world of one colour in its place ("plain"), at its own resolution, one
+sample per pixel, in the same process; all times are medians over the runs. Judge on Blender 4.5: Cycles 5.2 packs shading normals and so moves its own reflections.
 """
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from tools import extension_zip
 from tools.quietly import quietly
 
 ROWS = ("sample", "vertices", "faces", "median px", "p95 px", "p99 px", "max px", "hole %", "spill %", "wrong %",
-        "all %", "RMSE", "generate s", "Cycles s", "ratio")
+        "all %", "RMSE", "generate s", "Cycles s", "ratio", "plain s", "plain ratio")
 
 
 def main(arguments: list[str]) -> int:
@@ -57,6 +57,8 @@ def measure(path: Path, folder: Path, depth: int, options: argparse.Namespace) -
     import bpy
     bpy.ops.wm.open_mainfile(filepath=str(path))
     cycles = [_cycles_seconds() for _ in range(options.runs)]
+    bpy.context.scene.world = bpy.data.worlds.new("Plain")
+    plain = [_cycles_seconds() for _ in range(options.runs)]
     generate = []
     for _ in range(options.runs):
         bpy.ops.wm.open_mainfile(filepath=str(path))
@@ -70,7 +72,7 @@ def measure(path: Path, folder: Path, depth: int, options: argparse.Namespace) -
     bpy.ops.reflection_mesh.compare(filepath=str(folder), samples=4)
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     moved, share = report["displacement_px"], report["coverage_percent"]
-    seconds, reference = statistics.median(generate), statistics.median(cycles)
+    seconds, reference, of_plain = map(statistics.median, (generate, cycles, plain))
     name = path.stem if depth == 1 else f"{path.stem}, depth {depth}"
     return [name, sum(len(obj.data.vertices) for obj in sources if obj.type == "MESH"),
             sum(len(result.data.polygons) for result in results),
@@ -78,7 +80,7 @@ def measure(path: Path, folder: Path, depth: int, options: argparse.Namespace) -
             *(share[key] for key in ("hole", "spill", "wrong_layer", "all")),
             # what lamps light is judged with its light, elsewhere
             None if any(map(lighting.needs_light, results)) else report["picture"]["mirror"]["rmse"],
-            seconds, reference, reference / seconds]
+            seconds, reference, reference / seconds, of_plain, of_plain / seconds]
 
 
 def _cycles_seconds() -> float:

@@ -5,10 +5,8 @@ from pathlib import Path
 
 import bpy
 
-# the zip carries the manual's pages; who installs the sources themselves has the extension's website, which the
-# manifest names too
+# `make zip` puts the manual's pages into the zip; an extension that Blender built itself has none
 CARRIED = Path(__file__).resolve().parents[2] / "manual" / "manual.html"
-WEBSITE = "https://extensions.blender.org/add-ons/reflection-mesh/"
 PAGES = (
     ("bpy.ops.reflection_mesh.*", "#operators"),
     ("bpy.types.reflectionscene.*", "#settings"),
@@ -20,8 +18,8 @@ PAGES = (
 
 
 def pages() -> tuple[str, tuple]:
-    """The address of the manual, and what of it tells of which names."""
-    return CARRIED.as_uri() if CARRIED.is_file() else WEBSITE, PAGES
+    """Return the address of the manual, and its places by the names that they explain; nothing without its pages."""
+    return (CARRIED.as_uri(), PAGES) if CARRIED.is_file() else ("", ())
 
 
 def register() -> None:

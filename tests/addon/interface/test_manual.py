@@ -70,12 +70,10 @@ def test_nothing_is_left_of_the_way_it_is_written(manual):
         assert not re.search(r"\]\(|\*\*|^#|^\|", text, flags=re.MULTILINE), path.name
 
 
-def test_without_its_pages_there_is_the_website(room, monkeypatch, tmp_path):
+def test_without_its_pages_no_name_has_a_place(room, monkeypatch, tmp_path):
     place = room("addon.interface.manual")
-    manifest = Path(place.__file__).parents[2] / "blender_manifest.toml"
     monkeypatch.setattr(place, "CARRIED", tmp_path / "manual.html")
-    address, _ = place.pages()
-    assert f'website = "{address}"' in manifest.read_text(encoding="utf-8")
+    assert place.pages() == ("", ())
 
 
 @pytest.mark.parametrize(("heading", "name"), [("What else they ask for", "what-else-they-ask-for"),
