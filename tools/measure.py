@@ -3,7 +3,8 @@
     python -m tools.measure [name or path of a .blend ...] [--tolerance 0.5] [--runs 3] [--folder FOLDER]
 
 Cycles is timed on the file as it is, and with a world of one colour in its place ("plain"), at its own resolution, one
-sample per pixel, in the same process; all times are medians over the runs. Judge on Blender 4.5: Cycles 5.2 packs shading normals and so moves its own reflections.
+sample per pixel, in the same process; all times are medians over the runs.
+Judge on Blender 4.5: Cycles 5.2 packs shading normals and so moves its own reflections.
 """
 from __future__ import annotations
 

@@ -3,7 +3,8 @@ lit in every frame.
 
     python -m tools.pictures.animation [folder] [seconds]
 
-What the camera sees of the ball is the mesh alone. Its light is of the kind Picture: Cycles traces the ball once a frame.
+What the camera sees of the ball is the mesh alone. Its light is of the kind Picture: Cycles traces the ball once a
+frame.
 """
 from __future__ import annotations
 
