@@ -10,7 +10,6 @@ from ..frames import plays
 from ..reading import can_take_part, is_result
 from .draw_live import draw_live
 from .draw_mattes import draw_mattes
-from .draw_missing_mirror import draw_missing_mirror, lacks_mirror
 from .draw_object import draw_figures, draw_object, shown_result
 from .draw_prompt import draw_prompt
 from .draw_settings import draw_limits, draw_settings, possible_mirror
@@ -37,12 +36,7 @@ class _Main:
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = aligned(self.layout)
-        obj, box = active(context), layout.box().column()
-        missing = lacks_mirror(context, obj)
-        if obj is not None or not missing:
-            draw_object(box, context, obj)
-        if missing:
-            draw_missing_mirror(box, context, obj)
+        draw_object(layout.box().column(), context, active(context))
         draw_buttons(layout, WORK)
         draw_live(layout, context)
         draw_prompt(layout, context, active(context))

@@ -2,7 +2,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import bpy
 from bpy.app.translations import pgettext_iface
@@ -12,7 +13,8 @@ from ..frames import plays
 from ..freshness import why_light_differs, why_light_is_stale, why_stale
 from ..lighting import is_lit, light_sentence
 from ..live import abandoned_light, abandoned_results, kept_light, kept_results, present
-from ..reading import is_gone, is_result, known_results, result_of
+from ..operators.polls import has_mirror
+from ..reading import RESULTS, can_take_part, is_gone, is_result, known_results, result_of
 
 # without their materials' light
 PLAIN_SHADING = {"SOLID", "WIREFRAME"}
@@ -35,7 +37,8 @@ def prompt(context: bpy.types.Context, obj: bpy.types.Object | None) -> Prompt:
 def longest(context: bpy.types.Context) -> tuple[Prompt, ...]:
     """Return the longest of the usual prompts, without and with a button: the panel keeps room for them."""
     return (Prompt(pgettext_iface("The scene has changed since the reflection was lit. Click Light Reflection.")),
-            shading_prompt("Wireframe", True, True))
+            shading_prompt("Wireframe", True, True),
+            replace(missing_mirror_prompt(None), button=_draw_material_preview))
 
 
 def _live(_context: bpy.types.Context, _obj: bpy.types.Object | None) -> Prompt | None:
@@ -129,6 +132,25 @@ def _light(context: bpy.types.Context, obj: bpy.types.Object | None) -> Prompt |
     return Prompt(pgettext_iface(sentence), "LIGHT") if sentence else Prompt(pgettext_iface("Up to date."), "CHECKMARK")
 
 
+def _missing_mirror(context: bpy.types.Context, obj: bpy.types.Object | None) -> Prompt | None:
+    """A scene without a mirror, and the button that makes the active object one."""
+    if (obj is not None and obj.reflection_mesh.role in RESULTS) or not has_mirror(context):
+        return None
+    return missing_mirror_prompt(obj if obj is not None and can_take_part(obj) else None)
+
+
+def missing_mirror_prompt(obj: bpy.types.Object | None) -> Prompt:
+    """Return the prompt that says what makes a mirror; `obj` may become one."""
+    text = pgettext_iface("The scene has no mirror. A mirror is metal with a Roughness up to 0.1, or has the role "
+                          "Mirror.")
+    return Prompt(text, "INFO", None if obj is None else partial(_draw_make_mirror, name=obj.name))
+
+
+def _draw_make_mirror(layout: bpy.types.UILayout, name: str) -> None:
+    layout.operator("reflection_mesh.make_mirror", icon="MOD_MIRROR", translate=False,
+                    text=pgettext_iface("Make '{name}' a Mirror").format(name=name))
+
+
 def _first_step(context: bpy.types.Context, _obj: bpy.types.Object | None) -> Prompt | None:
     if known_results(context.scene, context.view_layer):
         return Prompt(pgettext_iface("Up to date."), "CHECKMARK")
@@ -136,4 +158,4 @@ def _first_step(context: bpy.types.Context, _obj: bpy.types.Object | None) -> Pr
 
 
 # the first that has something to say is shown
-PROMPTS = (_live, _broken, _stale, _shading, _light, _first_step)
+PROMPTS = (_live, _broken, _stale, _shading, _light, _missing_mirror, _first_step)
