@@ -128,8 +128,9 @@ window-pictures:
 fuzz: environment
 	$(RUN) -m tests.fuzz --seconds $(SECONDS) $(if $(FIRST),--first $(FIRST))
 
-zip: environment
-	$(RUN) -m tools.extension_zip dist
+# Python's own modules suffice: no environment is made
+zip:
+	@"$(PYTHON)" -m tools.extension_zip dist
 
 samples: environment
 	$(RUN) sample_blends/make_samples.py

@@ -1,49 +1,81 @@
-"""Builds the extension as a zip, with Blender's own builder, and installs it into a throw-away place.
+"""Build the extension as a zip, with Python's own modules alone, and install it into a throw-away place.
 
     python -m tools.extension_zip [folder]
 """
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 import tempfile
 import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from fnmatch import fnmatch
 from pathlib import Path
+from typing import Any
 
 from .manual_pages import manual_pages
 
 ROOT = Path(__file__).resolve().parent.parent
+MANIFEST = "blender_manifest.toml"
 PACKAGE = "bl_ext.user_default.reflection_mesh"
 MANUAL = "manual"  # the folder of its pages
 
 
 def build(folder: Path) -> Path:
-    """Build the zip, with the manual's pages, into `folder` and return its path.
+    """Build the zip into `folder` and return its path.
 
-    Raises
-    ------
-    RuntimeError
-        With the builder's own words, where it refuses.
+    It contains what Blender's `extension build` packs (a test compares them), and the manual's pages.
     """
-    import bpy
+    manifest = read_manifest()
     folder = folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    scripts = Path(bpy.utils.system_resource("SCRIPTS"))
-    builder = next(scripts.glob("addons*/bl_pkg/cli/blender_ext.py"))
-    for old in folder.glob("reflection_mesh-*.zip"):
+    for old in folder.glob(f"{manifest['id']}-*.zip"):
         old.unlink()
-    command = [sys.executable, str(builder), "build", "--source-dir", str(ROOT), "--output-dir", str(folder)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise RuntimeError(f"The extension cannot be built: {done.stdout}{done.stderr}")
-    made = next(folder.glob("reflection_mesh-*.zip"))
-    with zipfile.ZipFile(made, "a", zipfile.ZIP_DEFLATED) as archive:
+    made = folder / f"{manifest['id']}-{manifest['version']}.zip"
+    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path in packed_files(ROOT, manifest["build"]["paths_exclude_pattern"]):
+            archive.write(path, path.relative_to(ROOT).as_posix())
         for name, content in manual_pages(ROOT / "docs").items():
             archive.writestr(f"{MANUAL}/{name}", content)
     return made
+
+
+def read_manifest() -> dict[str, Any]:
+    """Return the extension's manifest.
+
+    Raises
+    ------
+    SystemExit
+        If this Python cannot read it.
+    """
+    try:
+        import tomllib
+    except ImportError:
+        sys.exit(f"Python {sys.version.split()[0]} cannot read {MANIFEST}: use Python 3.11 or newer.")
+    return tomllib.loads((ROOT / MANIFEST).read_text(encoding="utf-8"))
+
+
+def packed_files(folder: Path, patterns: list[str], root: Path | None = None) -> Iterator[Path]:
+    """Yield the files below `folder` that no pattern excludes.
+
+    A pattern follows .gitignore: with a slash in front it means paths below `root` alone, with one behind only folders.
+    """
+    root = root or folder
+    for path in sorted(folder.iterdir()):
+        if any(_excludes(pattern, path, root) for pattern in patterns):
+            continue
+        if path.is_dir():
+            yield from packed_files(path, patterns, root)
+        else:
+            yield path
+
+
+def _excludes(pattern: str, path: Path, root: Path) -> bool:
+    if pattern.endswith("/") and not path.is_dir():
+        return False
+    name = path.relative_to(root).as_posix() if pattern.startswith("/") else path.name
+    return fnmatch(name, pattern.strip("/"))
 
 
 def use_throw_away_preferences(folder: Path) -> None:

@@ -65,6 +65,28 @@ def test_the_zip_carries_only_what_runs(extension_archive):
     assert {name for name in names if "/" in name and name.endswith(".py")} == modules
 
 
+def contents(path: Path) -> dict[str, bytes]:
+    with zipfile.ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def test_blenders_own_builder_packs_the_same(extension_archive, tmp_path):
+    """The manual's pages are ours alone: Blender does not know how to make them."""
+    done = run_builder("build", "--source-dir", str(ROOT), "--output-dir", str(tmp_path))
+    assert done.returncode == 0, done.stdout + done.stderr
+    ours = contents(extension_archive)
+    assert contents(tmp_path / extension_archive.name) == {name: content for name, content in ours.items()
+                                                           if not name.startswith("manual/")}
+
+
+def test_the_zip_needs_python_alone(extension_archive, tmp_path):
+    """Without any installed package: -S leaves out site-packages."""
+    done = subprocess.run([sys.executable, "-S", "-m", "tools.extension_zip", str(tmp_path)], cwd=ROOT,
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert contents(tmp_path / extension_archive.name) == contents(extension_archive)
+
+
 def test_the_validator_is_silent(extension_archive):
     for target in (extension_archive, ROOT):
         done = run_builder("validate", str(target))

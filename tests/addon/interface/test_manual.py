@@ -9,8 +9,12 @@ from urllib.request import url2pathname
 
 import bpy
 import pytest
+from markdown_it import MarkdownIt
 
-from tools.manual_pages import anchor
+from tools.manual_pages import PAGES
+from tools.markdown import anchor, to_html
+
+DOCS = Path(__file__).resolve().parents[3] / "docs"
 
 
 class Page(HTMLParser):
@@ -62,6 +66,14 @@ def test_every_link_leads_to_what_the_extension_carries(manual):
         assert all((manual.parent / path).is_file() for path in page.shown)
     pictures = {path.name for path in (manual.parent / "pictures").iterdir()}
     assert pictures == {Path(path).name for page in pages.values() for path in page.shown}
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_pages_are_what_a_complete_converter_makes(name):
+    text = (DOCS / f"{name}.md").read_text(encoding="utf-8")
+    expected = MarkdownIt("commonmark").enable("table").render(text)
+    without_names = re.sub(r'(<h\d) id="[^"]*">', r"\1>", to_html(text))
+    assert without_names == expected
 
 
 def test_nothing_is_left_of_the_way_it_is_written(manual):
