@@ -20,12 +20,12 @@ READY = $(VENV)/.ready
 
 .DEFAULT_GOAL := help
 .PHONY: help environment demo measure report report-plots numerics rate work pictures \
-        test test-fast lint test-core test-addon test-window live-picture window-pictures fuzz zip samples clean
+        test test-all lint test-core test-addon test-window live-picture window-pictures fuzz zip samples clean
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
-	@echo "make test     style and types, the method's tests, the extension's tests (ONLY='not slow', ONLY=slow: a part)"
-	@echo "make test-fast  the quickest of the method's tests, of every part some, under a minute"
+	@echo "make test     style and types, and at least one test of every feature, operator and verb: 6 minutes on two cores"
+	@echo "make test-all every test: most of an hour on two cores (ONLY='not slow', ONLY=slow: a part)"
 	@echo "make test-window  keys and buttons pressed in a real window (BLENDER=/path/to/blender, a display): pictures in build/window/"
 	@echo "make fuzz     a search for failures at random, for SECONDS=$(SECONDS), from new seeds or from FIRST=..."
 	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
@@ -93,20 +93,27 @@ pictures: environment
 	$(RUN) -m tools.pictures.cameras
 	$(RUN) -m tools.pictures.tutorials
 
-test: lint test-core test-addon
+# Two at a time, since most of a test is Python's, on one core. What each prints follows when it is done, where make can
+# hold it back (GNU make 4).
+QUICK = not slow and not thorough
+TWO_AT_A_TIME = $(MAKE) --no-print-directory -j2 --keep-going $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
+
+test: environment
+	@echo "About 6 minutes on two cores; each part's results follow when it is done."
+	@$(TWO_AT_A_TIME) test-addon lint test-core ONLY="$(QUICK)" COVER=--every-feature
+
+test-all: environment
+	@$(TWO_AT_A_TIME) test-addon lint test-core
 
 lint: environment
 	$(RUN) -m ruff check .
 	$(RUN) -m mypy
 
-test-fast: environment
-	$(RUN) -m pytest -q -m "not slow and not thorough" tests/core
-
 test-core: environment
 	$(RUN) -m pytest -q $(if $(ONLY),-m "$(ONLY)") tests/core tests/fuzz
 
 test-addon: environment
-	$(RUN) -m pytest -q $(if $(ONLY),-m "$(ONLY)") tests/addon
+	$(RUN) -m pytest -q $(if $(ONLY),-m "$(ONLY)") $(COVER) tests/addon
 
 # BLENDER may be more than one word: a driver of a virtual screen, and its options
 test-window:

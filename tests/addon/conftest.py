@@ -17,6 +17,7 @@ USER_FOLDER = Path(tempfile.mkdtemp(prefix="reflection_mesh_tests_"))
 # before anything imports bpy: it reads the place of its preferences once
 extension_zip.use_throw_away_preferences(USER_FOLDER)
 import bpy  # noqa: E402
+import every_feature  # noqa: E402
 import live_scene  # noqa: E402
 import numpy as np  # noqa: E402
 import parts  # noqa: E402
@@ -26,12 +27,28 @@ ZIP = extension_zip.build(USER_FOLDER / "zip")
 extension_zip.install(ZIP)
 
 
+def imported(name: str) -> ModuleType:
+    """Import a module of the installed extension."""
+    return importlib.import_module(f"{extension_zip.PACKAGE}.{name}")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--every-feature", action="store_true",
+                     help="fail if no test uses an operator, a verb or a feature")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if config.getoption("--every-feature"):
+        parser = imported("addon.command_line.verbs")._parser()
+        config.pluginmanager.register(every_feature.EveryFeature(imported("addon.command_line"), parser))
+
+
 @pytest.hookimpl(trylast=True)
-def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
+def pytest_sessionfinish(session: pytest.Session) -> None:
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.preferences.addon_disable(module=extension_zip.PACKAGE)
     shutil.rmtree(USER_FOLDER, ignore_errors=True)
-    session.config.stash[STATUS] = int(exitstatus)
+    session.config.stash[STATUS] = int(session.exitstatus)
 
 
 @pytest.hookimpl(trylast=True)
@@ -51,8 +68,6 @@ def extension_archive() -> Path:
 @pytest.fixture(scope="session")
 def room():
     """Import a module of the installed extension: room("addon.reading.read_view")."""
-    def imported(name: str) -> ModuleType:
-        return importlib.import_module(f"{extension_zip.PACKAGE}.{name}")
     return imported
 
 

@@ -38,7 +38,8 @@ class Verdict:
 
     `images` exact images (weights >= 0), `clear` of them beyond doubt, `found` by `project`, `zero` pairs whose cubic
     is exactly zero. `errors` (k,) of the distances of clear images, in units of the condition times u, and those
-    `conditions` (k,). `explained` by rounding are
+    `conditions` (k,). `outside` (m,): how far images lie outside of edges though they are found, in units of how far
+    they may. `explained` by rounding are
 
     * flagged: pairs called degenerate though not exactly zero,
     * line: an image is not found where the moved triangle is a line within rounding,
@@ -53,6 +54,7 @@ class Verdict:
     zero: int = 0
     errors: np.ndarray = field(default_factory=lambda: np.zeros(0))
     conditions: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    outside: np.ndarray = field(default_factory=lambda: np.zeros(0))
     explained: dict[str, np.ndarray] = field(default_factory=dict)
     unexplained: dict[str, np.ndarray] = field(default_factory=dict)
 
@@ -125,17 +127,18 @@ def _judge_clear(exact, root: Looked, report: Looked, images: Images, verdict: V
     r, f, off = r[near], f[near], off[near]
     times = np.bincount(r, minlength=len(root.pair))
     sure, lost = root.clear & root.solid, root.clear & image & (times == 0)
-    outside = (root.at.weights < -root.sure).any(axis=1)
+    outside = (-root.at.weights / root.sure).max(axis=1)
     _note(verdict.unexplained, "found twice", root.pair[times > 1])
     _note(verdict.unexplained, "missed", root.pair[sure & lost])
     _note(verdict.unexplained, "on a line", root.pair[root.clear & np.isnan(root.weights) & (times > 0)])
-    _note(verdict.unexplained, "outside", root.pair[sure & outside & (times > 0)])
+    _note(verdict.unexplained, "outside", root.pair[sure & (outside > 1.0) & (times > 0)])
     _note(verdict.explained, "line", root.pair[lost & ~root.solid])
     _note(verdict.explained, "edge", root.pair[root.clear & ~image & (times > 0)])
     side = np.sign(exact.facing) * (np.abs(exact.facing) > 16.0 * UNIT * exact.facing_size)
     parity = root.sign[r] * side[report.pair[f]]
     _note(verdict.unexplained, "parity", report.pair[f][(parity != 0) & (images.parity[f] != parity)])
     good = image[r] & root.solid[r]
+    verdict.outside = outside[sure & ~image & (times > 0)]
     verdict.clear = int((sure & image).sum())
     verdict.conditions = np.maximum(root.condition[r], 1.0)[good]
     verdict.errors = off[good] / verdict.conditions / UNIT

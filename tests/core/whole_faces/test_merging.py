@@ -17,21 +17,29 @@ def judged(case, mesh):
     return compare(case.view, case.mirror, mesh, trace(case.view, case.mirror, case.scene)).numbers
 
 
-@pytest.mark.parametrize(("name", "size"), [("sphere", 64), ("sphere_ortho", 96), ("knots", 48)])
-def test_a_scene_finer_than_the_picture_has_fewer_faces_and_looks_as_it_is(name, size, monkeypatch):
-    case = knots_in_a_ball((size, size)) if name == "knots" else dense(name, (size, size), 0.04)
+@pytest.mark.parametrize(("name", "size", "share"),
+                         [("sphere", 48, 0.36), ("sphere_ortho", 64, 0.45), ("knots", 48, 0.71)])
+def test_a_scene_finer_than_the_picture_has_fewer_faces_and_looks_as_it_is(name, size, share, monkeypatch):
+    """`share` is the measured ratio of faces."""
+    case = knots_in_a_ball((size, size)) if name == "knots" else dense(name, (size, size), 0.06)
     mesh = reflect(case.view, case.mirror, case.scene)
     monkeypatch.setattr(whole_room, "TOGETHER", 0.0)
     apart = reflect(case.view, case.mirror, case.scene)
-    assert len(mesh.triangles) < 0.75 * len(apart.triangles)
+    assert len(mesh.triangles) < 1.1 * share * len(apart.triangles)
     numbers, before = judged(case, mesh), judged(case, apart)
-    # a pixel of these mirrors is 0.02 to 0.12 %
-    assert numbers["p99"] < 0.35 and numbers["uncovered"] < before["uncovered"] + 0.13
+    # measured: at most 0.176 pixels; one pixel more, which is 0.04 to 0.08 % of these mirrors
+    assert numbers["p99"] < 0.3 and numbers["uncovered"] < before["uncovered"] + 0.09
 
 
-def test_vertices_are_moved_onto_vertices():
-    case = dense("sphere", (96, 96), 0.06)
-    mesh = reflect(case.view, case.mirror, case.scene)
+@pytest.fixture(scope="module")
+def ball():
+    """A scene finer than its picture, and its mesh."""
+    case = dense("sphere", (64, 64), 0.09)
+    return case, reflect(case.view, case.mirror, case.scene)
+
+
+def test_vertices_are_moved_onto_vertices(ball):
+    case, mesh = ball
     whole = np.unique(mesh.triangles[mesh.mirror_face < 0])
     # the others lie on edges that bend, or are a neighbour's
     known = np.isin(_named(mesh.reflected_position[whole]), _named(case.scene.positions))
@@ -39,7 +47,7 @@ def test_vertices_are_moved_onto_vertices():
 
 
 def test_the_tolerance_says_what_is_drawn_together():
-    case = dense("sphere", (192, 192), 0.06)
+    case = dense("sphere", (96, 96), 0.12)
     faces = [len(reflect(case.view, case.mirror, case.scene, Settings(tolerance=tolerance)).triangles)
              for tolerance in (0.25, 1.0, 4.0)]
     assert faces[0] > 1.2 * faces[1] > 1.4 * faces[2]
@@ -53,16 +61,15 @@ def test_all_of_the_geometry_is_kept_where_it_is_asked_for():
     assert len(np.unique(every.source_face)) > 1.5 * len(shown)
 
 
-def test_corners_in_one_place_move_together():
+def test_corners_in_one_place_move_together(ball):
     """Faces that share no vertex, as in many files: no crack opens between them."""
-    case = dense("sphere", (96, 96), 0.06)
+    case, apart = ball
     scene = case.scene
     soup = TriangleMesh(scene.positions[scene.triangles].reshape(-1, 3),
                         np.arange(scene.triangles.size).reshape(-1, 3))
     mesh = reflect(case.view, case.mirror, soup)
     numbers = compare(case.view, case.mirror, mesh, trace(case.view, case.mirror, scene)).numbers
-    assert numbers["hole"] < 0.05 and len(mesh.triangles) < 1.2 * len(
-        reflect(case.view, case.mirror, scene).triangles)
+    assert numbers["hole"] < 0.05 and len(mesh.triangles) < 1.2 * len(apart.triangles)
 
 
 @pytest.mark.parametrize("case", [fine_scenes.crown(), fine_scenes.fence()], ids=["leaves", "wires"])
@@ -73,8 +80,9 @@ def test_leaves_and_wires_below_a_pixel_are_not_lost(case, monkeypatch):
         mesh = reflect(case.view, case.mirror, case.scene)
         areas.append(np.abs(picture_areas(case.view, mesh)).sum())
         numbers = judged(case, mesh)
-        assert numbers["hole"] < 0.05 and numbers["p99"] < 0.35
-    assert abs(areas[0] / areas[1] - 1.0) < 0.03
+        # measured: 0 and 0.004
+        assert numbers["hole"] < 0.05 and numbers["p99"] < 0.01
+    assert abs(areas[0] / areas[1] - 1.0) < 0.001
 
 
 def test_what_does_not_hang_together_stays_apart():

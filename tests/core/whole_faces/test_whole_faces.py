@@ -17,8 +17,9 @@ from tests.oracles.truth import trace
 from tests.oracles.truth_bounces import trace_bounces
 
 pytestmark = pytest.mark.slow
-PIXELS, LONGEST = 384, 0.24
-SMOOTH = ("sphere", "sphere_ico", "sphere_ortho", "sphere_shift", "sphere_far", "sphere_small", "cylinder", "torus")
+PIXELS, LONGEST = 256, 0.24
+KINDS = ("sphere", "sphere_ortho", "cylinder", "torus")
+SMOOTH = (*KINDS, "sphere_ico", "sphere_shift", "sphere_far", "sphere_small")
 _made: dict = {}
 
 
@@ -45,18 +46,19 @@ def test_dense_scenes_are_shown_exactly(name):
     numbers, counts = judged(name), made(name, placement="LAYERED")[1].counts
     assert counts["whole"] > 1000
     assert numbers["compared"] > 5000
+    # measured: up to 0.21 pixels and 0.013 %, five pixels of the picture
     assert numbers["p99"] < 0.35
-    assert numbers["uncovered"] < 0.03
+    assert numbers["uncovered"] < 0.025
     assert numbers["spill_outside"] == 0.0
     assert judged(name, single_precision=True)["sunk"] < 0.01
 
 
-@pytest.mark.parametrize("name", SMOOTH)
+@pytest.mark.parametrize("name", KINDS)
 def test_no_part_of_the_picture_is_worse_for_it(name):
     _, whole, _ = made(name, placement="LAYERED")
     _, every, _ = made(name, hidden_faces=True)
     assert "whole" not in every.counts and len(whole.triangles) < len(every.triangles)
-    assert judged(name)["uncovered"] < judged(name, hidden_faces=True)["uncovered"] + 0.02
+    assert judged(name)["uncovered"] < judged(name, hidden_faces=True)["uncovered"] + 0.005
 
 
 @pytest.mark.parametrize("name", SMOOTH)
@@ -70,18 +72,24 @@ def test_other_placements_show_the_same(name):
         assert made(name, placement=placement)[1].counts["whole"] > 1000
     virtual, surface = (judged(name, placement) for placement in ("VIRTUAL", "SURFACE"))
     every = judged(name, "SURFACE", hidden_faces=True)
-    assert virtual["p99"] < 0.35 and virtual["uncovered"] < 0.03
+    assert virtual["p99"] < 0.4 and virtual["uncovered"] < 0.02
     # on the mirror itself nothing orders the layers: the fewer there are, the better
     assert surface["hole"] < 0.03 and surface["wrong_layer"] < every["wrong_layer"]
 
 
-@pytest.mark.parametrize("name", SMOOTH)
-def test_vertices_of_whole_faces_lie_on_the_true_map(name, monkeypatch):
-    # squares that rays fill span several triangles of the mirror too, and show images of any parity
-    monkeypatch.setattr(limits, "DENSE", np.inf)
-    monkeypatch.setattr(whole_room, "TOGETHER", 0.0)
-    case, _, _ = made(name, placement="LAYERED")
-    mesh = reflect(case.view, case.mirror, case.scene)
+@pytest.fixture(scope="module", params=KINDS)
+def exact(request):
+    """A scene, and its mesh without faces that are drawn together or filled by rays."""
+    case = dense(request.param, (PIXELS, PIXELS), LONGEST)
+    with pytest.MonkeyPatch.context() as patch:
+        # squares that rays fill span several triangles of the mirror too, and show images of any parity
+        patch.setattr(limits, "DENSE", np.inf)
+        patch.setattr(whole_room, "TOGETHER", 0.0)
+        return case, reflect(case.view, case.mirror, case.scene)
+
+
+def test_vertices_of_whole_faces_lie_on_the_true_map(exact):
+    case, mesh = exact
     several = mesh.mirror_face < 0
     assert several.sum() > 100
     corners = corners_on_true_map(case, mesh)
@@ -92,11 +100,8 @@ def test_vertices_of_whole_faces_lie_on_the_true_map(name, monkeypatch):
     assert (mesh.image_parity[mesh.triangles[several]] == 1).all()
 
 
-@pytest.mark.parametrize("name", SMOOTH)
-def test_sources_are_told_of_whole_faces_too(name, monkeypatch):
-    monkeypatch.setattr(whole_room, "TOGETHER", 0.0)
-    case, _, _ = made(name, placement="LAYERED")
-    mesh = reflect(case.view, case.mirror, case.scene)
+def test_sources_are_told_of_whole_faces_too(exact):
+    case, mesh = exact
     sources = case.scene.positions[case.scene.triangles[mesh.source_face]]
     given = np.einsum("fkj,fjx->fkx", mesh.source_weights, sources)
     size = np.ptp(case.scene.positions, axis=0).max()
@@ -131,7 +136,8 @@ def test_what_stands_in_the_mirror_does_not_come_out_of_it():
     mesh, truth = reflect(case.view, case.mirror, scene), trace(case.view, case.mirror, scene)
     numbers = compare(case.view, case.mirror, mesh, truth).numbers
     assert mesh.counts["contacts"] > 0 and mesh.counts["whole"] > 1000
-    assert numbers["p99"] < 0.35 and numbers["uncovered"] < 0.05
+    # measured: 0.25 and 0.0126
+    assert numbers["p99"] < 0.4 and numbers["uncovered"] < 0.025
 
 
 def test_layers_keep_their_order_where_something_goes_through_the_mirror():
@@ -139,7 +145,8 @@ def test_layers_keep_their_order_where_something_goes_through_the_mirror():
     case = knots_in_a_ball()
     numbers = compare(case.view, case.mirror, reflect(case.view, case.mirror, case.scene),
                       trace(case.view, case.mirror, case.scene)).numbers
-    assert numbers["p99"] < 0.35 and numbers["wrong_layer"] < 0.005 and numbers["uncovered"] < 0.02
+    # measured: 0.31, 0.0025 and 0.0077
+    assert numbers["p99"] < 0.4 and numbers["wrong_layer"] < 0.005 and numbers["uncovered"] < 0.015
 
 
 def test_posts_in_waves_are_right_wherever_whole_faces_begin(monkeypatch):
@@ -148,7 +155,8 @@ def test_posts_in_waves_are_right_wherever_whole_faces_begin(monkeypatch):
     monkeypatch.setattr(whole_room, "LEAST_SHARE", 0.0)
     mesh = reflect(case.view, case.mirror, case.scene)
     numbers = compare(case.view, case.mirror, mesh, trace(case.view, case.mirror, case.scene)).numbers
-    assert numbers["p99"] < 0.35 and numbers["uncovered"] < 0.05
+    # measured: 0.024, and no pixel; one is 0.003 %
+    assert numbers["p99"] < 0.05 and numbers["uncovered"] < 0.01
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -159,7 +167,9 @@ def test_coarse_scenes_would_be_right_as_well(name, monkeypatch):
     case = SCENES[name]((256, 256))
     mesh = reflect(case.view, case.mirror, case.scene)
     numbers = compare(case.view, case.mirror, mesh, trace(case.view, case.mirror, case.scene)).numbers
-    assert numbers["p99"] < 0.5 and numbers["uncovered"] < 0.1 and numbers["sunk"] < 0.01
+    # measured: up to 0.28, and 0.035 in the bowl, 0.026 elsewhere
+    assert numbers["p99"] < 0.45 and numbers["uncovered"] < (0.06 if name == "bowl" else 0.045)
+    assert numbers["sunk"] < 0.01
     if name not in ("bowl", "water"):
         assert mesh.counts["whole"] > 50
 
@@ -286,4 +296,4 @@ def test_a_wall_hides_what_stands_behind_it():
     assert (every.source_face >= first).sum() > 100
     assert (hidden.source_face >= first).sum() < 0.05 * (every.source_face >= first).sum()
     truth = trace(case.view, case.mirror, scene)
-    assert compare(case.view, case.mirror, hidden, truth).numbers["uncovered"] < 0.03
+    assert compare(case.view, case.mirror, hidden, truth).numbers["uncovered"] < 0.01
