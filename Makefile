@@ -20,12 +20,13 @@ READY = $(VENV)/.ready
 
 .DEFAULT_GOAL := help
 .PHONY: help environment demo measure report report-plots numerics rate work pictures \
-        test test-all lint test-core test-addon test-window live-picture window-pictures fuzz zip samples clean
+        test test-all lint test-core test-addon test-addon-slow test-addon-rest test-window live-picture window-pictures fuzz zip samples clean
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
 	@echo "make test     style and types, and at least one test of every feature, operator and verb: 6 minutes on two cores"
-	@echo "make test-all every test: most of an hour on two cores (ONLY='not slow', ONLY=slow: a part)"
+	@echo "make test-all every test: 40 minutes on two cores "
+	@echo "make test-core, make test-addon   the method's or the extension's tests (ONLY='not slow', ONLY=thorough ...: a part)"
 	@echo "make test-window  keys and buttons pressed in a real window (BLENDER=/path/to/blender, a display): pictures in build/window/"
 	@echo "make fuzz     a search for failures at random, for SECONDS=$(SECONDS), from new seeds or from FIRST=..."
 	@echo "make measure  one table of errors and times over all samples (SAMPLES='sphere water' for some)"
@@ -103,7 +104,7 @@ test: environment
 	@$(TWO_AT_A_TIME) test-addon lint test-core ONLY="$(QUICK)" COVER=--every-feature
 
 test-all: environment
-	@$(TWO_AT_A_TIME) test-addon lint test-core
+	@$(TWO_AT_A_TIME) test-addon-slow test-addon-rest test-core lint
 
 lint: environment
 	$(RUN) -m ruff check .
@@ -112,8 +113,11 @@ lint: environment
 test-core: environment
 	$(RUN) -m pytest -q $(if $(ONLY),-m "$(ONLY)") tests/core tests/fuzz
 
-test-addon: environment
+test-addon test-addon-slow test-addon-rest: environment
 	$(RUN) -m pytest -q $(if $(ONLY),-m "$(ONLY)") $(COVER) tests/addon
+
+test-addon-slow: ONLY = slow
+test-addon-rest: ONLY = not slow
 
 # BLENDER may be more than one word: a driver of a virtual screen, and its options
 test-window:

@@ -21,7 +21,8 @@ def test_what_lies_between_corners_beyond_the_horizon_is_seen(height):
     numbers = judge(view, mirror, scene, reflect(view, mirror, scene))
     assert numbers["compared"] > 3000
     assert numbers["p99"] < 0.5
-    assert numbers["uncovered"] < 0.1
+    # a pixel is 0.009 %: measured are two from the highest eye, and none else
+    assert numbers["uncovered"] < 0.03
 
 
 @pytest.mark.thorough
@@ -31,7 +32,8 @@ def test_eyes_close_above_mirrors_keep_the_tolerance(seed):
     numbers = judge(view, mirror, scene, reflect(view, mirror, scene))
     assert numbers["compared"] > 500
     assert numbers["p99"] < 0.5
-    assert numbers["uncovered"] < 0.3
+    # measured: none; a pixel is 0.008 % and more
+    assert numbers["uncovered"] < 0.02
 
 
 @pytest.mark.parametrize("height", [0.0003, 0.001, 0.003])
@@ -42,5 +44,6 @@ def test_an_outline_is_split_in_its_picture_and_not_at_its_end(height):
     view = near_eyes.above_tilted(height)
     numbers = judge(view, mirror, scene, reflect(view, mirror, scene))
     assert numbers["compared"] > 9000
-    assert numbers["maximum"] < 1.0
-    assert numbers["uncovered"] < 0.1
+    # measured: 0.48, and no pixel, of 0.005 %
+    assert numbers["maximum"] < 0.8
+    assert numbers["uncovered"] < 0.012
