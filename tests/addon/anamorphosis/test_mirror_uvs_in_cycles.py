@@ -48,6 +48,7 @@ def rendered(tmp_path: Path) -> np.ndarray:
     return pixels.reshape(SIZE, SIZE, 4)[..., :3].astype(np.float64)
 
 
+@pytest.mark.feature("anamorphosis")
 @pytest.mark.parametrize("aspect", [1.0, 2.0])
 def test_cycles_shows_the_picture_in_the_mirror_within_a_pixel(tmp_path, aspect):
     """Also where pixels are twice as wide as they are high: up and down the map was off by 0.8 pixels at 99 %, and by

@@ -78,7 +78,9 @@ def judged(folder: Path) -> dict:
     return json.loads((folder / "report.json").read_text(encoding="utf-8"))
 
 
-@pytest.mark.parametrize("name", BOUNDS)
+@pytest.mark.feature("generate")
+@pytest.mark.parametrize("name", [name if name == "sphere" else pytest.param(name, marks=pytest.mark.thorough)
+                                  for name in BOUNDS])
 def test_a_sample_is_within_its_bounds(name):
     folder = LEFT_BEHIND / name
     shutil.rmtree(folder, ignore_errors=True)

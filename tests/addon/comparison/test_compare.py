@@ -82,6 +82,7 @@ def test_the_truth_agrees_with_mirrored_rays(rooms, flat_scene):
     assert np.linalg.norm(truth.position[both] - expected[both], axis=1).max() < 0.03 * pixel
 
 
+@pytest.mark.feature("compare")
 def test_an_exact_reflection_is_found_exact(flat_scene, tmp_path):
     bpy.ops.reflection_mesh.generate(tolerance=0.1)
     assert bpy.ops.reflection_mesh.compare(filepath=str(tmp_path / "new" / "folder"), samples=1) == {"FINISHED"}
@@ -94,6 +95,7 @@ def test_an_exact_reflection_is_found_exact(flat_scene, tmp_path):
                        "report.csv", "report.html"}
 
 
+@pytest.mark.feature("compare")
 def test_a_spoilt_reflection_is_found_spoilt(flat_scene, tmp_path):
     """Points moved along x by 0.75 pixels, which is 0.75 pixels on the plate too, since x is not foreshortened."""
     bpy.ops.reflection_mesh.generate(tolerance=0.1)

@@ -21,14 +21,14 @@ def lit(blank):
 
 
 # what is random by an object goes by its name, that of an instance by what instances it
-@pytest.mark.parametrize("source, mirror", [("UV", "Fresnel"), ("Random", "Tint"), ("Instances", "")])
-def test_compare_tells_how_lit_pictures_differ(lit, tmp_path, source, mirror):
+@pytest.mark.parametrize("source, mirror, measured", [("UV", "Fresnel", 49.1), ("Random", "Tint", 42.0),
+                                                      ("Instances", "", 39.3)])
+def test_compare_tells_how_lit_pictures_differ(lit, tmp_path, source, mirror, measured):
     """Against the mirror as it is, tint and all, and its objects as they are."""
     lit(source, mirror)
     assert bpy.ops.reflection_mesh.compare(filepath=str(tmp_path), samples=32) == {"FINISHED"}
     report = json.loads((tmp_path / "report.json").read_text())
-    shown, noise = report["picture"]["mirror"], report["picture"]["noise"]["mirror"]
-    assert shown["psnr_displayed"] > min(38.0, noise["psnr_displayed"] - 1.5)
+    assert report["picture"]["mirror"]["psnr_displayed"] > measured - 2.5
     assert "where Cycles equals itself to" in (tmp_path / "report.html").read_text()
 
 

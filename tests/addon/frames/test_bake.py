@@ -12,6 +12,7 @@ from baked_frames import FRAMES, add_camera, assert_same, bake, expected, lit_sc
 from played import generated, played
 
 
+@pytest.mark.feature("frames")
 def test_frames_play_without_the_extension(moving, room, tmp_path):
     """Bit for bit: places, faces, materials and whatever else the result knows."""
     box = bpy.data.objects["Box"].data

@@ -34,6 +34,7 @@ def compared(folder) -> dict:
     return json.loads((folder / "report.json").read_text(encoding="utf-8"))
 
 
+@pytest.mark.feature("several bounces")
 def test_two_bounces_are_what_cycles_shows(corner, tmp_path):
     mirrors, diffuse = corner
     left_out = {}

@@ -196,6 +196,7 @@ def test_points_survive_saving_and_loading(scan_scene, tmp_path):
     assert parts.generate(method="POINTS") == result and len(bpy.data.node_groups) == 1
 
 
+@pytest.mark.feature("points")
 def test_compare_judges_points_as_it_judges_meshes(scan_scene, tmp_path):
     # aside, so that the ball does not stand before its own reflection
     scan_scene[1].location = (2.0, -1.2, 1.0)

@@ -20,6 +20,7 @@ from caustic_scene import (
 )
 
 
+@pytest.mark.feature("caustics")
 @pytest.mark.parametrize("kind", LAMPS)
 def test_it_is_as_bright_as_the_lamp_behind_a_flat_mirror(blank, tmp_path, kind):
     floor, mirror, lamp = scene_of(kind)

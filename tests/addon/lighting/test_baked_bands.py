@@ -214,8 +214,9 @@ def test_what_only_mirrors_see_is_baked_in_bands_too(blank, room, monkeypatch):
     scene_of(blank, "UV").reflection_mesh.role = "MIRROR"
     for obj in map(bpy.data.objects.get, ("Box", "Floor")):
         obj.visible_camera = obj.visible_volume_scatter = obj.visible_transmission = False
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     in_small_bands(monkeypatch, room)
     light_between_events(blank, room, 32)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 43.7 dB
+    assert psnr(picture(room), reference) > 41.5

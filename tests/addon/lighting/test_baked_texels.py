@@ -87,7 +87,8 @@ def test_a_pattern_goes_on_where_triangles_meet(blank, room, shining):
     reference = picture(room)
     parts.generate()
     light()
-    assert psnr(picture(room), reference) > 36.0
+    # measured: 42.8 dB
+    assert psnr(picture(room), reference) > 40.5
 
 
 def test_halves_of_a_quad_lie_side_by_side(room):

@@ -37,7 +37,7 @@ def in_a_collection(cube: bpy.types.Object) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["world", "absorbing world", "cube", "cube in a collection", "half open"])
+@pytest.mark.parametrize("kind", ["world", "absorbing world", "cube in a collection", "half open"])
 def test_fog_before_a_mirror_is_seen_once(blank, room, kind):
     mirror = scene_of(blank)
     if "world" in kind:

@@ -15,6 +15,7 @@ QUICK = {("Gloss", ""), ("UV", "Fresnel")}
 KINDS = [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)]
 
 
+@pytest.mark.feature("light")
 @pytest.mark.parametrize(("source", "mirror"), [
     kinds if kinds in QUICK else pytest.param(*kinds, marks=pytest.mark.slow) for kinds in KINDS])
 def test_a_lit_reflection_is_what_the_mirror_shows(blank, room, source, mirror):
@@ -63,8 +64,9 @@ def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
     bpy.ops.reflection_mesh.light()
     lit, white = picture(room), reference.min(axis=2) > 0.99
     assert white.sum() > 10
-    # four hundred times brighter than white, its border is a step that texels cannot show without being negative
-    assert psnr(lit, reference) > 31.0 and (lit.min(axis=2) > 0.99).sum() <= white.sum()
+    # four hundred times brighter than white, its border is a step that texels cannot show without being negative;
+    # measured: 37.2 dB
+    assert psnr(lit, reference) > 35.0 and (lit.min(axis=2) > 0.99).sum() <= white.sum()
     rows, columns = np.nonzero(white)
     around = slice(rows.min() - 8, rows.max() + 9), slice(columns.min() - 8, columns.max() + 9)
     assert np.median((reference - lit)[around][~white[around]]) < 0.02
@@ -171,7 +173,8 @@ def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
     reference = picture(room)
     parts.generate()
     assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
-    assert psnr(picture(room), reference) > 38.0
+    # measured: 44.5 dB
+    assert psnr(picture(room), reference) > 42.0
     assert not any(bar.is_holdout for bar in bars) and all(bar.visible_camera for bar in bars)
 
 
@@ -191,7 +194,8 @@ def test_results_that_lie_in_their_mirror_or_behind_it_are_lit_in_collections_to
     parts.generate(placement=placement)
     seen = wall.visible_camera
     assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
-    assert psnr(picture(room), reference) > 38.0
+    # measured: 47.5 dB
+    assert psnr(picture(room), reference) > 45.0
     assert wall.visible_camera == seen
 
 

@@ -57,12 +57,13 @@ def test_particles_go_on_as_they_are(blank, room, kind, inner):
         blank.scene.frame_set(frame)
     fallen = _instances(blank)
     assert len(fallen) == 12 and np.ptp(fallen[:, 2]) > 0.1
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.select(emitter, seed, bpy.data.objects["Floor"], bpy.data.objects["Mirror"])
     parts.generate()
     bpy.ops.reflection_mesh.light(samples=64, kind=kind)
     assert np.array_equal(_instances(blank), fallen)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 45.4 dB
+    assert psnr(picture(room), reference) > 43.0
 
 
 def _instances(context: bpy.types.Context) -> np.ndarray:
@@ -167,7 +168,8 @@ def test_light_that_was_kept_shows_the_same(blank, room):
     first = picture(room)
     parts.select(result)
     parts.generate(tolerance=0.5)
-    assert psnr(picture(room), first) > 45.0
+    # measured: 87.5 dB
+    assert psnr(picture(room), first) > 70.0
 
 
 def test_the_panel_tells_what_there_is_to_do(blank, room):

@@ -122,7 +122,8 @@ def test_a_metal_that_shines_or_has_an_edge_tint_does_so_in_light_on_objects(bla
         link(tree, metal.outputs[0], tree.get_output_node("ALL").inputs[0])
     ball.data.materials.clear()
     ball.data.materials.append(made)
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     assert bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS") == {"FINISHED"}
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 44.8 to 48.6 dB
+    assert psnr(picture(room), reference) > 42.5

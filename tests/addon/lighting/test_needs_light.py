@@ -37,30 +37,30 @@ def emitting(kind: str) -> bpy.types.Material:
     return made
 
 
-def judged(room, scene: bpy.types.Scene) -> tuple[float, float]:
-    """PSNR of the lit reflection against Cycles, and of Cycles with other noise."""
+def judged(room, scene: bpy.types.Scene) -> float:
+    """PSNR of the lit reflection against Cycles."""
     scene.render.engine, scene.world = "CYCLES", scene.world or bpy.data.worlds.new("World")
     scene.render.resolution_x = scene.render.resolution_y = SIZE
     scene.cycles.samples, scene.cycles.use_denoising = 64, False
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
-    return psnr(picture(room), reference), psnr(other, reference)
+    return psnr(picture(room), reference)
 
 
 @pytest.mark.parametrize("kind", ASKED)
 def test_what_emits_by_the_ray_the_side_or_the_object_is_lit(blank, room, kind):
     emitting(kind)
-    lit, noise = judged(room, blank.scene)
-    assert lit > min(38.0, noise - 1.5)
+    # measured: 65.1 to 69.3 dB
+    assert judged(room, blank.scene) > 62.0
     assert bpy.data.objects["Mirror Reflection"].reflection_mesh.light_material is not None
 
 
 @pytest.mark.parametrize("kind", CARRIED)
 def test_what_emits_by_what_a_reflection_carries_is_right_without(blank, room, kind):
     emitting(kind)
-    lit, noise = judged(room, blank.scene)
-    assert lit > min(38.0, noise - 1.5)
+    # measured: 94.3 dB and more
+    assert judged(room, blank.scene) > 80.0
     assert bpy.data.objects["Mirror Reflection"].reflection_mesh.light_material is None
 
 
@@ -72,5 +72,5 @@ def test_fog_before_what_emits_is_in_its_light(blank, room):
     fog = world.node_tree.nodes.new("ShaderNodeVolumeAbsorption")
     fog.inputs["Density"].default_value, fog.inputs["Color"].default_value = 0.2, (0.0, 0.0, 0.0, 1.0)
     link(world.node_tree, fog.outputs[0], world.node_tree.get_output_node("ALL").inputs["Volume"])
-    lit, noise = judged(room, blank.scene)
-    assert lit > min(38.0, noise - 1.5)
+    # measured: 63.0 dB
+    assert judged(room, blank.scene) > 60.0

@@ -35,6 +35,7 @@ def test_other_add_ons_are_told_that_a_file_is_opened(blank):
     assert told == ["pre"] and not bpy.context.window_manager.reflection_mesh_live.on
 
 
+@pytest.mark.feature("live")
 @pytest.mark.parametrize("name", ["camera", "ball", "leaf"])
 def test_follows_on_the_way_and_is_exact_at_rest(scene, clock, name):
     """What it shows at rest is what Generate makes, to the last bit."""

@@ -32,6 +32,7 @@ def cube(blank):
     return box
 
 
+@pytest.mark.feature("lines")
 @pytest.mark.parametrize("kind, placement", [("wall", "LAYERED"), ("wall", "VIRTUAL"), ("ball", "LAYERED")])
 def test_line_art_draws_the_visible_edges_of_a_cube_and_nothing_else(cube, kind, placement):
     mirror = add_mirror(kind)
@@ -251,6 +252,7 @@ def freestyle(result: bpy.types.Object, tmp_path) -> np.ndarray:
     return np.column_stack((column, row)) + 0.5
 
 
+@pytest.mark.feature("lines")
 def test_freestyle_draws_the_edges_of_a_cube(cube, tmp_path):
     parts.select(cube, add_mirror("ball"))
     drawn = freestyle(parts.generate(), tmp_path)

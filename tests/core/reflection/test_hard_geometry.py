@@ -222,7 +222,8 @@ def test_faces_edge_on_to_the_eye_are_outlines_without_cracks(name):
     numbers = judge(view, mirror, OBJECTS, mesh, trace(view, mirror, OBJECTS))
     assert numbers["compared"] > 2000
     assert numbers["p99"] < 0.5
-    assert numbers["uncovered"] < 0.1
+    # measured: none; a pixel is 0.003 to 0.01 %
+    assert numbers["uncovered"] < 0.015
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -59,7 +59,8 @@ def test_awkward_mirrors_keep_the_tolerance(name):
     numbers = judge(view, mirror, scene, reflect(view, mirror, scene), single_precision=True)
     assert numbers["compared"] > 3000
     assert numbers["p99"] < 0.5
-    assert numbers["uncovered"] < 0.1
+    # measured: up to 0.016
+    assert numbers["uncovered"] < 0.03
 
 
 def test_a_flat_sliver_that_peeks_out_from_behind_another_face_reflects():

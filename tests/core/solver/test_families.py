@@ -15,7 +15,8 @@ from tests.oracles.explained import judge
 pytestmark = pytest.mark.slow
 
 # What rounding has to explain, in parts of the images, and a tenth more for other processors; in other families, and of
-# vanishing cubics, nothing. Half of the points next to edges lie outside by less than rounding.
+# vanishing cubics, nothing. Many of the points next to edges lie outside by less than rounding: those that are found
+# there are many, so that it is held how far out they lie.
 EXPLAINED = {
     "small integers": {"edge": 0.0087},
     "nearly planar, tilted": {"line": 0.0003, "touch": 0.0003},
@@ -33,6 +34,10 @@ EXPLAINED = {
     "collision": {"line": 0.0081, "edge": 0.049, "end": 0.0161},
 }
 
+# in these the errors of places, in units of the condition times rounding, are 7 to 10.3, in others 1.9 at most
+LARGE_ERRORS = {"opposite rays but for rounding", "point on a mirror edge but for rounding", "nearly opposite rays",
+                "point between two corners", "close to the mirror"}
+
 
 @pytest.mark.parametrize("name", FAMILIES)
 def test_against_exact_arithmetic(name):
@@ -41,10 +46,10 @@ def test_against_exact_arithmetic(name):
     assert not verdict.unexplained
     share = {what: len(pairs) / max(verdict.images, 1) for what, pairs in verdict.explained.items()}
     assert all(share[what] <= EXPLAINED.get(name, {}).get(what, 0.0) for what in share), share
-    # what is found outside of an edge lies at most so far out, of how far rounding may bring it
+    # of how far rounding may bring an image out of a triangle, measured is 0.43 at most
     assert verdict.outside.max(initial=0.0) < 0.6
-    # The stated bound is 60 units, and 6 for the root itself.
-    assert (verdict.errors <= 66.0).all()
+    # the stated bound is 60 units, and 6 for the root itself
+    assert verdict.errors.max(initial=0.0) < (16.0 if name in LARGE_ERRORS else 3.0)
 
 
 def test_what_rounding_cannot_be_blamed_for():

@@ -96,7 +96,8 @@ def test_nothing_comes_out_through_what_cuts_the_mirror(name):
     view, mirror, scene = CASES[name]
     numbers = judge(view, mirror, scene, reflect(view, mirror, scene, Settings()), single_precision=True)
     assert numbers["p99"] < 0.5
-    assert numbers["uncovered"] < 0.1
+    # measured: 0.025 on the ball, else none
+    assert numbers["uncovered"] < (0.045 if "ball" in name else 0.01)
 
 
 def ring(radius: float, tube: float, around: int, across: int) -> TriangleMesh:
@@ -127,7 +128,8 @@ def test_a_frame_that_ends_in_the_mirror_is_not_covered(orthographic):
     numbers = judge(view, mirror, scene, reflect(view, mirror, scene, Settings()), single_precision=True)
     assert numbers["mirror_pixels"] > 20_000
     assert numbers["spill"] == 0.0
-    assert numbers["uncovered"] < 0.02
+    # measured: none; a pixel is 0.005 %
+    assert numbers["uncovered"] < 0.007
 
 
 def test_a_scene_that_only_stands_before_the_mirror_cuts_nothing():

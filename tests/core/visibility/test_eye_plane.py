@@ -21,7 +21,8 @@ def test_an_orthographic_eye_in_a_closed_mirror_sees_its_inner_sides_and_misses_
     mesh = reflect(view, ROOM, scene)
     numbers = judge(view, ROOM, scene, mesh)
     assert numbers["compared"] > 300
-    assert numbers["uncovered"] < 0.1 and numbers["p99"] < 0.5
+    # no pixel, of 0.004 %, differs
+    assert numbers["uncovered"] < 0.006 and numbers["p99"] < 1e-6
     assert mesh.counts["mirror_pixels"] == 160 * 160
     assert mesh.counts["missed"] == 0 and mesh.counts["probes"] > 5
 
@@ -32,7 +33,8 @@ def test_an_orthographic_eye_partly_in_a_closed_mirror_sees_both_sides():
     scene = shapes.combine(shapes.icosphere((3.4, 1.4, 0.6), 0.8, 2), *PANES)
     numbers = judge(view, ROOM, scene, reflect(view, ROOM, scene))
     assert numbers["compared"] > 1000
-    assert numbers["uncovered"] < 0.1
+    # no pixel, of 0.004 % and more, differs
+    assert numbers["uncovered"] < 0.01
 
 
 @pytest.mark.thorough
@@ -56,7 +58,8 @@ def test_a_wavy_floor_round_the_eye_is_exact():
     water = shapes.combine(shapes.water(12.0, 0.05, 3, 40))
     numbers = judge(view, water, OVER_THE_FLOOR, reflect(view, water, OVER_THE_FLOOR))
     assert numbers["compared"] > 1500
-    assert numbers["p99"] < 0.5 and numbers["uncovered"] < 0.1
+    # measured: 0.065 and 0.0133
+    assert numbers["p99"] < 0.12 and numbers["uncovered"] < 0.025
 
 
 def test_what_stands_beside_and_behind_the_eye_still_hides():
@@ -68,7 +71,8 @@ def test_what_stands_beside_and_behind_the_eye_still_hides():
     view = View.looking_at((0.0, -1.0, 0.0), (0.0, 9.0, 0.0), (200, 150), field_of_view=1.2)
     numbers = judge(view, mirror, scene, reflect(view, mirror, scene))
     assert numbers["compared"] > 250
-    assert numbers["uncovered"] < 0.1 and numbers["p99"] < 0.5
+    # measured: none, and 0.008
+    assert numbers["uncovered"] < 0.01 and numbers["p99"] < 0.016
 
 
 def test_what_stands_on_the_mirror_hides_nothing_with_what_lies_behind_an_orthographic_eye():
@@ -80,7 +84,8 @@ def test_what_stands_on_the_mirror_hides_nothing_with_what_lies_behind_an_orthog
     view = View.looking_at((0.0, -1.0, 0.2), (0.0, 1.0, -0.6), (160, 160), orthographic_scale=3.0)
     numbers = judge(view, floor, scene, reflect(view, floor, scene))
     assert numbers["compared"] > 2000
-    assert numbers["uncovered"] < 0.1 and numbers["p99"] < 0.5
+    # no pixel differs
+    assert numbers["uncovered"] < 0.01 and numbers["p99"] < 1e-6
 
 
 def test_parts_before_the_eye_cover_what_lies_before_it_and_nothing_else():

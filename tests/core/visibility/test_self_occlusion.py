@@ -124,7 +124,8 @@ def test_an_eyeball_does_not_come_out_through_its_lid(gap, projection):
     numbers = judge(view, mirror, scene, reflect(view, mirror, scene), single_precision=True)
     assert numbers["compared"] > 3000
     assert numbers["p99"] < 0.5
-    assert numbers["uncovered"] < 0.1
+    # measured: 0.021 to 0.038
+    assert numbers["uncovered"] < 0.06
 
 
 def test_a_floor_behind_a_ball_of_many_faces_is_cut_along_its_outline():
