@@ -218,6 +218,7 @@ def test_the_print_is_the_sheet_in_its_size(wall, room, tmp_path):
     assert (pixels[beside] == 255).all()
 
 
+@pytest.mark.thorough
 def test_an_svg_has_the_sheets_size(wall, tmp_path):
     bpy.context.view_layer.objects.active = write(picture=ramp(tmp_path))
     path = tmp_path / "sheet.svg"

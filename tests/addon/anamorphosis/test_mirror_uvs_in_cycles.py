@@ -96,6 +96,7 @@ def test_faces_that_the_mirror_sees_edge_on_get_the_picture_where_they_are_seen(
     assert seen.sum() > 30_000 and off.max() < (1.0 if bpy.app.version < (5, 0, 0) else 2.0)
 
 
+@pytest.mark.thorough
 def test_a_point_that_is_hidden_in_its_largest_image_gets_the_picture_where_it_is_seen(tmp_path, monkeypatch):
     """Waves show the hills several times, here and there behind a house: where the map leads from a pixel to another
     one, Cycles shows the same point there."""

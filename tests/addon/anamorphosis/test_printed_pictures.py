@@ -116,6 +116,7 @@ def test_a_picture_that_lies_by_another_map_is_not_printed_by_the_mirrors(wall, 
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("how", ["Mirror UV", "rendered", "unused too"])
 def test_the_picture_that_is_shown_by_the_mirrors_map_is_printed(wall, tmp_path, how):
     """Green, beside a red one that is shown by the object's own map, or by none at all."""

@@ -54,6 +54,7 @@ def test_only_our_own_leftovers_go(scratch, tmp_path, monkeypatch):
     scratch.clear_leftovers(str(tmp_path / "none"))
 
 
+@pytest.mark.thorough
 def test_what_a_killed_comparison_left_goes_at_the_next(scratch, saved_scene, room, tmp_path, monkeypatch):
     out, place = tmp_path / "out", tmp_path / "scratch"
     with faults.running(**faults.command(saved_scene, "compare", "--output", out, scratch=place)) as process:
@@ -67,6 +68,7 @@ def test_what_a_killed_comparison_left_goes_at_the_next(scratch, saved_scene, ro
     assert not [path for path in place.iterdir() if path.name in left]
 
 
+@pytest.mark.thorough
 def test_ctrl_c_is_one_sentence(tmp_path):
     """In the middle of work that takes seconds."""
     scene = tmp_path / "suzanne.blend"
@@ -96,6 +98,7 @@ def interrupted(process: subprocess.Popen, saved_scene: Path) -> None:
     assert faults.contents(saved_scene.parent) == before
 
 
+@pytest.mark.thorough
 def test_a_second_ctrl_c_does_not_wait_for_the_picture(saved_scene, tmp_path):
     with faults.running(**faults.command(saved_scene, "compare", "--samples", 10**6, "--output", tmp_path / "out",
                                          scratch=tmp_path / "scratch")) as process:

@@ -125,6 +125,7 @@ def drop_faces(obj: bpy.types.Object) -> None:
     edited.free()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("spoil", "failing"), [
     (shift_by_a_pixel, {"displacement", "spill", "flip", "dissimilarity"}),
     (swap_the_layers, {"wrong layer", "coverage", "flip", "dissimilarity"}),

@@ -198,6 +198,7 @@ def run(rooms, *arguments) -> int:
     return rooms.command_line.run(["benchmark", "--no-work", "--samples", "1", *map(str, arguments)])
 
 
+@pytest.mark.thorough
 def test_the_report_agrees_with_itself(rooms, ball, tmp_path, capsys):
     before = state()
     assert run(rooms, "--output", tmp_path, "--resolution", 64, "--methods", "GENERAL", "RAYS", "ENVIRONMENT") == 0
@@ -256,6 +257,7 @@ def test_without_a_mirror_or_a_folder_there_is_no_benchmark(rooms, wall, tmp_pat
     assert "mirror" in capsys.readouterr().err
 
 
+@pytest.mark.thorough
 def test_several_mirrors_are_one(rooms, ball, tmp_path):
     wall = parts.add_wall_mirror("Wall")
     wall.location = (0.0, 3.0, 2.0)
@@ -270,6 +272,7 @@ def test_several_mirrors_are_one(rooms, ball, tmp_path):
     assert found["GENERAL", 0.5]["coverage_percent"]["all"] < 0.5
 
 
+@pytest.mark.thorough
 def test_one_report_of_several_files(rooms, wall, tmp_path):
     files = [str(tmp_path / f"{name}.blend") for name in ("one", "two")]
     for path in files:

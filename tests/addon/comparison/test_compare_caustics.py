@@ -54,6 +54,7 @@ def test_the_mesh_is_as_near_to_cycles_as_its_noise(lit, tmp_path):
     assert report["generate_seconds"] > 0.0
 
 
+@pytest.mark.thorough
 def test_a_result_with_wrong_light_is_found(lit, tmp_path):
     light = report_of(compared(tmp_path))
     assert abs(light["flux_percent"]) < max(4.0 * light["flux_noise_percent"], 0.2)
@@ -74,6 +75,7 @@ def report_of(report: dict) -> dict:
     return report["light"]["Mirror Caustics"]
 
 
+@pytest.mark.thorough
 def test_the_file_stays_as_it_was_wherever_it_is_stopped(lit, room, tmp_path):
     job, effort = room("addon.operators.compare_light").light_comparison, room("addon.operators.compare_light").Effort
     (tmp_path / "out").mkdir()
@@ -146,6 +148,7 @@ def test_what_cannot_be_compared_is_told(lit, tmp_path):
                                                       what="CAUSTICS")
 
 
+@pytest.mark.thorough
 def test_several_lamps_and_the_panel(lit, room, tmp_path):
     sun = add_lamp("Sun", "SUN", (-1.0, 0.3, 2.0))
     sun.data.angle = 0.3
@@ -157,6 +160,7 @@ def test_several_lamps_and_the_panel(lit, room, tmp_path):
     assert room("addon.writing.records").light_comparison('{"resolution": [1, 2], "light_samples": "x"}') is None
 
 
+@pytest.mark.thorough
 def test_the_verb_compares_caustics(lit, room, tmp_path, capsys):
     run = room("addon.command_line.verbs").run
     assert run(["compare", "--what", "CAUSTICS", "--samples", "1", "--reference", "8", "--rays", "1000", "--output",

@@ -21,6 +21,7 @@ def lit(blank):
 
 
 # what is random by an object goes by its name, that of an instance by what instances it
+@pytest.mark.thorough
 @pytest.mark.parametrize("source, mirror, measured", [("UV", "Fresnel", 49.1), ("Random", "Tint", 42.0),
                                                       ("Instances", "", 39.3)])
 def test_compare_tells_how_lit_pictures_differ(lit, tmp_path, source, mirror, measured):

@@ -98,6 +98,7 @@ def test_a_step_is_one_render_at_most(scene, room, job, monkeypatch):
     assert len(count) == RENDERS
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("generated", [False, True])
 def test_stopped_after_any_step_it_leaves_no_trace(scene, job, generated):
     """The reflections that it makes for itself go; those that were there stay."""
@@ -167,6 +168,7 @@ def test_stopped_it_leaves_the_results_of_other_cameras_shown(scene, job, placem
     assert parts.state() == before and context.scene.reflection_mesh.seen_by == first
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("names", [("scenes", "Reflection Comparison"), ("objects", "Copy"), ("meshes", "Cube.001"),
                                    ("materials", "Code: Identity"), ("meshes", "Mirror Reflection"),
                                    ("meshes", "Dish Reflection"), ("objects", "Mirror")])

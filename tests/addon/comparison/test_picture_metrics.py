@@ -132,6 +132,7 @@ def test_ssim_agrees_with_scikit_image_in_every_pixel(rooms):
         assert rooms.picture_metrics.ssim_map(painted(), result) == pytest.approx(expected.mean(axis=2), abs=1e-10)
 
 
+@pytest.mark.thorough
 def test_flip_agrees_with_its_authors_implementation_in_every_pixel(rooms):
     evaluator = pytest.importorskip("flip_evaluator")
     for result in changed():

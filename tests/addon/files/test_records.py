@@ -87,6 +87,7 @@ def test_a_good_record_is_shown(scene, room):
     assert told() == ["Holes, spill, wrong layer 0.500 %"]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("text", [*HOSTILE, *[json.dumps(GOOD | change) for change in SPOILT],
                                   *[json.dumps({name: value for name, value in GOOD.items() if name != missing})
                                     for missing in ("resolution", "coverage", "median", "ssim")]])

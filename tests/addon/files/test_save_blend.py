@@ -56,6 +56,7 @@ def test_a_full_disk_leaves_the_old_file(save_blend, saved_scene, room, compress
     assert saved_scene.read_bytes().startswith(b"BLENDER") != compress
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("output", [[], ["--output", "{folder}/old.blend"], ["--output", "{folder}/new.blend"]])
 def test_the_command_line_tells_of_a_full_disk(saved_scene, output):
     saved_scene.with_name("old.blend").write_bytes(b"mine")

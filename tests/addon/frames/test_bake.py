@@ -45,6 +45,7 @@ def psnr(one: np.ndarray, other: np.ndarray) -> float:
     return 10.0 * np.log10(1.0 / np.mean((np.clip(one, 0.0, 1.0) - np.clip(other, 0.0, 1.0)) ** 2))
 
 
+@pytest.mark.thorough
 def test_light_plays_too(moving, room, tmp_path):
     """Each frame shows the light that Cycles traces in the mirror there, also where only every third is baked."""
     lit_scene()
@@ -171,6 +172,7 @@ def test_records_that_are_none(room, tmp_path):
     assert baking.read_record(str(tmp_path / "none.json")) is None
 
 
+@pytest.mark.thorough
 def test_points_and_windows_play_too(moving, room, tmp_path):
     """Discs as the faces that they are drawn as; a window is opened to the image behind it."""
     out = tmp_path / "points"

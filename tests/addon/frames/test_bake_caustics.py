@@ -72,6 +72,7 @@ def test_the_pool_plays_without_the_extension(room, tmp_path):
     assert len(light[1]) != len(light[9]) or not np.array_equal(light[1], light[9])
 
 
+@pytest.mark.thorough
 def test_a_lamp_that_goes_out_and_several_materials(thrown, room, tmp_path):
     before, out = thrown.read_bytes(), tmp_path / "out"
     assert bake(room, "--what", "CAUSTICS", "--output", out, "--eyes", "2") == 0
@@ -126,6 +127,7 @@ def test_a_frame_alone_by_the_verb(thrown, room, tmp_path):
     assert all(np.array_equal(made[what], wanted[what]) for what in wanted)
 
 
+@pytest.mark.thorough
 def test_the_operator_lets_caustics_play_in_place(thrown, room, tmp_path):
     """Those that are there, with as many places on their lamp; then a still again, and cleared without a trace."""
     empty = parts.state()

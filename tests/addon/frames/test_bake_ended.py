@@ -118,6 +118,7 @@ def test_stopped_at_any_step_the_file_is_as_it_was(moving, room, tmp_path, place
     stopped_at_each_stage(steps, check)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("failing", ["player_of", "play", "show_by_camera", "write_result", "lighting", "generation"])
 def test_an_error_leaves_no_trace(moving, room, tmp_path, monkeypatch, failing):
     parts.select()
@@ -162,6 +163,7 @@ def test_a_blender_without_usd_says_so_before_any_work(moving, room, tmp_path, m
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("case", [
     ("nothing", 1, ""), ("selection", 1, ""), ("cube", 0, "object"), ("mirror", 0, "mirror"), ("camera", 0, "camera"),
     ("materials", 0, "materials"), ("colour", 0, ""), ("colour", 1, "colours"), ("lamp", 0, ""), ("lamp", 1, "lamps"),

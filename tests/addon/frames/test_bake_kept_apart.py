@@ -3,10 +3,12 @@ from __future__ import annotations
 
 import bpy
 import parts
+import pytest
 from baked_frames import FRAMES, add_camera, assert_same, bake, expected, lit_scene, operate
 from played import played
 
 
+@pytest.mark.thorough
 def test_stretched_time(moving, room, tmp_path):
     """Blender looks for keys at stretched places, and each frame still shows its own reflection and light."""
     lit_scene()
@@ -62,6 +64,7 @@ def test_stills_of_other_cameras_do_not_lie_over_what_plays(moving, tmp_path, ca
     assert shown(FRAMES) == dict.fromkeys(FRAMES, ["Mirror Reflection"])
 
 
+@pytest.mark.thorough
 def test_a_sequence_for_all_cameras_after_one_for_each(moving, room, tmp_path):
     """Its result is shown at every cut, though keys had shown it to one camera alone."""
     cuts()

@@ -60,6 +60,7 @@ def test_several_cameras_have_a_sequence_each(moving, room, tmp_path):
             assert_same(wholly, frame, name, expected(frame))
 
 
+@pytest.mark.thorough
 def test_several_view_layers_have_a_sequence_each(moving, room, tmp_path, capsys):
     """Each shows what it sees, to itself alone; cameras may have theirs in each."""
     scene = bpy.context.scene

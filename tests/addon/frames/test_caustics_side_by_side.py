@@ -61,6 +61,7 @@ def one_by_one(file: Path, words: tuple, chunks: list[str]) -> None:
         assert run(["bake", *map(str, words), "--frames-only", "--frames", chunk]) == 0
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("own", "chunks", "baked"), [
     ("--replace-own", ["1-2", "1-2"], at_once), ("--replace-own", ["3", "1-2"], one_by_one),
     ("--keep-own", ["2", "1,3", "2"], one_by_one)])

@@ -32,6 +32,7 @@ def into_a_strip(obj: bpy.types.Object, meta: bool = False) -> None:
         assert [strip.type for strip in track.strips] == ["META"]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("switches", "strips"), [
     (("hide_render",), ""), (("hide_render", "hide_viewport"), ""), (("visible_glossy",), ""),
     (("hide_render", "hide_viewport"), "one"), (("hide_render",), "meta")],

@@ -92,6 +92,7 @@ def thrown(blank) -> bpy.types.Object:
     return other
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("goes", [hide, shrink, build])
 def test_light_that_is_not_thrown_in_one_frame(thrown, tmp_path, capfd, goes):
     """Another mirror's light is there in each, and none of this one's where it has gone."""

@@ -128,6 +128,7 @@ def test_a_job_of_open_job_description(scene, blender, wanted, tmp_path):
     assert "openjd_status: " in done.stdout
 
 
+@pytest.mark.thorough
 @needs_openjd
 def test_a_job_for_a_camera_and_a_view_layer(scene, blender, room, tmp_path):
     """As the command line bakes by their names."""
@@ -145,6 +146,7 @@ def test_a_job_for_a_camera_and_a_view_layer(scene, blender, room, tmp_path):
     assert frames_in(out) == faults.contents(wanted)
 
 
+@pytest.mark.thorough
 @needs_openjd
 @pytest.mark.parametrize("name", ["Other", "Scene"])
 def test_a_job_of_a_scene_that_is_not_the_files_own(scene, blender, room, tmp_path, name):
@@ -156,6 +158,7 @@ def test_a_job_of_a_scene_that_is_not_the_files_own(scene, blender, room, tmp_pa
     assert (done.returncode == 0) == (name == "Scene"), done.stdout[-3000:]
 
 
+@pytest.mark.thorough
 @needs_openjd
 def test_a_job_that_fails_says_so(scene, blender, tmp_path):
     (tmp_path / "frames").write_text("a file, no folder")

@@ -16,6 +16,7 @@ def unsaved_change() -> None:
     lit_scene()
 
 
+@pytest.mark.thorough
 def test_several_processes_make_the_same_files(moving, room, tmp_path, capsys):
     one, three = tmp_path / "one", tmp_path / "three"
     unsaved_change()
@@ -45,6 +46,7 @@ def test_what_is_there_is_kept_or_made_again(moving, room, tmp_path, capsys):
     assert set(faults.contents(out)) == set(whole) and faults.contents(out) != whole
 
 
+@pytest.mark.thorough
 def test_what_a_process_says_is_told_in_its_words(moving, room, tmp_path, capsys):
     out = tmp_path / "out"
     assert bake(room, "--light", "0", "--frames", "2", "--frames-only", "--output", out) == 0
@@ -98,6 +100,7 @@ def test_the_button_lets_several_bake_what_one_does(moving, room, tmp_path):
     assert not any(path.stat().st_mtime_ns == before[path.name] for path in two.iterdir())
 
 
+@pytest.mark.thorough
 def test_esc_ends_them_all(moving, room, tmp_path, monkeypatch):
     place = room("addon.operators.bake_frames.side_by_side")
     started, heard = [], place._heard

@@ -40,6 +40,7 @@ def shining(blank, tmp_path):
     return tmp_path / "scene.blend"
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("guest", ["cube", "lamp"])
 def test_what_comes_for_a_while_and_needs_light(shining, room, tmp_path, guest):
     """A grey cube, or a lamp that the mirror shows as a body, for the second frame alone."""

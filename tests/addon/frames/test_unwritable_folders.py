@@ -19,6 +19,7 @@ def scene(moving):
     return moving
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("what", ["REFLECTIONS", "CAUSTICS"])
 @pytest.mark.parametrize("where", REFUSED)
 def test_frames_are_not_begun(scene, room, tmp_path, capfd, where, what):

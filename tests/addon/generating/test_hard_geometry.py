@@ -58,6 +58,7 @@ def generated_or_refused(mirror, scene, **options) -> bool:
     return True
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("defect", hard_meshes.DEFECTS)
 def test_each_defect(blank, defect):
     """On the mirror and on the scene, flat and smooth, with each method and placement in turn."""
@@ -75,6 +76,7 @@ def test_each_defect(blank, defect):
     assert found > 0
 
 
+@pytest.mark.thorough
 def test_cases_at_random(blank):
     """As in the core's search, at the sizes that single precision holds; one result after another in one file."""
     random = np.random.default_rng(4)

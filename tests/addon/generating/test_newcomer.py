@@ -5,10 +5,12 @@ import time
 
 import bpy
 import parts
+import pytest
 from lamp_scenes import picture, psnr
 from newcomer import room_of
 
 
+@pytest.mark.thorough
 def test_the_mirror_clicked_and_two_buttons(blank, room):
     """All that is there is in it, as Cycles shows it, though there is much of it; and it is one render's work."""
     mirror = room_of(blank, 20)

@@ -110,6 +110,7 @@ def test_discs_carry_what_faces_carry(scan_scene):
     assert mesh.color_attributes.render_color_index == 0
 
 
+@pytest.mark.thorough
 def test_a_render_shows_the_same_as_the_mesh(scan_scene, tmp_path):
     mirror, ball = scan_scene
     pictures = []

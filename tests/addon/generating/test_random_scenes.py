@@ -19,6 +19,7 @@ def test_kept_seeds(seed):
     assert tried_scene(seed)["problems"] == []
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("seed", SEEDS)
 def test_scenes_at_random(seed):
     assert tried_scene(seed)["problems"] == []

@@ -196,6 +196,7 @@ def test_copies_are_updated_too(scene, room, linked):
     assert middle(result)[0] > 0.3 and (copy.location - result.location).z == pytest.approx(3.0)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
 @pytest.mark.parametrize("linked", [False, True])
 def test_copies_are_lit_too(scene, room, monkeypatch, linked, kind):

@@ -22,6 +22,7 @@ def again(room, way: str) -> None:
         assert bpy.ops.reflection_mesh.caustics(way) == {"FINISHED"}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("way", ["EXEC_DEFAULT", "INVOKE_DEFAULT", "verb"])
 def test_places_and_own_caustics_are_as_before(blank, room, tmp_path, way):
     scene_of("AREA", size=0.5)

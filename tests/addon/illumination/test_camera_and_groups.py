@@ -4,9 +4,11 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import parts
+import pytest
 from caustic_scene import paint, rendered, scene_of
 
 
+@pytest.mark.thorough
 def test_light_on_what_the_camera_does_not_see_is_not_seen_either(blank, room, tmp_path):
     """Only light on the floor, in the shadow of the box, is left; it is shown by mirrors all the same."""
     floor, mirror, lamp = scene_of("AREA", size=0.02)

@@ -158,6 +158,7 @@ if hasattr(bpy.types, "ShaderNodeBsdfMetallic"):  # from Blender 4.3 on
 
 
 # what is metal and glass in parts is met from outside
+@pytest.mark.thorough
 @pytest.mark.parametrize(("kind", "behind"), [(kind, behind) for kind in NOT_METAL for behind in (False, True)
                                               if not (behind and kind == "part metal")])
 @pytest.mark.parametrize("angle", [0.0, 0.9, 1.2])
@@ -226,6 +227,7 @@ def textured(floor: bpy.types.Object, kind: str, coordinates: str, grouped: bool
     tree.links.new(texture.outputs["Color"], colour)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("kind", "coordinates", "grouped"), [
     ("Noise", "Generated", False), ("Noise", "Object", False), ("Voronoi", "", False), ("Noise", "Object", True)])
 def test_textures_lie_where_the_receiver_has_them(blank, tmp_path, capfd, kind, coordinates, grouped):

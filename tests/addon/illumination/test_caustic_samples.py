@@ -31,6 +31,7 @@ def lit(result: bpy.types.Object) -> tuple:
             names[parts.attribute(result, "source_object")])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", SAMPLES)
 def test_light_falls_where_it_is_to_be_seen(name):
     mirror, receivers = SAMPLES[name]

@@ -38,6 +38,7 @@ def emission(lamp: bpy.types.Object) -> bpy.types.Node:
     return next(node for node in lamp.data.node_tree.nodes if node.type == "EMISSION")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("colour", ["plain", 2500.0, 6500.0])
 def test_a_lamps_nodes_colour_and_strengthen_its_light(blank, tmp_path, capfd, colour):
     """As Cycles shows it; what is plugged into them is told, but for what is the same everywhere, and portals are no
@@ -125,6 +126,7 @@ def test_the_lamp_lights_the_mirror_again_when_the_last_of_its_light_goes(blank)
     assert bpy.ops.reflection_mesh.clear() == {"CANCELLED"}
 
 
+@pytest.mark.thorough
 def test_the_light_is_there_once(blank, tmp_path):
     """Cycles' own light from a lamp of some size goes where the mesh brings it."""
     floor, mirror, lamp = scene_of(shadow_soft_size=0.3)

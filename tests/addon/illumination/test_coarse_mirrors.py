@@ -8,6 +8,7 @@ import pytest
 from caustic_scene import paint, scene_of
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("faces, smooth, told", [((24, 8), True, True), ((24, 8), False, False),
                                                  ((48, 16), True, False)], ids=str)
 def test_it_is_told_where_cycles_throws_much_more(blank, capfd, faces, smooth, told):

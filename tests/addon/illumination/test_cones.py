@@ -7,6 +7,7 @@ import pytest
 from caustic_scene import light_and_lamp_behind, scene_of
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind, values", [("SPOT", {"spot_size": 0.2, "spot_blend": 0.0}),
                                           ("SPOT", {"spot_size": 0.25, "spot_blend": 0.8}),
                                           ("AREA", {"size": 0.01, "spread": 0.25})])

@@ -42,6 +42,7 @@ def of_lamp(picture: np.ndarray) -> np.ndarray:
     return picture[..., 0] > 0.5 * picture.max()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", [*SIZES, "panel", "panel back", "ball", "box"])
 def test_the_mirror_shows_the_lamp_and_throws_no_light_of_it(blank, tmp_path, kind):
     floor, mirror, lamp = looked_into(kind)
@@ -176,6 +177,7 @@ def test_one_whose_mirrors_were_unlinked_by_hand_is_made_anew_and_goes(blank):
     assert bpy.ops.reflection_mesh.clear() == {"FINISHED"} and parts.state()["data"] == before
 
 
+@pytest.mark.thorough
 def test_the_shell_of_a_mesh_is_made_anew_and_follows_it(blank, room):
     floor, mirror, lamp = with_mesh("ball")
     other = parts.add("plane", "Other", size=1.2, location=(-AIM.x, 0.0, 1.0), rotation=(0.0, np.pi / 2, 0.0))
@@ -246,6 +248,7 @@ def test_a_mesh_whose_materials_come_of_nodes_has_no_shell(blank):
     assert "Mirror Caustics" in bpy.data.objects and not lamp.children
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["POINT", "ball"])
 def test_three_mirrors_show_one_lamp(blank, kind):
     """Each in turn is added to those that the lamp's one image is for; nothing is left of the steps between."""

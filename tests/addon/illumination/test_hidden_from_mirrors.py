@@ -29,6 +29,7 @@ def test_cycles_lights_it(blank, tmp_path):
     assert found[0] > 1e-3 and found[1] == pytest.approx(found[0], rel=1e-6)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["object", "instance", "mirror alone"])
 def test_it_is_lit_as_by_the_lamp_mirrored(blank, room, capfd, tmp_path, kind):
     """It was left out: where it was alone, with an error."""

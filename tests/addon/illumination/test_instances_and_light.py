@@ -30,6 +30,7 @@ def instanced(obj: bpy.types.Object, kind: str) -> bpy.types.Object:
     return made
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["EMPTY", "NODES"])
 def test_cycles_adds_nothing_to_the_light_of_an_instance(blank, tmp_path, kind):
     """Its light was there twice: Cycles' own went on."""
@@ -97,6 +98,7 @@ CLEAR = {"transparent": ("ShaderNodeBsdfTransparent", {}), "glass": ("ShaderNode
          "open": ("ShaderNodeBsdfPrincipled", {"Alpha": 0.0})}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("grouped", [False, True])
 @pytest.mark.parametrize("kind", CLEAR)
 def test_clear_panes_are_not_lit_and_shade_nothing(blank, room, capfd, kind, grouped):

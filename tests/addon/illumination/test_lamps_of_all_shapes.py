@@ -18,6 +18,7 @@ def shares(mirror: bpy.types.Object, lamp: bpy.types.Object, tmp_path) -> np.nda
     return ratio
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("scale", [(2.0, 1.0, 1.0), (1.0, 1.0, 3.0), (1.0, -1.0, 0.5)], ids=str)
 def test_a_spot_that_is_scaled_has_its_cone_drawn_out(blank, tmp_path, scale):
     floor, mirror, lamp = scene_of("SPOT")
@@ -46,6 +47,7 @@ def test_the_cone_of_a_scaled_spot_holds_all_that_it_lights(blank, room):
     assert (inside > 0.0).all() and (outside == 0.0).all()
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif("normalize" not in bpy.types.Light.bl_rna.properties, reason="all lamps are normalised")
 @pytest.mark.parametrize("kind, values", [
     ("POINT", {}), ("SPOT", {}), ("POINT", {"shadow_soft_size": 0.02}), ("SUN", {}), ("SUN", {"angle": 0.02})], ids=str)

@@ -32,6 +32,7 @@ def own_caustics(mirror: bpy.types.Object, lamp: bpy.types.Object, tmp_path) -> 
     return float(found[1] - found[0])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", [*LARGE, "MESH"])
 def test_what_is_hidden_from_glossy_rays_throws_nothing_as_in_cycles(blank, room, capfd, tmp_path, kind):
     floor, mirror, lamp = large_lamp(kind)

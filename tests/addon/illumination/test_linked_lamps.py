@@ -35,6 +35,7 @@ def is_lit(mirror: bpy.types.Object, tmp_path) -> bool:
     return seen > 1e-3
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("wanted", [
     (), (("Mirror", "EXCLUDE", False),), (("Mirror", "INCLUDE", False),), (("Floor", "INCLUDE", False),),
     (("Floor", "EXCLUDE", False),), (("Mirror", "EXCLUDE", True),), (("Mirror", "INCLUDE", True),),

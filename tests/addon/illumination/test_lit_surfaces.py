@@ -43,6 +43,7 @@ def test_faces_that_are_bent_are_lit_as_their_triangles(blank, tmp_path):
     assert np.percentile(np.abs(ratio - 1.0), 95) < 0.01
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("targets", [("EEVEE", "CYCLES"), ("ALL", "CYCLES"), ("EEVEE", "ALL")], ids="+".join)
 def test_of_outputs_for_each_engine_the_one_for_cycles_counts(blank, tmp_path, targets):
     """The last; the other one is a mirror's on the floor, and none on the mirror."""
@@ -63,6 +64,7 @@ def test_of_outputs_for_each_engine_the_one_for_cycles_counts(blank, tmp_path, t
     assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 2e-3
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("tilt, values", [
     (0.0, {}), (1.1, {}), (1.1, {"Roughness": 1.0}), (1.1, {"Roughness": 0.1, "Specular IOR Level": 1.0}),
     (0.0, {"Transmission Weight": 0.5}), (1.1, {"Alpha": 0.3})], ids=str)
@@ -84,6 +86,7 @@ def test_what_gloss_and_glass_take_is_gone(blank, tmp_path, tilt, values):
     assert np.abs(np.median(ratio, axis=0) - 1.0).max() < 0.015
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("linked", [False, True])
 def test_metal_sends_no_light_back_by_its_colour(blank, tmp_path, linked):
     floor, mirror, lamp = scene_of()
@@ -139,6 +142,7 @@ def mixed(tree: bpy.types.NodeTree, factor: float, first: bpy.types.Node, second
     return mix
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("grouped", [False, True])
 @pytest.mark.parametrize("mixture", [half_open, varnished, on_black])
 def test_mixed_shaders_send_light_back_as_mixed(blank, capfd, tmp_path, mixture, grouped):
@@ -193,6 +197,7 @@ def muted_colour(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> bpy.types.
     return shader.outputs[0]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("muted", [muted_mix, muted_link, muted_colour])
 def test_what_is_muted_does_not_count(blank, tmp_path, muted):
     """Beside the lamp behind the mirror, whose light Cycles shows without it."""

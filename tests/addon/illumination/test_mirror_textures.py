@@ -108,6 +108,7 @@ def as_a_window(mirror: bpy.types.Object) -> None:
     tree.links.new(clear.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["UV image", "named map", "Object", "Generated", "group", "ramp and curves",
                                   "box", "box behind", "normals", "normals behind",
                                   "stored colour", "stored active colour", "stored numbers"])
@@ -156,6 +157,7 @@ def test_a_mirror_in_a_frame_throws_its_own_picture(blank, tmp_path):
     assert len(ratio) > 300 and np.percentile(np.abs(ratio - 1.0), 95) < 1e-3
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["PRINCIPLED", "coated", "GLASS"])
 def test_a_mirror_that_is_open_in_part_throws_as_much_less(blank, tmp_path, kind):
     """What comes through it is not thrown."""

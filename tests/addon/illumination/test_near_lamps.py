@@ -44,6 +44,7 @@ def test_a_lamp_among_mirrors_lights_all_of_them_as_it_is(blank, room, soft):
         np.testing.assert_allclose(spread, 0.5 * RADIUS, rtol=0.02)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("kind", "soft"), [("POINT", True), ("SPOT", False)])
 def test_a_large_lamp_near_a_mirror_is_as_bright_as_in_cycles(blank, tmp_path, kind, soft):
     """Its radius is a third of its distance: it was 7 % too bright with a soft falloff, and 2 % too dark without.

@@ -8,6 +8,7 @@ import pytest
 from caustic_scene import light_and_lamp_behind, scene_of
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("projection", ["PERSP", "ORTHO"])
 def test_light_lies_close_to_a_small_ball_on_a_wide_floor(blank, tmp_path, projection):
     """It stood before the ball by a part of the floor's size, in a shell whose border shone beside the ball."""

@@ -27,6 +27,7 @@ def shown():
     return next(seed for seed in range(40) if not any(tried_lamps(seed)[name] for name in ("refusal", "problems")))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("call", "found"), [(0, "changed: object"), (1, "again: object"), (2, "clear: object")])
 def test_what_an_operator_leaves_changed_is_found(monkeypatch, shown, call, found):
     calls, called = [], scene_trial._called

@@ -54,6 +54,7 @@ THICK = {"opaque": 0.5, "thick": 0.1, "location": (0.1, 0.1, 0.3)}
 UPRIGHT = {"opaque": 0.3, "location": (0.2, 0.0, 0.5), "rotation": (0.0, 1.4, 0.0), "size": 0.5}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("sheets", [(ONE,), (OTHER,), (ONE, OTHER), (THICK,), (UPRIGHT,)],
                          ids=["alpha", "mix", "two", "thick", "upright"])
 def test_what_is_behind_gets_what_goes_through(blank, tmp_path, capfd, sheets):

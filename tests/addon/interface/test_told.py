@@ -27,6 +27,7 @@ def fields(text: str) -> list[str]:
     return [entry[1] for entry in string.Formatter().parse(text) if entry[1] is not None]
 
 
+@pytest.mark.thorough
 def test_no_sentence_lacks_its_german(room):
     german = room("addon.interface.german").SENTENCES
     told = told_sentences.told()

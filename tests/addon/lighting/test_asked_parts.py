@@ -113,6 +113,7 @@ def test_gloss_is_seen_as_a_ball_shows_it(blank, room):
     assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("floor", "told"), [({"Roughness": 0.2}, ["Floor"]), ({"Roughness": 0.8}, []),
                                              ({"Roughness": 0.8, "Metallic": 1.0}, ["Floor"])])
 def test_where_gloss_is_as_from_elsewhere_that_is_said(blank, room, monkeypatch, capsys, floor, told):
@@ -257,6 +258,7 @@ def test_long_strips_take_the_room_that_they_have(room):
     assert known.sum() == pytest.approx(12 * 0.5 * 2000 * 3, rel=0.02) and (large[known] == 1.0).all()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("output", "kind", "told"), [("Random Per Island", "OBJECTS", True),
                                                       ("Random Per Island", "PICTURE", False),
                                                       ("Pointiness", "OBJECTS", False)])
@@ -271,6 +273,7 @@ def test_where_islands_have_other_colours_that_is_said(blank, capsys, output, ki
     assert ("What is random by island on 'Floor' is so in other colours" in capsys.readouterr().out) == told
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("kind", "bumped", "told"), [("OBJECTS", True, True), ("PICTURE", True, False),
                                                       ("OBJECTS", False, False)])
 def test_that_a_mirrors_bumps_are_not_followed_is_said(blank, capsys, kind, bumped, told):

@@ -33,6 +33,7 @@ def in_small_bands(monkeypatch, room) -> list:
     return made
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["shines", *(pytest.param(kind, marks=pytest.mark.slow)
                                              for kind in ("UV", "Gloss", "Alpha"))])
 def test_it_is_what_the_mirror_shows(blank, room, monkeypatch, kind):
@@ -65,6 +66,7 @@ def test_bands_are_denoised_in_tiles(blank, room, monkeypatch):
     assert baked and not any(isinstance(stage, room("addon.faults").Undivided) for stage in baked)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("apart", [False, True])
 def test_what_is_lit_already_takes_no_part(blank, room, monkeypatch, apart):
     """Cycles would take up the picture of its light for each band: a relit bathroom took twice as long as at first."""
@@ -126,6 +128,7 @@ def test_tiles_fade_into_each_other(room):
         assert np.nanmax(step) < 2.0 / tiles.OVERLAP
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("step", [0, 1, 2, 5, 9, 13, 20, 30])
 def test_stopped_between_bands_it_leaves_no_trace(blank, room, monkeypatch, step):
     scene_of(blank, "Alpha")
@@ -140,6 +143,7 @@ def test_stopped_between_bands_it_leaves_no_trace(blank, room, monkeypatch, step
     assert lit_state() == before
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("noise", [0.0, 0.1, 0.4])
 @pytest.mark.parametrize("before", [0.05, 0.15, 1.0])
 @pytest.mark.parametrize("speed", [3e4, 3e5, 3e6])
@@ -209,6 +213,7 @@ def test_any_seed_will_do(blank, room, monkeypatch):
     assert "Reflection Light" in bpy.data.images and blank.scene.cycles.seed == 2**31 - 1
 
 
+@pytest.mark.thorough
 def test_what_only_mirrors_see_is_baked_in_bands_too(blank, room, monkeypatch):
     """It is seen by no ray but theirs, and where it is denoised by none at all."""
     scene_of(blank, "UV").reflection_mesh.role = "MIRROR"

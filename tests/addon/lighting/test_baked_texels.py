@@ -56,6 +56,7 @@ def texels_across(result: bpy.types.Object) -> float:
     return float(np.sort(sides, axis=1)[0, 1] * image_of(result).size[0])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("output", ["X", pytest.param("Y", marks=pytest.mark.slow)])
 def test_all_that_lies_in_a_texel_counts_the_same(blank, output):
     """Of stripes one of which goes to a texel, half of them dark, every texel tells a half, wherever they begin."""
@@ -73,6 +74,7 @@ def test_all_that_lies_in_a_texel_counts_the_same(blank, output):
     assert np.abs(np.array(found) - 0.5).max() < 0.1
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("shining", [False, True])
 def test_a_pattern_goes_on_where_triangles_meet(blank, room, shining):
     """Stripes that end at a diagonal of texels, and begin again beyond it."""

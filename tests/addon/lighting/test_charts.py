@@ -41,6 +41,7 @@ def frames(room, result) -> tuple[np.ndarray, np.ndarray]:
     return np.unique(kept.frames, axis=0, return_inverse=True)
 
 
+@pytest.mark.thorough
 def test_each_face_lies_in_what_is_kept_of_one_picture_and_is_as_fine_as_it_is_seen(lit_ball, room):
     spots, texels, pixels = faces(room, lit_ball)
     ends, sheet = frames(room, lit_ball)
@@ -72,6 +73,7 @@ def test_a_face_on_the_rim_of_what_is_kept_is_as_fine_as_others(room, beside, fi
     assert np.allclose(spots[0], shown, atol=1e-6)
 
 
+@pytest.mark.thorough
 def test_what_was_not_seen_so_finely_is_shown_as_it_was(lit_ball, room):
     """From elsewhere faces show what is kept of the coarser pictures where the finer do not have them, and nothing that
     belongs to others."""
@@ -87,6 +89,7 @@ def test_what_was_not_seen_so_finely_is_shown_as_it_was(lit_ball, room):
     assert ((texels < pixels) & (pixels > 0.05)).any()
 
 
+@pytest.mark.thorough
 def test_maps_of_earlier_versions_have_no_frames(lit_ball, room):
     light_map = lit_ball.reflection_mesh.light_map
     light_map.attributes.remove(light_map.attributes["frame"])

@@ -31,6 +31,7 @@ def checked_card(strength: float, checks: int) -> bpy.types.Object:
     return card
 
 
+@pytest.mark.thorough
 def test_checks_that_shine_look_as_in_the_mirror(blank, room):
     """Two and a half pixels wide, against Cycles and its own noise."""
     scene_of(blank)
@@ -43,6 +44,7 @@ def test_checks_that_shine_look_as_in_the_mirror(blank, room):
     assert psnr(picture(room, 2), reference) > 39.0
 
 
+@pytest.mark.thorough
 def test_checks_that_a_concave_mirror_shows_look_as_in_it(blank, room):
     """With 256 samples, against Cycles and its own noise."""
     mirror = scene_of(blank)
@@ -66,6 +68,7 @@ def test_checks_that_a_concave_mirror_shows_look_as_in_it(blank, room):
     assert psnr(picture(room, 2), reference) > 36.0
 
 
+@pytest.mark.thorough
 def test_on_the_objects_they_have_more_texels_in_their_places(blank, room):
     """Against Cycles: between texels a bright check's half would still be white, and between corners its place would be
     wrong by a part of a pixel, as the tolerance allows. Matte ones have as many texels as ever."""
@@ -86,6 +89,7 @@ def test_on_the_objects_they_have_more_texels_in_their_places(blank, room):
     assert fineness() == [fine.FINER]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("strength", "samples", "most", "expected"), [
     (6.0, 64, 1 << 21, [(2, 1), (16, 2), (64, 2)]), (0.9, 64, 1 << 21, [(2, 1), (64, 1), (64, 1)]),
     (6.0, 8, 1 << 21, [(8, 1), (64, 1)]), (6.0, 64, 1000, [(64, 1), (64, 1)]),

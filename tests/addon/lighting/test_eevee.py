@@ -9,6 +9,8 @@ import parts
 import pytest
 from lamp_scenes import principled, scene_of
 
+pytestmark = pytest.mark.thorough
+
 
 @pytest.fixture(scope="module", autouse=True)
 def rendering():

@@ -91,6 +91,7 @@ def test_fog_is_no_object_that_is_reflected(blank, capfd):
     assert "No reflection has hair, point clouds or volumes, as 'Fog' has" in "".join(capfd.readouterr())
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("kind", "fog"), [("OBJECTS", "world"), ("OBJECTS", "cube"), ("OBJECTS", ""),
                                            ("PICTURE", "world")])
 def test_fog_that_light_on_the_objects_lacks_is_told(blank, capfd, kind, fog):

@@ -77,6 +77,7 @@ def _by_nodes(carrier: bpy.types.Object, box: bpy.types.Object) -> None:
     carrier.modifiers.new("Instances", "NODES").node_group = tree
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("instances", "kind", "output", "settings"), [
     pytest.param("nodes", "ShaderNodeAttribute", "Vector", {"attribute_type": "INSTANCER", "attribute_name": "tint"},
                  marks=pytest.mark.skipif(bpy.app.version < (4, 5, 0), reason="Blender does not tell")),

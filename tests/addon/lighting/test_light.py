@@ -50,6 +50,7 @@ def test_a_mirror_that_is_an_instance_of_a_collection_is_lit_too(blank, room, ki
     assert wall.visible_camera
 
 
+@pytest.mark.thorough
 def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
     """A small lamp far brighter than white, before what is reflected: no ring around it, no halo."""
     scene_of(blank)
@@ -160,6 +161,7 @@ def test_points_are_lit_too(blank, room):
     assert psnr(picture(room), reference) > before + 6.0
 
 
+@pytest.mark.thorough
 def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
     """A frame that the mirror is sunk in: within the frame it shows the dark inside of that, which no result has."""
     scene_of(blank)
@@ -178,6 +180,7 @@ def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
     assert not any(bar.is_holdout for bar in bars) and all(bar.visible_camera for bar in bars)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("placement", ["VIRTUAL", "SURFACE"])
 def test_results_that_lie_in_their_mirror_or_behind_it_are_lit_in_collections_too(blank, room, placement):
     """As files have them from the start; before a white mirror under a world of one colour it is seen alike."""

@@ -8,6 +8,7 @@ import pytest
 from lamp_scenes import SIZE, leaves_no_trace, lit_state, outdated, picture, plain_scene, psnr, scene_of, shader_of
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("placement", "opaque"), [
     pytest.param("LAYERED", True, marks=pytest.mark.slow), ("VIRTUAL", True),
     pytest.param("LAYERED", False, marks=pytest.mark.slow)])
@@ -34,6 +35,7 @@ def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
     leaves_no_trace(blank, room, monkeypatch, (where, failing), "PICTURE")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
 @pytest.mark.parametrize("inner", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_particles_go_on_as_they_are(blank, room, kind, inner):
@@ -115,6 +117,7 @@ def layer_of(scene, name):
     return scene.view_layers[0].layer_collection.children[name]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("change", "stale"), [
     (lambda scene: setattr(bpy.data.objects["Box"].location, "x", 0.5), True),
     (lambda scene: setattr(scene.camera.location, "x", 0.5), True),
@@ -161,6 +164,7 @@ def test_frames_are_lit_by_no_lamp_that_renders_leave_out(blank, room):
     assert told[0] == told[1] != shown == digest(blank)
 
 
+@pytest.mark.thorough
 def test_light_that_was_kept_shows_the_same(blank, room):
     scene_of(blank, "UV", "Tint")
     result = parts.generate(tolerance=2.0)

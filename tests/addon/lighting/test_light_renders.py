@@ -32,6 +32,7 @@ def test_light_is_one_render_of_the_mirrors_window(blank, room, monkeypatch, mir
     assert all(bounces == 0 for *_, bounces in asked[1:])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "value"), [
     ("visible_camera", False), pytest.param("is_shadow_catcher", True, marks=pytest.mark.slow)])
 def test_a_mirror_that_is_not_seen_as_it_is_lights_its_result_all_the_same(blank, room, name, value):
@@ -106,6 +107,7 @@ def test_what_a_result_covers_is_told_finely_where_it_ends(blank, room):
     assert np.sqrt(((few - exact)[ends]**2).mean()) < 0.015
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("mirror", "samples", "first"), [
     ("Tint", 16, True), *(pytest.param(*case, marks=pytest.mark.slow) for case in (
         ("Tint", 64, False), ("Fresnel", 64, False), ("Rough", 64, True)))])
@@ -139,6 +141,7 @@ def test_a_blender_without_the_denoiser_renders_with_noise(room):
     assert cycles.use_denoising is False
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
 def test_light_does_not_go_by_what_the_view_layer_sets_for_itself(blank, room, kind):
     """Its own samples, denoising switched off, one material for all, and not being rendered: bit for bit the same."""

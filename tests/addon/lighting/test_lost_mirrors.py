@@ -19,6 +19,7 @@ HIDE = {"eye": lambda obj: obj.hide_set(True), "viewport": lambda obj: setattr(o
         "collection": lambda obj: in_a_hidden_collection(obj, "hide_viewport")}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("how", HIDE)
 @pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
 def test_a_hidden_mirror_is_told_to_be_hidden(scene, how, kind):

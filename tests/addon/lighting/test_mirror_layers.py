@@ -96,6 +96,7 @@ def test_its_look_stays_on_a_curved_mirror(blank, room, monkeypatch, paint, face
         assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["emission", "edge", "Metallic BSDF", "conductor"])
 def test_a_metal_that_shines_or_has_an_edge_tint_does_so_in_light_on_objects(blank, room, kind):
     scene_of(blank)

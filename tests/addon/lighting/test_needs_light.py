@@ -6,6 +6,8 @@ import parts
 import pytest
 from lamp_scenes import SIZE, link, picture, plain_scene, psnr
 
+pytestmark = pytest.mark.thorough
+
 BOTH = ((0.9, 0.2, 0.1, 1.0), (0.1, 0.3, 0.9, 1.0))
 # a node and the output that is asked
 ASKED = {"ray": ("LightPath", "Is Camera Ray"), "side": ("NewGeometry", "Backfacing"),

@@ -21,6 +21,7 @@ def light(samples: int = 64) -> None:
     assert bpy.ops.reflection_mesh.light(samples=samples, kind="OBJECTS") == {"FINISHED"}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("source", "mirror"), [
     kinds if kinds in QUICK else pytest.param(*kinds, marks=pytest.mark.slow) for kinds in KINDS])
 def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
@@ -34,6 +35,7 @@ def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
     assert lit > before + 6.0
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("by", [
     "modifier", *(pytest.param(by, marks=pytest.mark.slow) for by in ("shape key", "armature"))])
 def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflected(blank, room, by):
@@ -72,6 +74,7 @@ def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflect
     assert (set(bpy.data.shape_keys), set(bpy.data.scenes)) == kept
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", [pytest.param("is_shadow_catcher", marks=pytest.mark.slow), "is_holdout"])
 def test_what_the_camera_does_not_see_as_it_is_mirrors_do(blank, room, name):
     scene_of(blank)
@@ -82,6 +85,7 @@ def test_what_the_camera_does_not_see_as_it_is_mirrors_do(blank, room, name):
     assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("link", "name", "state"), [
     ("receiver_collection", "Floor", "INCLUDE"), *(pytest.param(*case, marks=pytest.mark.slow) for case in (
         ("receiver_collection", "Floor", "EXCLUDE"), ("blocker_collection", "Box", "EXCLUDE")))])
@@ -105,6 +109,7 @@ def test_lamps_light_what_they_are_linked_to(blank, room, link, name, state):
     assert not linked.objects and list(inner.objects) == [bpy.data.objects[name]]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("turned", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_mirrors_in_mirrors_show_the_side_that_they_see(blank, room, turned):
     """A card whose one side is red, and whose other is blue: the wall shows one of them, and in the mirror behind the
@@ -128,6 +133,7 @@ def test_mirrors_in_mirrors_show_the_side_that_they_see(blank, room, turned):
     assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("bounces", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_lamps_light_no_more_bounces_than_they_may(blank, room, bounces):
     """Of a lamp's two objects each is out: what mirrors show is lit a bounce later."""
@@ -205,6 +211,7 @@ def test_the_sun_of_a_picture_of_the_sky_is_found(blank, room):
     assert set(bpy.data.worlds) == {world} and blank.scene.world == world
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("output", [
     "UV", *(pytest.param(output, marks=pytest.mark.slow) for output in ("Object", "UV map"))])
 def test_textures_of_the_mirror_stay_where_they_are_on_it(blank, room, output):

@@ -43,6 +43,7 @@ def test_what_is_hidden_meanwhile_takes_no_part(blank, room):
         light(1)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("stage", "times"), [("Reading", 1), ("Measuring", 1), ("Copying", 1), ("Copying", 2),
                                               ("Baking light", 1), ("Baking light", 2), *(("Writing", times)
                                                                                           for times in range(1, 6))])
@@ -157,6 +158,7 @@ def test_linked_objects_are_baked_under_their_names(blank, tmp_path):
     assert result.reflection_mesh.light_map is not None and not box.hide_render and box.name == "Box"
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("mirror", "placement", "told"), [
     ("Fresnel", "SURFACE", True), ("Fresnel", "VIRTUAL", True), ("Fresnel", "LAYERED", False),
     ("Tint", "SURFACE", False)])
@@ -168,6 +170,7 @@ def test_where_mirrors_shadow_their_own_matte_part_that_is_said(blank, capsys, m
     assert ("The matte part of 'Mirror' is lit where the reflection lies" in capsys.readouterr().out) == told
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("placement", "wide", "told"), [
     ("VIRTUAL", False, True), ("VIRTUAL", True, False), ("LAYERED", False, False)])
 def test_what_a_window_does_not_show_any_more_is_said(blank, capsys, placement, wide, told):

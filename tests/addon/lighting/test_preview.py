@@ -22,6 +22,7 @@ def facing_card(blank, colour=(0.2, 0.5, 0.8), **inputs) -> bpy.types.Object:
     return wall
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("energy", [0.0, 250.0])
 def test_it_shows_colours_in_the_mirrors_tint_whatever_lamps_there_are(blank, room, energy):
     facing_card(blank)
@@ -57,6 +58,7 @@ def test_a_flat_mirror_shows_how_what_is_round_is_round(blank, room):
     assert radius > 15.0 and np.abs(red[rows, columns][inner] / expected - 1.0).max() < 0.1
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", [
     "Fresnel", "Tint", *(pytest.param(kind, marks=pytest.mark.slow) for kind in ("Layer weight", "Water", "Varnish"))])
 @pytest.mark.parametrize("turned", [False, True])
@@ -93,6 +95,7 @@ def test_a_mirror_shows_as_much_of_what_shines_as_it_reflects(blank, room, kind,
     assert np.quantile(inside, 0.9) < 0.03
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("coordinates", ["Object", "UV", ""])
 @pytest.mark.parametrize("mixed", ["Principled", *(pytest.param(kind, marks=pytest.mark.slow)
                                                    for kind in ("", "Diffuse"))])

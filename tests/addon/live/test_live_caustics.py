@@ -40,6 +40,7 @@ def generated(scene, *lamps) -> tuple:
     return shape(scene.light)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["mirror", "lamp", "floor", "wall"])
 def test_it_is_right_at_rest(scene, clock, name):
     """One change: light on the way and light at rest, and nothing for what Live itself writes."""
@@ -52,6 +53,7 @@ def test_it_is_right_at_rest(scene, clock, name):
     assert at_rest != before and at_rest == generated(scene)
 
 
+@pytest.mark.thorough
 def test_a_lamp_without_a_move(scene, clock):
     """Its power, its colour; and what nothing depends on: the camera."""
     scene.lamp.data.use_nodes = True

@@ -4,12 +4,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import bpy
+import pytest
 from live_scene import moved, switched_on
 
 SPHERE = Path(__file__).resolve().parents[3] / "sample_blends" / "sphere.blend"
 MOVES = 25
 
 
+@pytest.mark.thorough
 def test_ten_updates_a_second_while_the_camera_moves(room):
     """Each shows another picture than the last, and takes what Live says that it does; new results, which are made in
     the time between two of them, count for nothing here."""

@@ -18,6 +18,7 @@ def told(room):
     return asked
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "word"), [("mirror", "mirror"), ("lamp", "lamp"), ("floor", "lit"), ("wall", "way")])
 def test_stale_light_says_so_and_is_made_anew(scene, told, name, word):  # noqa: F811
     assert told(scene.light) == ""

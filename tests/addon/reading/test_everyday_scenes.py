@@ -175,6 +175,7 @@ def difference(result) -> tuple:
     return float((pictures[0] != pictures[1]).any(axis=1).mean()), float(pictures[0][:, 0].mean())
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("case", ["holdout source", "holdout mirror", "indirect source", "indirect mirror",
                                   "no glossy rays", "tiny", "huge", "stretched"])
 def test_cycles_shows_the_same(ball_scene, case):

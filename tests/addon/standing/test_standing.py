@@ -58,6 +58,7 @@ def is_right(room) -> dict:
     return found
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("change", CHANGES, ids=[change.__name__ for change in CHANGES])
 def test_what_has_changed_is_seen(scene, room, change):
     before = made()
@@ -119,6 +120,7 @@ def test_when_the_eye_moves_nothing_is_read_again(scene, room, read):
     assert read == []
 
 
+@pytest.mark.thorough
 def test_any_moves_at_random(scene, room):
     rng, names = np.random.default_rng(11), ["Ball", "Box", "Cone", "Ring", scene.camera.name]
     moves = [vertices_written, uv_moved, other_scale, turned, smooth, mirror_bent, in_edit_mode]

@@ -156,6 +156,7 @@ def least(steps) -> float:
     return min(tries)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", [
     "sphere", "water", "bowl", "mirrors", "room", "pond", pytest.param("suzanne", marks=pytest.mark.slow)])
 def test_no_step_keeps_the_window_waiting(room, name):
@@ -182,6 +183,7 @@ def test_no_step_of_finding_many_pieces_keeps_the_window_waiting(room):
     assert least(lambda: core.in_steps(lambda: core.picture_pieces(view, mesh, 1e-4))) < 0.5
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["sphere", "pool", pytest.param("suzanne", marks=pytest.mark.slow)])
 def test_no_step_of_caustics_keeps_the_window_waiting(room, name):
     module, settings, choose = room("addon.operators.caustics"), room("core").Settings(), room("addon.reading").choose
