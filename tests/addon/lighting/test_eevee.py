@@ -46,6 +46,7 @@ def lit_ball(context: bpy.types.Context, kind: str, shining: bool) -> bpy.types.
     return result
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind, shining, least", [("PICTURE", False, 40.0), ("PICTURE", True, 40.0),
                                                   ("OBJECTS", False, 36.0)])
 def test_a_lit_ball_looks_as_in_cycles(blank, room, kind, shining, least):
@@ -59,6 +60,7 @@ def test_a_lit_ball_looks_as_in_cycles(blank, room, kind, shining, least):
     assert -10.0 * np.log10((error**2).mean()) > least
 
 
+@pytest.mark.thorough
 def test_caustics_are_as_bright_as_in_cycles(blank, room):
     caustic_scene.scene_of()
     bpy.ops.reflection_mesh.caustics()
@@ -76,6 +78,7 @@ def test_caustics_are_as_bright_as_in_cycles(blank, room):
     assert np.allclose(by_eevee.sum(axis=(0, 1)), by_cycles.sum(axis=(0, 1)), rtol=0.03)
 
 
+@pytest.mark.thorough
 def test_a_preview_is_as_open_as_its_mirror(blank, room):
     """A card that shines, seen straight on in a golden mirror that is half open, alone."""
     wall, gold = scene_of(blank, "", "Tint"), (0.95, 0.7, 0.35)

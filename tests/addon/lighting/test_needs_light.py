@@ -50,6 +50,7 @@ def judged(room, scene: bpy.types.Scene) -> float:
     return psnr(picture(room), reference)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ASKED)
 def test_what_emits_by_the_ray_the_side_or_the_object_is_lit(blank, room, kind):
     emitting(kind)
@@ -58,6 +59,7 @@ def test_what_emits_by_the_ray_the_side_or_the_object_is_lit(blank, room, kind):
     assert bpy.data.objects["Mirror Reflection"].reflection_mesh.light_material is not None
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", CARRIED)
 def test_what_emits_by_what_a_reflection_carries_is_right_without(blank, room, kind):
     emitting(kind)
@@ -66,6 +68,7 @@ def test_what_emits_by_what_a_reflection_carries_is_right_without(blank, room, k
     assert bpy.data.objects["Mirror Reflection"].reflection_mesh.light_material is None
 
 
+@pytest.mark.thorough
 def test_fog_before_what_emits_is_in_its_light(blank, room):
     emitting("UV")
     world = blank.scene.world = bpy.data.worlds.new("Air")

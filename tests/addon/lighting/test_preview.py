@@ -165,6 +165,7 @@ def wrong_pixels(room, depth: int, lit: bool) -> float:
     return float((np.abs(picture(room) - reference).max(axis=2) > 0.05).mean())
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("lit", [False, True])
 @pytest.mark.parametrize("body", [False, True])
 def test_mirrors_in_mirrors_take_their_share(blank, room, body, lit):
@@ -176,6 +177,7 @@ def test_mirrors_in_mirrors_take_their_share(blank, room, body, lit):
     assert wrong_pixels(room, 2, lit) < 0.001
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("lit", "metal"), [(False, False), (True, False), (True, True)])
 def test_each_of_several_mirrors_in_mirrors_takes_its_own_share(blank, room, lit, metal):
     """Three that meet in a corner, each of its own colour, by up to three mirrors: as Cycles shows them. Metals take
@@ -251,6 +253,7 @@ def test_the_share_of_later_mirrors_follows_their_materials_when_lit_again(blank
     assert (wrong > 0.05).mean() < 0.001
 
 
+@pytest.mark.thorough
 def test_what_is_open_leaves_the_mirror_s_ground_to_what_lies_behind(blank, room):
     """Half a card before another: as a picture of the two in a mirror that reflects half."""
     wall = scene_of(blank, "", "Fresnel")
@@ -277,6 +280,7 @@ def test_what_is_open_leaves_the_mirror_s_ground_to_what_lies_behind(blank, room
     assert np.abs(shown - (1.055 * linear ** (1 / 2.4) - 0.055)).max() < 0.01
 
 
+@pytest.mark.thorough
 def test_what_emits_shines_in_it_and_what_is_open_is_open(blank, room):
     facing_card(blank, (0.0, 0.0, 0.0), Alpha=0.5, **{"Emission Color": (1.0, 0.5, 0.25, 1.0),
                                                       "Emission Strength": 0.5})
@@ -314,6 +318,7 @@ def test_light_takes_its_place_and_clear_takes_it_away(blank):
     assert set(bpy.data.materials) == before
 
 
+@pytest.mark.thorough
 def test_it_stays_and_follows_the_tint_when_generated_again(blank, room):
     wall = facing_card(blank)
     parts.generate(preview=True)
@@ -389,6 +394,7 @@ def test_an_error_while_writing_leaves_none(blank, room, monkeypatch):
     assert made and lit_state() == before
 
 
+@pytest.mark.thorough
 def test_a_source_without_material_is_grey(blank, room):
     facing_card(blank)
     bpy.data.objects["Card"].data.materials.clear()

@@ -43,6 +43,7 @@ def _ball(kind: str) -> bpy.types.Object:
     return ball
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("kind", "faces"), [
     ("metals", "whole"), *(pytest.param(kind, "cut", marks=pytest.mark.slow)
                            for kind in ("metals", "varnish and glass"))])
@@ -59,6 +60,7 @@ def test_light_on_objects_is_reflected_by_each(blank, room, monkeypatch, kind, f
     assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
+@pytest.mark.thorough
 def test_previews_have_the_tint_of_each(blank, room):
     wall = scene_of(blank, "", "Tint")
     card = parts.add("plane", "Card", size=3.0, location=(0.0, -8.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
@@ -113,6 +115,7 @@ def test_no_face_lies_on_two_of_them(blank):
     assert over_both.max() < 1e-4
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["vertices", pytest.param("nodes", marks=pytest.mark.slow)])
 def test_instances_of_a_mirror_reflect_as_what_is_instanced(blank, room, kind):
     """The mirror, which instances it, has no material of its own."""

@@ -73,6 +73,7 @@ def difference(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.abs(one - other)[20:-20, 20:-20].max(axis=2)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", LAMPS)
 def test_a_preview_has_the_lamps_that_cycles_shows(blank, room, kind):
     reference, seen = seen_lamp(scene_with(blank, kind), room)
@@ -82,6 +83,7 @@ def test_a_preview_has_the_lamps_that_cycles_shows(blank, room, kind):
     assert np.median(wrong[seen]) < 0.01 and np.quantile(wrong, 0.98) < 0.05
 
 
+@pytest.mark.thorough
 def test_light_on_objects_has_them_too(blank, room):
     reference, seen = seen_lamp(scene_with(blank, "Rectangle"), room)
     parts.generate(tolerance=2.0)
@@ -90,6 +92,7 @@ def test_light_on_objects_has_them_too(blank, room):
     assert np.median(wrong[seen]) < 0.01 and np.quantile(wrong, 0.98) < 0.05
 
 
+@pytest.mark.thorough
 def test_a_lamp_is_light_that_is_still_to_come(blank, room):
     """Where all that is reflected shines by itself, in a plain white mirror, too."""
     lamp = scene_with(blank, "Square")
@@ -112,6 +115,7 @@ def test_a_blender_without_cycles_has_lamps_too(room):
     assert room("addon.illumination").is_met(plain)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["visible_glossy", "multiple importance", "far"])
 def test_what_the_mirror_does_not_show_is_not_there(blank, room, name):
     lamp = scene_with(blank, "Square")
