@@ -252,7 +252,7 @@ def freestyle(result: bpy.types.Object, tmp_path) -> np.ndarray:
     return np.column_stack((column, row)) + 0.5
 
 
-@pytest.mark.feature("lines")
+@pytest.mark.thorough
 def test_freestyle_draws_the_edges_of_a_cube(cube, tmp_path):
     parts.select(cube, add_mirror("ball"))
     drawn = freestyle(parts.generate(), tmp_path)

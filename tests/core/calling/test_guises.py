@@ -217,7 +217,8 @@ def test_mirrored_and_sheared_cameras_are_right(kind, name, monkeypatch):
     if not view.orthographic:
         monkeypatch.setattr(View, "forward", property(lambda self: across))
     found = judge(view, case.mirror, case.scene, mesh, trace(view, case.mirror, case.scene))
-    assert found["compared"] > 3000 and found["p99"] < 0.5 and found["uncovered"] < 0.1
+    # measured: up to 0.28 pixels, and 0.065 %, four pixels
+    assert found["compared"] > 3000 and found["p99"] < 0.45 and found["uncovered"] < 0.1
 
 
 @pytest.mark.parametrize("name", ["sphere_ico", "sphere_ortho"])

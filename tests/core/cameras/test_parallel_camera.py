@@ -46,7 +46,8 @@ def test_both_methods_agree_on_a_flat_mirror_in_an_orthographic_view():
     for method in ("GENERAL", "PARALLEL"):
         numbers = compare(case.view, case.mirror, mesh_of("flat_ortho", method=method), truth).numbers
         assert numbers["maximum"] < 1e-6
-        assert numbers["uncovered"] < 0.02
+        # no pixel, of 0.003 %, differs
+        assert numbers["uncovered"] < 0.006
 
 
 def test_the_parallel_method_is_off_by_far_more_on_a_curved_mirror():

@@ -63,8 +63,8 @@ def test_ordinary_scenes_need_hardly_a_ray(name):
     assert counts["filled_pixels"] < (0.003 if name == "torus" else 0.0003) * counts["mirror_pixels"]
 
 
-@pytest.mark.parametrize("tolerance", [2.0, 0.5, 0.25])
-def test_pixels_that_show_much_of_the_scene_are_filled_by_rays_sooner_than_cut(tolerance, monkeypatch):
+@pytest.mark.parametrize(("tolerance", "measured"), [(2.0, 0.077), (0.5, 0.056), (0.25, 0.027)])
+def test_pixels_that_show_much_of_the_scene_are_filled_by_rays_sooner_than_cut(tolerance, measured, monkeypatch):
     # a ring before 9,000 triangles, in a picture of 64 pixels: what lies over one another in them nobody can see
     case = case_of("torus", 64)
     scene = shapes.combine(*(shapes.icosphere((x, y, 0.5), 0.5, 3)
@@ -80,7 +80,8 @@ def test_pixels_that_show_much_of_the_scene_are_filled_by_rays_sooner_than_cut(t
     assert len(filled.triangles) < 0.75 * len(exact.triangles)
     numbers, before = (compare(case.view, case.mirror, mesh, truth).numbers for mesh in (filled, exact))
     # through the pixels' middles go the rays that a ray tracer takes
-    assert numbers["p99"] < 0.5 * tolerance and numbers["uncovered"] <= before["uncovered"] < max(0.1, 0.1 * tolerance)
+    # measured: 0.068 % uncovered both, one pixel
+    assert numbers["p99"] < 1.7 * measured and numbers["uncovered"] <= before["uncovered"] < 0.14
 
 
 def first_triangle(scene, origin, ray):

@@ -203,7 +203,8 @@ def test_single_precision_rounds_about_the_mirror():
     exact, rounded = (compare(view, mirror, mesh, truth, single_precision=single) for single in (False, True))
     shift = np.nanmax(np.abs(exact.position - rounded.position))
     assert 1e-10 < shift < 1e-6
-    assert rounded.numbers["uncovered"] < 0.1
+    # measured: none; a pixel is 0.012 %
+    assert rounded.numbers["uncovered"] < 0.025
 
 
 def test_images_show_the_kinds_in_their_colours(tmp_path):
