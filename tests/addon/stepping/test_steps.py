@@ -192,6 +192,7 @@ def test_no_step_of_caustics_keeps_the_window_waiting(room, name):
                                                     module.Asked(1, lambda mirror: settings, True))) < 0.5
 
 
+@pytest.mark.thorough
 def test_no_step_of_judging_caustics_by_rays_keeps_the_window_waiting(room):
     """Each throw of rays was one."""
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "dish.blend"))
@@ -202,6 +203,7 @@ def test_no_step_of_judging_caustics_by_rays_keeps_the_window_waiting(room):
     assert least(lambda: light.against_rays(depsgraph, result, light.Lit.of(result), around, 400_000)) < 0.5
 
 
+@pytest.mark.thorough
 def test_no_step_of_packing_a_picture_keeps_the_window_waiting(room):
     report, values = room("addon.report"), np.random.default_rng(3).random((4320, 3840)) + 1e-3
     assert least(lambda: room("core").in_steps(lambda: report.heat_map(values, 1e-3, 1.0))) < 0.5
@@ -236,6 +238,7 @@ def test_no_step_of_packing_a_sheet_keeps_the_window_waiting(room, sheet, blank,
     assert least(lambda: place.printing(blank, blank.scene.camera, str(tmp_path / "sheet.png"), "Rich", 300.0)) < 0.5
 
 
+@pytest.mark.thorough
 def test_no_step_of_light_but_its_renders_keeps_the_window_waiting(room):
     """Bright lamps in a large picture: bringing their borders nearer took two seconds at once."""
     texels = room("addon.lighting.picture.texels")
@@ -247,6 +250,7 @@ def test_no_step_of_light_but_its_renders_keeps_the_window_waiting(room):
     assert least(lambda: texels.texels_of(light, covered, kernel, 1.0)) < 0.5
 
 
+@pytest.mark.thorough
 def test_no_step_of_measuring_a_large_picture_keeps_the_window_waiting(room):
     metrics, size = room("addon.metrics"), (1440, 2560)
     rows, columns = np.mgrid[:size[0], :size[1]].astype(np.float64)

@@ -69,6 +69,7 @@ def generated_as_mirrored(room, **options) -> bpy.types.Object:
     return result
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("kind", "domain", "output"), [
     *((kind, domain, "Color") for kind in TYPES for domain in ("POINT", "CORNER", "FACE")),
     *((kind, "POINT", "Fac") for kind in TYPES)])
@@ -162,6 +163,7 @@ def test_names_that_a_result_needs_for_itself_stay_its_own(blank, name):
     assert np.isfinite(parts.attribute(result, "position")).all() and not result.data.validate(verbose=True)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["FLOAT", "FLOAT_VECTOR", "FLOAT_COLOR"])
 def test_points_have_them_too(blank, room, kind):
     board = board_and_mirror(blank)

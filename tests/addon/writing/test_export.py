@@ -142,6 +142,7 @@ def test_what_is_not_lit_yet_has_the_colours_of_what_it_shows(blank, tmp_path, p
     assert "emissiveFactor" not in told
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["glb", "usdc"])
 def test_vertex_colours_arrive_where_every_result_is_lit(blank, room, tmp_path, kind):
     """Emission by vertex colours needs no light, and in glTF is white: the picture of it is not."""
@@ -260,6 +261,7 @@ def scan_before_a_floor_mirror(context: bpy.types.Context, options: dict) -> bpy
     return parts.generate(method="POINTS", **options)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("attributes", ["ALL", "SHOWN"])
 def test_discs_show_their_light_in_solid_view_and_in_usd(blank, room, tmp_path, attributes):
     """The map that is taken where none is named is the light's, as with faces; before they are lit, the source's."""

@@ -47,6 +47,7 @@ def test_line_art_draws_the_visible_edges_of_a_cube_and_nothing_else(cube, kind,
     assert off_lines(dense(strokes), expected).max() < 1.5
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind, placement", [("wall", "LAYERED"), ("wall", "VIRTUAL"), ("ball", "LAYERED")])
 def test_where_objects_pass_through_each_other_line_art_draws_that_if_it_may(cube, kind, placement):
     """All of it and nothing else, once the user lets the result have intersections."""
@@ -121,6 +122,7 @@ def shows_floor(mirror: bpy.types.Object, spots: np.ndarray) -> np.ndarray:
     return np.array(found)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind, options", [
     ("uv_sphere", {"radius": 2.2, "segments": 24, "ring_count": 12, "location": (0.07, 0.6, 2.2)}),
     ("torus", {"major_radius": 1.6, "minor_radius": 0.7, "major_segments": 96, "minor_segments": 48,
@@ -198,6 +200,7 @@ def test_marks_lie_on_the_marked_edge(blank, room, chosen):
     assert (marks == expected).all() and 0 < np.any(outer, axis=0).sum() < len(marks)
 
 
+@pytest.mark.thorough
 def test_line_art_takes_creases_from_sharp_edges(cube):
     """The three edges round the corner of a cube that is nearest; where its surface turns over there are contours."""
     parts.select(cube, add_mirror("ball"))
@@ -287,6 +290,7 @@ def rendered(tmp_path) -> np.ndarray:
     return shown
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind, depth, placement", [
     ("wall", 1, "LAYERED"), ("wall", 2, "VIRTUAL"), *(pytest.param(*case, marks=pytest.mark.slow) for case in (
         ("wall", 1, "VIRTUAL"), ("ball", 1, "LAYERED"), ("wall", 2, "LAYERED")))])

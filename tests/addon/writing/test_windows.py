@@ -65,6 +65,7 @@ def test_a_mirror_is_seen_again_when_its_result_is_gone(scene, delete):
     assert (mirror.visible_camera, mirror.reflection_mesh.camera_hidden) == before == (True, False)
 
 
+@pytest.mark.thorough
 def test_a_render_shows_it_though_nothing_has_asked_for_the_change_before(scene, room):
     """Between deleting by a script and rendering there may be no update."""
     rendering, here = room("addon.rendering"), bpy.context.scene

@@ -49,6 +49,7 @@ def test_a_uv_map_with_the_name_of_an_attribute_takes_no_place(blank, method):
         assert len(mesh.uv_layers) == 8 and mesh.uv_layers[0].active_render and mesh.uv_layers.active_index == 0
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["sphere", "flat_mirror", "cylinder", "water", "bowl", "suzanne"])
 def test_samples_give_valid_meshes(name):
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{name}.blend"))
