@@ -317,7 +317,7 @@ def test_the_verb_writes_maps_and_prints(wall, room, tmp_path, capsys):
     output, sheet = tmp_path / "mapped.blend", tmp_path / "sheet.svg"
     assert room("addon.command_line").run(
         ["mirror-uvs", "--mirror", "Mirror", "--diffuse", "Sheet", "--picture", picture, "--fills", "WHOLE", "--print",
-         str(sheet), "--dpi", "4", "--output", str(output)]) == 0
+         str(sheet), "--dpi", "10", "--output", str(output)]) == 0
     assert "'Sheet Anamorphosis'" in capsys.readouterr().out and sheet.stat().st_size > 1000
     bpy.ops.wm.open_mainfile(filepath=str(output))
     assert UV_MAP in bpy.data.objects["Sheet Anamorphosis"].data.uv_layers

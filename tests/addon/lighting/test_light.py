@@ -9,25 +9,25 @@ from lamp_scenes import link, picture, principled, psnr, scene_of
 
 SOURCES = ("Generated", "Object", "Normal", "UV", "Camera", "Window", "Reflection", "Bump", "Normal map", "Random",
            "Instances", "View distance", "Attribute", "Gloss", "Glass", "Alpha", "Backfacing", "Light path")
-MIRRORS = ("Tint", "Textured tint", "Rough", "Fresnel", "Layer weight")
-# gloss, and a texture in a mirror that has a part of its own; of others one Blender tells as much as three
-QUICK = {("Gloss", ""), ("UV", "Fresnel")}
-KINDS = [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)]
+# measured in dB; of a plain mirror 43.2 to 46.4 for all sources
+PLAIN = 43.2
+MIRRORS = {"Tint": 47.1, "Textured tint": 44.9, "Rough": 44.6, "Fresnel": 53.9, "Layer weight": 51.7}
+# a texture in a mirror that has a part of its own, and gloss; of others one Blender tells as much as three
+MARKS = {("UV", "Fresnel"): (), ("Gloss", ""): pytest.mark.thorough}
+KINDS = [*((kind, "", PLAIN) for kind in SOURCES), *(("UV", kind, measured) for kind, measured in MIRRORS.items())]
 
 
 @pytest.mark.feature("light")
-@pytest.mark.parametrize(("source", "mirror"), [
-    kinds if kinds in QUICK else pytest.param(*kinds, marks=pytest.mark.slow) for kinds in KINDS])
-def test_a_lit_reflection_is_what_the_mirror_shows(blank, room, source, mirror):
+@pytest.mark.parametrize(("source", "mirror", "measured"), [
+    pytest.param(*kinds, marks=MARKS.get(kinds[:2], pytest.mark.slow)) for kinds in KINDS])
+def test_a_lit_reflection_is_what_the_mirror_shows(blank, room, source, mirror, measured):
     scene_of(blank, source, mirror)
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     before = psnr(picture(room), reference)
     assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
-    lit, noise = psnr(picture(room), reference), psnr(other, reference)
-    assert lit > min(38.0, noise - 1.5)
-    # without its light it is another picture
-    assert lit > before + 6.0
+    # without its light it is another picture, of 19 to 22 dB
+    assert psnr(picture(room), reference) > measured - 2.5 > before + 12.0
 
 
 @pytest.mark.slow
