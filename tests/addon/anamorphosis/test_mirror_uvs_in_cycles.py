@@ -76,6 +76,7 @@ def test_cycles_shows_the_picture_in_the_mirror_within_a_pixel(tmp_path, aspect)
     assert area == pytest.approx(of_sheet.sum(), rel=0.01)
 
 
+@pytest.mark.thorough
 def test_faces_that_the_mirror_sees_edge_on_get_the_picture_where_they_are_seen(tmp_path):
     """All but 8 pixels, along a silhouette, were right as long as any piece of an image counted that held a point."""
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLE.with_name("cylinder.blend")))

@@ -33,6 +33,7 @@ def printed(copy: bpy.types.Object, tmp_path: Path) -> np.ndarray:
     return decoded(path.read_bytes())[0]
 
 
+@pytest.mark.thorough
 def test_what_is_clear_has_no_colour_that_edges_mix_in(wall, tmp_path):
     """A red disc on clear black is red on white, and nowhere darker."""
     y, x = np.mgrid[:16, :16] - 7.5

@@ -180,6 +180,7 @@ def test_through_pypis_bpy(saved, tmp_path):
     assert faces_in(tmp_path / "result.blend") > 0
 
 
+@pytest.mark.thorough
 def test_pypis_bpy_without_a_file(tmp_path):
     done = with_bpy(tmp_path / "none.blend", "generate")
     assert done.returncode == 1 and "Traceback" not in done.stderr and done.stderr.count("\n") == 1
@@ -196,6 +197,7 @@ def test_pypis_bpy_without_a_verb(room, capsys):
     assert sorted(told) == sorted(verbs)
 
 
+@pytest.mark.thorough
 def test_pypis_bpy_takes_several_files_for_a_benchmark_alone(tmp_path):
     done = with_bpy(tmp_path / "one.blend", tmp_path / "two.blend", "generate")
     assert done.returncode == 2 and done.stderr.startswith("Usage:")

@@ -180,6 +180,7 @@ def test_a_method_that_refuses_is_left_out_and_said(rooms, wall):
     assert not runs and len(said) == 1 and "It cannot do this." in said[0]
 
 
+@pytest.mark.thorough
 def test_finer_places_seen_by_the_eye_are_paid_for(rooms, ball):
     scene = judged(rooms, ball)
     free = replace(scene.hits, seconds={"drawing": 0.0})

@@ -99,6 +99,7 @@ def test_the_file_stays_as_it_was_wherever_it_is_stopped(lit, room, tmp_path):
     assert (tmp_path / "out" / "report.html").exists()
 
 
+@pytest.mark.thorough
 def test_an_error_between_two_renders_leaves_the_file_as_it_was(lit, room, monkeypatch, tmp_path):
     pictures, before, count = room("addon.comparison.light_pictures"), whole(), []
     rendering = pictures.rendering

@@ -122,6 +122,7 @@ def test_rmse_and_psnr_agree_with_scikit_image(rooms):
                                               rel=1e-12)
 
 
+@pytest.mark.thorough
 def test_ssim_agrees_with_scikit_image_in_every_pixel(rooms):
     metrics = pytest.importorskip("skimage.metrics")
     for result in changed():

@@ -98,6 +98,7 @@ def test_a_spoilt_record_counts_as_none(scene, room, text):
     assert (now.labels, list(now.made)) == (before.labels, list(before.made))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("text", NOT_COUNTS)
 def test_spoilt_counts_count_as_none(scene, room, text):
     result = bpy.data.objects["Mirror Reflection"]

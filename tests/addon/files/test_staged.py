@@ -87,6 +87,7 @@ def test_a_picture_that_does_not_become_whole_is_told(saved_scene, room, tmp_pat
     assert str(tmp_path / "out") in refused(tmp_path / "out")
 
 
+@pytest.mark.thorough
 def test_a_full_scratch_folder_is_named(saved_scene, tmp_path):
     out = tmp_path / "out"
     done = subprocess.run(**faults.command(saved_scene, "compare", "--output", out, "--samples", 1, limit=500,

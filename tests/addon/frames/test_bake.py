@@ -85,6 +85,7 @@ def test_a_frame_makes_no_more_pictures_than_it_plays(moving, room, monkeypatch,
     assert bpy.ops.reflection_mesh.light(samples=4, kind="PICTURE") == {"FINISHED"} and len(made) == 4
 
 
+@pytest.mark.thorough
 def test_where_nothing_is_seen_nothing_is_shown(moving, room, tmp_path):
     """The cube leaves, or is hidden: those frames are baked, and empty."""
     cube = bpy.data.objects["Box"]
@@ -121,6 +122,7 @@ def test_blur_is_answered(moving, room, tmp_path, capsys):
     assert "Motion blur: " in told and "Depth of field: " in told
 
 
+@pytest.mark.thorough
 def test_the_operator_lets_results_play(moving, room, tmp_path):
     """One that is there plays in place; generated again it is a still, and cleared it leaves nothing."""
     parts.select()

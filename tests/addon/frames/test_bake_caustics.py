@@ -91,6 +91,7 @@ def test_a_lamp_that_goes_out_and_several_materials(thrown, room, tmp_path):
         assert_same(told, frame, "Mirror Caustics", wanted)
 
 
+@pytest.mark.thorough
 def test_what_mirrors_do_not_show_is_lit(thrown, room, tmp_path):
     """Of a floor that is hidden from glossy rays frames had no light."""
     bpy.data.objects["Floor"].visible_glossy = False
@@ -102,6 +103,7 @@ def test_what_mirrors_do_not_show_is_lit(thrown, room, tmp_path):
     assert_same(told, 2, "Mirror Caustics", expected(2, "Mirror Caustics"))
 
 
+@pytest.mark.thorough
 def test_reflections_and_light_play_in_one_file(thrown, room, tmp_path):
     """The second is baked with the file that plays the first."""
     out = tmp_path / "out"
@@ -145,6 +147,7 @@ def test_the_operator_lets_caustics_play_in_place(thrown, room, tmp_path):
     assert parts.state() == empty and not bpy.data.cache_files
 
 
+@pytest.mark.thorough
 def test_several_lamps_have_a_sequence_each(thrown, room, tmp_path):
     """Hidden in one frame, a lamp's own is empty there; frames that are there are kept."""
     other = add_lamp("Other", "SUN", (0.0, -1.0, 3.0))

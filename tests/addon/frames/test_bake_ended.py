@@ -32,6 +32,7 @@ def test_what_is_there_is_kept_or_made_again(moving, room, tmp_path, capsys):
     assert set(faults.contents(out)) == set(whole) and faults.contents(out) != whole
 
 
+@pytest.mark.thorough
 def test_chunks_in_any_order_give_the_same_files(moving, room, tmp_path):
     one, other = tmp_path / "one", tmp_path / "other"
     common = ("--light", "4", "--frames-only", "--output")

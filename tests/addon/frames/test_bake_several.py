@@ -10,6 +10,7 @@ from baked_frames import FRAMES, add_camera, assert_same, bake, expected, names,
 from played import generated, played
 
 
+@pytest.mark.thorough
 def test_markers_choose_the_camera(moving, room, tmp_path):
     scene = bpy.context.scene
     second = add_camera("Second", (2.0, -6.0, 1.0), (1.5, 0.0, 0.3))

@@ -40,6 +40,7 @@ def faces_shown(frame: int, name: str = "Mirror Reflection") -> int:
     return len(bpy.data.objects[name].evaluated_get(bpy.context.evaluated_depsgraph_get()).data.polygons)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("goes", [hide, move_out_of_view, shrink, build])
 @pytest.mark.parametrize("who", ["Mirror", "Box"])
 def test_a_frame_without_anything_to_see_is_empty_and_the_others_are_baked(moving, tmp_path, capfd, who, goes):

@@ -92,6 +92,7 @@ CHANGES = {
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("change", CHANGES)
 def test_each_change_of_the_file_is_found(result, change):
     before = state()

@@ -257,6 +257,7 @@ def test_what_only_the_object_knows_is_told(blank, capfd):
     assert "The colour of 'Paint' is not known all over" in capfd.readouterr().out
 
 
+@pytest.mark.thorough
 def test_a_mirror_of_several_colours(blank, tmp_path, capfd):
     """Each of its materials throws its own: as the two halves of the mirror alone, seam included."""
     floor, mirror, lamp = scene_of()

@@ -254,6 +254,7 @@ def test_a_number_of_layers_that_the_user_changed_stays(blank):
     assert cycles.transparent_max_bounces == 50
 
 
+@pytest.mark.thorough
 def test_layers_that_a_shiny_floor_mirrors_once_more_are_followed(blank):
     floor, _, _ = scene_of(shadow_soft_size=0.1)
     cycles = blank.scene.cycles
@@ -282,6 +283,7 @@ def test_what_is_lit_as_well_as_it_mirrors_stays_lit(blank, room, tmp_path, capf
     assert "as it mirrors" not in capfd.readouterr().out and lamp.light_linking.receiver_collection is None
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("gloss", ["PRINCIPLED", "mixed"])
 def test_a_glossy_floor_counts_its_layers_twice(blank, gloss):
     """What it mirrors of itself, as by a wall that it shows, lies under as many again."""

@@ -8,6 +8,7 @@ import pytest
 from caustic_scene import light_and_lamp_behind, scene_of
 
 
+@pytest.mark.thorough
 def test_light_that_diffuse_rays_see_lights_others_as_in_cycles(blank, tmp_path):
     """A wall that turns its back to the mirror, lit by the floor alone; the switch stays when light is made again."""
     floor, mirror, lamp = scene_of()

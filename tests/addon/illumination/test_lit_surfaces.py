@@ -17,6 +17,7 @@ def on_a_ball(floor: bpy.types.Object, smooth: bool) -> None:
     bpy.data.objects.remove(ball)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("smooth", [False, True])
 def test_smooth_faces_are_lit_smoothly(blank, tmp_path, smooth):
     floor, mirror, lamp = scene_of()

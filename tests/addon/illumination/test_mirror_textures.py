@@ -194,6 +194,7 @@ def test_light_grows_with_the_colour_as_with_fresnel(room):
     assert np.allclose(grown, other.at(cosine), atol=1e-12)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["GLOSSY", "PRINCIPLED"])
 def test_every_mirror_on_the_way_leaves_its_colour(blank, room, kind):
     """A mirror throws light on a second one, of another metal, at an angle of its own, and that on the floor."""

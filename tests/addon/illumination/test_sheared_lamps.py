@@ -33,6 +33,7 @@ def seen_in_a_mirror(kind: str) -> bpy.types.Object:
     return lamp
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", KINDS)
 def test_it_is_as_large_and_as_bright_as_mirrors_show_it(blank, room, tmp_path, kind):
     lamp = seen_in_a_mirror(kind)

@@ -108,6 +108,7 @@ def test_a_number_that_changes_makes_light_stale(blank, room):
     assert stale(bpy.context, result) == "what is lit has changed"
 
 
+@pytest.mark.thorough
 def test_where_light_ends_is_told(blank, capfd):
     """At a texture that tells how much goes through, and at a third sheet."""
     mirror, lamp, made = scene_with(ONE, OTHER, UPRIGHT)

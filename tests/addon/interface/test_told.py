@@ -148,6 +148,7 @@ def test_what_was_done_is_told_in_german(blank, room, german, monkeypatch):
         "'/tmp'; überschreibe sie, oder wähle einen anderen Ordner, damit alle gleich sind.")
 
 
+@pytest.mark.thorough
 def test_no_stage_lacks_its_german(room, german):
     """And none is translated that no work has."""
     translated, known = room("addon.faults").translated_stage, room("addon.interface.german").STAGES

@@ -53,6 +53,7 @@ def test_it_is_what_the_mirror_shows(blank, room, monkeypatch, kind):
     assert in_bands > min(38.0, psnr(other, reference) - 1.5) and in_bands > in_one - 1.5
 
 
+@pytest.mark.thorough
 def test_bands_are_denoised_in_tiles(blank, room, monkeypatch):
     """Wider than bands, which have a seed each, and no larger than what takes a moment: nothing is to be waited for."""
     scene_of(blank, "UV").reflection_mesh.role = "MIRROR"

@@ -153,6 +153,7 @@ def test_no_diagonal_is_seen_on_a_wall_of_two_triangles(blank, room, patterned):
     assert np.abs(np.median(around, axis=(2, 3))).max() < 0.005
 
 
+@pytest.mark.thorough
 def test_no_seam_is_seen_where_triangles_meet(blank, room):
     """Of a card that is one colour, also along its diagonal."""
     card_scene(blank, principled("Paper", (0.8, 0.8, 0.8), **{"Specular IOR Level": 0.0}))

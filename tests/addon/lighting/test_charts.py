@@ -97,6 +97,7 @@ def test_maps_of_earlier_versions_have_no_frames(lit_ball, room):
     assert ends.tolist() == [[[0.0, 0.0], [1.0, 1.0]]]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("most", [20_000, 60_000])
 def test_no_more_is_kept_than_is_worth_it(blank, room, monkeypatch, most):
     """And nearly as much as that."""
@@ -117,6 +118,7 @@ def test_no_more_is_kept_than_is_worth_it(blank, room, monkeypatch, most):
     assert 0.6 * most < kept[0] <= most
 
 
+@pytest.mark.thorough
 def test_of_many_triangles_each_has_its_texels_whatever_they_take(blank, room, monkeypatch):
     """More than is worth it where nothing is coarser: that is no reason to refuse them."""
     charts = room("addon.baking.charts")

@@ -58,11 +58,13 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, stage, times):
     assert lit_state() == before
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("failing", ["kept_map", "new_object_material", "show_object_light"])
 def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
     leaves_no_trace(blank, room, monkeypatch, ("addon.operators.made_light", failing), "OBJECTS")
 
 
+@pytest.mark.thorough
 def test_clear_takes_it_away(blank):
     scene_of(blank, "Alpha", "Tint")
     before = parts.state()

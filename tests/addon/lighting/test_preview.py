@@ -195,6 +195,7 @@ def test_each_of_several_mirrors_in_mirrors_takes_its_own_share(blank, room, lit
     assert wrong_pixels(room, 3, lit) < 0.001
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("lit", [False, True])
 def test_what_later_mirrors_show_beside_what_they_reflect_is_left_to_the_mirror(blank, room, lit):
     """The gold wall shows a pane over paint that shines, by Fresnel: what it reflects is a small part of what is seen
@@ -351,6 +352,7 @@ def test_what_it_adds_leaves_the_light_of_others_as_it_is(blank, room):
     assert outdated(room, result)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("link", ["DATA", "OBJECT"])
 def test_what_the_user_put_in_its_place_stays_and_outlasts_light(blank, link):
     scene_of(blank)

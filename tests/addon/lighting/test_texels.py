@@ -34,6 +34,7 @@ def test_only_what_lies_beside_is_taken_out_where_a_picture_ends(room):
     assert np.abs(found[:, 4:14] - own).max() < 0.02
 
 
+@pytest.mark.thorough
 def test_a_result_that_ends_within_its_mirror_is_sharp_there(blank, room):
     """The mirror shows the world beside it, and the camera sees both in one pixel."""
     scene_of(blank)
@@ -46,7 +47,7 @@ def test_a_result_that_ends_within_its_mirror_is_sharp_there(blank, room):
     reference = picture(room)
     parts.generate()
     assert bpy.ops.reflection_mesh.light(kind="PICTURE", every=True) == {"FINISHED"}
-    assert psnr(picture(room), reference) > 50.0
+    assert psnr(picture(room), reference) > 60.0  # measured: 66.0 dB
 
 
 def test_what_lies_beside_is_taken_out_of_pixels_covered_in_part(room):

@@ -87,6 +87,7 @@ def test_stopped_before_it_is_drawn_it_leaves_no_trace(blank, room):
     assert lit_state() == before
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("failing", ["light_alone", "rendering"])
 def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
     leaves_no_trace(blank, room, monkeypatch, ("addon.baking.thrown.drawn_flat", failing), "OBJECTS", scene_of)

@@ -56,6 +56,7 @@ def told(room, result) -> str:
     return room("addon.freshness").why_stale(bpy.context, result)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["tolerance", "placement", "hidden_faces"])
 @pytest.mark.parametrize("own", [False, True])
 def test_other_settings_make_it_stale(scene, room, name, own):

@@ -85,6 +85,7 @@ def test_frames_count_as_changes(scene, clock):
     assert shape(scene.light) == generated(scene)
 
 
+@pytest.mark.thorough
 def test_coarse_while_it_moves_and_as_often_as_can_be(scene, clock, room, monkeypatch):
     """The lamp never rests, and of the light one step is made at each look, whatever else the machine does: coarse
     light comes again and again all the same, since what was begun is finished, and is nothing that is exact."""
@@ -104,6 +105,7 @@ def test_coarse_while_it_moves_and_as_often_as_can_be(scene, clock, room, monkey
     assert clock.rest()[-1] == "exact" and shape(scene.light) == generated(scene)
 
 
+@pytest.mark.thorough
 def test_where_no_light_falls_there_is_none(scene, clock):
     """Hidden, switched off, turned away; and back again. Materials stay, so that engines need not begin anew."""
     materials, before = list(scene.light.data.materials), shape(scene.light)
@@ -123,6 +125,7 @@ def test_where_no_light_falls_there_is_none(scene, clock):
         assert shape(scene.light) == before and list(scene.light.data.materials) == materials
 
 
+@pytest.mark.thorough
 def test_only_what_there_is(scene, clock):
     """A lamp whose light was not generated gets none; two that were are both kept right."""
     other = add_lamp("Other", "SUN", (0.0, -1.0, 3.0))
@@ -138,6 +141,7 @@ def test_only_what_there_is(scene, clock):
     assert light == {name: shape(bpy.data.objects[name]) for name in light}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["light", "lamp", "mirror", "floor"])
 def test_removing_is_harmless(scene, clock, name):
     moved(scene.mirror, (0.05, 0.0, 0.0))

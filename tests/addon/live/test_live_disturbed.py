@@ -95,6 +95,7 @@ def test_what_cannot_follow_is_made_anew_on_the_way_by_a_coarse_files_settings_t
     assert sum(clock.updater.updates.values()) > before
 
 
+@pytest.mark.thorough
 def test_what_is_hidden_for_a_while_comes_back(scene, clock, room):
     """In Live and with the button that mends what is stale."""
     box = parts.add("cube", "Box", size=0.5, location=(-1.5, -2.0, 1.0))
@@ -124,6 +125,7 @@ def test_what_is_hidden_for_a_while_comes_back(scene, clock, room):
     assert [source.object for source in scene.result.reflection_mesh.sources] == [scene.leaf]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("way", ["Live", "button", "script"])
 def test_what_loses_its_light_shows_a_preview_where_somebody_looks(scene, clock, way, room, monkeypatch):
     """Where Update cannot light it again."""

@@ -36,6 +36,7 @@ def picture_area(result: bpy.types.Object, eye) -> float:
                                       axis=1).sum())
 
 
+@pytest.mark.thorough
 def test_a_wall_that_is_taken_away_for_the_camera_moves(house, room):
     """What Live shows at rest is what Generate makes, to the last bit, and the mirror is full of it."""
     wall, everything, result = house
@@ -59,6 +60,7 @@ def test_a_wall_that_is_taken_away_for_the_camera_moves(house, room):
             clock.rest()
 
 
+@pytest.mark.thorough
 def test_a_wall_that_the_camera_does_not_see_comes_before_a_mirror_and_goes(house, room):
     """It is looked through only where the mirror is within it."""
     wall, everything, result = house

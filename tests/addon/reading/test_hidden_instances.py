@@ -66,6 +66,7 @@ def _holder(kind: str, cube: bpy.types.Object) -> bpy.types.Object:
     return holder
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", [
     "object", "object on points", "object of the modifier on points", "children", "children on points",
     "children of the modifier on points", "particles", "collection", "whole collection", "whole collection on points"])

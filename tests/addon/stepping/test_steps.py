@@ -164,6 +164,7 @@ def test_no_step_keeps_the_window_waiting(room, name):
     assert longest_of(name, lambda: started(room)) < 0.5
 
 
+@pytest.mark.thorough
 def test_no_step_of_cutting_along_a_caustic_keeps_the_window_waiting(room):
     """Thousands of pieces of one triangle crowd where a dish shows a place large: as one step it took ten seconds."""
     module, choose, settings = room("addon.operators.mirror_uvs"), room("addon.reading").choose, room("core").Settings

@@ -73,6 +73,7 @@ def sentence_of(operator, capfd, **options) -> str:
 LABELS = {"generate": "Generate Reflection", "compare": "Compare with Cycles", "clear": "Clear Reflections"}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("failing", [
     ("generate", "operators.generate", "read_view"),
     ("generate", "operators.generate", "choose"),
@@ -100,6 +101,7 @@ def test_a_long_error_is_cut_and_an_empty_one_is_named(room):
     assert "(RuntimeError)" in sentence(RuntimeError(), "It")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("verb", ["generate", "compare", "benchmark"])
 def test_the_command_line_says_one_sentence(scene, room, monkeypatch, capsys, tmp_path, verb):
     path = tmp_path / "scene.blend"
@@ -172,6 +174,7 @@ STEPS = [("write_mesh", "GENERAL"), ("_remember", "GENERAL"), ("_remember", "POI
          ("show_discs", "POINTS")]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("late", [False, True])
 @pytest.mark.parametrize("step", [*STEPS, ("new_beside", "GENERAL")])
 def test_new_results_go_where_the_second_fails(scene, capfd, second_fails, step, late):
@@ -181,6 +184,7 @@ def test_new_results_go_where_the_second_fails(scene, capfd, second_fails, step,
     assert fingerprint() == before
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("late", [False, True])
 @pytest.mark.parametrize("earlier", ["GENERAL", "POINTS"])
 @pytest.mark.parametrize("step", STEPS)

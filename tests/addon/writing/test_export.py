@@ -116,6 +116,7 @@ def differs_by(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.sqrt(np.square(seen[0] - seen[1]).mean()))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["glb", "usdc"])
 def test_what_is_lit_arrives_as_it_is_seen(blank, room, tmp_path, kind):
     result = floor_mirror(blank, checks(), lamp=True)
@@ -284,6 +285,7 @@ def test_discs_show_their_light_in_solid_view_and_in_usd(blank, room, tmp_path, 
     assert shown() == ["UVMap"]
 
 
+@pytest.mark.thorough
 def test_discs_that_are_made_a_mesh_go_out_by_gltf_with_their_light(blank, room, tmp_path):
     """Its exporter leaves modifiers out, or an object's own materials."""
     result = scan_before_a_floor_mirror(blank, {})

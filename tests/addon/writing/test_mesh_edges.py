@@ -45,6 +45,7 @@ def by_blender(triangles: np.ndarray, count: int) -> bpy.types.Mesh:
     return mesh
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["sphere", "bowl", "mirrors"])
 def test_they_are_blenders(name):
     """Of each corner the same edge, each edge once, and as many."""
