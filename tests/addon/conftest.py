@@ -39,8 +39,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     if config.getoption("--every-feature"):
-        parser = imported("addon.command_line.verbs")._parser()
-        config.pluginmanager.register(every_feature.EveryFeature(imported("addon.command_line"), parser))
+        config.pluginmanager.register(every_feature.EveryFeature(imported("addon.command_line"),
+                                                                 imported("addon.command_line.verbs")))
 
 
 @pytest.hookimpl(trylast=True)

@@ -197,8 +197,8 @@ def test_results_that_lie_in_their_mirror_or_behind_it_are_lit_in_collections_to
     parts.generate(placement=placement)
     seen = wall.visible_camera
     assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
-    # measured: 47.5 dB
-    assert psnr(picture(room), reference) > 45.0
+    # measured: 47.5 dB, by Blender 5.2 45.9
+    assert psnr(picture(room), reference) > 43.5
     assert wall.visible_camera == seen
 
 

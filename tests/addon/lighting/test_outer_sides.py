@@ -37,10 +37,11 @@ def test_the_outside_is_lit(blank, room, kind):
     shown = _what(kind)
     shown.data.materials.append(principled("Pale", (0.8, 0.9, 0.95)))
     parts.select(shown, bpy.data.objects["Floor"], bpy.data.objects["Mirror"])
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 45.0 to 45.6 dB
+    assert psnr(picture(room), reference) > 42.5
 
 
 @pytest.mark.slow

@@ -19,15 +19,15 @@ FEATURES = frozenset(("generate", "light", "caustics", "lines", "points", "sever
 class EveryFeature:
     """A plugin of pytest that records what tests use, and fails the run if something was never used."""
 
-    def __init__(self, command_line: ModuleType, parser: argparse.ArgumentParser) -> None:
+    def __init__(self, command_line: ModuleType, verbs: ModuleType) -> None:
         self._used: set[str] = set()
         self._wanted = {f"feature {name}" for name in FEATURES}
         for name in dir(bpy.ops.reflection_mesh):
             self._wanted.add(f"operator {name}")
             self._record_operator(f"operator {name}", getattr(bpy.types, f"REFLECTION_MESH_OT_{name}"))
-        verbs = next(action for action in parser._actions if isinstance(action, argparse._SubParsersAction)).choices
-        self._wanted |= {f"verb {name}" for name in verbs}
-        command_line.run = self._recorded_run(command_line.run)
+        names = next(action for action in verbs._parser()._actions if isinstance(action, argparse._SubParsersAction))
+        self._wanted |= {f"verb {name}" for name in names.choices}
+        command_line.run = verbs.run = self._recorded_run(verbs.run)
 
     @property
     def missing(self) -> list[str]:
