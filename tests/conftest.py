@@ -11,7 +11,8 @@ try:
 except ImportError:  # on Windows, where processor time of child processes is not counted
     resource = None
 
-# what a test without the mark `thorough` or `slow` may take, in seconds of processor time
+# what a test without one of these marks may take, in seconds of processor time
+ALLOWED = ("thorough", "slow", "feature")
 QUICK = 2.0
 TOO_SLOW = pytest.StashKey[list]()
 
@@ -33,7 +34,7 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
     before = processor_time()
     done = yield
     taken = processor_time() - before
-    if taken > QUICK and not any(item.iter_markers("thorough")) and not any(item.iter_markers("slow")):
+    if taken > QUICK and not any(item.get_closest_marker(name) for name in ALLOWED):
         item.config.stash[TOO_SLOW].append((taken, item.nodeid))
     return done
 

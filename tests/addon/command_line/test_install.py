@@ -7,6 +7,7 @@ import zipfile
 from pathlib import Path
 
 import bpy
+import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -94,6 +95,7 @@ def test_the_validator_is_silent(extension_archive):
         assert "warning" not in (done.stdout + done.stderr).lower()
 
 
+@pytest.mark.feature("installation")
 def test_life_cycle_in_a_fresh_blender(extension_archive, tmp_path):
     environment = {**os.environ, "BLENDER_USER_RESOURCES": str(tmp_path / "user"), "ROOT": str(ROOT),
                    "ZIP": str(extension_archive)}

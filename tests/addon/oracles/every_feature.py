@@ -12,8 +12,8 @@ from types import ModuleType
 import bpy
 import pytest
 
-FEATURES = frozenset(("generate", "light", "caustics", "lines", "points", "several bounces", "live", "frames",
-                      "anamorphosis", "compare"))
+FEATURES = frozenset(("installation", "generate", "light", "caustics", "lines", "points", "several bounces", "live",
+                      "frames", "anamorphosis", "compare"))
 
 
 class EveryFeature:
