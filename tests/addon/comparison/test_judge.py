@@ -156,6 +156,7 @@ def test_what_is_ignored_in_a_collection_instance_is_not_reflected(stage, tmp_pa
     is_right(compared(tmp_path, stage))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("factor", "inside"), [("SIDE", ""), ("SIDE", "GROUP"), ("SIDE", "SUM"), ("0.9", "")])
 def test_a_mirror_behind_what_is_open_to_the_camera_is_judged(stage, tmp_path, factor, inside):
     """The wall's front, which the mirror sees, is reflected; of a film that is open for most light nothing is."""

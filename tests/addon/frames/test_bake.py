@@ -122,6 +122,7 @@ def test_blur_is_answered(moving, room, tmp_path, capsys):
     assert "Motion blur: " in told and "Depth of field: " in told
 
 
+@pytest.mark.thorough
 def test_the_operator_lets_results_play(moving, room, tmp_path):
     """One that is there plays in place; generated again it is a still, and cleared it leaves nothing."""
     parts.select()

@@ -80,6 +80,7 @@ CASES = {"6 mm": lambda: pane(0.006, 0.004, clear("glass")), "3 mm": lambda: pan
          "drop": lambda: drops(clear("glass"))}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", CASES)
 def test_a_mirror_shows_the_scene_through_what_is_clear(before_a_mirror, room, name, capfd):
     CASES[name]()

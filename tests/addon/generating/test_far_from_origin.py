@@ -83,6 +83,7 @@ def test_a_reflection_far_out_is_the_one_at_the_origin(blank, offset):
     assert apart.min(axis=0).max() < 2e-6 and apart.min(axis=1).max() < 2e-6
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("offset", "said"), [(0.0, False), (MAP, False), (TOO_FAR, True)])
 def test_generate_light_caustics_and_compare_say_that_renders_are_noisy(blank, capfd, tmp_path, offset, said):
     box, mirror = scene(offset)

@@ -226,6 +226,7 @@ def test_a_floor_in_which_its_own_image_lies_does_not_fight_with_it(blank, room,
     assert np.abs(view.pixels(places) - view.pixels(true_image)).max() < 0.02
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("bottom", [-0.3, 0.2])
 def test_a_window_over_a_floor_that_goes_on_shows_what_the_mirror_does(blank, room, bottom):
     """Rendered by Cycles: the floor is red behind the mirror, so that what comes through the image is seen."""
