@@ -82,18 +82,20 @@ def test_its_look_stays_on_a_curved_mirror(blank, room, monkeypatch, paint, face
         monkeypatch.setattr(room("core.whole_faces.whole"), "LEAST_TRIANGLES", 1000)
         fine = bpy.data.objects["Floor"].modifiers.new("Fine", "SUBSURF")
         fine.subdivision_type, fine.levels, fine.render_levels = "SIMPLE", 5, 5
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     result = parts.generate()
     spans = np.empty(len(result.data.polygons), dtype=np.int32)
     result.data.attributes["mirror_face"].data.foreach_get("value", spans)
     assert ((spans < 0).mean() > 0.05) == (faces == "whole")
     bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 44.8 to 49.7 dB
+    assert psnr(picture(room), reference) > 42.5
     if paint == "varnish map":
         # generated again it keeps it
         parts.select(ball)
         parts.generate()
-        assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+        # measured: 48.1 dB
+        assert psnr(picture(room), reference) > 45.5
 
 
 @pytest.mark.thorough

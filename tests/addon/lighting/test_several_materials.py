@@ -44,20 +44,20 @@ def _ball(kind: str) -> bpy.types.Object:
 
 
 @pytest.mark.thorough
-@pytest.mark.parametrize(("kind", "faces"), [
-    ("metals", "whole"), *(pytest.param(kind, "cut", marks=pytest.mark.slow)
-                           for kind in ("metals", "varnish and glass"))])
-def test_light_on_objects_is_reflected_by_each(blank, room, monkeypatch, kind, faces):
+@pytest.mark.parametrize(("kind", "faces", "measured"), [
+    ("metals", "whole", 46.3), *(pytest.param(kind, "cut", measured, marks=pytest.mark.slow)
+                                 for kind, measured in (("metals", 44.5), ("varnish and glass", 31.4)))])
+def test_light_on_objects_is_reflected_by_each(blank, room, monkeypatch, kind, faces, measured):
     scene_of(blank)
     _ball(kind)
     if faces == "whole":
         monkeypatch.setattr(room("core.whole_faces.whole"), "LEAST_TRIANGLES", 1000)
         fine = bpy.data.objects["Floor"].modifiers.new("Fine", "SUBSURF")
         fine.subdivision_type, fine.levels, fine.render_levels = "SIMPLE", 5, 5
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert psnr(picture(room), reference) > measured - 2.5
 
 
 @pytest.mark.thorough
@@ -132,10 +132,11 @@ def test_instances_of_a_mirror_reflect_as_what_is_instanced(blank, room, kind):
         _instance_by_nodes(carrier, wall)
     carrier.reflection_mesh.role = "MIRROR"
     parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], carrier)
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 47.8 dB
+    assert psnr(picture(room), reference) > 45.0
 
 
 def _instance_by_nodes(carrier: bpy.types.Object, instanced: bpy.types.Object) -> None:
