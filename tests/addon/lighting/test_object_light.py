@@ -11,10 +11,13 @@ from lamp_scenes import SIZE, link, outdated, picture, principled, psnr, scene_o
 # gloss and glass go by where they are seen from: they are right in a flat mirror from where the light was made
 SOURCES = ("Generated", "Object", "Normal", "UV", "Camera", "Window", "Reflection", "Bump", "Normal map", "Random",
            "Instances", "View distance", "Attribute", "Gloss", "Alpha", "Backfacing", "Light path")
-MIRRORS = ("Tint", "Textured tint", "Fresnel", "Layer weight", "Half open", "Pane")
+# measured in dB: of these sources, of the others 44.0 to 45.9, and of a texture in these mirrors
+LEAST = {"Instances": 42.0, "View distance": 40.6, "Gloss": 43.1}
+MIRRORS = {"Tint": 47.1, "Textured tint": 46.2, "Fresnel": 58.0, "Layer weight": 54.6, "Half open": 43.6, "Pane": 40.7}
 # an attribute, alpha, and a texture in a mirror of two shaders; of others one Blender tells as much as three
 QUICK = {("Attribute", ""), ("Alpha", ""), ("UV", "Half open")}
-KINDS = [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)]
+KINDS = [*((kind, "", LEAST.get(kind, 44.0)) for kind in SOURCES),
+         *(("UV", kind, measured) for kind, measured in MIRRORS.items())]
 
 
 def light(samples: int = 64) -> None:
@@ -22,17 +25,16 @@ def light(samples: int = 64) -> None:
 
 
 @pytest.mark.thorough
-@pytest.mark.parametrize(("source", "mirror"), [
-    kinds if kinds in QUICK else pytest.param(*kinds, marks=pytest.mark.slow) for kinds in KINDS])
-def test_it_is_what_the_mirror_shows(blank, room, source, mirror):
+@pytest.mark.parametrize(("source", "mirror", "measured"), [
+    kinds if kinds[:2] in QUICK else pytest.param(*kinds, marks=pytest.mark.slow) for kinds in KINDS])
+def test_it_is_what_the_mirror_shows(blank, room, source, mirror, measured):
     scene_of(blank, source, mirror).reflection_mesh.role = "MIRROR"
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     before = psnr(picture(room), reference)
     light(64)
-    lit, noise = psnr(picture(room), reference), psnr(other, reference)
-    assert lit > min(38.0, noise - 1.5)
-    assert lit > before + 6.0
+    # before it is 15 to 24 dB
+    assert psnr(picture(room), reference) > measured - 2.5 > before + 12.0
 
 
 @pytest.mark.thorough
