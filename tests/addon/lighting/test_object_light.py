@@ -69,10 +69,11 @@ def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflect
             vertex.co for vertex in box.data.vertices)], dtype=np.float32).ravel())
         key.value = 1.0
     kept = set(bpy.data.shape_keys), set(bpy.data.scenes)
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     light()
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 43.2 to 44.9 dB
+    assert psnr(picture(room), reference) > 40.8
     assert (set(bpy.data.shape_keys), set(bpy.data.scenes)) == kept
 
 
@@ -81,10 +82,11 @@ def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflect
 def test_what_the_camera_does_not_see_as_it_is_mirrors_do(blank, room, name):
     scene_of(blank)
     setattr(bpy.data.objects["Floor"], name, True)
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     light(64)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 44.9 and 45.8 dB
+    assert psnr(picture(room), reference) > 42.5
 
 
 @pytest.mark.thorough
@@ -106,7 +108,8 @@ def test_lamps_light_what_they_are_linked_to(blank, room, link, name, state):
     reference = picture(room)
     parts.generate()
     light(32)
-    assert psnr(picture(room), reference) > 30.0
+    # measured: 39.8 to 46.8 dB
+    assert psnr(picture(room), reference) > 37.3
     assert set(bpy.data.collections) == {linked, inner} and getattr(lamp.light_linking, link) == linked
     assert not linked.objects and list(inner.objects) == [bpy.data.objects[name]]
 
