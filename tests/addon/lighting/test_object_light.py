@@ -129,13 +129,14 @@ def test_mirrors_in_mirrors_show_the_side_that_they_see(blank, room, turned):
     behind = parts.add("plane", "Behind", size=30.0, location=(0.0, -6.3, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
     behind.data.materials.append(wall.data.materials[0])
     parts.select(card, bpy.data.objects["Floor"], behind, wall)
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     inside = slice(SIZE // 5, -SIZE // 5)
     red, blue = ((reference[inside, inside, one] - reference[inside, inside, 2 - one] > 0.2).sum() for one in (0, 2))
     assert red > 30 and blue > 30
     parts.generate(depth=2)
     light(64)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 41.5 dB
+    assert psnr(picture(room), reference) > 39.0
 
 
 @pytest.mark.thorough
@@ -153,10 +154,11 @@ def test_lamps_light_no_more_bounces_than_they_may(blank, room, bounces):
     point.location, point.data.energy, point.data.shadow_soft_size = (-1.0, -2.0, 3.0), 80.0, 0.5
     for one, most in ((lamp, bounces), (point, 7)):
         one.data.cycles.max_bounces = most
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     light(64)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 40.8 and 43.3 dB
+    assert psnr(picture(room), reference) > 38.3
     assert (lamp.data.cycles.max_bounces, point.data.cycles.max_bounces) == (bounces, 7)
     assert not (lamp.hide_render or twin.hide_render or point.hide_render)
 
@@ -186,7 +188,8 @@ def test_a_lamp_s_body_is_as_bright_as_the_mirror_shows_it(blank, room):
     assert (reference[..., 0] > 0.85).sum() > 50
     parts.generate()
     light(16)
-    assert psnr(picture(room), reference) > 40.0
+    # measured: 50.6 dB
+    assert psnr(picture(room), reference) > 47.5
 
 
 def test_a_bake_waits_no_longer_for_the_world_than_its_light_needs(blank, room):
