@@ -78,11 +78,12 @@ def test_of_small_triangles_those_are_baked_finely_that_are_seen_so(blank, room,
     hollow.data.materials.append(wall.data.materials[0])
     bpy.data.objects.remove(wall)
     parts.select(ball, hollow)
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     counted = baked_texels(monkeypatch, room)
     light(16)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 40.5 dB
+    assert psnr(picture(room), reference) > 38.2
     # 66,000, of which the ball's triangles take 40,000 at the least; 285,000 were all as fine as where it is largest
     assert sum(counted) < 100_000
 
@@ -107,10 +108,11 @@ def test_what_looks_away_from_all_mirrors_is_not_baked(blank, room, monkeypatch)
 @pytest.mark.slow
 def test_gloss_is_seen_as_a_ball_shows_it(blank, room):
     ball_scene(blank, Roughness=0.3)
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     light(64)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 41.0 dB
+    assert psnr(picture(room), reference) > 38.5
 
 
 @pytest.mark.thorough
@@ -138,7 +140,8 @@ def test_metal_close_to_a_curved_mirror_is_not_black(blank, room, monkeypatch):
     parts.generate()
     monkeypatch.setattr(room("addon.baking.seen_sources"), "ONE_EYE", 0.0)
     light(16)
-    assert psnr(picture(room), reference) > 25.0
+    # measured: 35.0 dB
+    assert psnr(picture(room), reference) > 32.5
 
 
 def test_what_two_mirrors_show_is_seen_from_where_the_one_sees_it_that_shows_most_of_it(blank, room):
@@ -168,7 +171,8 @@ def test_light_takes_the_bounces_that_are_left(blank, room):
     reference = picture(room)
     parts.generate()
     light(64)
-    assert psnr(picture(room), reference) > 38.0
+    # measured: 54.3 dB
+    assert psnr(picture(room), reference) > 51.0
 
 
 def test_lines_of_sight_meet_where_they_come_from(room):

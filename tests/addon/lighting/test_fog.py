@@ -49,13 +49,14 @@ def test_fog_before_a_mirror_is_seen_once(blank, room, kind):
         cube.select_set(True)
     if kind == "half open":
         shader_of(mirror.data.materials[0]).inputs["Alpha"].default_value = 0.7
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     result = parts.generate()
     before = lit_state()
     assert bpy.ops.reflection_mesh.light(samples=64, kind="PICTURE") == {"FINISHED"}
     blank.view_layer.update()
     assert not outdated(room, result)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 44.0 to 45.2 dB
+    assert psnr(picture(room), reference) > 41.5
     after = lit_state()
     assert all(after[name] == before[name] for name in ("rays", "worlds", "cycles"))
 
