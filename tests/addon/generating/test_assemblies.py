@@ -97,6 +97,7 @@ def test_a_mirror_may_be_the_root(engine):
     assert results() == [result] and result.name == "Tank Reflection" and parts_of(result) == set(engine)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("selected", ["Pipe", "Engine", "Engine Reflection", ""])
 def test_each_part_means_all_of_it(engine, selected):
     result = parts.generate()
@@ -207,6 +208,7 @@ def test_live_follows_and_keeps_it(engine, room):
         assert len(before.vertices) != len(result.data.vertices)
 
 
+@pytest.mark.thorough
 def test_frames_are_baked_for_the_whole(engine, tmp_path):
     """As one sequence, of which each frame is what is generated there, with the mattes of what it shows."""
     ball, pipe, scene = bpy.data.objects["Ball"], engine[2], bpy.context.scene

@@ -53,6 +53,7 @@ def test_it_is_told_in_german_too(many, room, monkeypatch):
         "Ausgelassen, weil ausgeblendet: 'Part.000'. Ebenso: 'Part.001', 'Part.002', 'Part.003' und 43 weitere.")
 
 
+@pytest.mark.thorough
 def test_the_report_of_many_mirrors_is_short(blank, capfd):
     """Mirrors that are apart, each of which is coarse for the light that it throws."""
     wall = parts.add("plane", "Wall", size=20.0, location=(0.0, 3.0, 3.0), rotation=(np.pi / 2, 0.0, 0.0))

@@ -23,6 +23,7 @@ def wall(blank) -> bpy.types.Object:
     return wall
 
 
+@pytest.mark.thorough
 def test_light_on_objects_is_tinted_as_in_cycles(wall, room):
     into_a_group(wall.data.materials[0], 0.0)
     reference, other = picture(room), picture(room, seed=7)
@@ -32,6 +33,7 @@ def test_light_on_objects_is_tinted_as_in_cycles(wall, room):
     assert psnr(picture(room), reference) > psnr(other, reference) - 1.5
 
 
+@pytest.mark.thorough
 def test_a_preview_is_that_of_the_same_shader_without_a_group(wall, room):
     shown = []
     for grouped in (False, True):

@@ -8,6 +8,7 @@ from lamp_scenes import outdated, scene_of
 from live_scene import switched_on
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
 def test_light_comes_back_where_the_camera_comes_back(blank, room, kind):
     scene_of(blank)
