@@ -219,6 +219,6 @@ def test_frames_of_another_state_of_the_scene_are_told(moving, room, tmp_path, c
 
 
 def test_many_frames_are_told_in_short(room):
-    listed = room("addon.operators.bake_frames.plan").listed
+    listed = room("addon.operators.bake_frames.plan").frames_listed
     assert listed([7]) == "frame 7" and listed([1, 2]) == "frames 1, 2"
     assert listed(list(range(1, 12))) == "frames 1, 2, 3, 4, 5, 6, 7, 8 and 3 more"

@@ -82,7 +82,7 @@ def test_stopped_before_it_is_drawn_it_leaves_no_trace(blank, room):
     result = scene_of(blank)
     before = lit_state()
     steps = room("addon.operators.light").lighting(blank, [result], 1, "OBJECTS")
-    while not next(steps)[1].startswith("Cycles draws"):
+    while not next(steps)[1].startswith("Rendering caustics"):
         pass
     steps.close()
     assert lit_state() == before
