@@ -171,7 +171,7 @@ def test_a_benchmark_takes_its_place_at_the_end(saved_scene, room, tmp_path, mon
                                       "--resolution", "32", "--output"]
     place = room("addon.benchmark.whole_report")
     # else it hides its own image
-    bpy.data.objects["Box"].location.x = 0.8
+    bpy.data.objects["Box"].location.x = 1.5
 
     def full(*_):
         raise OSError(28, "No space left on device")
