@@ -25,7 +25,7 @@ def lamp_content(lamp: bpy.types.Light) -> bytes:
 
 
 def world_content(world: bpy.types.World | None) -> bytes:
-    """As `lamp_content`, of a world."""
+    """Return the content of a world, as `lamp_content` does of a lamp."""
     if world is None:
         return b"none"
     rays = getattr(world, "cycles_visibility", None)

@@ -1,4 +1,4 @@
-"""What the light of results was made from, and whether that is still so.
+"""Inputs from which the light of results was made, and the first one that differs now.
 
 Light is outdated where an input differs, by digest, and fits again as soon as the input is back.
 """
@@ -60,7 +60,7 @@ def why_light_differs(context: bpy.types.Context, result: bpy.types.Object) -> s
 
 
 def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
-    """What is no longer as it was when a result was lit."""
+    """Return the first input that differs from when a result was lit, in a few words."""
     try:
         return light_difference(context, read_view(context), result, _sources(result))
     except ReflectionError:
@@ -68,7 +68,7 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
 
 
 def light_difference(context: bpy.types.Context, view: View, result: bpy.types.Object, sources: list) -> str:
-    """As `why_light_differs`, for a view and the sources that the result is to show."""
+    """Return what `why_light_differs` does, for a view and the sources that the result is to show."""
     made, record = _read(result), result.reflection_mesh
     if not made:
         # of earlier versions; light that stays with the objects asks itself whether these are the same
@@ -128,7 +128,7 @@ def _digest(parts: list[bytes]) -> str:
 
 
 def _read(result: bpy.types.Object) -> dict:
-    """What `lit_record` wrote; empty where it wrote nothing."""
+    """Return what `lit_record` wrote; empty if it wrote nothing."""
     text = result.reflection_mesh.lit_from
     try:
         known = json.loads(text) if 0 < len(text) <= LONGEST else {}

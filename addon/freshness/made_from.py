@@ -38,7 +38,7 @@ class Origin(NamedTuple):
 
 
 def origin_of(depsgraph: bpy.types.Depsgraph, view: View, mirrors: list, sources: list) -> Origin:
-    """What a result of `mirrors`, one or the parts of one, would be made from now."""
+    """Return what a result of `mirrors`, one or the parts of one, would be made from now."""
     return Origin(view_numbers(view), digests.digest_of(depsgraph, mirrors),
                   digests.digest_of_shown(depsgraph, sources),
                   materials_of([*mirrors, *sources]), colours_of([*mirrors, *sources]), lines_drawn(depsgraph.scene),

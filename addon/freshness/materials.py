@@ -50,14 +50,14 @@ def content_of(material: bpy.types.Material) -> bytes:
 
 def content_of_data(data: bpy.types.Material | bpy.types.Light | bpy.types.World, plain: Iterable[str],
                     of_cycles: Iterable[str]) -> bytes:
-    """As `content_of`, for whatever has nodes: with its values `plain`, and those `of_cycles`."""
+    """Return the content of data with nodes: its values `plain`, and those `of_cycles`."""
     cycles = getattr(data, "cycles", None)
     known = [list(made_of(data, plain, _content)), [getattr(cycles, name, None) for name in of_cycles]]
     return blake2b(repr(known).encode(), digest_size=SIZE).digest()
 
 
 def _content(item: bpy.types.ID) -> object:
-    """What stands for data that a node points to: what it holds, or where it stands."""
+    """Return a digest of data that a node points to: of its content, or of its place."""
     if isinstance(item, bpy.types.Image):
         return image_content(item)
     if isinstance(item, bpy.types.Object):

@@ -47,7 +47,7 @@ def _live(_context: bpy.types.Context, _obj: bpy.types.Object | None) -> Prompt 
 
 
 def state_of(updater) -> str:
-    """What Live is doing, in a few words."""
+    """Return in a few words what Live is doing."""
     if updater.told:
         return translated(pgettext_iface(updater.told))
     text = pgettext_iface("Exact, {milliseconds:.0f} ms" if updater.at_rest else "Coarse, {milliseconds:.0f} ms")

@@ -15,7 +15,7 @@ from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
 HALF = 0.5  # of the light: a surface that lets more through is open
 GLASS = {"BSDF_GLASS", "BSDF_REFRACTION"}
 ALWAYS, BEFORE_MIRRORS, NEVER = "ALWAYS", "BEFORE_MIRRORS", "NEVER"
-"""Where glass and textures let a ray through: on all of its way, before it has met a mirror, or nowhere.
+"""Places in which glass and textures let a ray through: on all of its way, before a mirror, or nowhere.
 
 What is behind these in a mirror is not judged: both are evaluated on the reflection mesh from another place.
 """

@@ -10,7 +10,7 @@ from ..reading import drawn_meshes, read_mirror
 
 
 def cut_through(depsgraph: bpy.types.Depsgraph, mirrors: set, objects: list) -> list:
-    """Those of `objects` that cross a mirror's triangles, or whose instances do."""
+    """Return those of `objects` that cross a mirror's triangles, or whose instances do."""
     surfaces, asked, found = [read_mirror(depsgraph, mirror).mesh for mirror in mirrors], set(objects), {}
     for instance in drawn_meshes(depsgraph):
         evaluated = instance.object

@@ -1,4 +1,4 @@
-"""How the mirrors that take part are joined: by results, by hierarchies, or as whoever asks has planned."""
+"""Group the mirrors that take part: by existing results, by hierarchies, or as the caller has planned."""
 from __future__ import annotations
 
 from functools import partial

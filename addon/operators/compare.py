@@ -213,7 +213,7 @@ class REFLECTIONMESH_OT_compare(UsesSettings, BrowsingOperator, SettingsOptions,
 
 
 def remarks_on(context: bpy.types.Context, report: dict) -> list[str]:
-    """What to know of a report's numbers."""
+    """Return what to know of a report's numbers."""
     results = map(context.scene.objects.get, report["results"])
     return rounding_remarks(context, [result for result in results if result is not None])
 

@@ -99,7 +99,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int, st
 
 
 def lit_again(context: bpy.types.Context, results: list) -> Steps[list]:
-    """As `lighting`, for each of the results with the settings that it was lit with, else those of the file."""
+    """Light each of the results with the settings that it was lit with, else with those of the file."""
     groups: dict = {}
     for result in results:
         known = {**dict(zip(("samples", "kind"), Wanted(context.scene).lights([result])[0][1:])), **lit_with(result)}

@@ -1,4 +1,4 @@
-"""What single precision leaves of places far from the origin, in a sentence for the user.
+"""Rounding of places far from the origin to single precision, in a sentence for the user.
 
 Cycles adds up an object's place and a vertex's in single precision. Millions of units from the origin the sum is
 rounded to half a unit, and renders of anything are noise, with a reflection and without.

@@ -42,12 +42,12 @@ class Lobe:
 
     @property
     def is_sharp(self) -> bool:
-        """Whether its roughness is near 0."""
+        """Return True if its roughness is near 0."""
         return is_sharp(self.shader, self.groups)
 
     @property
     def is_metal(self) -> bool:
-        """Whether it is nothing but a mirror where it is sharp."""
+        """Return True if it is nothing but a mirror where it is sharp."""
         return is_metal(self.shader, self.groups)
 
 

@@ -123,7 +123,7 @@ def has_mirrors(material: bpy.types.Material | None) -> bool:
 
 
 def _tints_of(material: bpy.types.Material | None, rough: bool = False) -> list[Tint]:
-    """Those of all that mirrors sharply in a material's nodes, and of `rough` metal."""
+    """Return the shaders of a material that mirror sharply, and those of `rough` metal."""
     output = shown_output(material.node_tree) if material is not None and compat.uses_nodes(material) else None
     lobes = [] if output is None else lobes_of(output.inputs["Surface"])
     return [tint for lobe in lobes for tint in _tints_of_lobe(material, lobe, rough)]
