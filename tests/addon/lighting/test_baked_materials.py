@@ -13,7 +13,8 @@ def is_as_the_mirror_shows(room) -> bool:
     parts.generate()
     assert bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS") == {"FINISHED"}
     lit, noise = psnr(picture(room), reference), psnr(other, reference)
-    return lit > min(38.0, noise - 1.5)
+    # measured: 2.2 to 7.4 dB above it, since light is denoised
+    return lit > noise + 1.0
 
 
 def tube_of(context: bpy.types.Context, material: bpy.types.Material) -> None:

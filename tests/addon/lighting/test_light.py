@@ -43,10 +43,11 @@ def test_a_mirror_that_is_an_instance_of_a_collection_is_lit_too(blank, room, ki
     placed.reflection_mesh.role = "MIRROR"
     blank.view_layer.update()
     parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], placed)
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     assert bpy.ops.reflection_mesh.light(samples=64, kind=kind) == {"FINISHED"}
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 47.1 dB
+    assert psnr(picture(room), reference) > 44.5
     assert wall.visible_camera
 
 
@@ -89,10 +90,11 @@ def test_what_is_transparent_before_the_mirror_is_seen_once(blank, room, kind):
     pane.data.materials.append(made)
     parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
     blank.view_layer.update()
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     bpy.ops.reflection_mesh.light(samples=64)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 45.0 and 45.1 dB
+    assert psnr(picture(room), reference) > 42.5
     assert pane.visible_camera
 
 
@@ -103,13 +105,14 @@ def test_what_stands_behind_a_mirror_that_is_half_open_is_seen_through_it(blank,
     behind.data.materials.append(principled("Red", (0.9, 0.1, 0.05), **{
         "Emission Color": (1.0, 0.2, 0.1, 1.0), "Emission Strength": 2.0}))
     parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     behind.hide_render = True
     assert psnr(picture(room), reference) < 30.0
     behind.hide_render = False
     parts.generate()
     bpy.ops.reflection_mesh.light(samples=64)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 44.3 dB
+    assert psnr(picture(room), reference) > 41.8
 
 
 @pytest.mark.slow
@@ -143,8 +146,9 @@ def test_light_lies_behind_what_stands_before_the_mirror_too(blank, room, kind):
     post.hide_render = True
     lit = picture(room)
     bpy.data.objects["Mirror Reflection"].hide_render = True
-    reference, other = picture(room), picture(room, seed=7)
-    assert psnr(lit, reference) > min(38.0, psnr(other, reference) - 1.5)
+    reference = picture(room)
+    # measured: 44.8 and 47.1 dB
+    assert psnr(lit, reference) > 42.3
 
 
 @pytest.mark.slow
@@ -220,13 +224,14 @@ def test_what_shines_is_as_bright_up_to_its_outline_and_what_is_beside_as_dark(b
     back.data.materials.append(principled("Paint", (0.2, 0.3, 0.2)))
     parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor")), back, *bulbs, bpy.data.objects["Mirror"])
     blank.scene.cycles.samples = 256
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     assert bpy.ops.reflection_mesh.light(kind="PICTURE", samples=128) == {"FINISHED"}
-    assert psnr(picture(room), reference) > min(40.0, psnr(other, reference) - 1.5)
+    # measured: 42.0 and 41.9 dB, in both
+    assert psnr(picture(room), reference) > 39.4
     # what shows it knows it again where the result is made anew
     parts.generate()
-    assert psnr(picture(room), reference) > min(40.0, psnr(other, reference) - 1.5)
+    assert psnr(picture(room), reference) > 39.4
     bpy.ops.reflection_mesh.clear()
     assert not [image for image in bpy.data.images if image.name.startswith("Reflection Light")]
 
@@ -258,7 +263,8 @@ def test_lamps_thinner_than_a_pixel_have_their_own_colours(blank, room, view):
     parts.select(bpy.data.objects["Floor"], *tubes, bpy.data.objects["Mirror"])
     blank.scene.view_settings.view_transform = view
     blank.scene.cycles.samples = 256
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     parts.generate()
     assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    # measured: 45.5 and 46.0 dB
+    assert psnr(picture(room), reference) > 43.0
