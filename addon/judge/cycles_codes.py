@@ -35,9 +35,10 @@ class CodedMaterials:
     def on(self, material: bpy.types.Material | None, code: bpy.types.Material, textures: str = NEVER,
            by_side_alone: bool = False) -> bpy.types.Material:
         """A code in place of a material, as `SeeThrough` takes it."""
-        key = (material, code, textures, by_side_alone)
+        # a code that somebody has removed raises ReferenceError here
+        key = (material, code.session_uid, textures, by_side_alone)
         if key not in self._dressed:
-            see_through = SeeThrough(self._groups[code], textures, by_side_alone, self._copied.owned)
+            see_through = SeeThrough(self._groups[code.session_uid], textures, by_side_alone, self._copied.owned)
             self._dressed[key] = see_through.dressed(material) or code
         return self._dressed[key]
 
@@ -133,7 +134,7 @@ class CodedMaterials:
         group.links.new(emission.outputs["Emission"], output.inputs["Surface"])
         material = bpy.data.materials.new(f"Code: {name}")
         self._copied.owned += [group, material]
-        self._groups[material] = group
+        self._groups[material.session_uid] = group
         # codes are no lights: nothing is to be sampled from them
         material.cycles.emission_sampling = "NONE"
         tree = compat.use_nodes(material)
