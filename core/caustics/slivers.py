@@ -68,7 +68,8 @@ def without_slivers(seen: ReflectionMesh) -> Stitched:
     # each time one side of a face is split
     for _ in range(3):
         faces = _split(faces, *inserted, len(vertex))
-    return faces
+    # a face may be split at its own third vertex
+    return faces.select(_without_twins(faces.triangles))
 
 
 def merged(positions: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -83,9 +84,17 @@ def merged(positions: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np
     short = edge_lengths(positions[triangles]) <= SINGLE * np.ptp(positions, axis=0).max(initial=0.0)
     ends = np.stack((triangles[short], following(triangles)[short]), axis=1)
     triangles = _one_vertex(len(positions), ends)[triangles]
-    faces = np.flatnonzero((triangles != following(triangles)).all(axis=1))
+    faces = _without_twins(triangles)
     vertices, corner = distinct(triangles[faces].ravel())
     return vertices, corner.reshape(-1, 3), faces
+
+
+def _without_twins(triangles: np.ndarray) -> np.ndarray:
+    """Return the numbers (k,) of those triangles (m, 3) that have three vertices, of several with the same ones the
+    first: a mesh of Blender holds no others."""
+    whole = np.flatnonzero((triangles != following(triangles)).all(axis=1))
+    _, first = np.unique(np.sort(triangles[whole], axis=1), axis=0, return_index=True)
+    return whole[np.sort(first)]
 
 
 def _are_thin(corners: np.ndarray) -> np.ndarray:

@@ -130,3 +130,12 @@ def test_edges_that_single_precision_cannot_tell_apart_are_merged():
     vertices, triangles, faces = merged(positions, np.array(((0, 1, 2), (1, 3, 2), (0, 3, 4))))
     assert vertices.tolist() == [0, 1, 2, 4] and faces.tolist() == [0, 2]
     assert triangles.tolist() == [[0, 1, 2], [0, 2, 3]]
+
+
+def test_no_two_faces_have_the_same_vertices_after_merging():
+    """Blender would mend such a mesh: a fold of which both sides become one triangle when a short edge is merged."""
+    positions = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1e-9, 0, 0), (1, 1, 0)], dtype=float)
+    triangles = np.array([(0, 1, 2), (3, 2, 1), (0, 3, 2), (1, 4, 2)])
+    _, corners, faces = merged(positions, triangles)
+    assert faces.tolist() == [0, 3]
+    assert len({tuple(sorted(corner)) for corner in corners.tolist()}) == len(corners)
