@@ -184,7 +184,7 @@ def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settin
 
 
 def _behind_panes(cameras: Cameras, met: SceneAndMirrors, progress: Progress) -> SceneAndMirrors:
-    """What rays may meet, with layers that stay behind panes and films before the mirror."""
+    """Return `met` with layers that slide by less, so that they stay behind panes and films in front of the mirror."""
     share, covering = slide_share(cameras, met)
     progress.done("cameras", too_close=covering)
     return met.sliding(share)

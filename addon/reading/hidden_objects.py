@@ -1,4 +1,4 @@
-"""Who is hidden: in the viewport, in renders, from mirrors, or from the camera that is to see a mirror."""
+"""Visibility of objects in the viewport, in renders, to glossy rays and to the camera."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -18,15 +18,15 @@ NO_MIRROR = ("No mirror: select the objects to reflect and then, as the active o
 
 @dataclass(frozen=True)
 class Participants:
-    """Mirrors and diffuse objects that take part, and what is to be told of others.
+    """Mirrors and diffuse objects that take part in a reflection, and the objects that are left out.
 
     Attributes
     ----------
     mirrors, diffuse : list of bpy.types.Object
     hidden : list of bpy.types.Object
-        Those that would take part, were they not hidden.
+        Objects that would take part if they were not hidden.
     waiting : list of bpy.types.Object
-        Of these the diffuse ones of the scene, which take part again when they are shown.
+        The hidden diffuse objects of the scene. They take part again as soon as they are shown.
     caught : list of bpy.types.Object
         Mirrors that are left out because they are shadow catchers.
     assemblies : tuple of Assembly
@@ -57,15 +57,16 @@ def why_caught(mirror: bpy.types.Object) -> str:
 
 
 def visible(context: bpy.types.Context, mirrors: list, diffuse: list, unmirrored: bool = False) -> Participants:
-    """Those of the candidates that are seen, in the viewport and in renders; and in mirrors, but where `unmirrored` is
-    said.
+    """Leave out the candidates that are hidden in the viewport or in renders.
+
+    Diffuse objects that are hidden from glossy rays are left out too, unless `unmirrored` is set.
 
     Raises
     ------
     NothingSeen
-        Where all mirrors or all diffuse objects are hidden.
+        If all mirrors or all diffuse objects are hidden.
     ReflectionError
-        Where there are none.
+        If there is no mirror or no diffuse object.
     """
     is_seen = seen_in(context)
     # mirrors show what glossy rays meet, as in Cycles
@@ -90,13 +91,13 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list, unmirrored
 
 
 def nothing_to_reflect(mirror: bpy.types.Object) -> str:
-    """What is said where a mirror is chosen and nothing that it is to show."""
+    """Return the message for a mirror without an object to reflect."""
     return (f"Nothing to reflect in '{mirror.name}': select the objects to reflect together with it, or set their role "
             "to Reflected in the Reflection tab.")
 
 
 def _why_unseen(obj: bpy.types.Object, there: set, hidden: str) -> str:
-    """The sentence `hidden`, but of what is not `there` in the scene, as where a result was appended alone."""
+    """Return the message `hidden`, or another one if the object is not among the scene's objects, `there`."""
     if obj in there:
         return hidden
     if is_gone(obj):
@@ -106,19 +107,19 @@ def _why_unseen(obj: bpy.types.Object, there: set, hidden: str) -> str:
 
 
 def seen_in(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
-    """Tells of an object whether it is seen, in the viewport and in renders."""
+    """Return a function that is True for objects that the viewport and renders show."""
     in_layer, rendered = set(context.view_layer.objects), rendered_in(context.view_layer)
     return lambda obj: obj in in_layer and obj.visible_get() and rendered(obj)
 
 
 def seen_at_times(context: bpy.types.Context) -> Callable[[bpy.types.Object], bool]:
-    """As `seen_in`, but of what comes and goes too: frames show it, and results know it from then on."""
+    """Return a function that is True for objects that are visible now, or whose visibility is animated."""
     in_layer, is_seen = set(context.view_layer.objects), seen_in(context)
     return lambda obj: is_seen(obj) or (obj in in_layer and comes_and_goes(obj))
 
 
 def rendered_in(layer: bpy.types.ViewLayer) -> Callable[[bpy.types.Object], bool]:
-    """Tells of an object of a view layer whether it is in renders."""
+    """Return a function that is True for objects of a view layer that renders show."""
     # what each object's own list of collections says, which is worked out anew whenever it is asked
     rendered = {obj for collection in rendered_collections(layer.layer_collection) for obj in collection.objects}
     return lambda obj: not obj.hide_render and obj in rendered

@@ -1,4 +1,4 @@
-"""Which objects are mirrors, by their role or by the materials that they show."""
+"""Find the objects that are mirrors, by their role or by the materials of their faces."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -18,20 +18,20 @@ from .materials import (
 from .results import RESULTS
 
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
-# roughness at which Cycles still shows cubes in a ball as spots of their colours; what is rougher is no mirror among
-# others that are selected
+# Roughness up to which a reflection in a ball can be recognised: Cycles still shows cubes as spots of their colours.
+# A rougher object is no mirror if others are selected with it.
 RECOGNISABLE = 0.3
 NONE, IN_PART, WHOLE = range(3)
 IsMirror = Callable[[bpy.types.Material | None], bool]
 
 
 def can_take_part(obj: bpy.types.Object) -> bool:
-    """Whether the object may have faces to show, or instances of objects that may: fog has none."""
+    """Return True for objects that may have faces or instances, except fog, results and ignored objects."""
     return obj.reflection_mesh.role not in {"IGNORE", *RESULTS} and may_have_faces(obj) and not all_fog(obj)
 
 
 def may_have_faces(obj: bpy.types.Object) -> bool:
-    """Whether an object may be seen as faces: by itself, as instances, or as what Geometry Nodes make of it."""
+    """Return True for objects that may have faces: their own, those of instances, or those of Geometry Nodes."""
     return obj.type in GEOMETRY or obj.is_instancer or any(modifier.type == "NODES" for modifier in obj.modifiers)
 
 
@@ -42,8 +42,10 @@ def says_mirror(obj: bpy.types.Object) -> bool:
 
 
 def may_say_mirror(obj: bpy.types.Object, mirrors: set) -> bool:
-    """As `says_mirror`, without a look at instances: those of Geometry Nodes or particles may have any of the materials
-    that are `mirrors`."""
+    """Return True for objects that could be mirrors. Faster than `says_mirror`, since it evaluates no instances.
+
+    Instances of Geometry Nodes or particles could have any of the mirror materials, `mirrors`.
+    """
     role = obj.reflection_mesh.role
     if role != "AUTO" or not mirrors:
         return role == "MIRROR"
@@ -53,8 +55,7 @@ def may_say_mirror(obj: bpy.types.Object, mirrors: set) -> bool:
 def mirrors_among(objects: list) -> list:
     """Return the objects that are mirrors by their role or their material.
 
-    Instances of which only a part mirrors, as a room with a mirror in it, count where there is nothing else: they show
-    reflections in that part, and no other mirror shows them then.
+    An instance that is a mirror in part only, such as a room with a mirror in it, counts if there is no other mirror.
     """
     instanced = instanced_materials(objects)
     shares = {obj: _share(obj, instanced[obj], is_mirror) for obj in objects if obj.reflection_mesh.role == "AUTO"}

@@ -1,4 +1,4 @@
-"""Who takes part in a reflection: the selected objects, by role, and what of the scene they leave to be found."""
+"""Choose the mirrors and the reflected objects, from the selection, the roles and the scene."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -26,19 +26,26 @@ def participants(context: bpy.types.Context) -> tuple[list, list]:
 
 
 def choose(context: bpy.types.Context, all_seen: bool = True, unmirrored: bool = False) -> Participants:
-    """As `participants`, with what was left out because it is hidden, or a shadow catcher.
+    """Choose the mirrors and the diffuse objects, and list those that are left out as hidden or as shadow catchers.
 
-    The mirrors are those that the selection names: by role, by material, or as its active object among others; else
-    those of the results that show what is selected; else those of the scene, by role, or where none has it by material.
-    The first show the others of the selection. Mirrors that are selected alone or found show what is said to be
-    reflected, else `all_seen`: whatever is there, as mirrors do; without that, what is selected. What is hidden from
-    glossy rays mirrors do not show, and throw light on: it takes part where `unmirrored` is said, and so do mirrors
-    that are shadow catchers.
+    The mirrors are the first of these that exist:
+
+    1. mirrors in the selection, by role, by material, or as the active object among others;
+    2. the mirrors of results that show a selected object;
+    3. mirrors of the scene, by role, or by material if none has the role.
+
+    Mirrors of the first kind show the other selected objects. All others, and mirrors that are selected alone, show
+    the objects with the role Reflected. If there are none they show every object (`all_seen`), or the selected ones.
+
+    Parameters
+    ----------
+    unmirrored : bool
+        Keep objects that are hidden from glossy rays, and mirrors that are shadow catchers. Caustics need both.
 
     Raises
     ------
     ReflectionError
-        Where there is no mirror or no diffuse object; the message says how to choose one.
+        If there is no mirror or no diffuse object. The message says how to choose one.
     """
     mirrors, diffuse = _with_parts(context, *_named_or_found(context, all_seen, unmirrored))
     active = context.view_layer.objects.active
@@ -93,8 +100,8 @@ def _with_parts(context: bpy.types.Context, mirrors: list, diffuse: list) -> tup
 
 
 def _named_or_found(context: bpy.types.Context, all_seen: bool, unmirrored: bool) -> tuple[list, list]:
-    """As `candidates`, with shadow catchers."""
-    # materials that Geometry Nodes give are known of what is evaluated
+    """Return the mirrors and diffuse objects of `choose`, hidden objects and shadow catchers included."""
+    # materials that Geometry Nodes set are known only after evaluation
     context.evaluated_depsgraph_get()
     look_again()
     active = context.view_layer.objects.active

@@ -52,7 +52,7 @@ class OwnCollections:
 
     @property
     def seen(self) -> list:
-        """Those of them that the camera sees: Cycles holds out what is indirect only too."""
+        """The rendered objects without those that are held out and indirect only, which the camera does not see."""
         return [obj for obj in self.shown if self._kinds[obj][0] or not self._kinds[obj][1]]
 
     def hold_out(self, objects: Iterable[bpy.types.Object]) -> None:

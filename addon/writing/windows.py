@@ -47,8 +47,17 @@ def set_window(result: bpy.types.Object, placement: str) -> None:
 
 
 class InTheWay(NamedTuple):
-    """What is in the way of a virtual image: the `name` of the object that hides most of it, empty if none does; the
-    share of the image that is `hidden`; and whether anything `touches` it, as a floor that lies in its own image."""
+    """Objects that hide a virtual image.
+
+    Attributes
+    ----------
+    name : str
+        Name of the object that hides most of the image, or an empty string.
+    hidden : float
+        Hidden share of the image, from 0 to 1.
+    touches : bool
+        True if an object touches the image, such as a floor that coincides with its own image.
+    """
 
     name: str
     hidden: float

@@ -103,7 +103,7 @@ def _are_thin(corners: np.ndarray) -> np.ndarray:
 
 
 def _one_vertex(count: int, pairs: np.ndarray) -> np.ndarray:
-    """Of each of `count` vertices the one that stands for all that hang together with it by `pairs` (p, 2)."""
+    """Return the first vertex (count,) of the connected component of each vertex, for edges `pairs` (p, 2)."""
     every = np.arange(count)
     part = connected(np.concatenate((np.stack((every, every), axis=1), pairs)))[:count]
     _, first = np.unique(part, return_index=True)

@@ -25,7 +25,7 @@ class Opacities:
 
     @classmethod
     def of(cls, of_scene: np.ndarray | None) -> Opacities:
-        """Those of a scene that is not divided into pieces."""
+        """Make the opacities of a scene whose triangles (m,) are not divided into pieces."""
         if of_scene is None or (of_scene == Opacity.OPAQUE).all():
             return cls()
         return cls(of_scene, of_scene)

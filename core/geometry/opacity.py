@@ -1,11 +1,11 @@
-"""Opacity of triangles: what light goes through, and what the eye alone does not see."""
+"""Opacity of scene triangles to reflected rays and to view rays."""
 from __future__ import annotations
 
 from enum import IntEnum
 
 
 class Opacity(IntEnum):
-    """What rays do at a triangle of the scene.
+    """Opacity of a triangle of the scene: which rays it stops, and whether it is visible itself.
 
     Attributes
     ----------

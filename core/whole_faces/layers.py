@@ -20,7 +20,7 @@ APART = 1e-6  # of the nearness: what lies closer before a face does not hide it
 
 @dataclass(frozen=True)
 class Layers:
-    """What of whole faces is seen, and in which order, of a scene with such opacities."""
+    """Visibility and order of whole faces, in a scene with the given opacities."""
 
     images: Images
     sinking: Sinking

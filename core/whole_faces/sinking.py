@@ -42,10 +42,12 @@ class Sinking:
         return 1.0 - np.minimum(s / self.reach, 1.0) if self.patch.mirror_map.orthographic else 1.0 / (1.0 + s)
 
     def sagitta(self, images: Images, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """How far the edges (e,) from a to b sink below the mirror along view rays, to the size of the view and the
-        share of what layers slide. An edge
-        over two flat triangles, whose ends lie p and q below the other end's plane, sinks by p q / (p + q); over more
-        of them, as over a smooth mirror, by less."""
+        """Return the sag (e,) of the edges from a to b below the mirror, measured along view rays.
+
+        The unit is the size of the view times the share by which layers slide. Let the ends of an edge over two flat
+        triangles lie p and q below the plane of the other end: it sags by p q / (p + q). Over more triangles, as on a
+        smooth mirror, it sags by less.
+        """
         patch, way, depths = self.patch, images.place[:, b] - images.place[:, a], []
         for end in (a, b):
             flat = patch.mirror_map.surface.face_normal[:, patch.face[images.member[end]]]

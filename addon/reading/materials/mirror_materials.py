@@ -1,4 +1,4 @@
-"""Which materials are mirrors: sharp Glossy or Metallic BSDFs, or sharp metallic Principled BSDFs."""
+"""Recognise mirror materials: sharp Glossy or Metallic BSDFs, or sharp metallic Principled BSDFs."""
 from __future__ import annotations
 
 import math

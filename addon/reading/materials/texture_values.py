@@ -102,7 +102,7 @@ def _math(node: bpy.types.Node, _output: bpy.types.NodeSocket, given: Inputs) ->
 
 
 def _mix(node: bpy.types.Node, _output: bpy.types.NodeSocket, given: Inputs) -> np.ndarray:
-    """Of the Mix node, and of the older Mix RGB."""
+    """Evaluate the Mix node or the older Mix RGB."""
     kind = getattr(node, "data_type", "RGBA")
     factor = np.clip(given[0], 0.0, 1.0)
     if kind == "FLOAT":
@@ -123,7 +123,7 @@ def _ramp(node: bpy.types.Node, output: bpy.types.NodeSocket, given: Inputs) -> 
 
 
 def _curves(node: bpy.types.Node, _output: bpy.types.NodeSocket, given: Inputs) -> np.ndarray:
-    """Of Float Curve and RGB Curves, whose last curve is that of all three colours."""
+    """Evaluate Float Curve or RGB Curves. The last of the RGB Curves applies to all three channels."""
     mapping = node.mapping
     tables = [np.array([mapping.evaluate(curve, step) for step in STEPS.tolist()]) for curve in mapping.curves]
     if node.type == "CURVE_FLOAT":
@@ -166,7 +166,13 @@ def _contrast(_node: bpy.types.Node, _output: bpy.types.NodeSocket, given: Input
 
 
 def _hue(_node: bpy.types.Node, _output: bpy.types.NodeSocket, given: Inputs) -> np.ndarray:
-    """Of greys, whose hue and saturation do not matter."""
+    """Evaluate Hue/Saturation/Value for greys, which hue and saturation leave unchanged.
+
+    Raises
+    ------
+    Unknown
+        If a value is not grey.
+    """
     value = given.colour("Color")
     if np.ptp(value, axis=1).max() > 1e-3:
         raise Unknown

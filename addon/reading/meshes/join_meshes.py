@@ -116,12 +116,12 @@ def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> Mirror
 
 
 def read_mirrors(depsgraph: bpy.types.Depsgraph, mirrors: list) -> tuple[dict[bpy.types.Object, MirrorSurface], list]:
-    """As `read_mirror`, of each of some mirrors but those that have no faces, and sentences on these.
+    """Read several mirrors. Return the surfaces by object, and a message for each mirror without faces.
 
     Raises
     ------
     ReflectionError
-        Where none has faces, `NothingSeen`, or one cannot be read.
+        If no mirror has faces (`NothingSeen`), or if one cannot be read.
     """
     surfaces, faceless = {}, []
     for obj in mirrors:
@@ -135,7 +135,20 @@ def read_mirrors(depsgraph: bpy.types.Depsgraph, mirrors: list) -> tuple[dict[bp
 
 
 def join_mirror(placed: list[Placed], parts: list) -> MirrorSurface:
-    """As `read_mirror`, of meshes that have been read; their owners are numbers of `parts`, which are counted on."""
+    """Join meshes that have been read into the surface of one mirror.
+
+    Parameters
+    ----------
+    placed : list of Placed
+        The meshes. The owner of each is an index into `parts`.
+    parts : list of bpy.types.Object
+        The objects of the mirror.
+
+    Raises
+    ------
+    ReflectionError
+        See `read_mirror`.
+    """
     if not placed:
         obj = parts[0]
         if is_part(obj):

@@ -1,4 +1,4 @@
-"""Who is a mirror and who a source in the truth: instances, materials by face, and what is looked through.
+"""Mirrors and sources in the ground truth: instances, materials by face, and transparent objects.
 
 Every picture here is right, so Compare must find next to nothing wrong; what blocks the view must not be judged.
 """
@@ -179,7 +179,7 @@ def test_a_mirror_behind_an_opaque_wall_is_not_judged(stage, tmp_path):
 
 
 def test_textured_openings_before_the_camera_are_looked_through(stage, tmp_path):
-    """Those of what a mirror shows are not, since textures may lie elsewhere on the reflection mesh."""
+    """Check this for direct view alone: on the reflection mesh a texture may have other coordinates."""
     leaf = parts.add("plane", "Leaf", size=2.0, location=(0.0, -1.5, 1.0), rotation=(np.pi / 2, 0.0, 0.0))
     leaf.data.materials.append(opened("Leaf", "TEXTURE"))
     report = compared(tmp_path, stage)

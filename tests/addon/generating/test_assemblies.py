@@ -40,7 +40,7 @@ def parts_of(result: bpy.types.Object) -> set:
 
 
 def shown(room) -> np.ndarray:
-    """Which source each pixel shows by the results, -1 where there is none."""
+    """Return the source index that the results show in each pixel, or -1."""
     core, view = room("core"), room("addon.reading").read_view(bpy.context)
     corners, source = [], []
     for obj in results():
@@ -210,7 +210,7 @@ def test_live_follows_and_keeps_it(engine, room):
 
 @pytest.mark.thorough
 def test_frames_are_baked_for_the_whole(engine, tmp_path):
-    """As one sequence, of which each frame is what is generated there, with the mattes of what it shows."""
+    """Check that each frame of the one sequence equals the reflection generated there, mattes included."""
     ball, pipe, scene = bpy.data.objects["Ball"], engine[2], bpy.context.scene
     scene.render.resolution_percentage = 50
     for frame, place in ((1, 0.0), (2, 0.3)):

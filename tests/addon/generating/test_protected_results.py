@@ -124,7 +124,7 @@ def test_operators_take_a_selected_mirror_for_its_result(scene):
 
 
 def test_an_active_result_is_meant_where_nothing_is_selected(scene):
-    """As after a click in the Outliner; else all of the scene would be cleared."""
+    """Check the state after a click in the Outliner. Otherwise *Clear* would remove all results."""
     box, ball, mirror = (bpy.data.objects[name] for name in ("Box", "Ball", "Mirror"))
     parts.select(box, ball, mirror)
     press("generate")

@@ -13,7 +13,7 @@ SEEN = ("name", "hide_render", "hide_viewport", "is_holdout", "is_shadow_catcher
 
 
 def shown() -> dict:
-    """What viewports and the outliner show of the user's objects, materials and view layer."""
+    """Return the state of objects, materials and view layer that viewports and the Outliner show."""
     scene = bpy.context.scene
     objects = {obj.session_uid: [getattr(obj, name) for name in SEEN] + [
         (slot.link, slot.material) for slot in obj.material_slots] + [tuple(map(tuple, obj.matrix_world))]

@@ -32,7 +32,7 @@ def emission(strength: float) -> bpy.types.Material:
 
 
 def truth(path, shown: bpy.types.Object) -> np.ndarray:
-    """What a perfect mirror shows Cycles where `shown` emits 1 and all else nothing; the file is as before."""
+    """Render by Cycles a scene of perfect mirrors in which `shown` alone emits light. Restore the file afterwards."""
     scene = bpy.context.scene
     meshes = [obj for obj in scene.objects if obj.type == "MESH" and obj.reflection_mesh.role != "REFLECTION"]
     before = [(obj, list(obj.data.materials)) for obj in meshes]

@@ -72,7 +72,7 @@ CHANGES = {
 
 @pytest.mark.parametrize("change", CHANGES)
 def test_there_and_back(lit, change):
-    """As by G and ESC, or by dragging and Ctrl-Z: the light is right again, and Generate keeps it."""
+    """Check that light is current again after an undone change, as by G and ESC, and that Generate keeps it."""
     if change == "pixels":
         painted(lit.image)[1]()
         bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")

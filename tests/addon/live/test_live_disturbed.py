@@ -128,7 +128,7 @@ def test_what_is_hidden_for_a_while_comes_back(scene, clock, room):
 @pytest.mark.thorough
 @pytest.mark.parametrize("way", ["Live", "button", "script"])
 def test_what_loses_its_light_shows_a_preview_where_somebody_looks(scene, clock, way, room, monkeypatch):
-    """Where Update cannot light it again."""
+    """Check the case that Update cannot light the result again."""
     def refused(*_):
         raise room("core").ReflectionError("Cycles is not available.")
         yield

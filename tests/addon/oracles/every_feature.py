@@ -31,7 +31,7 @@ class EveryFeature:
 
     @property
     def missing(self) -> list[str]:
-        """What no test has used so far."""
+        """Sorted names of the features that no test has used so far."""
         return sorted(self._wanted - self._used)
 
     def _record_operator(self, name: str, operator: type) -> None:

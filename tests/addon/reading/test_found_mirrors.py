@@ -37,7 +37,7 @@ def reports(monkeypatch, room) -> list[str]:
 
 
 def test_generate_and_caustics_work_with_the_monkey_selected(scene, room):
-    """As it is after it was added: the kettle shows it, and all else that is there."""
+    """Check that the kettle is found as the mirror, and shows the selected monkey and all other objects."""
     bpy.ops.object.light_add(type="POINT", location=(2.0, -3.0, 4.0))
     parts.select(scene["monkey"])
     operators = bpy.ops.reflection_mesh
@@ -116,7 +116,7 @@ def test_rough_metal_is_a_mirror_where_it_is_asked_for(scene, room, monkeypatch)
 
 
 def test_rough_metal_s_other_faces_do_not_reflect(scene):
-    """As a handle of wood."""
+    """Check a metal kettle with a wooden handle."""
     kettle = scene["kettle"]
     rough(kettle, 0.2)
     kettle.data.materials.append(parts.material("Wood", "DIFFUSE"))
@@ -158,7 +158,7 @@ def instancer(material: bpy.types.Material, keep: bool) -> bpy.types.Object:
 
 @pytest.mark.parametrize("keep", [False, True])
 def test_instances_of_geometry_nodes_are_mirrors_by_their_material(scene, room, keep):
-    """As the tiles of a disco ball; on what is no mirror itself they alone reflect."""
+    """Check instances such as the tiles of a disco ball. Only they reflect if the object itself is no mirror."""
     bpy.data.objects.remove(scene["kettle"])
     tiles = instancer(parts.material("Silver", "GLOSSY"), keep)
     bpy.context.view_layer.update()

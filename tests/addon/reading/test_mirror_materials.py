@@ -1,4 +1,4 @@
-"""Which materials are mirrors: in groups of nodes, by the values of textures, and by their roughness."""
+"""Mirror materials: node groups, texture values and roughness."""
 from __future__ import annotations
 
 import os
@@ -100,7 +100,7 @@ RANDOM = np.random.default_rng(4).uniform(size=(SIZE, SIZE))
     # paint that is rough over metal that is sharp
     (np.where(RANDOM < 0.4, 0.7, 0.05), np.where(RANDOM < 0.4, 0.0, 1.0), 0.05)])
 def test_images_count_by_the_median_of_what_is_metal(reading, roughness, metallic, expected):
-    """Of all texels, of which a grid stands for the rest; images hold 8 bits."""
+    """Check the median of a grid of texels. Images hold 8 bits, hence the tolerance."""
     made = textured(*(None if one is None else grey(one) for one in (roughness, metallic)))
     assert reading.mirror_roughness(made) == (None if expected is None else pytest.approx(expected, abs=0.005))
     assert reading.is_mirror(made) is (expected is not None and expected <= 0.1)
@@ -182,7 +182,7 @@ def _contrast(tree, socket):
 
 @pytest.mark.parametrize("changed", [_ramp, _math, _mix, _multiplied, _inverted, _range, _curve, _gamma, _contrast])
 def test_nodes_on_the_way_are_followed(reading, changed: Callable):
-    """As their documentation has them; Cycles shows the same."""
+    """Check the formulas of Blender's manual, which Cycles uses too."""
     value = 0.4
     made = textured(grey(value))
     tree, socket = made.node_tree, shader_of(made).inputs["Roughness"]
@@ -192,7 +192,7 @@ def test_nodes_on_the_way_are_followed(reading, changed: Callable):
 
 
 def test_the_channel_that_is_plugged_in_counts(reading):
-    """As of packed textures: roughness in green, metallic in blue."""
+    """Check packed textures: roughness in green, metallic in blue."""
     made = textured(np.dstack((np.full((SIZE, SIZE), 0.9), 0.06 * np.ones((SIZE, SIZE)), np.ones((SIZE, SIZE)))))
     tree, shader = made.node_tree, shader_of(made)
     split = tree.nodes.new("ShaderNodeSeparateColor")

@@ -176,7 +176,7 @@ def test_reroutes_and_empty_materials(blank, room):
 
 @pytest.mark.parametrize("more", [(), ("box",)])
 def test_an_instance_with_a_mirror_in_it_is_one(four, room, more):
-    """As assets come. Among other mirrors a room with a mirror in it is what they show."""
+    """Check instances as assets have them. If there are other mirrors, these show a room with a mirror in it."""
     kit = bpy.data.collections.new("Kit")
     glass = parts.add("plane", "Glass")
     glass.data.materials.append(parts.material("Chrome", "GLOSSY"))

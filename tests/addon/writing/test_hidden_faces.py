@@ -76,7 +76,7 @@ def test_all_of_the_geometry_where_light_comes_through(dense_scene):
 
 
 def test_a_glass_object_keeps_nothing_but_what_lies_behind_it(dense_scene):
-    """Of all mirrors and sources everything was kept, ten times as many faces, once any source let light through."""
+    """Check that one transparent source does not keep the hidden faces of all others, which took ten times as many."""
     ball, near, far = dense_scene
     before = {obj: shown(parts.generate(), obj.name) for obj in (near, far)}
     glass = parts.add("uv_sphere", "Glass", segments=16, ring_count=8, radius=0.25, location=(-0.6, -2.2, 1.2))

@@ -1,4 +1,4 @@
-"""How much work each scene takes, counted: a change that does more, or less, says so in counts.json.
+"""Counted work of each scene. A change that alters it must change counts.json too.
 
 `python -m tools.counts` shows what differs. Counts that follow from what is seen are held exactly; how tight bounding
 cones are, and where refinement stops, depends on the last digits of sums, which NumPys and processors add in different

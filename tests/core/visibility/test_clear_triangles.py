@@ -36,7 +36,7 @@ def with_pane(ahead: float, thick: float = 0.02, size=(1.6, 1.3), kind=Opacity.C
 
 
 def without(mesh, first: int):
-    """What a reflection shows of all but the triangles from `first` on."""
+    """Return the reflection mesh without faces of the source triangles from `first` on."""
     kept = mesh.source_face < first
     return replace(mesh, triangles=mesh.triangles[kept], source_face=mesh.source_face[kept])
 
@@ -136,7 +136,7 @@ def test_both_sides_of_thin_glass_are_kept():
 
 
 def test_rays_show_what_they_meet_behind_clear_triangles(monkeypatch):
-    """Where rays show what is too dense to be cut, they go on through what is clear."""
+    """Check that rays, which sample areas too dense for cutting, pass through clear triangles."""
     monkeypatch.setattr(limits, "DENSE", 1e-3)
     case, scene, opacity, first = dense_scene(Opacity.CLEAR)
     mesh = reflect(case.view, case.mirror, scene, Settings(tolerance=1.0), opacity=opacity)
