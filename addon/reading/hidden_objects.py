@@ -26,7 +26,8 @@ class Participants:
     hidden : list of bpy.types.Object
         Objects that would take part if they were not hidden.
     waiting : list of bpy.types.Object
-        The hidden diffuse objects of the scene. They take part again as soon as they are shown.
+        Diffuse objects of the scene that are hidden in the viewport or in renders, not from glossy rays alone. They
+        take part again as soon as they are shown.
     caught : list of bpy.types.Object
         Mirrors that are left out because they are shadow catchers.
     assemblies : tuple of Assembly
@@ -69,9 +70,9 @@ def visible(context: bpy.types.Context, mirrors: list, diffuse: list, unmirrored
         If there is no mirror or no diffuse object.
     """
     is_seen = seen_in(context)
-    # mirrors show what glossy rays meet, as in Cycles
     hidden = [obj for obj in mirrors if not is_seen(obj)]
     there = set(context.scene.objects)
+    # mirrors in Cycles show only objects that are visible to glossy rays
     unseen = [obj for obj in diffuse if not (is_seen(obj) and (unmirrored or obj.visible_glossy))]
     out = {*hidden, *unseen}
     seen = Participants([obj for obj in mirrors if obj not in out], [obj for obj in diffuse if obj not in out],
@@ -120,21 +121,23 @@ def seen_at_times(context: bpy.types.Context) -> Callable[[bpy.types.Object], bo
 
 def rendered_in(layer: bpy.types.ViewLayer) -> Callable[[bpy.types.Object], bool]:
     """Return a function that is True for objects of a view layer that renders show."""
-    # what each object's own list of collections says, which is worked out anew whenever it is asked
+    # the same as `obj.users_collection`, which Blender computes anew on every access
     rendered = {obj for collection in rendered_collections(layer.layer_collection) for obj in collection.objects}
     return lambda obj: not obj.hide_render and obj in rendered
 
 
 def in_viewports(context: bpy.types.Context) -> set:
-    """The objects of the view layer that are in viewports, were it not for the eyes of collections in the outliner."""
+    """Return the view layer's objects that are enabled in viewports, ignoring the eye icons of their collections."""
     shown = rendered_collections(context.view_layer.layer_collection, "hide_viewport")
     return {obj for collection in shown for obj in collection.objects
             if not (obj.hide_viewport or obj.hide_get(view_layer=context.view_layer))}
 
 
 def rendered_collections(layer_collection: bpy.types.LayerCollection, hidden_by: str = "hide_render") -> set:
-    """The view layer's collections that are in renders, or in what else `hidden_by` says: neither excluded nor hidden,
-    themselves or through a parent."""
+    """Return the view layer's collections that are not excluded, and not hidden themselves or through a parent.
+
+    The property `hidden_by` says what hides a collection: "hide_render" or "hide_viewport".
+    """
     found, waiting = set(), [layer_collection]
     while waiting:
         branch = waiting.pop()

@@ -19,7 +19,7 @@ from .results import RESULTS
 
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 # Roughness up to which a reflection in a ball can be recognised: Cycles still shows cubes as spots of their colours.
-# A rougher object is no mirror if others are selected with it.
+# A rougher object in a selection is a mirror only if it is the active object and nothing else qualifies.
 RECOGNISABLE = 0.3
 NONE, IN_PART, WHOLE = range(3)
 IsMirror = Callable[[bpy.types.Material | None], bool]

@@ -55,7 +55,7 @@ def choose(context: bpy.types.Context, all_seen: bool = True, unmirrored: bool =
 
 
 def seen_by_camera(context: bpy.types.Context, mirrors: list, diffuse: list, unmirrored: bool = False) -> Participants:
-    """Return those of the objects that are `visible`, without mirrors that are shadow catchers.
+    """Leave out hidden objects, see `visible`, and mirrors that are shadow catchers unless `unmirrored` is set.
 
     Raises
     ------

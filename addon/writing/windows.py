@@ -19,7 +19,7 @@ from ..registration import Handlers
 
 RAYS = 200          # by which the view through a window is tried
 NEARLY = 1e-4       # of a ray's length: what lies in the image itself fights with it
-NEARER = 5e-4       # of the distance from the eye, more than twice as much
+NEARER = 5e-4       # shift to the eye, of the distance from it (orthographic: of the image's size); > 2 NEARLY
 MOST_THROUGH = 100  # objects that a ray goes on through
 TOO_SHORT = 100.0   # steps of single precision: on a shorter way what is met hangs on these
 
@@ -137,8 +137,10 @@ def _spread(count: int) -> np.ndarray:
 
 def _first_seen(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, start: Vector, end: Vector,
                 mirrors: list) -> tuple[str, bool]:
-    """The name of the first object that the camera sees between two places, or at the second, empty where there is
-    none; and whether it lies before that."""
+    """Cast a ray from `start` to `end` and return the first opaque object that the camera sees.
+
+    Return its name, empty if there is none, and True if it lies clearly before `end`. Mirrors and results are ignored.
+    """
     way = end - start
     # Blender's rays are in single precision, whose steps are wider far from the origin
     wide = max(map(abs, (*start, *end)))
@@ -159,7 +161,7 @@ def _first_seen(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, start: V
 
 
 def close_abandoned_windows() -> None:
-    """Show every mirror again whose results have all been deleted, by whatever means."""
+    """Show mirrors to the camera again if no result in any scene needs them as windows any more."""
     hidden = [obj for obj in bpy.data.objects if obj.reflection_mesh.camera_hidden]
     if not hidden:
         return

@@ -45,8 +45,7 @@ class Opacities:
         return self._is_one_of(triangle, Opacity.UNSEEN, Opacity.OPAQUE)
 
     def not_to_cover(self, triangle: np.ndarray) -> np.ndarray:
-        """Return True for triangles (n,) before mirrors that the eye sees, so that layers must not come out before
-        them."""
+        """Return True for triangles (n,) in front of mirrors that the eye sees, so that layers must not cover them."""
         return self._is_one_of(triangle, Opacity.OPEN, Opacity.OPAQUE)
 
     def _is_one_of(self, triangle: np.ndarray, one: Opacity, other: Opacity) -> np.ndarray:

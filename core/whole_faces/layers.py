@@ -28,9 +28,12 @@ class Layers:
 
     def hidden_and_close(self, nodes: np.ndarray, source: np.ndarray, solid: np.ndarray,
                          near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return two masks of the faces (3, f), of triangles `source` (f,): those that nearer ones hide whole, which
-        are `solid` (f,) and stop light; and those of the others that lie over one another, or behind triangles of the
-        scene with corners `near` (3, 3, t), so closely that the picture could change when they sink or slide."""
+        """Return two masks (f,) of the faces with corners `nodes` (3, f), of source triangles `source` (f,).
+
+        The first marks `solid` (f,) faces that nearer solid faces which stop light hide entirely. The second marks
+        other faces so close to one another, or behind scene triangles with corners `near` (3, 3, t), that moving them
+        could change the picture.
+        """
         sinking, stops = self.sinking, self.opacities.stops_light(source)
         grid = Grid.over(sinking.patch)
         corners, order = grid.spots(self.images.pixel[:, nodes]), sinking.order(self.images)[nodes]
