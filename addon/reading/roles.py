@@ -30,12 +30,14 @@ def choose(context: bpy.types.Context, all_seen: bool = True, unmirrored: bool =
 
     The mirrors are the first of these that exist:
 
-    1. mirrors in the selection, by role, by material, or as the active object among others;
-    2. the mirrors of results that show a selected object;
-    3. mirrors of the scene, by role, or by material if none has the role.
+    1. selected mirrors, if other objects are selected too: they show these;
+    2. mirrors of results that are selected, or whose mirror is: they show the objects of these results;
+    3. mirrors that are selected alone;
+    4. mirrors of results that show a selected object: they show the objects of these results;
+    5. mirrors of the scene, by role, or by material if none has the role.
 
-    Mirrors of the first kind show the other selected objects. All others, and mirrors that are selected alone, show
-    the objects with the role Reflected. If there are none they show every object (`all_seen`), or the selected ones.
+    Mirrors of kinds 3 and 5 show the objects with the role Reflected. If there are none, they show every visible
+    object (`all_seen`), or else the other selected ones.
 
     Parameters
     ----------
@@ -47,7 +49,7 @@ def choose(context: bpy.types.Context, all_seen: bool = True, unmirrored: bool =
     ReflectionError
         If there is no mirror or no diffuse object. The message says how to choose one.
     """
-    mirrors, diffuse = _with_parts(context, *_named_or_found(context, all_seen, unmirrored))
+    mirrors, diffuse = _with_parts(context, all_seen, unmirrored)
     active = context.view_layer.objects.active
     if not mirrors and active is not None and active.reflection_mesh.role in RESULTS and lost_mirror(active):
         raise ReflectionError(f"The mirror of '{active.name}' is gone: clear it, or select another mirror.")
@@ -83,17 +85,18 @@ def without_shadow_catchers(mirrors: list) -> tuple[list, list]:
 def candidates(context: bpy.types.Context, all_seen: bool = True, unmirrored: bool = False) -> tuple[list, list]:
     """Return the mirrors and the diffuse objects that `choose` chooses from, hidden ones among them; with a mirror all
     parts that are joined with it."""
-    mirrors, diffuse = _with_parts(context, *_named_or_found(context, all_seen, unmirrored))
+    mirrors, diffuse = _with_parts(context, all_seen, unmirrored)
     return [obj for obj in mirrors if unmirrored or not catches_shadows(obj)], diffuse
 
 
 def shadow_catchers(context: bpy.types.Context) -> list:
-    """The mirrors that `candidates` leaves out."""
-    return list(filter(catches_shadows, _named_or_found(context, True, False)[0]))
+    """Return the mirrors that `candidates` leaves out because they are shadow catchers, joined parts included."""
+    return list(filter(catches_shadows, _with_parts(context, True, False)[0]))
 
 
-def _with_parts(context: bpy.types.Context, mirrors: list, diffuse: list) -> tuple[list, list]:
+def _with_parts(context: bpy.types.Context, all_seen: bool, unmirrored: bool) -> tuple[list, list]:
     """Return mirrors with all parts that are joined with them, and the diffuse objects that are none of these."""
+    mirrors, diffuse = _named_or_found(context, all_seen, unmirrored)
     mirrors = with_joined(context, mirrors)
     reflecting = set(mirrors)
     return mirrors, [obj for obj in diffuse if obj not in reflecting]

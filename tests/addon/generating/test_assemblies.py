@@ -268,3 +268,12 @@ def test_each_part_is_lit_by_its_own_material(engine, room, kind):
     # nothing is noisy here: what is left is a fraction of a pixel at outlines (42.5, 56.2 dB)
     assert psnr(other, reference) > 49.0
     assert psnr(picture(room), reference) > {"PICTURE": 41.0, "OBJECTS": 49.0}[kind]
+
+
+def test_parts_that_are_shadow_catchers_are_named(engine, room):
+    """Check that a part which joins a selected mirror is reported as Generate and Bake Frames leave it out."""
+    reading, pipe = room("addon.reading"), engine[2]
+    parts.generate()
+    pipe.is_shadow_catcher = True
+    parts.select(engine[0], bpy.data.objects["Ball"])
+    assert reading.choose(bpy.context).caught == reading.shadow_catchers(bpy.context) == [pipe]
