@@ -20,7 +20,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import bpy
-from hands import ROOT, Screen, built_zip, run, settled, turned_to_tab, waiting
+from hands import Screen, room_opened, run, settled, sidebar_opened, waiting
 
 GENERATE = 129  # pixels below the upper end of the sidebar, at the resolution scale of 1
 SHADING = 354   # the same of the button that switches the viewport's shading
@@ -29,24 +29,9 @@ FLOOR = (-150, -160)    # pixels from the middle of the viewport to a place on t
 
 
 def steps():
-    screen = Screen()
-    screen.point(**screen.centre)
-    yield 1.0
-    screen.press("ESC")
-    bpy.ops.extensions.package_install_files(filepath=str(built_zip()), repo="user_default", enable_on_install=True)
-    yield 1.0
-    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "sample_blends" / "room.blend"), load_ui=False)
-    yield 2.0
-    screen = Screen()
+    screen = yield from room_opened()
     space = screen.area.spaces.active
-    space.region_3d.view_perspective, space.shading.type = "CAMERA", "SOLID"
-    bpy.context.scene.render.resolution_percentage = 25
-    bpy.ops.ed.undo_push(message="Opened")
-    screen.point(**screen.centre)
-    yield 0.3
-    screen.press("N")
-    yield 1.0
-    yield from waiting(lambda: turned_to_tab(screen), "the tab Reflection", 20.0)
+    yield from sidebar_opened(screen)
     yield from settled("clicks_1_before")
     yield from pressed(screen, GENERATE)
     yield from waiting(lambda: results("REFLECTION"), "a reflection")

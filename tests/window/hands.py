@@ -11,7 +11,7 @@ import sys
 import tempfile
 import time
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 
 import bpy
@@ -103,6 +103,33 @@ def built_zip() -> Path:
 def install() -> None:
     """Install the zip and switch the extension on."""
     bpy.ops.extensions.package_install_files(filepath=str(built_zip()), repo="user_default", enable_on_install=True)
+
+
+def room_opened(shading: str = "SOLID", percentage: int = 25) -> Generator[float, None, Screen]:
+    """Install the extension, open the sample room, look through its camera, and return the screen."""
+    screen = Screen()
+    screen.point(**screen.centre)
+    yield 1.0
+    screen.press("ESC")
+    install()
+    yield 1.0
+    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "sample_blends" / "room.blend"), load_ui=False)
+    yield 2.0
+    screen = Screen()
+    space = screen.area.spaces.active
+    space.region_3d.view_perspective, space.shading.type = "CAMERA", shading
+    bpy.context.scene.render.resolution_percentage = percentage
+    bpy.ops.ed.undo_push(message="Opened")
+    return screen
+
+
+def sidebar_opened(screen: Screen) -> Iterator[float]:
+    """Open the sidebar by N, and choose the extension's tab."""
+    screen.point(**screen.centre)
+    yield 0.3
+    screen.press("N")
+    yield 1.0
+    yield from waiting(lambda: turned_to_tab(screen), "the tab Reflection", 20.0)
 
 
 def settled(name: str, seconds: float = 30.0) -> Iterator[float]:

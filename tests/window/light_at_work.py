@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import bpy
-from hands import ROOT, Screen, install, run, settled, shot, turned_to_tab, waiting
+from hands import Screen, room_opened, run, settled, shot, sidebar_opened, waiting
 
 FLAGS = ("hide_render", "visible_camera", "is_holdout", "is_shadow_catcher", "name")
 
@@ -26,32 +26,14 @@ def flags() -> list:
     return [[getattr(obj, name) for name in FLAGS] for obj in bpy.context.scene.objects]
 
 
-def opened():
-    """The sample room, with the extension."""
-    screen = Screen()
-    screen.point(**screen.centre)
-    yield 1.0
-    screen.press("ESC")
-    install()
-    yield 1.0
-    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "sample_blends" / "room.blend"), load_ui=False)
-    yield 2.0
-
-
 def steps():
-    yield from opened()
-    screen = Screen()
+    screen = yield from room_opened()
     scene, space = bpy.context.scene, screen.area.spaces.active
-    scene.render.engine, scene.render.resolution_percentage, scene.cycles.preview_samples = "CYCLES", 25, 4
+    scene.render.engine, scene.cycles.preview_samples = "CYCLES", 4
     scene.reflection_mesh.light_samples = 64
-    space.region_3d.view_perspective = "CAMERA"
     package = next(name for name in bpy.context.preferences.addons.keys() if name.endswith("reflection_mesh"))
     freshness = importlib.import_module(f"{package}.addon.freshness")
-    screen.point(**screen.centre)
-    yield 0.3
-    screen.press("N")
-    yield 1.0
-    yield from waiting(lambda: turned_to_tab(screen), "the tab Reflection", 20.0)
+    yield from sidebar_opened(screen)
     yield from screen.search("generate reflection")
     screen.press("RET")
     yield from waiting(result, "a reflection")

@@ -17,7 +17,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import bpy
-from hands import ROOT, Screen, install, run, settled, shot, waiting
+from hands import Screen, room_opened, run, settled, shot, waiting
 
 LONGEST = 1.0   # seconds of work between two ticks
 HANGS = 10.0    # seconds between two ticks, on a machine that does other work besides
@@ -54,19 +54,7 @@ def at_work(screen: Screen, name: str) -> bool:
 
 
 def steps():
-    screen = Screen()
-    screen.point(**screen.centre)
-    yield 1.0
-    screen.press("ESC")
-    install()
-    yield 1.0
-    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "sample_blends" / "room.blend"), load_ui=False)
-    yield 2.0
-    screen = Screen()
-    space = screen.area.spaces.active
-    space.region_3d.view_perspective, space.shading.type = "CAMERA", "SOLID"
-    bpy.context.scene.render.resolution_percentage = 25
-    bpy.ops.ed.undo_push(message="Opened")
+    screen = yield from room_opened()
     bpy.app.timers.register(tick)
     yield 1.0
     yield from screen.search("generate reflection")

@@ -30,7 +30,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import bpy
-from hands import ROOT, Screen, install, run, settled, shot, turned_to_tab, waiting
+from hands import Screen, room_opened, run, settled, shot, sidebar_opened, waiting
 from polls import polls_of_the_extension
 
 GENERATE = 129  # pixels below the upper end of the sidebar, at the resolution scale of 1
@@ -46,25 +46,8 @@ def results() -> list:
 
 
 def steps():
-    screen = Screen()
-    screen.point(**screen.centre)
-    yield 1.0
-    screen.press("ESC")
-    install()
-    yield 1.0
-    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "sample_blends" / "room.blend"), load_ui=False)
-    yield 2.0
-    screen = Screen()
-    space = screen.area.spaces.active
-    space.region_3d.view_perspective, space.shading.type = "CAMERA", "MATERIAL"
-    bpy.context.scene.render.resolution_percentage = 50
-    bpy.ops.ed.undo_push(message="Opened")
-
-    screen.point(**screen.centre)
-    yield 0.3
-    screen.press("N")
-    yield 1.0
-    yield from waiting(lambda: turned_to_tab(screen), "the tab Reflection", 20.0)
+    screen = yield from room_opened("MATERIAL", 50)
+    yield from sidebar_opened(screen)
     yield from settled("1_tab")
     yield from click(screen, GENERATE)
     yield from waiting(results, "a reflection")
