@@ -6,6 +6,7 @@ Operators and verbs are recorded while tests use them; only those that finish co
 from __future__ import annotations
 
 import argparse
+import functools
 from collections.abc import Callable
 from types import ModuleType
 
@@ -37,6 +38,7 @@ class EveryFeature:
     def _record_operator(self, name: str, operator: type) -> None:
         execute = operator.execute
 
+        @functools.wraps(execute)
         def recorded(self_: bpy.types.Operator, context: bpy.types.Context) -> set:
             outcome = execute(self_, context)
             if "FINISHED" in outcome:
