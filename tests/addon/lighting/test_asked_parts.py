@@ -204,7 +204,7 @@ def test_parts_tile_their_triangles(room):
     """Against areas, and against every part of a brute force search."""
     division = room("addon.baking.texels.division").divided(np.array([1, 4, 2, 8]))
     sides = division.weights[:, 1:] - division.weights[:, :1]
-    area = np.abs(np.cross(sides[:, 0, 1:], sides[:, 1, 1:]))
+    area = np.abs(np.linalg.det(sides[:, :, 1:]))
     assert np.allclose(np.bincount(division.owner, area), 1.0)
     assert np.allclose(area, 1.0 / division.count[division.owner]**2) and (np.diff(division.owner) >= 0).all()
     rng = np.random.default_rng(4)

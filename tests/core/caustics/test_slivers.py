@@ -59,6 +59,11 @@ def border(mesh: CausticMesh) -> float:
     return float(np.linalg.norm(np.diff(mesh.positions[ends[alone]], axis=1), axis=2).sum())
 
 
+def doubled_area(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return twice the signed area (n,) of triangles whose sides are first and second (n, 2)."""
+    return first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+
+
 def at_places(mesh: CausticMesh, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Count the faces (n,) that hold places (n, 2) of the floor, and add up their irradiance (n,) there.
 
@@ -67,10 +72,10 @@ def at_places(mesh: CausticMesh, places: np.ndarray) -> tuple[np.ndarray, np.nda
     corners = mesh.positions.astype(np.float32)[mesh.triangles].astype(np.float64)[:, :, :2]
     a, b, c = np.moveaxis(corners, 1, 0)
     count, light = np.zeros(len(places), dtype=int), np.zeros(len(places))
-    whole = np.cross(b - a, c - a)
+    whole = doubled_area(b - a, c - a)
     for number, place in enumerate(places):
         with np.errstate(divide="ignore", invalid="ignore"):
-            weights = np.stack([np.cross(one - place, other - place) / whole
+            weights = np.stack([doubled_area(one - place, other - place) / whole
                                 for one, other in ((b, c), (c, a), (a, b))], axis=1)
         holds = (weights >= 0.0).all(axis=1)
         count[number] = holds.sum()
