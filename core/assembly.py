@@ -16,7 +16,7 @@ from .geometry import SceneFrames, area_normals, columns, distinct, dot, doubled
 from .polygons import Faces
 from .result import ReflectionMesh, halfway, place
 from .support import breathe, portions
-from .views import LampView
+from .views import LampView, View
 from .whole_faces import Seamed
 
 BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
@@ -25,9 +25,10 @@ CORNERS_AT_ONCE = 1 << 17  # before whoever waits has a turn
 ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the caustic
 
 
-def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors, placement: str,
-             reach: float = 0.0, whole: Seamed | None = None) -> ReflectionMesh:
-    """The faces as arrays, no two on the same nodes, without unused nodes."""
+def assemble(view: View, mirror_map: MirrorMap | None, bounces: list[Bounce], met: SceneAndMirrors, placement: str,
+             reach: float = 0.0, whole: Seamed | None = None, backward: dict | None = None) -> ReflectionMesh:
+    """The faces as arrays, no two on the same nodes, without unused nodes; those of `bounces`, on the `mirror_map`,
+    those drawn `whole`, and those made `backward`."""
     parts, start = [], 0
     for number, bounce in enumerate(bounces, 1):
         part, node = _arrays(mirror_map, bounce, met)
@@ -39,27 +40,37 @@ def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors,
         if whole is not None and number == 1:
             parts.append(_whole_arrays(mirror_map, whole, bounce, node, met))
             start += len(parts[-1]["path_length"])
-    most = max(part["mirror_normals"].shape[1] for part in parts)
+    maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
     for part in parts:
-        normals = part["mirror_normals"]
-        part["mirror_normals"] = np.pad(normals, ((0, 0), (0, most - normals.shape[1]), (0, 0)))
+        part["later_mirrors"] = _later_mirrors(maps, part["bounces"], part["map_face"], met)
+    if backward is not None:
+        parts.append({**backward, "triangles": backward["triangles"] + start})
+    _pad(parts, "mirror_normals", 0.0)
+    _pad(parts, "later_mirrors", -1)
     breathe()
     arrays = {name: np.concatenate([part.pop(name) for part in parts]) for name in tuple(parts[0])}
     breathe()
-    maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
     map_face = arrays.pop("map_face")
-    arrays["later_mirrors"] = _later_mirrors(maps, arrays["bounces"], map_face, met)
-    if isinstance(mirror_map.view, LampView):
+    if isinstance(view, LampView):
         arrays["positions"] = arrays["mirror_position"]
         return ReflectionMesh(**arrays, maps=maps, map_face=map_face)
-    arrays["positions"] = place(mirror_map.view, arrays["mirror_position"].T, arrays["path_length"], placement, reach,
+    arrays["positions"] = place(view, arrays["mirror_position"].T, arrays["path_length"], placement, reach,
                                 met.slide).T
     return ReflectionMesh(**arrays)
 
 
+def _pad(parts: list[dict], name: str, value: float) -> None:
+    """Let arrays whose second axis counts bounces have as many of them in all parts."""
+    most = max(part[name].shape[1] for part in parts)
+    for part in parts:
+        own = part[name]
+        missing = [(0, most - own.shape[1]) if axis == 1 else (0, 0) for axis in range(own.ndim)]
+        part[name] = np.pad(own, missing, constant_values=value)
+
+
 def _later_mirrors(maps: tuple, bounces: np.ndarray, map_face: np.ndarray, met: SceneAndMirrors) -> np.ndarray:
     """The triangles (m, b) of the mirrors, as given, that faces are seen by after the first one; -1 behind the last."""
-    later = np.full((len(map_face), len(maps) - 1), -1)
+    later = np.full((len(map_face), max(len(maps) - 1, 0)), -1)
     for number, ray_map in enumerate(maps, 1):
         chosen = np.flatnonzero(bounces == number)
         face = map_face[chosen]

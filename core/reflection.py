@@ -7,6 +7,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from .assembly import assemble
+from .backward import BackwardPart, backward_arrays
 from .bounce import Bounce, Task, bounced, refined, showing_mirrors
 from .bounced_cameras import bounced_cameras
 from .cameras import (
@@ -126,7 +127,14 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     met = met if isinstance(tree, PointTree) or settings.hidden_faces else met.from_outside(view)
     progress.done("tree")
 
-    cameras, uncut, (pixels, overlaid) = _seen_cameras(view, mirror, met, settings, progress)
+    backward = _backward(view, mirror, met, settings, progress)
+    if backward is not None and backward.chosen.all():
+        mesh = assemble(view, None, [], met, settings.placement, backward=backward_arrays(backward, met))
+        progress.done("rays", **backward.counts)
+        return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds,
+                       estimated_error=settings.tolerance)
+    cameras, uncut, (pixels, overlaid) = _seen_cameras(view, mirror, met, settings, progress,
+                                                       None if backward is None else ~backward.chosen)
     met = _behind_panes(cameras, met, progress)
     limits = Limits.of(settings, pixels, len(met.triangles))
     if isinstance(tree, PointTree):
@@ -155,7 +163,11 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     progress.start, progress.share = 0.0, 1.0
     progress.next(0.95, "Sorting by depth")
     error = max(_estimate(*np.concatenate([bounce.left for bounce in bounces], axis=1)), error)
-    mesh = assemble(mirror_map, bounces, task.met, settings.placement, reach, seams)
+    by_rays = None
+    if backward is not None:
+        by_rays = backward_arrays(backward, met)
+        progress.done("rays", **backward.counts)
+    mesh = assemble(view, mirror_map, bounces, task.met, settings.placement, reach, seams, by_rays)
     del bounces, seams
     mesh = in_given_order(mesh, tree.given, given)
     progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
@@ -165,11 +177,12 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
 
 
 def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings,
-                  progress: Progress) -> tuple[Cameras, int, tuple[int, int]]:
-    """Cameras on what the view sees of the mirror; how many corners there were before any was cut; about how many
+                  progress: Progress, faces: np.ndarray | None = None) -> tuple[Cameras, int, tuple[int, int]]:
+    """Cameras on what the view sees of the mirror, or of those of its `faces` (m,); how many corners there were before any was cut; about how many
     pixels see the mirror, and of how many cameras it is not told all that lies over them."""
     progress.next(0.1, "Preparing the mirror")
-    body, faces = with_shades(view, mirror, visible_triangles(view, mirror))
+    visible = visible_triangles(view, mirror)
+    body, faces = with_shades(view, mirror, visible if faces is None else visible[faces[visible]])
     mirror_map = MirrorMap(view, body, settings.method == "PARALLEL", met.surface if body is met.mirrors else None)
     cameras = three_ray_cameras(mirror_map, body, faces)
     uncut = cameras.places.shape[1]
@@ -181,6 +194,19 @@ def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settin
     progress.done("cameras", mirror_triangles=len(cameras), mirror_pixels=grid.mirror_pixels, self_occluded=occluded,
                   overlaid=overlaid)
     return cameras, uncut, (grid.mirror_pixels, overlaid)
+
+
+def _backward(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings,
+              progress: Progress) -> BackwardPart | None:
+    """The part of the mirror that is made backwards, None where there is none: parallel cameras, points, lamps, and
+    layers behind clear or hidden ones are made forward."""
+    if (settings.method != "GENERAL" or settings.hidden_faces or isinstance(view, LampView)
+            or not met.opacities.all_opaque):
+        return None
+    progress.next(0.1, "Preparing the mirror")
+    part = BackwardPart(view, mirror, met, settings)
+    progress.done("rays")
+    return part if part else None
 
 
 def _behind_panes(cameras: Cameras, met: SceneAndMirrors, progress: Progress) -> SceneAndMirrors:

@@ -1,0 +1,208 @@
+"""The part of a reflection that is made backwards: one ray for each pixel, and faces between what they meet."""
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+from ..cameras import MirrorSurface
+from ..culling import SceneAndMirrors
+from ..geometry import TriangleMesh, dot, norm, unit
+from ..result import GAP
+from ..support import FACE_SHARE, Settings, breathe
+from ..trees import SceneTree, first_crossed
+from ..views import View
+from .cell_faces import CellFaces, faces_of_cells
+from .cells import Labels, cells_of
+from .decision import small_parts
+from .lattice import ASIDE, Lattice, lattice_step
+from .outlines import Sides, between, crossings, halved, joined
+from .paths import NOTHING, Paths, covering, traced
+
+STRAIGHT = 0.1  # pixels that outlines may lie beside straight lines
+SUNK = 0.5      # of the room that layers keep before the mirror: how far the middle of a face may lie behind it
+
+
+class BackwardPart:
+    """Samples of a mirror, and the faces between them.
+
+    Parameters
+    ----------
+    view : View
+    mirror : TriangleMesh
+    met : SceneAndMirrors
+    settings : Settings
+
+    Attributes
+    ----------
+    chosen : (m,) bool
+        Triangles of the mirror that are sampled; the others only hide them.
+    rays : int
+        That were traced.
+    counts : dict
+        Pixels of the mirror that are sampled, and of those the ones that see a mirror still after the last bounce.
+    """
+
+    def __init__(self, view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings) -> None:
+        self.view, self.mirror, self.met, self.depth = view, mirror, met, settings.depth
+        self.tolerance = FACE_SHARE * settings.tolerance
+        self.lattice = Lattice.around(view, mirror.positions[mirror.used], lattice_step(settings))
+        self.drawn = self.lattice.drawn(mirror.positions, mirror.triangles)
+        self.chosen = small_parts(mirror, self.lattice, self.drawn[0])
+        self.rays, self.counts = 0, {}
+
+    def __bool__(self) -> bool:
+        return bool(self.chosen.any())
+
+    @cached_property
+    def surface(self) -> MirrorSurface:
+        return self.met.surface if self.mirror is self.met.mirrors else MirrorSurface(self.mirror)
+
+    @cached_property
+    def tree(self) -> SceneTree:
+        return self.met.mirror_tree if self.mirror is self.met.mirrors else SceneTree.of_ordered(self.mirror)
+
+    def faces(self) -> tuple[Paths, np.ndarray, CellFaces]:
+        """Return vertices as paths, where they lie in the picture (n, 2), and the faces on them."""
+        lattice = self.lattice
+        width, height = lattice.size
+        face, weights = self.drawn
+        number = np.flatnonzero(face >= 0)
+        number = number[self.chosen[face[number]]]
+        face = face[number]
+        corners = self.mirror.positions[self.mirror.triangles[face]]
+        place = np.einsum("kn,nki->in", weights[:, number], corners)
+        paths, left = self._traced(face, place)
+        pixels = len(number) * lattice.step**2
+        self.counts = {"mirror_pixels": round(pixels), "filled_pixels": 0, "left_pixels": round(left * lattice.step**2)}
+        spots = lattice.spots(number)
+        at = np.full(width * height, -1)
+        at[number] = np.arange(len(number))
+        at = at.reshape(height, width)
+        key = np.where(at >= 0, self._keys(paths)[at], NOTHING)
+        node = np.where(key >= 0, at, -1)
+        sides = [self._sides(at, key, axis) for axis in (1, 0)]
+        every, nodes, shares = paths, [], []
+        for axis, (where, side) in zip((1, 0), sides):
+            share, first, second = self._on_outlines(side, paths, spots, key, where, axis)
+            both = np.full((2, height, width), -1)
+            for which, ends in enumerate((first, second)):
+                seen = ends[0]
+                both[which][tuple(part[seen] for part in where)] = len(spots) + np.arange(len(seen))
+                every, spots = joined([every, ends[1]]), np.concatenate((spots, ends[2]))
+            nodes.append(both)
+            shares.append(np.full((height, width), np.inf))
+            shares[-1][where] = share
+        labels = Labels(key, node, *nodes, *shares, self._rough(paths, at, key))
+        cells = faces_of_cells(labels, cells_of(labels, self.lattice.step, STRAIGHT), len(spots))
+        middle, spot = self._middles(every, spots, cells)
+        every, spots = joined([every, middle]), np.concatenate((spots, spot)) + ASIDE
+        return self._moved(every, spots), spots, cells
+
+    def _traced(self, face: np.ndarray, place: np.ndarray) -> tuple[Paths, int]:
+        paths, left = traced(self.view, self.surface, self.met, face, place, self.depth)
+        self.rays += len(face)
+        covered = covering(self.met, self.view, place)
+        return replace(paths, source=np.where(covered, NOTHING, paths.source)), left
+
+    def _keys(self, paths: Paths) -> np.ndarray:
+        """Return what paths show: a triangle, after so many mirrors."""
+        return np.where(paths.source >= 0, paths.source * (self.depth + 1) + paths.bounces, NOTHING)
+
+    def source(self, key: np.ndarray) -> np.ndarray:
+        return key // (self.depth + 1)
+
+    def _sides(self, at: np.ndarray, key: np.ndarray, axis: int) -> tuple[tuple, Sides]:
+        """Return where sides along an axis lie whose ends see different things, rows and columns, and the sides."""
+        height, width = key.shape
+        end = (slice(1, None), slice(None)) if axis == 0 else (slice(None), slice(1, None))
+        start = (slice(None, -1), slice(None)) if axis == 0 else (slice(None), slice(None, -1))
+        where = np.nonzero((key[start] != key[end]))
+        step = np.array((1, 0)) if axis == 0 else np.array((0, 1))
+
+        def sample(times: int) -> np.ndarray:
+            row, column = where[0] + times * step[0], where[1] + times * step[1]
+            inside = (row >= 0) & (row < height) & (column >= 0) & (column < width)
+            return np.where(inside, at[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)], -1)
+        return where, Sides(sample(0), sample(1), sample(-1), sample(2))
+
+    def _on_outlines(self, side: Sides, paths: Paths, spots: np.ndarray, key: np.ndarray, where: tuple, axis: int):
+        """Return the vertices on outlines: of what is seen at the start of the sides and at the end the sides that have
+        one, the paths and places in the picture."""
+        keys = self._keys(paths)
+        share, doubtful = crossings(side, paths, keys, self.met)
+        step = self.lattice.step * (np.array((0.0, 1.0)) if axis == 0 else np.array((1.0, 0.0)))
+        width = key.shape[1]
+        first_spot = self.lattice.spots(where[0] * width + where[1])
+        own = [np.where(end >= 0, keys[end], NOTHING) for end in (side.start, side.end)]
+        chosen = np.flatnonzero(doubtful)
+
+        def look(some, way):
+            return self._looked(first_spot[chosen[some]] + way[:, None] * step)
+        start, end = (paths.select(np.maximum(number[chosen], 0)) for number in (side.start, side.end))
+        share[chosen], found_first, found_second = halved(start, end, (own[0][chosen], own[1][chosen]), look)
+        spot = first_spot + share[:, None] * step
+        sure = np.flatnonzero(~doubtful)
+        results = []
+        for seen, one, other, way, found in ((own[0], side.start, side.end, share, found_first),
+                                             (own[1], side.end, side.start, 1.0 - share, found_second)):
+            known, asked = sure[seen[sure] >= 0], np.flatnonzero(seen[chosen] >= 0)
+            parts = [between(paths.select(one[known]), paths.select(other[known]), way[known], self.met),
+                     self._moved(found.select(asked), spot[chosen[asked]])]
+            number = np.concatenate((known, chosen[asked]))
+            results.append((number, joined(parts), spot[number]))
+        return share, *results
+
+    def _looked(self, spots: np.ndarray) -> tuple[np.ndarray, Paths, np.ndarray]:
+        """Return which places (n, 2) in the picture see the sampled mirror, and of those the paths and their keys."""
+        origin, ray = (given.T for given in self.view.rays(spots))
+        face, distance = first_crossed(self.tree, origin, ray, many=True)
+        seen = np.flatnonzero((face >= 0) & self.chosen[face])
+        paths, _ = self._traced(face[seen], origin[:, seen] + distance[seen] * ray[:, seen])
+        return seen, paths, self._keys(paths)
+
+    def _moved(self, paths: Paths, spots: np.ndarray) -> Paths:
+        """Return the paths seen at other places (n, 2) in the picture, as far from the eye's plane."""
+        origin, ray = (given.T for given in self.view.rays(spots))
+        forward = self.view.forward[:, None]
+        depth = dot(paths.place - origin, forward) / dot(ray, forward)
+        return replace(paths, place=origin + depth * ray)
+
+    def _middles(self, paths: Paths, spots: np.ndarray, cells: CellFaces) -> tuple[Paths, np.ndarray]:
+        """Return the vertices in the middles of cells, and where they lie in the picture."""
+        crossed = cells.around >= 0
+        spot = (spots[cells.around] * crossed[:, :, None]).sum(axis=1) / np.maximum(crossed.sum(axis=1), 1)[:, None]
+        one, other = (paths.select(end) for end in cells.middles.T)
+        normal = one.normal + other.normal
+        size = norm(np.moveaxis(normal, 1, 0))
+        half = {name: 0.5 * (getattr(one, name) + getattr(other, name))
+                for name in ("place", "origin", "point", "length")}
+        middle = replace(one, ray=unit(one.ray + other.ray), normal=normal / np.where(size > 0.0, size, 1.0)[:, None],
+                         **half)
+        return self._moved(middle, spot), spot
+
+    def _rough(self, paths: Paths, at: np.ndarray, key: np.ndarray) -> np.ndarray:
+        """Return by what share of the tolerance two faces of two steps show a point beside its place, or of their room
+        before the mirror lie behind it, at each point of the lattice; 0 where neighbours see something else."""
+        view, rough = self.view, np.zeros(key.shape)
+        inner = key[1:-1, 1:-1]
+        same = {(row, column): (key[1 + row:key.shape[0] - 1 + row, 1 + column:key.shape[1] - 1 + column] == inner)
+                & (inner >= 0) for row in (-1, 0, 1) for column in (-1, 0, 1)}
+        lattice = lambda row, column: at[1 + row:at.shape[0] - 1 + row, 1 + column:at.shape[1] - 1 + column]  # noqa: E731
+        slide = 0.5 * SUNK * self.met.slide * GAP
+        size = np.ptp(paths.place, axis=1).max(initial=0.0)
+        for first, last in (((0, -1), (0, 1)), ((-1, 0), (1, 0)), ((-1, -1), (1, 1)), ((-1, 1), (1, -1))):
+            breathe()
+            some = np.nonzero(same[first] & same[last])
+            middle, one, other = (lattice(*step)[some] for step in ((0, 0), first, last))
+            point = [paths.point[:, number] for number in (one, middle, other)]
+            motion = 0.5 * norm(point[2] - point[0]) / np.hypot(*last)
+            away = 0.5 * norm(point[0] + point[2] - 2.0 * point[1])
+            place = [paths.place[:, number] for number in (one, middle, other)]
+            ahead = view.directions(place[1].T).T
+            sunk = dot(0.5 * (place[0] + place[2]) - place[1], ahead)
+            room = slide * (size if view.orthographic else dot(ahead, ahead))
+            bad = np.maximum(away / np.maximum(self.tolerance * motion / self.lattice.step, 1e-300), sunk / room)
+            np.maximum.at(rough, (some[0] + 1, some[1] + 1), bad)
+        return rough

@@ -1,0 +1,186 @@
+"""Faces over cells, which no vertex of one cell lies beside in another one: there are no T-junctions."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .cells import Cells, Labels
+
+
+@dataclass(frozen=True)
+class CellFaces:
+    """Faces over the cells of a lattice, counterclockwise in the picture.
+
+    Attributes
+    ----------
+    faces : (m, 3) int64, vertices; behind all others those in the middles of cells
+    key : (m,) int64, what each shows
+    middles : (k, 2) int64
+        For each vertex in the middle of a cell the two on the outlines of what it shows there.
+    around : (k, 4) int64
+        Up to four vertices on outlines at the cell's sides, -1 for none; the new one lies in the middle of them.
+    """
+
+    faces: np.ndarray
+    key: np.ndarray
+    middles: np.ndarray
+    around: np.ndarray
+
+
+def faces_of_cells(labels: Labels, divided: list[Cells], vertices: int) -> CellFaces:
+    """Build the faces over all cells, on so many `vertices` and new ones in the middles of cells."""
+    used = np.zeros(labels.key.shape, dtype=bool)
+    for cells in divided:
+        for row in (0, cells.side):
+            for column in (0, cells.side):
+                used[cells.rows + row, cells.columns + column] = True
+    parts: list = [(np.zeros((0, 3), dtype=np.int64), np.zeros(0, dtype=np.int64))]
+    middles, around = [np.zeros((0, 2), dtype=np.int64)], [np.zeros((0, 4), dtype=np.int64)]
+    for cells in divided:
+        ring = _Ring(labels, cells, used)
+        parts += ring.select(ring.plain).whole_polygons()
+        rest = ring.select(~ring.plain)
+        faces, key, ends, crossed = rest.round_middles(vertices) if cells.side > 1 else rest.meeting_outlines(vertices)
+        parts.append((faces, key))
+        middles.append(ends)
+        around.append(crossed)
+        vertices += len(ends)
+    return CellFaces(*map(np.concatenate, (*zip(*parts), middles, around)))
+
+
+class _Ring:
+    """What lies round cells of one size: points and, on the sides between these, vertices on outlines."""
+
+    def __init__(self, labels: Labels, cells: Cells, used: np.ndarray) -> None:
+        self.labels, self.cells, self.used, side = labels, cells, used, cells.side
+        at = cells.points()
+        self.node, self.key, self.taken = labels.node[at], labels.key[at], used[at]
+        self.leaving, self.arriving = cells.sides(labels.right, labels.up)
+        self.change = self.key != np.roll(self.key, -1, axis=1)
+        corner = np.zeros(4 * side, dtype=bool)
+        corner[::side] = True
+        self.count = self.change.sum(axis=1)
+        # no corners of others on the sides, and no outlines that meet
+        self.plain = ~(self.taken & ~corner).any(axis=1) & (self.count <= 2)
+
+    def select(self, chosen: np.ndarray) -> _Ring:
+        cells = self.cells
+        return _Ring(self.labels, Cells(cells.side, cells.rows[chosen], cells.columns[chosen]), self.used)
+
+    def whole_polygons(self):
+        """Yield faces over cells that have no vertices but their corners and those of one outline, and their keys."""
+        side, none = self.cells.side, self.count == 0
+        corner, key = self.node[:, ::side], self.key[:, ::side]
+        yield np.concatenate((corner[none][:, [0, 1, 2]], corner[none][:, [0, 2, 3]])), np.tile(key[none, 0], 2)
+        # on each side of the cell the vertices on the outline that crosses it
+        leaving, arriving = (values.reshape(len(values), 4, side).max(axis=2) for values in (self.leaving, self.arriving))
+        change = self.change.reshape(len(key), 4, side).any(axis=2)
+        for first in range(4):
+            for size in (1, 2, 3):
+                run = [(first + step) % 4 for step in range(size)]
+                chosen = change[:, first - 1] & (key[:, first] >= 0) & change[:, run[-1]]
+                for step in run[:-1]:
+                    chosen &= ~change[:, step]
+                some = np.flatnonzero(chosen)
+                polygon = [arriving[some, first - 1], *(corner[some, step] for step in run), leaving[some, run[-1]]]
+                # from a corner, so that no face is a sliver along an outline
+                hub = len(polygon) // 2
+                polygon = polygon[hub:] + polygon[:hub]
+                for second, third in zip(polygon[1:], polygon[2:]):
+                    yield np.column_stack((polygon[0], second, third)), key[some, first]
+
+    def round_middles(self, vertices: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Return faces round a vertex in the middle of each cell, one for each thing that it shows, and their keys; of
+        new such vertices, from the number `vertices` on, what `CellFaces` tells."""
+        count, size = self.node.shape
+        # round each cell: a point, the outline's end there, the next one's begin, and so on
+        node = np.stack((np.where(self.taken, self.node, -1), np.where(self.change, self.leaving, -1),
+                         np.where(self.change, self.arriving, -1)), axis=2).reshape(count, 3 * size)
+        key = np.stack((self.key, self.key, np.roll(self.key, -1, axis=1)), axis=2).reshape(count, 3 * size)
+        kind = np.tile(np.arange(3), size)
+        cell, spot = np.nonzero(node >= 0)
+        node, key, kind = node[cell, spot], key[cell, spot], kind[spot]
+        begins = kind == 2
+        # runs are numbered by their begins; what lies before the first one of a cell belongs to its last
+        run = np.cumsum(begins) - 1
+        runs_before = np.searchsorted(cell[begins], np.arange(count + 1))
+        per_cell = np.diff(runs_before)
+        wrapped = run < runs_before[cell]
+        run = np.where(wrapped, runs_before[cell] + per_cell[cell] - 1, run)
+        half = self.cells.side // 2
+        centre = self.labels.node[self.cells.rows + half, self.cells.columns + half]
+        hub = np.where(per_cell[cell] > 0, vertices + run, centre[cell])
+        following = np.arange(len(cell)) + 1
+        first = np.searchsorted(cell, np.arange(count))
+        filled = np.flatnonzero(np.bincount(cell, minlength=count))
+        last = np.searchsorted(cell, filled, side="right") - 1
+        following[last] = first[filled]
+        open_ = kind != 1
+        faces = np.column_stack((hub, node, node[following]))[open_]
+        ends = np.column_stack((node[begins], np.zeros(int(begins.sum()), dtype=np.int64)))
+        closes = kind == 1
+        ends[run[closes], 1] = node[closes]
+        crossed = np.where(self.change, np.maximum(self.leaving, self.arriving), -1)
+        crossed = -np.sort(-crossed, axis=1)[:, :4]
+        return faces, key[open_], ends, crossed[cell[begins]]
+
+    def meeting_outlines(self, vertices: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Return the same as `round_middles` over cells of one step in which several outlines meet.
+
+        Between two such cells the outline goes straight from middle to middle. A point with such cells all round it,
+        that sees what no point beside it sees, is shown by a square.
+        """
+        shape, (rows, columns), change = self.labels.key.shape, (self.cells.rows, self.cells.columns), self.change
+        count = len(rows)
+        run = np.cumsum(np.roll(change, 1, axis=1), axis=1) - 1
+        run = np.where(run < 0, run.max(axis=1, keepdims=True), run)
+        shown, number = np.unique((4 * np.arange(count)[:, None] + run)[self.key >= 0], return_inverse=True)
+        hub = np.full((count, 4), -1)
+        hub[self.key >= 0] = vertices + number
+        ends = np.zeros((len(shown), 2), dtype=np.int64)
+        begins = np.roll(change, 1, axis=1) & (self.key >= 0)
+        ends[hub[begins] - vertices, 0] = np.roll(self.arriving, 1, axis=1)[begins]
+        closes = change & (self.key >= 0)
+        ends[hub[closes] - vertices, 1] = self.leaving[closes]
+        around = np.where(change, np.maximum(self.leaving, self.arriving), -1)[shown // 4]
+
+        middle = np.full((4, *shape), -1)
+        meeting = np.zeros(shape, dtype=bool)
+        meeting[rows, columns] = True
+        middle[:, rows, columns] = hub.T
+        faces, keys = [], []
+
+        def add(*triangle: np.ndarray, key: np.ndarray, where: np.ndarray) -> None:
+            some = np.flatnonzero(where & (key >= 0))
+            faces.append(np.column_stack([corner[some] for corner in triangle]))
+            keys.append(key[some])
+        beyond = [(-1, 0), (0, 1), (1, 0), (0, -1)]
+        straight = np.stack([change[:, k] & meeting[np.maximum(rows + row, 0), np.maximum(columns + column, 0)]
+                             for k, (row, column) in enumerate(beyond)], axis=1)
+        # which of the lattice's points have squares of their own
+        alone = np.zeros(shape, dtype=np.int64)
+        for k, (row, column) in enumerate(((0, 0), (0, 1), (1, 1), (1, 0))):
+            np.add.at(alone, (rows + row, columns + column), straight[:, k] & straight[:, k - 1])
+        for k, (row, column) in enumerate(((0, 0), (0, 1), (1, 1), (1, 0))):
+            following, own = (k + 1) % 4, self.key[:, k]
+            add(hub[:, k], self.node[:, k], self.node[:, following], key=own, where=~change[:, k])
+            add(hub[:, k], self.node[:, k], self.leaving[:, k], key=own, where=change[:, k] & ~straight[:, k])
+            add(hub[:, following], self.arriving[:, k], self.node[:, following], key=self.key[:, following],
+                where=change[:, k] & ~straight[:, k])
+            # the other cell at this side has the same two corners as its third side turned about
+            step = beyond[k]
+            at = np.maximum(rows + step[0], 0), np.maximum(columns + step[1], 0)
+            across = middle[(k + 3) % 4][at], middle[(k + 2) % 4][at]
+            point = rows + row, columns + column
+            add(self.node[:, k], across[0], hub[:, k], key=own, where=straight[:, k] & (alone[point] < 4))
+            # of all four cells round a point, the one up and right of it adds its square
+            if k == 0:
+                below, left = (rows - 1, columns), (rows, columns - 1)
+                both = rows - 1, columns - 1
+                some = np.flatnonzero((alone[point] == 4) & (own >= 0))
+                square = [hub[some, 0], middle[1][left][some], middle[2][both][some], middle[3][below][some]]
+                faces += [np.column_stack((square[0], square[1], square[2])),
+                          np.column_stack((square[0], square[2], square[3]))]
+                keys += [own[some], own[some]]
+        return np.concatenate(faces), np.concatenate(keys), ends, around

@@ -1,0 +1,64 @@
+"""A lattice of places in the picture, one for each pixel or for each few of them, at which a mirror is sampled."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..support import Settings
+from ..views import View, draw
+
+ASIDE = np.array([0.005, 0.003])  # pixels: vertices lie beside the middles, where engines look, by far more than rounding
+LARGEST_STEP = 4.0  # pixels
+
+
+def lattice_step(settings: Settings) -> float:
+    """Return how far apart samples lie, in pixels: one, or about the tolerance where that is more."""
+    return float(np.clip(np.floor(0.75 * settings.tolerance), 1.0, LARGEST_STEP))
+
+
+@dataclass(frozen=True)
+class Lattice:
+    """Points of a picture in rows from below, numbered along the rows.
+
+    Attributes
+    ----------
+    view : View
+    low : (2,) float64, the first point, in pixels
+    step : float, from one point to the next, in pixels
+    size : (columns, rows)
+    """
+
+    view: View
+    low: np.ndarray
+    step: float
+    size: tuple[int, int]
+
+    @classmethod
+    def around(cls, view: View, positions: np.ndarray, step: float) -> Lattice:
+        """Return the lattice around the picture of `positions` (n, 3), one step beyond it and beyond the view's own
+        picture. Pixels' middles, or every so many of them, are points of it."""
+        resolution = np.array(view.resolution, dtype=np.float64)
+        low, high = np.zeros(2), resolution
+        if (view.depths(positions) > 0.0).all():
+            pixels = np.clip(view.pixels(positions), 0.0, resolution)
+            low, high = pixels.min(axis=0), pixels.max(axis=0)
+        first = np.floor((low - 0.5) / step) - 1.0
+        count = np.ceil((high - 0.5) / step) + 1.0 - first + 1.0
+        return cls(view, 0.5 + first * step, step, (int(count[0]), int(count[1])))
+
+    def spots(self, number: np.ndarray) -> np.ndarray:
+        """Return where points (n,) lie in the picture, (n, 2) in pixels."""
+        row, column = np.divmod(number, self.size[0])
+        return self.low + self.step * np.stack((column, row), axis=1)
+
+    def drawn(self, positions: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the nearest triangle (n,) at each point, -1 where there is none, and weights (3, n) on it."""
+        size, own = np.array(self.size), np.array(self.view.resolution)
+        scale = own / (self.step * size)
+        # the point k has its place in the middle of pixel k
+        shift = scale - 2.0 * self.low / (self.step * size) + 1.0 / size - 1.0
+        projection = self.view.projection.copy()
+        projection[:2] = scale[:, None] * projection[:2] + shift[:, None] * projection[3]
+        found = draw(View(self.view.camera_to_world, projection, self.size), positions, triangles)
+        return found.triangle, found.weights
