@@ -25,12 +25,15 @@ CORNERS_AT_ONCE = 1 << 17  # before whoever waits has a turn
 ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the caustic
 
 
-def assemble(view: View, mirror_map: MirrorMap | None, bounces: list[Bounce], met: SceneAndMirrors, placement: str,
-             reach: float = 0.0, whole: Seamed | None = None, backward: dict | None = None) -> ReflectionMesh:
-    """The faces as arrays, no two on the same nodes, without unused nodes; those of `bounces`, on the `mirror_map`,
-    those drawn `whole`, and those made `backward`."""
-    parts, start = [], 0
+def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement: str,
+             whole: tuple[Seamed, float] | None = None, backward: dict | None = None) -> ReflectionMesh:
+    """The faces as arrays, no two on the same nodes, without unused nodes: those of `bounces`, those drawn `whole` with
+    the longest path by which they were told apart, and those made `backward`."""
+    parts: list[dict] = []
+    start, reach = 0, 0.0
     for number, bounce in enumerate(bounces, 1):
+        mirror_map = bounces[0].cameras.mirror_map
+        assert isinstance(mirror_map, MirrorMap)  # of the first bounce
         part, node = _arrays(mirror_map, bounce, met)
         part["bounces"] = np.full(len(part["triangles"]), number, dtype=np.int8)
         part["triangles"] = part["triangles"] + start
@@ -38,7 +41,8 @@ def assemble(view: View, mirror_map: MirrorMap | None, bounces: list[Bounce], me
         parts.append(part)
         breathe()
         if whole is not None and number == 1:
-            parts.append(_whole_arrays(mirror_map, whole, bounce, node, met))
+            seams, reach = whole
+            parts.append(_whole_arrays(mirror_map, seams, bounce, node, met))
             start += len(parts[-1]["path_length"])
     maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
     for part in parts:

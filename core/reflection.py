@@ -15,6 +15,7 @@ from .cameras import (
     MirrorMap,
     cut_at_horizon,
     in_picture,
+    pixels_of,
     three_ray_cameras,
     visible_triangles,
 )
@@ -27,11 +28,13 @@ from .points import reflected_points
 from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
 from .standing import Standing
-from .support import INSIDE, INSIDE_WHOLE, NothingInView, Progress, Settings, in_steps, keep_freed_memory
+from .support import INSIDE, INSIDE_WHOLE, LEFT, NothingInView, Progress, Settings, in_steps, keep_freed_memory
 from .trees import PointTree, SceneTree
 from .views import LampView, View
 from .visibility import cut_at_borders, cut_before_eye, lit, slide_share, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces
+
+UNSEEN = "The view does not see the mirror; turn the camera to the mirror or move it into view."
 
 
 def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
@@ -128,36 +131,47 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     progress.done("tree")
 
     backward = _backward(view, mirror, met, settings, progress)
-    if backward is not None and backward.chosen.all():
-        mesh = assemble(view, None, [], met, settings.placement, backward=backward_arrays(backward, met))
-        progress.done("rays", **backward.counts)
-        return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds,
-                       estimated_error=settings.tolerance)
-    cameras, uncut, (pixels, overlaid) = _seen_cameras(view, mirror, met, settings, progress,
-                                                       None if backward is None else ~backward.chosen)
+    try:
+        seen = _seen_cameras(view, mirror, met, settings, progress, None if backward is None else ~backward.chosen)
+    except NothingInView:
+        if backward is None:
+            raise
+        # the other parts of the mirror hide the rest
+        mesh = assemble(view, [], met, settings.placement, backward=backward_arrays(backward, met))
+        progress.done("rays", faces=len(mesh.triangles), **backward.counts)
+        mesh, error = in_given_order(mesh, tree.given, given), settings.tolerance
+    else:
+        mesh, error = _forward(met, settings, progress, seen, backward)
+        mesh = in_given_order(mesh, tree.given, given)
+        if not isinstance(tree, PointTree):
+            mirror_map = seen[0].mirror_map
+            assert isinstance(mirror_map, MirrorMap)  # of the first bounce
+            probes, missed = missed_probes(view, mirror, mirror_map, met, mesh.mirror_position, mesh.triangles)
+            progress.done("probes", probes=probes, missed=missed)
+    return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=error)
+
+
+def _forward(met: SceneAndMirrors, settings: Settings, progress: Progress,
+             seen: tuple[Cameras, int, tuple[int, int]], backward: BackwardPart | None) -> tuple[ReflectionMesh, float]:
+    """What cameras see, with what is made `backward` beside it, and what its estimated error is."""
+    cameras, uncut, (pixels, overlaid) = seen
     met = _behind_panes(cameras, met, progress)
     limits = Limits.of(settings, pixels, len(met.triangles))
-    if isinstance(tree, PointTree):
-        patch = None
-        if not (overlaid or speck(view, tree.spheres[0][:, 0])):
-            plainly = showing_mirrors(cameras, met, limits).plainly
-            patch = Patch.largest(cameras, _entire(cameras, uncut) & ~plainly[cameras.face])
-        rest = cameras if patch is None else cameras.select(~np.isin(cameras.face, patch.face))
-        rest = refined(rest, Task(met, settings, limits, True, progress), None)
-        mesh = reflected_points(rest, patch, met, settings.placement, progress)
-        progress.done("points", **mesh.counts)
-        return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds)
-    task = Task(met, settings, limits, settings.depth == 1, progress)
+    if isinstance(met.tree, PointTree):
+        entire = np.zeros(0, dtype=bool) if overlaid else _entire(cameras, uncut)
+        mesh = _points(cameras, entire, Task(met, settings, limits, True, progress))
+        return mesh, mesh.estimated_error
+    task = Task(met, settings, limits, settings.bounces == 1, progress)
     showing = _showing_mirrors(cameras, task)
+    if not settings.depth and not showing.faces.any():
+        task = replace(task, last=True)
     whole, task = (None, task) if overlaid else _whole_first(cameras, uncut, task, showing.plainly)
-    bounces, seams, error, reach = _bounces(cameras, task, showing), None, 0.0, 0.0
+    bounces, seams, error, reach = _bounces(cameras, task, showing, pixels), None, 0.0, 0.0
     if whole is not None:
         seams, nodes = seamed(whole, bounces[0].cameras, bounces[0].frames, bounces[0].nodes, bounces[0].faces)
         bounces[0] = replace(bounces[0], nodes=nodes)
         # whole faces were told apart by where they would lie if this were the longest path
         reach, error = task.reach(cameras), INSIDE_WHOLE * _over_length(*whole.straying)
-    mirror_map = cameras.mirror_map
-    assert isinstance(mirror_map, MirrorMap)  # of the first bounce
     del whole  # what is assembled needs the room
 
     progress.start, progress.share = 0.0, 1.0
@@ -165,24 +179,38 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     error = max(_estimate(*np.concatenate([bounce.left for bounce in bounces], axis=1)), error)
     by_rays = None
     if backward is not None:
-        by_rays = backward_arrays(backward, met)
+        by_rays, error = backward_arrays(backward, met), max(error, settings.tolerance)
         progress.done("rays", **backward.counts)
-    mesh = assemble(view, mirror_map, bounces, task.met, settings.placement, reach, seams, by_rays)
-    del bounces, seams
-    mesh = in_given_order(mesh, tree.given, given)
-    progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
-    probes, missed = missed_probes(view, mirror, mirror_map, task.met, mesh.mirror_position, mesh.triangles)
-    progress.done("probes", probes=probes, missed=missed)
-    return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=error)
+    mesh = assemble(cameras.view, bounces, task.met, settings.placement,
+                    None if seams is None else (seams, reach), by_rays)
+    depth = max(len(bounces), settings.depth, 1 if backward is None else backward.counts["depth"])
+    progress.done("placement", faces=len(mesh.triangles), depth=depth)
+    return mesh, error
 
 
-def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings,
-                  progress: Progress, faces: np.ndarray | None = None) -> tuple[Cameras, int, tuple[int, int]]:
-    """Cameras on what the view sees of the mirror, or of those of its `faces` (m,); how many corners there were before any was cut; about how many
-    pixels see the mirror, and of how many cameras it is not told all that lies over them."""
+def _points(cameras: Cameras, entire: np.ndarray, task: Task) -> ReflectionMesh:
+    """The points that cameras see; those that are `entire` (n,) triangles of the mirror may be a patch, if any are."""
+    patch = None
+    if len(entire) and not speck(cameras.view, task.met.tree.spheres[0][:, 0]):
+        patch = Patch.largest(cameras, entire & ~showing_mirrors(cameras, task.met, task.limits).plainly[cameras.face])
+    rest = cameras if patch is None else cameras.select(~np.isin(cameras.face, patch.face))
+    mesh = reflected_points(refined(rest, task, None), patch, task.met, task.settings.placement, task.progress)
+    task.progress.done("points", **mesh.counts)
+    return mesh
+
+
+def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings, progress: Progress,
+                  faces: np.ndarray | None = None) -> tuple[Cameras, int, tuple[int, int]]:
+    """Cameras on what the view sees of the mirror, or of those of its `faces` (m,); how many corners there were before
+    any was cut; about how many pixels see the mirror, and of how many cameras it is not told all that lies over them.
+    """
     progress.next(0.1, "Preparing the mirror")
-    visible = visible_triangles(view, mirror)
-    body, faces = with_shades(view, mirror, visible if faces is None else visible[faces[visible]])
+    chosen = visible_triangles(view, mirror) if faces is None or faces.any() else np.zeros(0, dtype=np.int64)
+    if faces is not None:
+        chosen = chosen[faces[chosen]]
+    if not len(chosen):
+        raise NothingInView(UNSEEN)
+    body, faces = with_shades(view, mirror, chosen)
     mirror_map = MirrorMap(view, body, settings.method == "PARALLEL", met.surface if body is met.mirrors else None)
     cameras = three_ray_cameras(mirror_map, body, faces)
     uncut = cameras.places.shape[1]
@@ -218,7 +246,7 @@ def _behind_panes(cameras: Cameras, met: SceneAndMirrors, progress: Progress) ->
 
 def _seen(cameras: Cameras) -> Cameras:
     if not len(cameras):
-        raise NothingInView("The view does not see the mirror; turn the camera to the mirror or move it into view.")
+        raise NothingInView(UNSEEN)
     return cameras
 
 
@@ -276,19 +304,22 @@ def _entire(cameras: Cameras, uncut: int) -> np.ndarray:
     return (cameras.corners < uncut).all(axis=1) & (np.bincount(cameras.face)[cameras.face] == 1)
 
 
-def _bounces(cameras: Cameras, task: Task, showing: MirrorsShown) -> list[Bounce]:
-    """What is seen after one mirror, after two, and so on to the depth asked for, or until nothing is left to see."""
+def _bounces(cameras: Cameras, task: Task, showing: MirrorsShown, pixels: int) -> list[Bounce]:
+    """What is seen after one mirror, after two, and so on to the depth asked for, or until nothing is left to see; or,
+    of a mirror seen in so many pixels, where the depth is automatic, next to nothing."""
     bounces: list[Bounce] = []
     met, settings, limits, progress = task.met, task.settings, task.limits, task.progress
-    for number in range(settings.depth):
-        progress.start, progress.share = 0.15 + 0.8 * number / settings.depth, 0.8 / settings.depth
-        last = number + 1 == settings.depth
+    most, enough = (1 if task.last else settings.bounces), (0.0 if settings.depth else LEFT * pixels)
+    for number in range(most):
+        # what is left of the share goes to the bounces that follow, the first of which is most of the work
+        progress.start, progress.share = 0.95 - 0.8 / (number + 1), 0.8 / ((number + 1) * min(number + 2, most))
+        last = number + 1 == most
         bounces.append(bounced(cameras, replace(task, limits=limits, last=last), showing))
         if last:
             break
         limits, cameras = limits.of_next_bounce(), cut_at_horizon(bounced_cameras(bounces[-1], met))
         progress.done("cameras", bounced_cameras=len(cameras))
-        if not len(cameras):
+        if not len(cameras) or pixels_of(cameras).sum() < enough:
             break
         showing = showing_mirrors(cameras, met, limits)
     return bounces

@@ -21,7 +21,7 @@ def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
     corners = rows(met.positions[frames.vertices[:, column]])
     normals = area_normals(corners)
     height = sum(dot(normals, columns(paths.origin, node) - corners[:, 0]) for node in triangles.T)
-    turned = height < 0.0
+    turned = np.less(height, 0.0)
     order = np.where(turned[:, None], (0, 2, 1), (0, 1, 2))
     area = np.linalg.det(weights)
     parity = np.zeros(len(spots))

@@ -10,16 +10,17 @@ from ..cameras import MirrorSurface
 from ..culling import SceneAndMirrors
 from ..geometry import TriangleMesh, dot, norm, unit
 from ..result import GAP
-from ..support import FACE_SHARE, Settings, breathe
-from ..trees import SceneTree, first_crossed
+from ..support import FACE_SHARE, LEFT, Settings, breathe
+from ..trees import SceneTree, first_of_many
 from ..views import View
 from .cell_faces import CellFaces, faces_of_cells
 from .cells import Labels, cells_of
-from .decision import small_parts
+from .decision import MOST_POINTS, may_have_small_parts, small_parts
 from .lattice import ASIDE, Lattice, lattice_step
 from .outlines import Sides, between, crossings, halved, joined
-from .paths import NOTHING, Paths, covering, traced
+from .paths import NOTHING, Paths, PathTracer
 
+LOOKED = 0.02   # share of the rays to outlines that may be left where the depth is automatic
 STRAIGHT = 0.1  # pixels that outlines may lie beside straight lines
 SUNK = 0.5      # of the room that layers keep before the mirror: how far the middle of a face may lie behind it
 
@@ -45,19 +46,46 @@ class BackwardPart:
     """
 
     def __init__(self, view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings) -> None:
-        self.view, self.mirror, self.met, self.depth = view, mirror, met, settings.depth
+        self.view, self.mirror, self.met, self.depth = view, mirror, met, settings.bounces
+        self.enough = 0.0 if settings.depth else LEFT
         self.tolerance = FACE_SHARE * settings.tolerance
+        self.rays = 0
+        self.counts: dict[str, int] = {}
+        self.chosen = np.zeros(len(mirror.triangles), dtype=bool)
         self.lattice = Lattice.around(view, mirror.positions[mirror.used], lattice_step(settings))
-        self.drawn = self.lattice.drawn(mirror.positions, mirror.triangles)
-        self.chosen = small_parts(mirror, self.lattice, self.drawn[0])
-        self.rays, self.counts = 0, {}
+        if not may_have_small_parts(mirror, self.lattice):
+            return
+        whole, self.lattice = self.lattice, self.lattice.coarser(MOST_POINTS)
+        self.drawn = self._drawn()
+        chosen = small_parts(mirror, self.lattice, self.drawn[0], self._sees_mirrors if self.depth > 1 else None)
+        if not chosen[self.drawn[0][self.drawn[0] >= 0]].any():
+            return
+        self.chosen = chosen
+        if whole is not self.lattice:
+            self.lattice = whole.coarser(max(settings.maximum_faces, MOST_POINTS))
+            self.drawn = self._drawn()
 
     def __bool__(self) -> bool:
         return bool(self.chosen.any())
 
+    def _drawn(self) -> tuple[np.ndarray, np.ndarray]:
+        positions = np.zeros_like(self.mirror.positions)
+        positions[self.mirror.used] = self.mirror.positions[self.mirror.used]
+        return self.lattice.drawn(positions, self.mirror.triangles)
+
+    def _places(self, number: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the triangles (n,) that points of the lattice see, and the places (3, n) on them."""
+        face, weights = (part[..., number] for part in self.drawn)
+        corners = self.mirror.positions[self.mirror.triangles[face]]
+        return face, np.einsum("kn,nki->in", weights, corners)
+
+    def _sees_mirrors(self, number: np.ndarray) -> np.ndarray:
+        return self.tracer.traced(*self._places(number), 1)[1]
+
     @cached_property
-    def surface(self) -> MirrorSurface:
-        return self.met.surface if self.mirror is self.met.mirrors else MirrorSurface(self.mirror)
+    def tracer(self) -> PathTracer:
+        surface = self.met.surface if self.mirror is self.met.mirrors else MirrorSurface(self.mirror)
+        return PathTracer(self.view, surface, self.met)
 
     @cached_property
     def tree(self) -> SceneTree:
@@ -67,15 +95,12 @@ class BackwardPart:
         """Return vertices as paths, where they lie in the picture (n, 2), and the faces on them."""
         lattice = self.lattice
         width, height = lattice.size
-        face, weights = self.drawn
-        number = np.flatnonzero(face >= 0)
-        number = number[self.chosen[face[number]]]
-        face = face[number]
-        corners = self.mirror.positions[self.mirror.triangles[face]]
-        place = np.einsum("kn,nki->in", weights[:, number], corners)
-        paths, left = self._traced(face, place)
+        number = np.flatnonzero(self.drawn[0] >= 0)
+        number = number[self.chosen[self.drawn[0][number]]]
+        paths, left = self._traced(*self._places(number))
         pixels = len(number) * lattice.step**2
-        self.counts = {"mirror_pixels": round(pixels), "filled_pixels": 0, "left_pixels": round(left * lattice.step**2)}
+        self.counts = {"mirror_pixels": round(pixels), "left_pixels": round(int(left.sum()) * lattice.step**2),
+                       "depth": int(paths.bounces.max(initial=1))}
         spots = lattice.spots(number)
         at = np.full(width * height, -1)
         at[number] = np.arange(len(number))
@@ -94,16 +119,16 @@ class BackwardPart:
             nodes.append(both)
             shares.append(np.full((height, width), np.inf))
             shares[-1][where] = share
-        labels = Labels(key, node, *nodes, *shares, self._rough(paths, at, key))
+        labels = Labels(key, node, nodes[0], nodes[1], shares[0], shares[1], self._rough(paths, at, key))
         cells = faces_of_cells(labels, cells_of(labels, self.lattice.step, STRAIGHT), len(spots))
         middle, spot = self._middles(every, spots, cells)
         every, spots = joined([every, middle]), np.concatenate((spots, spot)) + ASIDE
         return self._moved(every, spots), spots, cells
 
-    def _traced(self, face: np.ndarray, place: np.ndarray) -> tuple[Paths, int]:
-        paths, left = traced(self.view, self.surface, self.met, face, place, self.depth)
+    def _traced(self, face: np.ndarray, place: np.ndarray, enough: float = 0.0) -> tuple[Paths, np.ndarray]:
+        paths, left = self.tracer.traced(face, place, self.depth, max(enough, self.enough) if self.enough else 0.0)
         self.rays += len(face)
-        covered = covering(self.met, self.view, place)
+        covered = self.tracer.covered(place)
         return replace(paths, source=np.where(covered, NOTHING, paths.source)), left
 
     def _keys(self, paths: Paths) -> np.ndarray:
@@ -118,7 +143,7 @@ class BackwardPart:
         height, width = key.shape
         end = (slice(1, None), slice(None)) if axis == 0 else (slice(None), slice(1, None))
         start = (slice(None, -1), slice(None)) if axis == 0 else (slice(None), slice(None, -1))
-        where = np.nonzero((key[start] != key[end]))
+        where = np.nonzero(key[start] != key[end])
         step = np.array((1, 0)) if axis == 0 else np.array((0, 1))
 
         def sample(times: int) -> np.ndarray:
@@ -157,9 +182,9 @@ class BackwardPart:
     def _looked(self, spots: np.ndarray) -> tuple[np.ndarray, Paths, np.ndarray]:
         """Return which places (n, 2) in the picture see the sampled mirror, and of those the paths and their keys."""
         origin, ray = (given.T for given in self.view.rays(spots))
-        face, distance = first_crossed(self.tree, origin, ray, many=True)
+        face, distance = first_of_many(self.tree, origin, ray)
         seen = np.flatnonzero((face >= 0) & self.chosen[face])
-        paths, _ = self._traced(face[seen], origin[:, seen] + distance[seen] * ray[:, seen])
+        paths, _ = self._traced(face[seen], origin[:, seen] + distance[seen] * ray[:, seen], LOOKED)
         return seen, paths, self._keys(paths)
 
     def _moved(self, paths: Paths, spots: np.ndarray) -> Paths:

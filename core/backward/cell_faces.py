@@ -1,11 +1,14 @@
 """Faces over cells, which no vertex of one cell lies beside in another one: there are no T-junctions."""
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from .cells import Cells, Labels
+from .cells import AROUND, Cells, Labels
+
+BEYOND = ((-1, 0), (0, 1), (1, 0), (0, -1))     # rows and columns to the cells beyond each side
 
 
 @dataclass(frozen=True)
@@ -68,13 +71,14 @@ class _Ring:
         cells = self.cells
         return _Ring(self.labels, Cells(cells.side, cells.rows[chosen], cells.columns[chosen]), self.used)
 
-    def whole_polygons(self):
+    def whole_polygons(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Yield faces over cells that have no vertices but their corners and those of one outline, and their keys."""
         side, none = self.cells.side, self.count == 0
         corner, key = self.node[:, ::side], self.key[:, ::side]
         yield np.concatenate((corner[none][:, [0, 1, 2]], corner[none][:, [0, 2, 3]])), np.tile(key[none, 0], 2)
         # on each side of the cell the vertices on the outline that crosses it
-        leaving, arriving = (values.reshape(len(values), 4, side).max(axis=2) for values in (self.leaving, self.arriving))
+        leaving, arriving = (values.reshape(len(values), 4, side).max(axis=2)
+                             for values in (self.leaving, self.arriving))
         change = self.change.reshape(len(key), 4, side).any(axis=2)
         for first in range(4):
             for size in (1, 2, 3):
@@ -131,8 +135,7 @@ class _Ring:
         Between two such cells the outline goes straight from middle to middle. A point with such cells all round it,
         that sees what no point beside it sees, is shown by a square.
         """
-        shape, (rows, columns), change = self.labels.key.shape, (self.cells.rows, self.cells.columns), self.change
-        count = len(rows)
+        change, count = self.change, len(self.cells)
         run = np.cumsum(np.roll(change, 1, axis=1), axis=1) - 1
         run = np.where(run < 0, run.max(axis=1, keepdims=True), run)
         shown, number = np.unique((4 * np.arange(count)[:, None] + run)[self.key >= 0], return_inverse=True)
@@ -144,43 +147,40 @@ class _Ring:
         closes = change & (self.key >= 0)
         ends[hub[closes] - vertices, 1] = self.leaving[closes]
         around = np.where(change, np.maximum(self.leaving, self.arriving), -1)[shown // 4]
+        faces, keys = map(np.concatenate, zip(*self._round_hubs(hub)))
+        return faces, keys, ends, around
 
+    def _round_hubs(self, hub: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield faces over cells of one step, with vertices `hub` (n, 4) in the middle for each corner, and their keys."""
+        shape, (rows, columns), change = self.labels.key.shape, (self.cells.rows, self.cells.columns), self.change
         middle = np.full((4, *shape), -1)
         meeting = np.zeros(shape, dtype=bool)
         meeting[rows, columns] = True
         middle[:, rows, columns] = hub.T
-        faces, keys = [], []
 
-        def add(*triangle: np.ndarray, key: np.ndarray, where: np.ndarray) -> None:
+        def faces(*triangle: np.ndarray, key: np.ndarray, where: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             some = np.flatnonzero(where & (key >= 0))
-            faces.append(np.column_stack([corner[some] for corner in triangle]))
-            keys.append(key[some])
-        beyond = [(-1, 0), (0, 1), (1, 0), (0, -1)]
-        straight = np.stack([change[:, k] & meeting[np.maximum(rows + row, 0), np.maximum(columns + column, 0)]
-                             for k, (row, column) in enumerate(beyond)], axis=1)
+            return np.column_stack([corner[some] for corner in triangle]), key[some]
+
+        beyond = [(np.maximum(rows + row, 0), np.maximum(columns + column, 0)) for row, column in BEYOND]
+        straight = np.stack([change[:, k] & meeting[at] for k, at in enumerate(beyond)], axis=1)
         # which of the lattice's points have squares of their own
         alone = np.zeros(shape, dtype=np.int64)
-        for k, (row, column) in enumerate(((0, 0), (0, 1), (1, 1), (1, 0))):
+        for k, (row, column) in enumerate(AROUND):
             np.add.at(alone, (rows + row, columns + column), straight[:, k] & straight[:, k - 1])
-        for k, (row, column) in enumerate(((0, 0), (0, 1), (1, 1), (1, 0))):
+        for k, (row, column) in enumerate(AROUND):
             following, own = (k + 1) % 4, self.key[:, k]
-            add(hub[:, k], self.node[:, k], self.node[:, following], key=own, where=~change[:, k])
-            add(hub[:, k], self.node[:, k], self.leaving[:, k], key=own, where=change[:, k] & ~straight[:, k])
-            add(hub[:, following], self.arriving[:, k], self.node[:, following], key=self.key[:, following],
-                where=change[:, k] & ~straight[:, k])
-            # the other cell at this side has the same two corners as its third side turned about
-            step = beyond[k]
-            at = np.maximum(rows + step[0], 0), np.maximum(columns + step[1], 0)
-            across = middle[(k + 3) % 4][at], middle[(k + 2) % 4][at]
-            point = rows + row, columns + column
-            add(self.node[:, k], across[0], hub[:, k], key=own, where=straight[:, k] & (alone[point] < 4))
-            # of all four cells round a point, the one up and right of it adds its square
-            if k == 0:
-                below, left = (rows - 1, columns), (rows, columns - 1)
-                both = rows - 1, columns - 1
-                some = np.flatnonzero((alone[point] == 4) & (own >= 0))
-                square = [hub[some, 0], middle[1][left][some], middle[2][both][some], middle[3][below][some]]
-                faces += [np.column_stack((square[0], square[1], square[2])),
-                          np.column_stack((square[0], square[2], square[3]))]
-                keys += [own[some], own[some]]
-        return np.concatenate(faces), np.concatenate(keys), ends, around
+            bent = change[:, k] & ~straight[:, k]
+            yield faces(hub[:, k], self.node[:, k], self.node[:, following], key=own, where=~change[:, k])
+            yield faces(hub[:, k], self.node[:, k], self.leaving[:, k], key=own, where=bent)
+            yield faces(hub[:, following], self.arriving[:, k], self.node[:, following], key=self.key[:, following],
+                        where=bent)
+            # in the other cell at this side the same corner is the third one on
+            across = middle[(k + 3) % 4][beyond[k]]
+            several = alone[rows + row, columns + column] < 4
+            yield faces(self.node[:, k], across, hub[:, k], key=own, where=straight[:, k] & several)
+        square = [hub[:, 0], middle[1][rows, columns - 1], middle[2][rows - 1, columns - 1],
+                  middle[3][rows - 1, columns]]
+        whole = alone[rows, columns] == 4
+        for second, third in ((1, 2), (2, 3)):
+            yield faces(square[0], square[second], square[third], key=self.key[:, 0], where=whole)

@@ -1,7 +1,6 @@
 """Cells of a lattice: squares, as large as what they show is even, of which an outline may cut one straight in two."""
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -113,7 +112,8 @@ def _block_max(values: np.ndarray, rows: int, columns: int, side: int) -> np.nda
     return np.maximum(found, np.maximum(right, top))
 
 
-def _undivided(cells: Cells, labels: Labels, crossed: tuple[np.ndarray, np.ndarray], cut: bool, straight: float) -> Cells:
+def _undivided(cells: Cells, labels: Labels, crossed: tuple[np.ndarray, np.ndarray], cut: bool,
+               straight: float) -> Cells:
     """Return the cells that no outline crosses, and, where they may be `cut`, those that one crosses straight."""
     side, around = cells.side, np.zeros(len(cells), dtype=np.int64)
     every, offsets = np.zeros(len(cells), dtype=np.int64), []
@@ -142,7 +142,7 @@ def _undivided(cells: Cells, labels: Labels, crossed: tuple[np.ndarray, np.ndarr
         share = (labels.right_share, labels.up_share)[which][part.rows + row, part.columns + column]
         known = np.isfinite(share)
         share = np.where(known, share, 0.0)
-        spot = np.stack((column + (share if which == 0 else 0.0 * share), row + (share if which == 1 else 0.0 * share)), 1)
+        spot = np.stack((column + share * (which == 0), row + share * (which == 1)), axis=1)
         away = way[:, 0] * (spot - first)[:, 1] - way[:, 1] * (spot - first)[:, 0]
         good &= ~known | (np.abs(away) <= straight * length)
     chosen = np.sort(np.concatenate((np.flatnonzero(whole), some[good])))

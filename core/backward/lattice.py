@@ -8,7 +8,7 @@ import numpy as np
 from ..support import Settings
 from ..views import View, draw
 
-ASIDE = np.array([0.005, 0.003])  # pixels: vertices lie beside the middles, where engines look, by far more than rounding
+ASIDE = np.array([0.005, 0.003])  # pixels: vertices lie beside the middles, where engines look; far beyond rounding
 LARGEST_STEP = 4.0  # pixels
 
 
@@ -46,6 +46,14 @@ class Lattice:
         first = np.floor((low - 0.5) / step) - 1.0
         count = np.ceil((high - 0.5) / step) + 1.0 - first + 1.0
         return cls(view, 0.5 + first * step, step, (int(count[0]), int(count[1])))
+
+    def coarser(self, most: int) -> Lattice:
+        """Return this lattice, or one over the same part of the picture with about so many points."""
+        times = np.ceil(np.sqrt(self.size[0] * self.size[1] / most))
+        if times <= 1.0:
+            return self
+        count = [int(np.ceil(side / times)) for side in self.size]
+        return Lattice(self.view, self.low, self.step * times, (count[0], count[1]))
 
     def spots(self, number: np.ndarray) -> np.ndarray:
         """Return where points (n,) lie in the picture, (n, 2) in pixels."""

@@ -15,7 +15,7 @@ from ..culling import SceneAndMirrors
 from ..geometry import SceneFrames, cross, distinct, dot, norm, others, unit
 from .paths import NOTHING, Paths
 
-HALVINGS = 5    # of a side that more rays are sent through: to a thirtieth of it
+HALVINGS = 4    # of a side that more rays are sent through: to within a thirtieth of it
 NEAREST = 0.01  # share of a side: outlines keep so far from the lattice, so that pixels see what their middles do
 LEAP = 4.0      # times what rays, and places, change by beside a side, from which on they leap along it
 LEVEL = 1e-3    # radians: rays that differ by less do not leap

@@ -44,64 +44,78 @@ class Paths(ColumnArrays):
     normal: np.ndarray
 
 
-def traced(view: View, surface: MirrorSurface, met: SceneAndMirrors, face: np.ndarray, place: np.ndarray,
-           depth: int) -> tuple[Paths, int]:
-    """Trace the paths that the eye sees at places (3, n) on triangles `face` (n,) of a mirror.
+@dataclass(frozen=True)
+class PathTracer:
+    """What paths from an eye meet.
 
-    Parameters
+    Attributes
     ----------
-    depth : int
-        Mirrors that are met at most.
-
-    Returns
-    -------
-    paths : Paths
-    left : int
-        Those that meet one mirror more.
+    view : View
+    surface : MirrorSurface, of the first mirror
+    met : SceneAndMirrors
     """
-    count = len(face)
-    way = view.directions(place.T).T
-    away = norm(way)
-    ray = unit(_reflected(surface, face, place, way))
-    normals, later = [halfway(way, ray)], []
-    ends, ray_left, source = place.copy(), ray.copy(), np.full(count, NOTHING)
-    point, length, bounces = place + ray * away, np.zeros(count), np.ones(count, dtype=np.int64)
-    at, origin = np.arange(count), place
-    planes = surface, face
-    for bounce in range(1, depth + 1):
-        breathe()
-        triangle, distance = met.first_met(_upper_sides(*planes, ray), origin, ray, many=True)
-        found = (triangle >= 0) & (triangle < met.diffuse)
-        source[at[found]] = triangle[found]
-        point[:, at[found]] = origin[:, found] + distance[found] * ray[:, found]
-        on = np.flatnonzero(triangle >= met.diffuse)
-        on = on[met.reflecting[triangle[on] - met.diffuse]]
-        left = len(on)
-        if bounce == depth or not left:
-            break
-        at, mirror = at[on], triangle[on] - met.diffuse
-        arriving, length_ = ray[:, on], distance[on]
-        origin = origin[:, on] + length_ * arriving
-        ray = unit(_reflected(met.surface, mirror, origin, arriving))
-        normals.append(np.zeros((3, count)))
-        normals[-1][:, at] = halfway(arriving, ray)
-        later.append(np.full(count, -1))
-        later[-1][at] = met.given[mirror]
-        length[at] += length_
-        bounces[at] += 1
-        ends[:, at], ray_left[:, at], planes = origin, ray, (met.surface, mirror)
-        point[:, at] = origin + ray * away[at]
-    paths = Paths(face, place, ends, ray_left, source, point, length, bounces,
-                  np.stack(later) if later else np.zeros((0, count), dtype=np.int64), np.stack(normals))
-    return paths, left
 
+    view: View
+    surface: MirrorSurface
+    met: SceneAndMirrors
 
-def covering(met: SceneAndMirrors, view: View, place: np.ndarray) -> np.ndarray:
-    """Return True for places (3, n) on a mirror before which the scene stands so near that layers would cover it."""
-    back = -view.directions(place.T).T
-    away = norm(back)
-    size = np.full(len(away), np.ptp(place, axis=1).max()) if view.orthographic else away
-    return met.hidden_within(place, back / away, met.slide * (GAP + DEPTH) * size, many=True)
+    def traced(self, face: np.ndarray, place: np.ndarray, depth: int, enough: float = 0.0
+               ) -> tuple[Paths, np.ndarray]:
+        """Trace the paths that the eye sees at places (3, n) on triangles `face` (n,) of the first mirror.
+
+        Parameters
+        ----------
+        depth : int
+            Mirrors that are met at most.
+        enough : float
+            Share of the paths that may meet one mirror more and be left at that.
+
+        Returns
+        -------
+        paths : Paths
+        left : (n,) bool
+            Those that meet one mirror more.
+        """
+        met, count = self.met, len(face)
+        way = self.view.directions(place.T).T
+        away = norm(way)
+        ray = unit(_reflected(self.surface, face, place, way))
+        normals, later = [halfway(way, ray)], []
+        ends, last, source = place.copy(), ray.copy(), np.full(count, NOTHING)
+        point, length, bounces = place + ray * away, np.zeros(count), np.ones(count, dtype=np.int64)
+        at, origin, planes = np.arange(count), place, (self.surface, face)
+        for bounce in range(1, depth + 1):
+            breathe()
+            triangle, distance = met.first_met(_upper_sides(*planes, ray), origin, ray, many=True)
+            found = (triangle >= 0) & (triangle < met.diffuse)
+            source[at[found]] = triangle[found]
+            point[:, at[found]] = origin[:, found] + distance[found] * ray[:, found]
+            on = np.flatnonzero(triangle >= met.diffuse)
+            on = on[met.reflecting[triangle[on] - met.diffuse]]
+            if bounce == depth or len(on) <= enough * count:
+                break
+            at, mirror, arriving, step = at[on], triangle[on] - met.diffuse, ray[:, on], distance[on]
+            origin = origin[:, on] + step * arriving
+            ray = unit(_reflected(met.surface, mirror, origin, arriving))
+            normals.append(np.zeros((3, count)))
+            normals[-1][:, at] = halfway(arriving, ray)
+            later.append(np.full(count, -1))
+            later[-1][at] = met.given[mirror]
+            length[at] += step
+            bounces[at] += 1
+            ends[:, at], last[:, at], planes = origin, ray, (met.surface, mirror)
+            point[:, at] = origin + ray * away[at]
+        left = np.zeros(count, dtype=bool)
+        left[at[on]] = True
+        return Paths(face, place, ends, last, source, point, length, bounces,
+                     np.stack(later) if later else np.zeros((0, count), dtype=np.int64), np.stack(normals)), left
+
+    def covered(self, place: np.ndarray) -> np.ndarray:
+        """Return True for places (3, n) on a mirror before which the scene is so near that layers would cover it."""
+        back = -self.view.directions(place.T).T
+        away = norm(back)
+        size = np.full(len(away), np.ptp(place, axis=1).max()) if self.view.orthographic else away
+        return self.met.hidden_within(place, back / away, self.met.slide * (GAP + DEPTH) * size, many=True)
 
 
 def _reflected(surface: MirrorSurface, face: np.ndarray, place: np.ndarray, way: np.ndarray) -> np.ndarray:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
 from ..geometry import Opacity, SceneFrames, TriangleMesh, columns, cross, dot, others, rows
-from ..trees import Bound, Cones, Fronts, PointTree, SceneTree, Touching, first_crossed
+from ..trees import Bound, Cones, Fronts, PointTree, SceneTree, Touching, first_crossed, first_of_many
 from ..views import View
 from .camera_families import traced
 from .candidates import Candidates
@@ -201,18 +201,19 @@ class SceneAndMirrors:
                   many: bool = False) -> tuple[np.ndarray, np.ndarray]:
         """The triangle (n,) that each ray, from `origin` along unit vectors `ray` (3, n), meets first, -1 where none;
         and how far away. They leave mirrors on `sides`, a place and a normal (3, n) each; what does not rise above is
-        not met. They may be a few of `many`."""
-        diffuse, near = first_crossed(self.scene, origin, ray, many=many)
-        mirror, nearer = first_crossed(self.mirror_tree, origin, ray, ABOVE * self.size,
-                                       lambda own, triangle: self._above(sides, own, triangle), many=many)
+        not met. They may be some of `many`."""
+        first = first_of_many if many else first_crossed
+        diffuse, near = first(self.scene, origin, ray)
+        mirror, nearer = first(self.mirror_tree, origin, ray, ABOVE * self.size,
+                                       lambda own, triangle: self._above(sides, own, triangle))
         return np.where(nearer < near, mirror + self.diffuse, diffuse), np.minimum(near, nearer)
 
     def hidden_within(self, origin: np.ndarray, ray: np.ndarray, reach: np.ndarray,
                       many: bool = False) -> np.ndarray:
         """Return True for rays (3, n), unit vectors, that meet something of the diffuse scene that must not be covered,
-        within `reach` (n,) of where they begin, on a mirror."""
-        return first_crossed(self.scene, origin, ray, ABOVE * self.size, self._if_seen(), limit=reach,
-                             many=many)[0] >= 0
+        within `reach` (n,) of where they begin, on a mirror. They may be some of `many`."""
+        first = first_of_many if many else first_crossed
+        return first(self.scene, origin, ray, ABOVE * self.size, self._if_seen(), limit=reach)[0] >= 0
 
     def _if_seen(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
         """Tell which pairs of a ray and a triangle count for rays of the eye; None if all do."""

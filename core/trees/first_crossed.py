@@ -15,17 +15,24 @@ WORTH_BOXES = 10  # triangles for each ray, up to which boxes round them pay: a 
 
 def first_crossed(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,
                   asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
-                  limit: np.ndarray | None = None, many: bool = False) -> tuple[np.ndarray, np.ndarray]:
+                  limit: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
     """The triangle (n,) of a tree that each ray (3, n), a unit vector, meets first farther than `beyond` and nearer
     than `limit` (n,), -1 where it meets none, and how far away, infinite there; of pairs (ray, triangle) only those
-    that are `asked` for. Rays that are a few of `many` go through boxes in any case."""
+    that are `asked` for."""
     count = ray.shape[1]
-    if many or count * WORTH_BOXES > len(tree):  # by counts alone, so that what is kept from before changes nothing
-        hits = first_hits(tree.boxes, origin, ray, least=beyond, asked=asked, limit=limit)
-        return hits.triangle, hits.distance
+    if count * WORTH_BOXES > len(tree):  # by counts alone, so that what is kept from before changes nothing
+        return first_of_many(tree, origin, ray, beyond, asked, limit)
     first, distance = _by_cones(tree, origin, ray, beyond, asked)
     near = np.isfinite(distance) if limit is None else distance < limit
     return np.where(near, first, -1), np.where(near, distance, np.inf)
+
+
+def first_of_many(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,
+                  asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
+                  limit: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Return the same of rays that are some of many, for which boxes are worth building."""
+    hits = first_hits(tree.boxes, origin, ray, least=beyond, asked=asked, limit=limit)
+    return hits.triangle, hits.distance
 
 
 def _by_cones(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: float,
