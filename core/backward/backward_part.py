@@ -192,7 +192,8 @@ class BackwardPart:
         origin, ray = (given.T for given in self.view.rays(spots))
         forward = self.view.forward[:, None]
         depth = dot(paths.place - origin, forward) / dot(ray, forward)
-        return replace(paths, place=origin + depth * ray)
+        place = origin + depth * ray
+        return replace(paths, place=place, origin=np.where(paths.bounces == 1, place, paths.origin))
 
     def _middles(self, paths: Paths, spots: np.ndarray, cells: CellFaces) -> tuple[Paths, np.ndarray]:
         """Return the vertices in the middles of cells, and where they lie in the picture."""

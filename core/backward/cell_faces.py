@@ -151,7 +151,7 @@ class _Ring:
         return faces, keys, ends, around
 
     def _round_hubs(self, hub: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield faces over cells of one step, with vertices `hub` (n, 4) in the middle for each corner, and their keys."""
+        """Yield faces over cells of one step, with middle vertices `hub` (n, 4) for each corner, and their keys."""
         shape, (rows, columns), change = self.labels.key.shape, (self.cells.rows, self.cells.columns), self.change
         middle = np.full((4, *shape), -1)
         meeting = np.zeros(shape, dtype=bool)

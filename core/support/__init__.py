@@ -20,6 +20,7 @@ from .error_budget import (
 )
 from .errors import NothingInView, ReflectionError
 from .heap import keep_freed_memory
+from .parallel import in_parallel, use_threads
 from .progress import Progress
 from .settings import LEFT, METHODS, MOST_BOUNCES, PLACEMENTS, Settings
 from .stepping import breathe, in_steps, portions, tell
@@ -27,5 +28,5 @@ from .stepping import breathe, in_steps, portions, tell
 __all__ = ["BESIDE_EDGES", "DOUBT_SHARE", "ENDING_SHARE", "FACE_SHARE", "INSIDE", "INSIDE_WHOLE", "LARGEST", "LEFT",
            "METHODS", "MIRROR_SHARE", "MOST_BOUNCES", "NothingInView", "OUTLINE_SHARE", "PLACEMENTS", "Progress",
            "ReflectionError", "Settings", "TOGETHER", "TOGETHER_AT_OUTLINES", "WHOLE_OUTLINE_SHARE", "breathe",
-           "crowded", "in_steps", "keep_freed_memory", "must_be", "number", "numbers", "portions", "tell",
-           "whole_number", "whole_numbers"]
+           "crowded", "in_parallel", "in_steps", "keep_freed_memory", "must_be", "number", "numbers", "portions",
+           "tell", "use_threads", "whole_number", "whole_numbers"]
