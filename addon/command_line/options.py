@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import argparse
 
-from ..settings import LIGHTS, METHODS, PLACEMENTS, SETTINGS, WRITTEN_SETTINGS
+from ..settings import METHODS, PLACEMENTS, SETTINGS, WRITTEN_SETTINGS
 
 
 def number(text: str) -> float | None:
@@ -58,12 +58,6 @@ def add_join_parts(parser: argparse.ArgumentParser) -> None:
     """The option for mirrors of several parts."""
     parser.add_argument("--join-parts", action=argparse.BooleanOptionalAction,
                         help="mirrors that have one topmost parent share one reflection (else as the file has it)")
-
-
-def add_light(parser: argparse.ArgumentParser, option: str) -> None:
-    """The option for where light is kept."""
-    parser.add_argument(option, dest="kind", choices=[item[0] for item in LIGHTS],
-                        help="light of the picture, or light that stays with the objects (else as the file has it)")
 
 
 def add_own(parser: argparse.ArgumentParser) -> None:

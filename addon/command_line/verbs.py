@@ -30,7 +30,7 @@ from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
 from .compare_verb import add_compare
 from .opening import open_file
-from .options import add_join_parts, add_light, add_own, add_settings, given, text
+from .options import add_join_parts, add_own, add_settings, given, text
 from .place import add_place, placed
 from .progress import announced
 
@@ -72,12 +72,10 @@ def _parser() -> argparse.ArgumentParser:
     _add_participants(generate)
     generate.add_argument("--light", type=int, nargs="?", const=FILES, default=0, metavar="N",
                           help="light them too, with N samples per pixel (else the file's)")
-    add_light(generate, "--light-kind")
     _add_output(generate)
     generate.set_defaults(work=_generate)
     light = verbs.add_parser("light", help="let the reflections look as the mirrors do, and save the file")
     light.add_argument("--samples", type=int, metavar="N", help="samples per pixel (else the file's)")
-    add_light(light, "--kind")
     light.add_argument("--every", action="store_true", help="also those that look right as they are, for glTF and USD")
     _add_output(light)
     light.set_defaults(work=_light)
@@ -151,7 +149,7 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
             outcome.summary(time.perf_counter() - started)]
     if options.light:
         samples = None if options.light is FILES else options.light
-        told.append(_lit(context, [obj for obj, _ in outcome.results], samples, options.kind))
+        told.append(_lit(context, [obj for obj, _ in outcome.results], samples))
     save_blend(path)
     print(*told, sep="\n")
 
@@ -160,7 +158,7 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
     if options.samples is not None and options.samples < 1:
         raise core.ReflectionError("Light takes at least one sample: raise --samples.")
-    told = _lit(context, chosen_results(context), options.samples, options.kind, options.every)
+    told = _lit(context, chosen_results(context), options.samples, options.every)
     save_blend(path)
     print(told)
 
@@ -200,10 +198,9 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     print(*told, sep="\n")
 
 
-def _lit(context: bpy.types.Context, results: list, samples: int | None, kind: str | None,
-         every: bool = False) -> str:
+def _lit(context: bpy.types.Context, results: list, samples: int | None, every: bool = False) -> str:
     started = time.perf_counter()
-    wanted = Wanted(context.scene, given(argparse.Namespace(), light_samples=samples, light_kind=kind))
+    wanted = Wanted(context.scene, given(argparse.Namespace(), light_samples=samples))
     lit = announced(lighting_groups(context, wanted.lights(with_copies(context, results)), every))
     return "\n".join([*unlike_the_mirror(context, lit), lighting_summary(lit, time.perf_counter() - started)])
 

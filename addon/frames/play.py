@@ -5,10 +5,10 @@ import os
 from dataclasses import dataclass
 
 import bpy
-import numpy as np
 
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from ..lighting import forget_light, forget_previews, new_material
+from ..mirror_part import Surroundings
 from ..reading import Assembly, camera_of, every_result_of, render_size, results_of
 from ..writing import (
     forget_nodes,
@@ -135,7 +135,7 @@ def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | No
     whole.undo(_remove, image)
     image.source, image.name = "SEQUENCE", f"Reflection Light {sequence.name}".strip()
     image.colorspace_settings.name = "Non-Color"
-    material = new_material(image.name, image, image, np.zeros((1, 1, 3), dtype=np.float32), whole)
+    material = new_material(image.name, image, image, [None], Surroundings(), whole)
     tree = material.node_tree
     for node in tree.nodes:
         if node.type == "TEX_IMAGE":

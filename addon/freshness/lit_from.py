@@ -14,7 +14,8 @@ from ...core import ReflectionError, View
 from ..frames import plays
 from ..reading import is_result, lost_mirror, mirrors_of, read_view, render_size
 from .answers import answer
-from .made_from import LONGEST, SIZE_DIFFERS, same_view, view_numbers
+from .made_from import LONGEST, SIZE_DIFFERS, view_numbers
+from .made_from import same_view as is_same_view
 from .materials import SIZE
 from .rendered import rendered
 
@@ -22,7 +23,7 @@ from .rendered import rendered
 DIFFERENT = {"view": "the camera has changed", "mirror": "the mirror has changed", "objects": "an object has changed",
              "materials": "a material has changed", "lamps": "the lamps or the world have changed",
              "settings": "the render settings have changed", "sources": "it shows other objects"}
-OF_A_VIEW = {"sources", "mirror"}  # parts that light which stays with the objects does not depend on
+OF_A_VIEW = {"view", "sources", "mirror"}  # parts by which other points are seen, whose light is what it was
 RENDER = ("use_simplify", "simplify_subdivision_render", "simplify_child_particles_render", "hair_type", "hair_subdiv")
 CYCLES = ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "volume_bounces",
           "transparent_max_bounces", "caustics_reflective", "caustics_refractive", "blur_glossy", "sample_clamp_direct",
@@ -67,18 +68,22 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
         return DIFFERENT["view"]
 
 
-def light_difference(context: bpy.types.Context, view: View, result: bpy.types.Object, sources: list) -> str:
-    """Return what `why_light_differs` does, for a view and the sources that the result is to show."""
+def light_difference(context: bpy.types.Context, view: View, result: bpy.types.Object, sources: list,
+                     same_view: bool = True) -> str:
+    """Return what `why_light_differs` does, for a view and the sources that the result is to show.
+
+    Without `same_view`, the view, the result's size and the mirror may be others than those it was lit for.
+    """
     made, record = _read(result), result.reflection_mesh
     if not made:
-        # of earlier versions; light that stays with the objects asks itself whether these are the same
-        return "" if record.light_map is not None else DIFFERENT["view"]
+        # of earlier versions
+        return DIFFERENT["view"]
     # what is cheap comes first: while the camera is dragged nothing else is looked at
-    if record.light_map is None:
+    if same_view:
         numbers = view_numbers(view)
         if numbers[32:] != made["view"][32:]:
             return SIZE_DIFFERS
-        if not same_view(made["view"], numbers):
+        if not is_same_view(made["view"], numbers):
             return DIFFERENT["view"]
     names, mirrors = set(made["mirrors"]), {*mirrors_of(result)}
     for obj in context.scene.objects:
@@ -87,7 +92,7 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
         elif is_result(obj) and obj.reflection_mesh.light_material == record.light_material:
             mirrors |= {*mirrors_of(obj)}
     now = _inputs(context, result, sources, mirrors - {None})
-    left_out = set() if record.light_map is None else OF_A_VIEW
+    left_out = set() if same_view else OF_A_VIEW
     return next((sentence for name, sentence in DIFFERENT.items()
                  if name in now and name not in left_out and made.get(name, now[name]) != now[name]), "")
 

@@ -7,7 +7,7 @@ from ..reading import can_take_part
 from ..settings import holder_of, mirror_of
 
 # what is behind the closed door of "Limits"
-SHOWN, LIGHT, LIMITS = ("tolerance", "placement", "method", "depth"), ("light_kind", "light_samples"), (
+SHOWN, LIGHT, LIMITS = ("tolerance", "placement", "method", "depth"), ("light_samples",), (
     "memory", "hidden_faces", "attributes", "join_parts")
 
 

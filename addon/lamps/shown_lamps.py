@@ -86,12 +86,11 @@ def _shown(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> ShownLamp:
                      data.type == "SPOT")
 
 
-def lamps_before(result: bpy.types.Object, lamps: list[ShownLamp]) -> tuple[ShownLamp, ...]:
-    """Those of `lamps` that may stand between the mirror and what a face of a result shows.
+def lamps_before(mesh: bpy.types.Mesh, lamps: list[ShownLamp]) -> tuple[ShownLamp, ...]:
+    """Those of `lamps` that may stand between the mirror and what a face of a result's mesh shows.
 
     A lamp that none of the faces' rays comes near costs nothing then.
     """
-    mesh = result.data
     if not lamps or not len(mesh.polygons) or any(name not in mesh.attributes for name in KNOWN):
         return ()
     corners = np.empty(len(mesh.loops), dtype=np.int32)

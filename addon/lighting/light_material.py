@@ -1,7 +1,7 @@
-"""The material that shows a picture of light where the camera saw it, and the images that it shows."""
+"""The material that shows light on a reflection, and the images that it shows."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from functools import partial
 
 import bpy
@@ -11,8 +11,10 @@ from ... import core
 from .. import compat
 from ..faults import AllOrNothing, Steps, part, remove_new
 from ..files import open_exr
-from ..writing import UV_MAP, images_of, show_unblurred
-from .picture import SHINING
+from ..mirror_part import MirrorPart, Surroundings, copied_shaders
+from ..reading.materials import one_output, surface_shader
+from ..writing import UV_MAP, show_unblurred
+from ..writing.nodes.opened_groups import open_groups
 
 WRITING = "Writing"
 
@@ -34,98 +36,101 @@ def new_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.t
     return image
 
 
-def new_export_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.types.Image]:
-    """The same for files that know no more than eight bits: sRGB, and nothing brighter than white."""
+def new_export_image(image: bpy.types.Image, light: np.ndarray) -> Steps[None]:
+    """Fill an image of 8 bits with light (height, width, 3): sRGB, nothing brighter than white."""
     yield 0.0, WRITING
-    light = np.clip(texels, 0.0, 1.0)
+    light = np.clip(light, 0.0, 1.0)
     # IEC 61966-2-1
     shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 0.0031308)**(1.0 / 2.4) - 0.055)
     yield 0.0, WRITING
     height, width, channels = shown.shape
     rgba = np.ones((height, width, 4), dtype=np.float32)
     rgba[..., :channels] = shown
-    image = bpy.data.images.new(name, width, height, alpha=channels == 4)
-    whole.undo(remove_new, image)
+    image.scale(width, height)
     image.alpha_mode = "CHANNEL_PACKED"
     yield 0.0, WRITING
     image.pixels.foreach_set(rgba.ravel())
     yield 0.0, WRITING
     image.pack()
     yield 0.0, WRITING
-    return image
 
 
-def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Image, texels: np.ndarray,
-                 whole: AllOrNothing, apart: tuple[bpy.types.Image, bpy.types.Image] | None = None
+def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Image,
+                 mirror: Sequence[bpy.types.Material | None], around: Surroundings, whole: AllOrNothing
                  ) -> bpy.types.Material:
-    """A material that emits an image where the map `UV_MAP` says: Cycles and EEVEE show `image`, or what of it is
-    matte and what shines from two images `apart`, what follows the output for all engines shows `export_image`, in
-    nodes that exporters read. EEVEE shows a still by `show_unblurred`, and an animated picture, whose size changes, by
-    its own look-up.
+    """Return a material that shows light as the materials of a `mirror` reflect it.
+
+    Cycles and EEVEE show `image`, by the UV map `UV_MAP`, tinted and mixed as the mirror's own shader would at the true
+    angle. Exporters find `export_image`, which has all of that in it, as unlit base colour.
+
+    Parameters
+    ----------
+    mirror : sequence of bpy.types.Material or None
+        None shows all of the light.
+    """
+    material, shaders = _merged(name, mirror, whole)
+    tree = material.node_tree
+    own = list(tree.nodes)
+    light = _look_up(tree, image)
+    build = MirrorPart(tree, light.outputs["Color"], around)
+    shown = build.surface(mirror, shaders, own)
+    output = one_output(tree)
+    tree.links.new(shown, output.inputs["Surface"])
+    for name_ in ("Displacement", "Volume"):
+        for link in list(output.inputs[name_].links):
+            tree.links.remove(link)
+    if image.source != "SEQUENCE":
+        show_unblurred(tree, [light], output, whole)
+    build.feed(build.before_the_mirror(shown, mirror), build.add("ShaderNodeOutputMaterial", target="CYCLES").inputs[
+        "Surface"])
+    if image.source == "SEQUENCE":
+        # EEVEE's own look-up: the nodes above know the size of one picture alone
+        build.feed(shown, build.add("ShaderNodeOutputMaterial", target="EEVEE").inputs["Surface"])
+    _add_export(tree, output, export_image)
+    return material
+
+
+def _add_export(tree: bpy.types.NodeTree, output: bpy.types.Node, image: bpy.types.Image) -> None:
+    """Let the output for all other engines show an image in nodes that exporters read.
 
     That of glTF makes an unlit material of a colour which is the surface itself; that of USD takes what it knows of
     the first Principled BSDF that it finds, be it connected or not.
     """
-    material = bpy.data.materials.new(name)
-    whole.undo(remove_new, material)
-    tree = compat.use_nodes(material)
-    tree.nodes.clear()
-
-    def add(kind: str, place: tuple[float, float], **settings) -> bpy.types.Node:
-        node = tree.nodes.new(kind)
-        node.location = place
-        for key, value in settings.items():
-            setattr(node, key, value)
-        return node
-    spot = add("ShaderNodeAttribute", (-600.0, 0.0), attribute_name=UV_MAP)
-    for shown, row, engines in ((image, 200.0, ("CYCLES", "EEVEE")), (export_image, -200.0, ("ALL",))):
-        look = add("ShaderNodeTexImage", (-350.0, row), name=shown.name, image=shown, interpolation="Linear",
-                   extension="EXTEND")
-        tree.links.new(spot.outputs["Vector"], look.inputs["Vector"])
-        for column, engine in enumerate(engines):
-            output = add("ShaderNodeOutputMaterial", (200.0 * column, row), target=engine)
-            tree.links.new(look.outputs["Color"], output.inputs["Surface"])
-    if apart is not None:
-        _put_apart(tree, add, spot, apart)
-    if image.source != "SEQUENCE":
-        exact = [node for node in tree.nodes if node.type == "TEX_IMAGE" and node != look]
-        show_unblurred(tree, exact, tree.get_output_node("CYCLES"), whole)
-    # the last of both: what exporters begin at, and what solid view shows by texture
+    look = _look_up(tree, image)
+    output.target = "ALL"
+    tree.links.new(look.outputs["Color"], output.inputs["Surface"])
     output.is_active_output, tree.nodes.active = True, look
-    told = add("ShaderNodeBsdfPrincipled", (200.0, -200.0), label="For USD")
+    for node in tree.nodes:
+        node.select = node == look
+    told = tree.nodes.new("ShaderNodeBsdfPrincipled")
+    told.label = "For USD"
     told.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     told.inputs["Roughness"].default_value = told.inputs["IOR"].default_value = 1.0
     told.inputs["Emission Strength"].default_value = 1.0
     tree.links.new(look.outputs["Color"], told.inputs["Emission Color"])
-    # what solid view shows by material
-    seen = texels[(texels > 0.0).any(axis=2)]
-    if len(seen):
-        material.diffuse_color = (*np.minimum(seen, 1.0).mean(axis=0), 1.0)
-    return material
 
 
-def _put_apart(tree: bpy.types.NodeTree, add: Callable[..., bpy.types.Node], spot: bpy.types.Node,
-               apart: tuple[bpy.types.Image, bpy.types.Image]) -> None:
-    """Let Cycles and EEVEE show the first of two images, and the second on the faces that show what shines."""
-    where = add("ShaderNodeAttribute", (-350.0, 1000.0), attribute_name=SHINING)
-    both = add("ShaderNodeMix", (0.0, 500.0), data_type="RGBA")
-    # its sockets for numbers, vectors and colours bear the same names
-    tree.links.new(where.outputs["Fac"], both.inputs[0])
-    for image, row, socket in zip(apart, (500.0, 750.0), both.inputs[6:8]):
-        look = add("ShaderNodeTexImage", (-350.0, row), name=image.name, image=image, interpolation="Linear",
-                   extension="EXTEND")
-        tree.links.new(spot.outputs["Vector"], look.inputs["Vector"])
-        tree.links.new(look.outputs["Color"], socket)
-    for output in [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL" and node.target != "ALL"]:
-        tree.links.new(both.outputs[2], output.inputs["Surface"])
+def _look_up(tree: bpy.types.NodeTree, image: bpy.types.Image) -> bpy.types.Node:
+    """Add nodes that look an image up by the UV map of light; discs have it as an attribute."""
+    spot = tree.nodes.new("ShaderNodeAttribute")
+    spot.attribute_name = UV_MAP
+    look = tree.nodes.new("ShaderNodeTexImage")
+    look.name, look.image, look.interpolation, look.extension = image.name, image, "Linear", "EXTEND"
+    tree.links.new(spot.outputs["Vector"], look.inputs["Vector"])
+    return look
 
 
-def texels_shown(material: bpy.types.Material) -> np.ndarray | None:
-    """What a material of light shows, (height, width, 3) float32; None where somebody has changed that."""
-    image = next(iter(images_of(material)), None)
-    if image is None or image.channels < 3 or not all(image.size):
-        return None
-    width, height = image.size
-    pixels = np.empty(width * height * image.channels, dtype=np.float32)
-    image.pixels.foreach_get(pixels)
-    return pixels.reshape(height, width, -1)[..., :3]
+def _merged(name: str, mirror: Sequence[bpy.types.Material | None], whole: AllOrNothing
+            ) -> tuple[bpy.types.Material, list[bpy.types.Node | None]]:
+    """Return a new material with the nodes of all materials that have some, and the shader of each, or None."""
+    with_nodes = [one for one in mirror if one is not None and compat.uses_nodes(one)]
+    material = with_nodes[0].copy() if with_nodes else bpy.data.materials.new(name)
+    whole.undo(remove_new, material)
+    material.name = name
+    tree = compat.use_nodes(material)
+    if not with_nodes:
+        tree.nodes.clear()
+        tree.nodes.new("ShaderNodeOutputMaterial")
+    open_groups(tree)
+    shader_of = {one: surface_shader(tree) for one in with_nodes[:1]} | copied_shaders(with_nodes[1:], tree)
+    return material, [shader_of.get(one) for one in mirror]

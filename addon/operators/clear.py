@@ -8,7 +8,7 @@ from ..frames import plays, stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_previews, update_mattes
 from ..reading import has_linked_results, is_result, named_by_selection, redraw_lines
-from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes, set_free
+from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes, set_free
 from . import polls
 
 IN_OBJECT_MODE = "Reflections are cleared in Object Mode: leave the present mode first."
@@ -31,7 +31,6 @@ def clear(context: bpy.types.Context, results: list) -> None:
     mirror = active.reflection_mesh.mirror if active in results else None
     nodes = {disc_nodes(obj) for obj in results}
     lights = {obj.reflection_mesh.light_material for obj in results} - {None}
-    maps = {obj.reflection_mesh.light_map for obj in results} - {None}
     _set_free(context, results)
     # from here on nothing can fail, so that results go all or none
     if mirror is not None and mirror.name in layer.objects:
@@ -42,8 +41,6 @@ def clear(context: bpy.types.Context, results: list) -> None:
         forget_nodes(group)
     for material in lights:
         forget_light(material)
-    for mesh in maps:
-        forget_mesh(mesh)
     forget_previews()
     close_abandoned_windows()
     forget_collection(context.scene)

@@ -113,8 +113,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         written = partial(_written, result, scene, (surface, surfaces), view, lines)
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")
-        prepared.append(Reflection(joint, context.scene.camera, sources, result, arrays, view.resolution,
-                                   own[index].placement, attributes_of(settings, mirror, context.scene)))
+        prepared.append(Reflection(joint, context.scene.camera, sources, result, arrays, view.resolution, own[index],
+                                   attributes_of(settings, mirror, context.scene)))
     if not prepared:
         raise NothingSeen(refused[0]) if unseen == refused else Refused(refused)
     kept.within(max(one.maximum_memory for one in own))
@@ -161,7 +161,7 @@ def _unfit(context: bpy.types.Context, view: core.View, mirrors: list, sources: 
     """Return why light no longer fits, by the results of mirrors that have been lit; empty where it still does."""
     lit = [result for mirror in mirrors for result in every_result_of(context, mirror)
            if result.reflection_mesh.light_material is not None]
-    return {result: light_difference(context, view, result, sources) for result in lit}
+    return {result: light_difference(context, view, result, sources, same_view=False) for result in lit}
 
 
 def _record(outcome: Outcome, origins: dict, seconds: float) -> None:

@@ -1,110 +1,146 @@
-"""Light as it is made for reflections: of the picture by a render, on the objects by a bake."""
+"""The light of reflections: Cycles shades what they show, and they show that."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 
 import bpy
 import numpy as np
 
 from ...core import ReflectionError, View
-from ..baking import KeptMap, baked, can_be_baked, kept_map
-from ..faults import AllOrNothing, Steps, part
+from ..faults import AllOrNothing, Steps, part, still_there
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
-    Window,
-    beside_lamps,
-    is_overexposed,
+    LightPaths,
+    Placed,
+    can_be_lit,
+    forget_light,
     is_plain,
-    light_scene,
-    make_denser,
-    needed_density,
+    lay_out,
+    light_record,
     new_export_image,
     new_image,
     new_material,
-    on_the_mirror,
-    paper_white_of,
-    pixel_kernel,
+    path_scene,
+    prepared,
+    remember,
+    render_paths,
     show_light,
-    show_object_light,
-    texels_of,
-    white_of,
+    unwrap,
+    write_colours,
 )
-from ..mirror_part import LaterMirrors, Surroundings, new_object_material
-from ..reading import is_opaque, mirrors_of, read_scene, seen_in
-from ..reading.materials import reflecting_materials
+from ..mirror_part import LaterMirrors, Surroundings
+from ..reading import has_fog, mirrors_of
+from ..reading.materials import reflecting_materials, surface_shaders
 from ..rendering import shown_while
 
 NAME = "Reflection Light"
 RENDERING = "Rendering light"
+DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each pixel from which on
+RIM = 4                 # texels around faces that go on as the faces do
+FROM_MIRROR = 1e-4      # of a path: it begins at the mirror
+NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
 
 
-def light_in_picture(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing,
-                     lamps_apart: bool) -> Steps[Callable[[], Steps[None]]]:
-    """Render what `lit` show of the picture; returns what lets them show it."""
-    window = Window.around(view, np.concatenate([on_the_mirror(result) for result in lit]))
-    if window is None:
+def light_results(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing,
+                  flat: bool = False) -> Steps[Callable[[], None]]:
+    """Render what `lit` show; return what lets them show it, by one picture alone if `flat`.
+
+    Raises
+    ------
+    ReflectionError
+        Where a mesh does not know what it shows, or the camera sees none of it.
+    """
+    _check(lit)
+    dense = DENSE if samples >= FEWEST else 1
+    placed: dict[bpy.types.Mesh, Placed] = {}
+    for result in lit:
+        if result.data not in placed:
+            placed[result.data] = yield from part(prepared(result, view, dense, whole), 0.0, 0.0)
+    yield 0.04, "Reading the reflection"
+    unwrapped = unwrap(list(placed.values()), view, dense)
+    paths = unwrapped.paths()
+    if not paths.used.any():
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
-    white = white_of(context.scene)
-    with light_scene(context, lit, window) as scene:
-        density = yield from shown_while(needed_density(scene, window, samples, white), 0.02, RENDERING)
-        make_denser(scene, window, density)
-        light = yield from shown_while(scene.light(samples, density), 0.04, RENDERING)
-        coverage, shining = yield from shown_while(scene.coverage(), 0.9, "Rendering the area of the reflections")
-    # what was clear for a while counts as changed only now
-    context.view_layer.update()
-    cycles = context.scene.cycles
-    kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
-    light, opacity = light[..., :3], light[..., 3] if scene.alone else None
-    paper_white = paper_white_of(context.scene)
-    # a part of a pixel is brighter where that is to be white
-    white *= density**2
-    texels = yield from part(texels_of(light, coverage, kernel, white, opacity), 0.93, 0.04)
-    image, apart = (yield from part(new_image(NAME, texels, whole), 0.97, 0.01)), None
-    if lamps_apart and is_overexposed(light, shining, paper_white):
-        # what shines ends where its faces do, however bright it is: between texels it could not
-        apart = []
-        for name, part_of in (("Matte", beside_lamps(coverage, shining, light, paper_white)), ("Shining", shining)):
-            found = yield from part(texels_of(light, part_of, kernel, white, opacity, name.upper()), 0.98,
-                                    0.005)
-            apart.append((yield from part(new_image(f"{NAME} {name}", found, whole), 0.985, 0.0)))
-    export_image = yield from part(new_export_image(f"{NAME} Export", texels, whole), 0.99, 0.01)
+    if has_fog(context.scene):
+        paths = _from_the_mirror(paths)
+    with path_scene(context) as scene:
+        light = yield from shown_while(render_paths(scene, paths.grown(RIM), samples // dense**2, True), 0.1, RENDERING)
+    image = yield from part(new_image(NAME, light, whole), 0.7, 0.05)
+    export_image = bpy.data.images.new(f"{NAME} Export", 1, 1)
+    whole.undo(bpy.data.batch_remove, [export_image])
+    materials: dict = {}
+    lamps, spots = lamps_that_show(context), dict(zip(placed, unwrapped.spots))
+    for result in lit:
+        mesh = placed[result.data].mesh
+        around = Surroundings(tuple(mirrors_of(result)), lamps_before(mesh, lamps), LaterMirrors.of(result),
+                              not result.reflection_mesh.window)
+        key = result.reflection_mesh.mirror, result.data
+        if key not in materials:
+            materials[key] = new_material(NAME, image, export_image, _mirror_materials(result), around, whole)
+            lay_out(mesh, result, view, spots[result.data], materials[key])
+    matte, paths_seen = any(map(_is_matte, materials.values())), unwrapped.paths(seen=True).grown(RIM)
+    with path_scene(context) as scene, _copies(scene, lit, placed, materials):
+        steps = render_paths(scene, paths_seen, samples // (2 * dense**2) if matte else 1, matte)
+        seen = yield from shown_while(steps, 0.8, RENDERING)
+    yield from part(new_export_image(export_image, seen), 0.95, 0.04)
+    for mesh, own in placed.items():
+        write_colours(own.mesh, spots[mesh], seen)
+    if flat:
+        image = yield from part(new_image(NAME, seen, whole), 0.99, 0.01)
+        plain = new_material(NAME, image, image, [None], Surroundings(), whole)
+        for material in materials.values():
+            whole.after(forget_light, material)
+        materials = dict.fromkeys(materials, plain)
+    else:
+        remember(image, paths)
+    told = light_record(view, unwrapped, dense)
 
-    def show() -> Steps[None]:
-        material = new_material(NAME, image, export_image, texels, whole, apart)
+    def show() -> None:
         for result in lit:
-            yield from show_light(result, material, view, window, whole)
+            mesh = result.data
+            show_light(result, placed[mesh].mesh, materials[result.reflection_mesh.mirror, mesh], told, whole)
     return show
 
 
-def light_on_objects(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing
-                     ) -> Steps[Callable[[], Steps[None]]]:
-    """Bake the objects that `lit` show; returns what lets them show it."""
-    if not can_be_baked(lit):
-        raise ReflectionError("A reflection of points, or of objects that have been deleted, or one that knows only "
-                              "what is seen, has no light on objects: choose Light: Picture.")
-    is_seen = seen_in(context)
-    sources = [obj for obj in dict.fromkeys(entry.object for result in lit for entry in result.reflection_mesh.sources)
-               if is_seen(obj)]
-    scene = read_scene(context.evaluated_depsgraph_get(), sources)
-    light = yield from part(baked(context, lit, view, scene, samples), 0.02, 0.93)
-    image = yield from part(new_image(NAME, light.texels, whole), 0.95, 0.05)
-    # what was hidden for a while counts as changed only now
-    context.view_layer.update()
-    opaque, lamps = all(map(is_opaque, scene.materials)), lamps_that_show(context)
+def _from_the_mirror(paths: LightPaths) -> LightPaths:
+    """Return paths that begin at the mirror, from which on fog counts."""
+    length = np.linalg.norm(paths.target - paths.origin, axis=2)
+    return replace(paths, lead=(1.0 - FROM_MIRROR) * length)
 
-    def show() -> Steps[None]:
-        light_map = kept_map(NAME, light.uv, light.frames)
-        whole.undo(bpy.data.meshes.remove, light_map)
+
+def _check(lit: list) -> None:
+    for result in lit:
+        if not can_be_lit(result):
+            raise ReflectionError(f"'{result.name}' does not know what it shows: set Attributes to All and generate it "
+                                  "again.")
+
+
+@contextmanager
+def _copies(scene: bpy.types.Scene, lit: list, placed: dict, materials: dict) -> Iterator[None]:
+    """Give a temporary scene copies of reflections with their light, which glossy rays alone meet."""
+    copies = []
+    try:
         for result in lit:
-            around = Surroundings(tuple(mirrors_of(result)), lamps_before(result, lamps),
-                                  LaterMirrors.of(result), not result.reflection_mesh.window)
-            material = new_object_material(NAME, image, _mirror_materials(result), opaque, around, whole)
-            yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets, light.dull),
-                                         whole)
-    return show
+            copy = result.copy()
+            copies.append(copy)
+            copy.data = placed[result.data].mesh
+            for slot in copy.material_slots:
+                slot.link, slot.material = "OBJECT", materials[result.reflection_mesh.mirror, result.data]
+            copy.visible_camera, copy.visible_glossy, copy.hide_render = False, True, False
+            scene.collection.objects.link(copy)
+        yield
+    finally:
+        bpy.data.batch_remove(still_there(copies))
 
 
 def _mirror_materials(result: bpy.types.Object) -> list[bpy.types.Material | None]:
-    """The materials of a result's mirror that reflect; None where all of the light is shown."""
+    """Return the materials of a result's mirror that reflect; None where all of the light is shown."""
     reflecting = reflecting_materials(mirrors_of(result))
     return [None if is_plain(one) else one for one in reflecting] if not all(map(is_plain, reflecting)) else [None]
+
+
+def _is_matte(material: bpy.types.Material) -> bool:
+    """Return True if lamps change what a material of light shows."""
+    return any(shader.type not in NOT_LIT for shader in surface_shaders(material.node_tree))

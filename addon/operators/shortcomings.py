@@ -129,13 +129,11 @@ def rough_shortcomings(mirrors: list, surfaces: list[MirrorSurface]) -> list[str
         return []
     name, roughness = found[0]
     if len(found) > 1:
-        return [f"{len(found)} mirrors are rough, '{name}' among them, and their reflections are sharp: only Light: "
-                "Picture blurs them as Cycles does."]
+        return [f"{len(found)} mirrors are rough, '{name}' among them, and their reflections are sharp, where Cycles' "
+                "are blurred."]
     if roughness == float("inf"):
-        return [f"The roughness of '{name}' is not known, and its reflection is sharp: only Light: Picture blurs it as "
-                "Cycles does."]
-    return [f"'{name}' has a roughness of {roughness:.2f}, and its reflection is sharp: only Light: Picture blurs it "
-            "as Cycles does."]
+        return [f"The roughness of '{name}' is not known, and its reflection is sharp, where Cycles' may be blurred."]
+    return [f"'{name}' has a roughness of {roughness:.2f}, and its reflection is sharp, where Cycles' is blurred."]
 
 
 def scene_shortcomings(context: bpy.types.Context, chosen: Participants, settings: SettingsOfMirrors) -> list[str]:

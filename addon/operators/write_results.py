@@ -118,14 +118,14 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
         written = [write_object(context, made, whole) for made in prepared]
         for made, group in zip(prepared, written):
             for entry in group:
-                if entry.obj.reflection_mesh.light_material is not None and not unfit.get(entry.obj):
-                    keep_light(entry.obj, view, scene)
                 remarks += put_back_materials(entry.obj, made.arrays.materials, entry.changes)
                 whole.after(stop_playing, entry.obj)
+        keep_light([entry.obj for group in written for entry in group if not unfit.get(entry.obj)], view,
+                   whole)
         results = [(group[0].obj, made.result) for group, made in zip(written, prepared)]
         entries = [entry for group in written for entry in group]
         unlit = [entry.obj for entry in entries
-                 if not is_lit(entry.obj) and (needs_light(entry.obj) or lamps_before(entry.obj, lamps))]
+                 if not is_lit(entry.obj) and (needs_light(entry.obj) or lamps_before(entry.obj.data, lamps))]
         show_previews([obj for obj in unlit if manners.preview or obj in previewed], view, lamps, whole)
         if manners.collect:
             gather(context, [obj for obj, _ in results if obj not in there], whole)

@@ -20,10 +20,3 @@ ATTRIBUTES = (
                    "objects, comparisons and shaders", 0),
     ("SHOWN", "Shown", "Only positions, materials and the attributes that materials use. About a third smaller", 1),
 )
-LIGHTS = (
-    ("AUTO", "Automatic", "Objects if the camera or a mirror is animated and few objects are reflected, otherwise "
-                          "Picture", 0),
-    ("PICTURE", "Picture", "An image of the mirrors as Cycles renders them, right for this view only", 1),
-    ("OBJECTS", "Objects", "Images baked on the reflected objects, right while the camera and mirrors move. Gloss "
-                           "stays as it is seen from here", 2),
-)

@@ -3,12 +3,12 @@ from __future__ import annotations
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from .choices import ATTRIBUTES, LIGHTS, METHODS, PLACEMENTS
+from .choices import ATTRIBUTES, METHODS, PLACEMENTS
 
 SAMPLES = 64    # of light, per pixel
 # what a reflection is made by, and how it is lit
 SETTINGS = ("tolerance", "placement", "method", "depth", "memory", "hidden_faces")
-LIGHT_SETTINGS = ("light_samples", "light_kind")
+LIGHT_SETTINGS = ("light_samples",)
 # what is written of it; a result remembers what it has
 WRITTEN_SETTINGS = ("attributes", "join_parts")
 
@@ -38,7 +38,7 @@ def option(setting: str, /, **more):
 
 KINDS = {"tolerance": FloatProperty, "placement": EnumProperty, "method": EnumProperty, "depth": IntProperty,
          "memory": FloatProperty, "hidden_faces": BoolProperty, "light_samples": IntProperty,
-         "light_kind": EnumProperty, "attributes": EnumProperty, "join_parts": BoolProperty}
+         "attributes": EnumProperty, "join_parts": BoolProperty}
 VALUES = {
     "tolerance": {"name": "Tolerance", "default": 0.5, "min": 0.01, "soft_max": 8.0, "max": 1000.0, "precision": 2,
                   "subtype": "PIXEL",
@@ -57,7 +57,6 @@ VALUES = {
                                     "later. Faces behind transparent faces are always kept"},
     "light_samples": {"name": "Light Samples", "default": SAMPLES, "min": 1, "soft_max": 4096,
                       "description": "Number of light paths for each pixel of the mirrors. The light is denoised"},
-    "light_kind": {"name": "Light", "items": LIGHTS, "default": "AUTO", "description": "Where the light is stored"},
     "attributes": {"name": "Attributes", "items": ATTRIBUTES, "default": "ALL",
                    "description": "Attributes that are stored in the reflection's mesh"},
     "join_parts": {"name": "Join Parts", "default": True,

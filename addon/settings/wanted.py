@@ -51,14 +51,13 @@ class Wanted:
         return max((self.value(mirror, "light_samples") for mirror in mirrors),
                    default=self.value(None, "light_samples"))
 
-    def lights(self, results: Iterable) -> list[tuple[list, int, str]]:
-        """Results in groups that are lit alike: (results, samples, kind)."""
+    def lights(self, results: Iterable) -> list[tuple[list, int]]:
+        """Group results that are lit alike: (results, samples)."""
         groups: dict = {}
         for result in results:
             mirror = result.reflection_mesh.mirror
-            groups.setdefault((self.value(mirror, "light_samples"), self.value(mirror, "light_kind")),
-                              []).append(result)
-        return [(group, *chosen) for chosen, group in groups.items()]
+            groups.setdefault(self.value(mirror, "light_samples"), []).append(result)
+        return [(group, samples) for samples, group in groups.items()]
 
 
 def attributes_of(settings: Settings | SettingsOfMirrors, mirror: bpy.types.Object, scene: bpy.types.Scene) -> str:

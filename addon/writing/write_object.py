@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import bpy
 
-from ...core import ReflectionMesh
+from ...core import ReflectionMesh, Settings
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object, still_there
 from ..reading import Assembly, every_result_of, results_of
 from .arrays import MeshArrays
@@ -38,8 +38,8 @@ class Reflection:
         The same, to be written.
     resolution : (int, int)
         Of the picture that it was made for.
-    placement : str
-        Where it lies; VIRTUAL makes a window of the mirror.
+    settings : core.Settings
+        By which it was made; the placement VIRTUAL makes a window of the mirror.
     attributes : {'ALL', 'SHOWN'}
         What of the arrays is written.
     """
@@ -50,7 +50,7 @@ class Reflection:
     result: ReflectionMesh
     arrays: MeshArrays
     resolution: tuple[int, int]
-    placement: str
+    settings: Settings
     attributes: str = "ALL"
 
     @property
@@ -87,7 +87,7 @@ def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothi
     if not earlier:
         obj = new_object(context, made.joint, whole)
         _fill(obj, made, whole, Changes(None, [], []), obj.data)
-        set_window(obj, made.placement)
+        set_window(obj, made.settings.placement)
         return [Written(obj, Changes(None, [], []), False)]
     active = context.view_layer.objects.active
     # the active one first
@@ -106,7 +106,7 @@ def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothi
         else:
             keep_data(obj, whole)
         _fill(obj, made, whole, entry.changes, None if linked else obj.data)
-        set_window(obj, made.placement)
+        set_window(obj, made.settings.placement)
     whole.after(forget_mesh, shared)
     return written
 
@@ -178,7 +178,7 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     remember_parts(record, made.joint)
     record.camera = made.camera
     bring_back(obj)
-    record.attributes = made.attributes
+    record.attributes, record.hidden_faces = made.attributes, made.settings.hidden_faces
     record.sources.clear()
     for source in made.sources:
         record.sources.add().object = source

@@ -63,7 +63,7 @@ def _frame(turn: float, path: Path) -> Image.Image:
     camera.matrix_world = Matrix.Translation(place) @ Vector(aim).to_track_quat("-Z", "Y").to_matrix().to_4x4()
     bpy.context.view_layer.update()
     bpy.ops.reflection_mesh.generate()
-    bpy.ops.reflection_mesh.light(samples=SAMPLES, kind="PICTURE")
+    bpy.ops.reflection_mesh.light(samples=SAMPLES)
     scene.render.filepath = str(path)
     bpy.ops.render.render(write_still=True)
     with Image.open(path) as picture:

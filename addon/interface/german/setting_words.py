@@ -39,18 +39,8 @@ SETTINGS = {
     "Light Samples": "Licht-Samples",
     "Number of light paths for each pixel of the mirrors. The light is denoised":
         "Zahl der Lichtpfade für jedes Pixel der Spiegel. Das Licht wird entrauscht",
-    "Light": "Licht",
-    "Where the light is stored": "Wo das Licht gespeichert wird",
-    "Automatic": "Automatisch",
-    "Objects if the camera or a mirror is animated and few objects are reflected, otherwise Picture":
-        "Objekte, wenn die Kamera oder ein Spiegel animiert ist und wenige Objekte gespiegelt werden, sonst Bild",
-    "An image of the mirrors as Cycles renders them, right for this view only":
-        "Ein Bild der Spiegel, wie Cycles sie rendert, das nur für diesen Blick stimmt",
-    "Objects": "Objekte",
-    "Images baked on the reflected objects, right while the camera and mirrors move. Gloss stays as it is seen from "
-    "here":
-        "Bilder, auf die gespiegelten Objekte gebacken, die stimmen, während Kamera und Spiegel sich bewegen. Glanz "
-        "bleibt, wie er von hier aussieht",
+    "It has faces that nearer ones hide, with light of their own":
+        "Sie hat Flächen, die nähere verdecken, mit eigenem Licht",
     "Own Settings": "Eigene Einstellungen",
     "Use settings of this mirror instead of the scene's settings":
         "Nimmt Einstellungen dieses Spiegels statt denen der Szene",

@@ -220,4 +220,4 @@ def _results(context: bpy.types.Context, plan: Plan, chosen, results: list, lack
     lacks += outcome.lacks
     context.view_layer.update()
     if plan.samples:
-        yield from part(lighting(context, results, plan.samples, "PICTURE", lamps_apart=False), 0.5, 0.5)
+        yield from part(lighting(context, results, plan.samples, flat=True), 0.5, 0.5)

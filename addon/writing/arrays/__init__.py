@@ -1,6 +1,6 @@
 """What is to be written into meshes, as arrays in Blender's own types: faces, points, edges, layers and their sizes."""
 from .attribute import Attribute
-from .later_mirrors import LATER_COSINE, LATER_MATERIAL, NORMAL
+from .later_mirrors import ARRIVAL, LATER_COSINE, LATER_MATERIAL, NORMAL
 from .light_layer import UV_MAP, images_of, light_layer, light_points
 from .mesh_arrays import (
     MOST_UV_MAPS,
@@ -16,6 +16,6 @@ from .point_arrays import point_arrays
 from .result_size import mesh_bytes, size_text
 from .shown_attributes import OF_METHOD
 
-__all__ = ["Attribute", "Edges", "LATER_COSINE", "LATER_MATERIAL", "Lines", "MOST_UV_MAPS", "MeshArrays", "NORMAL",
-           "OF_METHOD", "UV_MAP", "images_of", "in_order", "light_layer", "light_points", "mesh_arrays", "mesh_bytes",
-           "point_arrays", "shown_layers", "size_text", "vertices_written"]
+__all__ = ["ARRIVAL", "Attribute", "Edges", "LATER_COSINE", "LATER_MATERIAL", "Lines", "MOST_UV_MAPS", "MeshArrays",
+           "NORMAL", "OF_METHOD", "UV_MAP", "images_of", "in_order", "light_layer", "light_points", "mesh_arrays",
+           "mesh_bytes", "point_arrays", "shown_layers", "size_text", "vertices_written"]

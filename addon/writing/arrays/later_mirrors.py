@@ -15,6 +15,9 @@ LATER_MATERIAL, LATER_COSINE = "mirror_material_{}", "mirror_cosine_{}"
 """The attributes with the material of a face's second mirror, its third and so on, as a number among the result's later
 materials, -1 where it is seen by fewer; and with the cosine of the angle at which light meets it."""
 
+ARRIVAL = "arrival_direction"
+"""The attribute with the unit direction in which the eye's ray arrives at the source after the last mirror."""
+
 
 def later_mirrors(result: ReflectionMesh, surfaces: Sequence[MirrorSurface],
                   view: View) -> tuple[tuple[Attribute, ...], list]:
@@ -28,10 +31,21 @@ def later_mirrors(result: ReflectionMesh, surfaces: Sequence[MirrorSurface],
                              for surface in surfaces])
     cosine, normal = result.cosines(view), result.mirror_normals[:, 0]
     breathe()
-    attributes = [Attribute(NORMAL, "FLOAT_VECTOR", "POINT", normal.astype(np.float32))]
+    attributes = [Attribute(NORMAL, "FLOAT_VECTOR", "POINT", normal.astype(np.float32)),
+                  Attribute(ARRIVAL, "FLOAT_VECTOR", "POINT", _arrivals(result, view).astype(np.float32))]
     for bounce, triangle in enumerate(later.T, 2):
         material = np.where(triangle >= 0, number[np.maximum(triangle, 0)], -1)
         attributes += [
             Attribute(LATER_MATERIAL.format(bounce), "INT", "FACE", material.astype(np.int32)),
             Attribute(LATER_COSINE.format(bounce), "FLOAT", "POINT", cosine[:, bounce - 1].astype(np.float32))]
     return tuple(attributes), materials
+
+
+def _arrivals(result: ReflectionMesh, view: View) -> np.ndarray:
+    """Return the unit directions (n, 3) of the eye's rays after the last mirror of each vertex."""
+    ahead = view.directions(result.mirror_position)
+    ahead = ahead / np.linalg.norm(ahead, axis=1)[:, None]
+    # of mirrors that a vertex is not seen by the normal is zero, and turns nothing
+    for normal in np.moveaxis(result.mirror_normals, 1, 0):
+        ahead = ahead - 2.0 * np.einsum("ni,ni->n", ahead, normal)[:, None] * normal
+    return ahead

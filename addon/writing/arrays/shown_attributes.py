@@ -7,11 +7,11 @@ import bpy
 
 from ... import compat
 from ...reading.materials import all_nodes, asked_attributes, emits
-from .later_mirrors import LATER_COSINE, LATER_MATERIAL, NORMAL
+from .later_mirrors import ARRIVAL, LATER_COSINE, LATER_MATERIAL, NORMAL
 
 # what results know of how they came about, and nothing that is seen asks for
 OF_METHOD = frozenset({"reflected_position", "mirror_position", "path_length", "image_parity", "source_object",
-                       "source_face", "bounces", "mirror_face", NORMAL})
+                       "source_face", "bounces", "mirror_face", NORMAL, ARRIVAL})
 LATER = {LATER_MATERIAL.format(""), LATER_COSINE.format("")}
 # nodes that take the active UV map, or may, and those that take normals
 READS_UV = {"TEX_COORD", "UVMAP", "NORMAL_MAP", "TANGENT", "TEX_IMAGE", "TEX_GABOR", "SCRIPT"}

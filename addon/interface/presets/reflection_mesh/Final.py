@@ -11,5 +11,4 @@ settings.method = "GENERAL"
 settings.depth = 2
 settings.hidden_faces = False
 settings.light_samples = 256
-settings.light_kind = "AUTO"
 settings.attributes = "ALL"

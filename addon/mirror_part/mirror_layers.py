@@ -5,23 +5,22 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core import View
+from ...core import View, breathe, reflecting_normals
 from ...core.geometry import unit
 from ...core.trees import BoxTree, first_hits
-from ..mirror_part import BACK, GENERATED, MATERIAL, OWN_NORMAL, OWN_PLACE, own_layer
-from ..reading import DiffuseScene, corner_vertices, mirrors_of, numbers, read_scene, seen_in, vectors
+from ..reading import DiffuseScene, corner_vertices, numbers, read_scene, seen_in, vectors
 from ..reading.materials import reflecting_materials
-from ..writing import FIELDS, NORMAL
-from .seen_sources import barycentric
+from ..writing import FIELDS, LATER_MATERIAL, NORMAL
+from .mirror_coordinates import BACK, GENERATED, OWN_NORMAL, OWN_PLACE, own_layer
+from .several_materials import MATERIAL
 
 
-def write_mirror_layers(result: bpy.types.Object, view: View, asked: set[str]) -> None:
-    """Tell each corner of a result what the mirror's layers are there, those of the attributes that are `asked` for.
+def write_mirror_layers(mesh: bpy.types.Mesh, mirrors: list, view: View, asked: set[str]) -> None:
+    """Write the layers of a result's mirrors at each corner of its mesh, those of the attributes that are `asked` for.
 
     A face lies in one triangle of the mirror, or over several: there those of its middle are carried on, so that no
     seam between islands runs through it.
     """
-    mirrors, mesh = mirrors_of(result), result.data
     own = {own_layer(name) for mirror in mirrors if mirror.type == "MESH" for name in mirror.data.attributes.keys()}
     by_part = {OWN_NORMAL, OWN_PLACE, own_layer(GENERATED)} if len(mirrors) > 1 else set()
     if not mirrors or asked.isdisjoint(own | by_part | {BACK, MATERIAL}):
@@ -45,7 +44,7 @@ def write_mirror_layers(result: bpy.types.Object, view: View, asked: set[str]) -
     if MATERIAL in asked:
         number = np.array([known.index(one) if one in known else 0 for one in surface.materials])
         _write(mesh, MATERIAL, "FLOAT", "FACE", number[surface.material[triangle]])
-    weights = barycentric(corners, places)
+    weights = _barycentric(corners, places)
     for name, (kind, values) in _layers(surface):
         if own_layer(name) in asked:
             _write(mesh, own_layer(name), kind, "CORNER", np.matmul(weights, values[triangle]))
@@ -102,3 +101,33 @@ def _triangles(mesh: bpy.types.Mesh, surface: DiffuseScene, places: np.ndarray, 
         met = first_hits(BoxTree.build(surface.mesh), origins.T, directions.T).triangle
         triangle[several] = np.maximum(met, 0)
     return triangle
+
+
+def knows_mirror_normals(mesh: bpy.types.Mesh) -> bool:
+    """Whether a result knows enough to tell how the mirror stands at each of its points."""
+    if LATER_MATERIAL.format(2) in mesh.attributes:
+        return NORMAL in mesh.attributes
+    return all(name in mesh.attributes for name in ("mirror_position", "reflected_position"))
+
+
+def write_mirror_normals(mesh: bpy.types.Mesh, view: View) -> None:
+    """Tell each point of a result how the mirror stands there, where that is known. One that is seen by several mirrors
+    was generated with it."""
+    if LATER_MATERIAL.format(2) in mesh.attributes or not knows_mirror_normals(mesh):
+        return
+    normals = reflecting_normals(view, vectors(mesh, "mirror_position"), vectors(mesh, "reflected_position"))
+    attribute = mesh.attributes.get(NORMAL) or mesh.attributes.new(NORMAL, "FLOAT_VECTOR", "POINT")
+    attribute.data.foreach_set("vector", normals.astype(np.float32).reshape(-1))
+
+
+def _barycentric(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates (n, k, 3), in the planes of triangles (n, 3, 3), of points (n, k, 3)."""
+    breathe()
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    offset = points - corners[:, :1]
+    aa, ab, bb = (np.einsum("ni,ni->n", x, y)[:, None] for x, y in ((a, a), (a, b), (b, b)))
+    pa, pb = (np.einsum("nki,ni->nk", offset, side) for side in (a, b))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        first = (bb * pa - ab * pb) / (aa * bb - ab * ab)
+        second = (aa * pb - ab * pa) / (aa * bb - ab * ab)
+    return np.nan_to_num(np.stack((1.0 - first - second, first, second), axis=2), nan=1.0 / 3.0, posinf=0.0, neginf=0.0)

@@ -1,0 +1,62 @@
+"""Light paths that Cycles follows for each texel of a picture: from where, to which point."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+STEPS = ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1))
+"""Rows and columns to the texels beside one, the nearest first."""
+
+
+@dataclass(frozen=True)
+class LightPaths:
+    """One light path for each texel of a picture (h, w), rows from below; world space.
+
+    Attributes
+    ----------
+    used : (h, w) bool
+        Texels that have a path.
+    target : (h, w, 3) float32
+        The point whose light is looked for.
+    origin : (h, w, 3) float32
+        A point on the line along which the target is looked at: the mirror's, or the eye.
+    lead : (h, w) float32
+        Distance before the target from which on something can hide it.
+    across, up : (h, w, 3) float32
+        Change of the target from one texel to the next one, along a row and along a column.
+    """
+
+    used: np.ndarray
+    target: np.ndarray
+    origin: np.ndarray
+    lead: np.ndarray
+    across: np.ndarray
+    up: np.ndarray
+
+    @classmethod
+    def empty(cls, height: int, width: int) -> LightPaths:
+        """Return paths without any texel in use."""
+        vectors = (np.zeros((height, width, 3), dtype=np.float32) for _ in range(4))
+        target, origin, across, up = vectors
+        return cls(np.zeros((height, width), dtype=bool), target, origin,
+                   np.zeros((height, width), dtype=np.float32), across, up)
+
+    def grown(self, rings: int) -> LightPaths:
+        """Return the paths with so many rings of unused texels that take those of a texel beside them.
+
+        Between its texels a picture is interpolated, and a denoiser looks at what lies around each.
+        """
+        used, arrays = self.used.copy(), [getattr(self, name).copy() for name in ("target", "origin", "lead", "across",
+                                                                                  "up")]
+        height, width = used.shape
+        for _ in range(rings):
+            known = np.pad(used, 1)
+            for y, x in STEPS:
+                beside = known[1 + y:1 + y + height, 1 + x:1 + x + width] & ~used
+                row, column = np.nonzero(beside)
+                used[row, column] = True
+                for array in arrays:
+                    array[row, column] = array[row + y, column + x]
+        target, origin, lead, across, up = arrays
+        return LightPaths(used, target, origin, lead, across, up)

@@ -1,0 +1,173 @@
+"""Render the light that arrives along given paths: a flat sheet whose texels are Ray Portals into the user's scene.
+
+Cycles' Ray Portal BSDF (Blender 4.2) lets a ray go on elsewhere in another direction. A temporary camera looks at a
+small perfect mirror, in which it sees a sheet of portals, one for each texel. Each portal leads to just before the
+point whose light is looked for. So Cycles shades that point as a mirror sees it, with gloss, Fresnel, bump and
+transparency, and counts the mirror as one bounce, but never traces the user's mirror.
+"""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+
+import bpy
+import numpy as np
+from mathutils import Vector
+
+from .. import compat
+from ..rendering import Renders, copied_scene, denoise, look_through, only_the_picture, put_swift_world, rendering
+from ..writing.nodes.shader_builder import ShaderBuilder
+from .clear_air import clear_air
+from .light_paths import LightPaths
+
+NAME = "Reflection Light"
+UV = "Texel"
+AWAY = 4.0      # radii of the scene between its middle and the sheet
+SEEN_BY = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter",
+           "visible_shadow")
+EVEN = 0.5      # between whole numbers
+
+
+@contextmanager
+def path_scene(context: bpy.types.Context) -> Iterator[bpy.types.Scene]:
+    """Give a copy of the user's scene for `render_paths`, until it is left.
+
+    Reflections are in it, but no light path meets them: glossy rays do not see them.
+    """
+    with copied_scene(context, NAME) as (scene, back):
+        only_the_picture(scene.render)
+        scene.render.use_border = False
+        scene.cycles.film_exposure, scene.cycles.film_transparent_glass = 1.0, False
+        scene.cycles.pixel_filter_type = "BOX"
+        if hasattr(scene.cycles, "dicing_camera"):
+            scene.cycles.dicing_camera = scene.camera
+        put_swift_world(scene, back)
+        clear_air(scene, back)
+        yield scene
+
+
+def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean: bool) -> Renders[np.ndarray]:
+    """Render the light that arrives along `paths`, (h, w, 3) float32 in linear light; black where there is none.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        From `path_scene`.
+    samples : int
+        For each texel.
+    clean : bool
+        Denoise the picture.
+    """
+    height, width = paths.used.shape
+    with ExitStack() as back:
+        radius, middle = _bounds(scene)
+        place = middle - Vector((0.0, 0.0, AWAY * radius))
+        camera = bpy.data.objects.new(NAME, bpy.data.cameras.new(NAME))
+        look_through(scene, camera, back)
+        camera.data.type, camera.data.sensor_fit = "ORTHO", "HORIZONTAL" if width >= height else "VERTICAL"
+        camera.data.ortho_scale = radius
+        camera.data.clip_start, camera.data.clip_end = 0.1 * radius, 2.0 * radius
+        camera.location = place
+        size = radius * np.array((width, height)) / max(width, height)
+        images = _images(paths, back)
+        # the camera looks down at a mirror, in which it sees the sheet above itself
+        for material, above, larger, rays in ((_portals(images, (width, height), back), 0.5, 1.0, "visible_glossy"),
+                                              (_perfect_mirror(back), -0.5, 1.5, "visible_camera")):
+            plane = _plane(scene, larger * size, place, above * radius, back)
+            plane.data.materials.append(material)
+            for name in SEEN_BY:
+                setattr(plane, name, name == rays)
+        render = scene.render
+        render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
+        render.pixel_aspect_x = render.pixel_aspect_y = 1.0
+        scene.cycles.samples, scene.cycles.use_denoising = max(samples, 1), False
+        if clean:
+            denoise(scene.cycles, "FAST")
+        light = yield from rendering(scene)
+        return light[..., :3] * paths.used[..., None]
+
+
+def _bounds(scene: bpy.types.Scene) -> tuple[float, Vector]:
+    """Return the radius and the middle of a ball around the scene's objects."""
+    corners = np.array([obj.matrix_world @ Vector(corner) for obj in scene.objects for corner in obj.bound_box]
+                       or [(0.0, 0.0, 0.0)], dtype=np.float64)
+    corners = corners[np.isfinite(corners).all(axis=1)]
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    return max(0.5 * float(np.linalg.norm(high - low)), 1e-3), Vector((0.5 * (low + high)).tolist())
+
+
+def _images(paths: LightPaths, back: ExitStack) -> list[bpy.types.Image]:
+    """Return images of the targets, the origins, and the targets' changes; in alpha whether, and the lead."""
+    height, width = paths.used.shape
+    made = []
+    for name, vectors, alpha in (("Target", paths.target, paths.used), ("Origin", paths.origin, paths.lead),
+                                 ("Across", paths.across, 1.0), ("Up", paths.up, 1.0)):
+        image = bpy.data.images.new(f"{NAME} {name}", width, height, alpha=True, float_buffer=True, is_data=True)
+        back.callback(bpy.data.images.remove, image)
+        image.alpha_mode = "CHANNEL_PACKED"
+        values = np.empty((height, width, 4), dtype=np.float32)
+        values[..., :3], values[..., 3] = vectors, alpha
+        image.pixels.foreach_set(values.reshape(-1))
+        made.append(image)
+    return made
+
+
+def _plane(scene: bpy.types.Scene, size: np.ndarray, place: Vector, above: float, back: ExitStack) -> bpy.types.Object:
+    """Add a rectangle of that size, `above` a place, whose texels lie as the camera sees them."""
+    mesh = bpy.data.meshes.new(NAME)
+    back.callback(bpy.data.meshes.remove, mesh)
+    x, y = (0.5 * size).tolist()
+    mesh.from_pydata([(-x, -y, 0.0), (x, -y, 0.0), (x, y, 0.0), (-x, y, 0.0)], [], [(0, 1, 2, 3)])
+    mesh.uv_layers.new(name=UV).uv.foreach_set("vector", (0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0))
+    obj = bpy.data.objects.new(NAME, mesh)
+    obj.location = place + Vector((0.0, 0.0, above))
+    scene.collection.objects.link(obj)
+    return obj
+
+
+def _perfect_mirror(back: ExitStack) -> bpy.types.Material:
+    material, build = _material(back)
+    glossy = build.add("ShaderNodeBsdfAnisotropic")
+    glossy.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    glossy.inputs["Roughness"].default_value = 0.0
+    build.feed(glossy.outputs[0], build.add("ShaderNodeOutputMaterial").inputs["Surface"])
+    return material
+
+
+def _portals(images: list, size: tuple[int, int], back: ExitStack) -> bpy.types.Material:
+    """Return a material that lets rays go on along the paths that `images` hold; others pass it by."""
+    material, build = _material(back)
+    spot = build.add("ShaderNodeUVMap", uv_map=UV).outputs[0]
+    looks = []
+    for image in images:
+        look = build.add("ShaderNodeTexImage", image=image, interpolation="Closest", extension="EXTEND")
+        build.feed(spot, look.inputs["Vector"])
+        looks.append(look)
+    target, origin, across, up = (look.outputs["Color"] for look in looks)
+    # samples are spread over the texel
+    within = build.separated(build.vector("FRACTION", build.vector("MULTIPLY", spot, (*map(float, size), 0.0))))
+    for change, share in zip((across, up), within):
+        target = build.vector("ADD", target, build.vector("SCALE", change,
+                                                          Scale=build.calculated("SUBTRACT", share, EVEN)))
+    ahead = build.vector("NORMALIZE", build.vector("SUBTRACT", target, origin))
+    start = build.vector("SUBTRACT", target, build.vector("SCALE", ahead, Scale=looks[1].outputs["Alpha"]))
+    portal = build.add("ShaderNodeBsdfRayPortal")
+    for value, name in (((1.0, 1.0, 1.0, 1.0), "Color"), (start, "Position"), (ahead, "Direction")):
+        build.feed(value, portal.inputs[name])
+    shown = build.mixed(looks[0].outputs["Alpha"], build.glow((0.0, 0.0, 0.0, 1.0)), portal.outputs[0])
+    # rays of the scene that happen to come by are of a later bounce, or have passed a portal
+    path = build.add("ShaderNodeLightPath").outputs
+    own = build.calculated("MULTIPLY",
+                           build.calculated("LESS_THAN", path["Ray Depth"], 1.0 + EVEN),
+                           build.calculated("LESS_THAN", path["Transparent Depth"], EVEN))
+    clear = build.add("ShaderNodeBsdfTransparent").outputs[0]
+    build.feed(build.mixed(own, clear, shown), build.add("ShaderNodeOutputMaterial").inputs["Surface"])
+    return material
+
+
+def _material(back: ExitStack) -> tuple[bpy.types.Material, ShaderBuilder]:
+    material = bpy.data.materials.new(NAME)
+    back.callback(bpy.data.materials.remove, material)
+    tree = compat.use_nodes(material)
+    tree.nodes.clear()
+    return material, ShaderBuilder(tree)

@@ -1,0 +1,70 @@
+"""Light without any mirror traced: what is shaded are the sources, and the world along reflected directions."""
+from __future__ import annotations
+
+import bpy
+import bmesh
+import numpy as np
+import parts
+from lamp_scenes import picture, psnr, scene_of, shine
+
+
+def light_image() -> np.ndarray:
+    image = bpy.data.images["Reflection Light"]
+    return np.array(image.pixels[:]).reshape(image.size[1], image.size[0], image.channels)[..., :3]
+
+
+def test_light_is_the_same_if_no_ray_of_camera_or_gloss_meets_mirrors(blank):
+    wall = scene_of(blank, "UV", "Tint")
+    # else light that bounces off the mirror is another
+    for name in ("Box", "Floor"):
+        bpy.data.objects[name].data.materials.clear()
+        bpy.data.objects[name].data.materials.append(parts.material("Paint", "DIFFUSE"))
+    wall.visible_diffuse = wall.visible_shadow = False
+    found = []
+    for seen in (True, False):
+        wall.visible_camera = wall.visible_glossy = wall.visible_transmission = seen
+        parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], wall)
+        parts.generate()
+        bpy.ops.reflection_mesh.light(samples=4)
+        found.append(light_image())
+        bpy.ops.reflection_mesh.clear()
+    np.testing.assert_array_equal(*found)
+
+
+def test_a_render_of_a_lit_file_needs_no_mirror(blank, room):
+    """The sky of a gradient, that a ball shows beside what is reflected, is on faces of the reflection."""
+    scene_of(blank)
+    shine(blank.scene)
+    for name in ("Mirror", "Floor"):
+        bpy.data.objects.remove(bpy.data.objects[name])
+    ball = parts.add("uv_sphere", "Ball", radius=1.6, segments=48, ring_count=24, location=(0.0, 1.0, 1.0))
+    ball.data.shade_smooth()
+    ball.data.materials.append(bpy.data.materials["Silver"])
+    parts.select(bpy.data.objects["Box"], ball)
+    reference, other = picture(room), picture(room, seed=7)
+    result = parts.generate()
+    assert (parts.attribute(result, "source_object") >= 0).all()
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert (parts.attribute(result, "source_object") == -1).any()
+    ball.hide_render = True
+    assert psnr(picture(room), reference) > psnr(other, reference) - 1.5
+
+
+def test_what_is_deleted_from_a_lit_reflection_leaves_nothing_behind(blank, room):
+    """The box, in front of a floor whose light lies behind it."""
+    wall = scene_of(blank, "UV", "Tint")
+    box = bpy.data.objects["Box"]
+    box.visible_glossy = False
+    reference, other = picture(room), picture(room, seed=7)
+    box.visible_glossy = True
+    parts.select(box, bpy.data.objects["Floor"], wall)
+    result = parts.generate(hidden_faces=True)
+    bpy.ops.reflection_mesh.light(samples=64)
+    number = [source.object for source in result.reflection_mesh.sources].index(box)
+    work = bmesh.new()
+    work.from_mesh(result.data)
+    layer = work.faces.layers.int["source_object"]
+    bmesh.ops.delete(work, geom=[face for face in work.faces if face[layer] == number], context="FACES")
+    work.to_mesh(result.data)
+    work.free()
+    assert psnr(picture(room), reference) > psnr(other, reference) - 3.0
