@@ -43,7 +43,8 @@ def add_settings(parser: argparse.ArgumentParser, only: tuple[str, ...] = SETTIN
         "tolerance": {"type": real, "metavar": "PIXELS", "help": "how far off a point may be"},
         "placement": {"choices": [item[0] for item in PLACEMENTS], "help": "where the reflection lies"},
         "method": {"choices": [item[0] for item in METHODS], "help": "what the reflection is made of"},
-        "depth": {"type": whole, "metavar": "BOUNCES", "help": "how many mirrors are followed, one after another"},
+        "depth": {"type": whole, "metavar": "BOUNCES",
+                  "help": "how many mirrors are followed, one after another; 0: as many as there are to see"},
         "memory": {"type": real, "metavar": "GB", "help": "what would need more is worked out more coarsely, or "
                    "refused"},
         "hidden_faces": {"action": argparse.BooleanOptionalAction, "help": "also the faces that nearer ones hide "

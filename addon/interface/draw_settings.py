@@ -20,7 +20,10 @@ def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: b
     for names in (SHOWN, LIGHT):
         column = layout.column()
         for name in names:
-            column.prop(holder, name)
+            if name == "depth" and holder.depth == 0:
+                column.prop(holder, name, text="Bounces: Automatic")
+            else:
+                column.prop(holder, name)
 
 
 def draw_limits(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:

@@ -77,6 +77,7 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     if context.mode != "OBJECT":
         raise core.ReflectionError(IN_OBJECT_MODE)
     started = time.perf_counter()
+    core.use_threads(context.scene.render.threads)
     yield 0.0, "Reading the scene"
     told, view = left_out(context, chosen), view or read_view(context)
     kept = Kept.of(depsgraph := context.evaluated_depsgraph_get())

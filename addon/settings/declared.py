@@ -47,8 +47,9 @@ VALUES = {
                   "description": "Position of the reflection's geometry"},
     "method": {"name": "Made Of", "items": METHODS, "default": "GENERAL",
                "description": "Type of the reflection's geometry"},
-    "depth": {"name": "Bounces", "default": 1, "min": 1, "soft_max": 4, "max": 16,
-              "description": "Number of reflections from mirror to mirror. With 1, mirrors do not show other mirrors"},
+    "depth": {"name": "Bounces", "default": 0, "min": 0, "soft_max": 4, "max": 16,
+              "description": "Number of reflections from mirror to mirror. 0 is automatic: as many as there are to "
+                             "see. With 1, mirrors do not show other mirrors"},
     "memory": {"name": "Memory (GB)", "default": 2.0, "min": 0.1, "soft_max": 64.0, "precision": 1,
                "description": "Memory that the computation may use. What needs more is computed more coarsely or "
                               "refused"},

@@ -75,6 +75,8 @@ def caustics(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings
     must_be(blockers, (TriangleMesh, type(None)), "The blockers must be one TriangleMesh; join them or leave them out.")
     if isinstance(mirror, TriangleMesh) and len(mirror.triangles) and not mirror.face_normals().any():
         raise NothingInView(NO_AREA)
+    # light that met one mirror is nearly all that there is
+    settings = replace(settings, depth=settings.depth or 1)
     corner = far_corner(mirror) if isinstance(mirror, TriangleMesh) and len(mirror.triangles) else None
     if corner is None:
         return _near_origin(lamp, mirror, receivers, settings, mirrors, blockers)

@@ -26,8 +26,11 @@ SETTINGS = {
         "Eine kleine Scheibe für jeden Punkt, den der Spiegel zeigt, für dichte Scans mit Dreiecken kleiner als ein "
         "Pixel",
     "Bounces": "Tiefe",
-    "Number of reflections from mirror to mirror. With 1, mirrors do not show other mirrors":
-        "Zahl der Spiegelungen von Spiegel zu Spiegel. Mit 1 zeigen Spiegel keine anderen Spiegel",
+    "Bounces: Automatic": "Tiefe: Automatisch",
+    "Number of reflections from mirror to mirror. 0 is automatic: as many as there are to see. With 1, mirrors do not "
+    "show other mirrors":
+        "Zahl der Spiegelungen von Spiegel zu Spiegel. 0 heißt automatisch: so viele, wie zu sehen sind. Mit 1 zeigen "
+        "Spiegel keine anderen Spiegel",
     "Memory (GB)": "Speicher (GB)",
     "Memory that the computation may use. What needs more is computed more coarsely or refused":
         "Speicher, den die Berechnung brauchen darf. Was mehr braucht, wird gröber berechnet oder abgelehnt",
