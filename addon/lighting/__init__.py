@@ -1,6 +1,7 @@
 """Light on reflections: Cycles shades what they show, along the paths on which their mirrors see it."""
+from .export_image import new_export_image
 from .known_texels import remember
-from .light_material import new_export_image, new_image, new_material
+from .light_material import new_image, new_material
 from .light_paths import LightPaths
 from .lit_results import (
     can_be_lit,

@@ -84,7 +84,7 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     with path_scene(context) as scene, _copies(scene, lit, placed, materials):
         steps = render_paths(scene, paths_seen, samples // (2 * dense**2) if matte else 1, matte)
         seen = yield from shown_while(steps, 0.8, RENDERING)
-    yield from part(new_export_image(export_image, seen), 0.95, 0.04)
+    yield from part(new_export_image(export_image, seen, unwrapped, dense), 0.95, 0.04)
     for mesh, own in placed.items():
         write_colours(own.mesh, spots[mesh], seen)
     if flat:
