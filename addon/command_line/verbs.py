@@ -76,7 +76,6 @@ def _parser() -> argparse.ArgumentParser:
     generate.set_defaults(work=_generate)
     light = verbs.add_parser("light", help="let the reflections look as the mirrors do, and save the file")
     light.add_argument("--samples", type=int, metavar="N", help="samples per pixel (else the file's)")
-    light.add_argument("--every", action="store_true", help="also those that look right as they are, for glTF and USD")
     _add_output(light)
     light.set_defaults(work=_light)
     caustics = verbs.add_parser("caustics", help="generate the light that mirrors throw, and save the file")
@@ -158,7 +157,7 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
     if options.samples is not None and options.samples < 1:
         raise core.ReflectionError("Light takes at least one sample: raise --samples.")
-    told = _lit(context, chosen_results(context), options.samples, options.every)
+    told = _lit(context, chosen_results(context), options.samples)
     save_blend(path)
     print(told)
 
@@ -198,10 +197,10 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     print(*told, sep="\n")
 
 
-def _lit(context: bpy.types.Context, results: list, samples: int | None, every: bool = False) -> str:
+def _lit(context: bpy.types.Context, results: list, samples: int | None) -> str:
     started = time.perf_counter()
     wanted = Wanted(context.scene, given(argparse.Namespace(), light_samples=samples))
-    lit = announced(lighting_groups(context, wanted.lights(with_copies(context, results)), every))
+    lit = announced(lighting_groups(context, wanted.lights(with_copies(context, results))))
     return "\n".join([*unlike_the_mirror(context, lit), lighting_summary(lit, time.perf_counter() - started)])
 
 
