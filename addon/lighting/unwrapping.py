@@ -17,8 +17,9 @@ from ...core import View, breathe, draw, pages_of
 from ...core.result import place
 from ..reading import corner_vertices, numbers, vectors
 from ..writing import ARRIVAL, NORMAL
+from .further_mirrors import FurtherMirrors
 from .light_paths import LightPaths
-from .world_faces import WORLD, lies_on_mirror, world_targets
+from .world_faces import WORLD, far_away, lies_on_mirror, world_targets
 
 MARGIN = 5          # texels around each block
 NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead, as shares of its length
@@ -105,11 +106,12 @@ class Unwrapped:
     pages: list
     points: list
 
-    def paths(self, seen: bool = False) -> LightPaths:
-        """Return the light path of each texel; the path from the eye to the reflection itself if `seen`."""
+    def paths(self, further: FurtherMirrors | None = None, seen: bool = False) -> LightPaths:
+        """Return the light path of each texel; those to the world by `further` mirrors too; the path from the eye to
+        the reflection itself if `seen`."""
         paths = LightPaths.empty(self.size[1], self.size[0])
         for part in self.pages + self.points:
-            part.draw(paths, seen)
+            part.draw(paths, further, seen)
         return paths
 
 
@@ -197,7 +199,7 @@ class Page:
         """(b, 2) int64, from the view's columns and rows to those of the picture, for each block."""
         return np.array([block.corner for block in self.blocks]) - self.low
 
-    def draw(self, paths: LightPaths, seen: bool = False) -> None:
+    def draw(self, paths: LightPaths, further: FurtherMirrors | None, seen: bool) -> None:
         """Write the light path of each texel whose centre a face covers; the path from the eye if `seen`."""
         faces, width = self.faces, self.fine.resolution[0]
         drawn = draw(self.fine, faces.images, faces.corners[self.own])
@@ -221,11 +223,17 @@ class Page:
         if not seen:
             across, up = _before_mirror(across, up, target - origin, normal)
         breathe()
+        left = np.ones_like(target)
+        if further is not None and not seen:
+            later, places, ahead, tint = further.follow(self.fine, origin[sky])
+            later = sky[later]
+            origin[later], target[later], left[later] = places, places + far_away(self.fine) * ahead, tint
+            across[later] = up[later] = 0.0
         length = np.linalg.norm(target - origin, axis=1)
         texel = np.linalg.norm(across, axis=1) + np.linalg.norm(up, axis=1)
         shift = self.shifts[self.block[own]]
         spot = row + shift[:, 1], column + shift[:, 0]
-        paths.used[spot] = True
+        paths.used[spot], paths.left[spot] = True, left
         paths.target[spot], paths.origin[spot], paths.across[spot], paths.up[spot] = target, origin, across, up
         paths.lead[spot] = SEEN_LEAD * length if seen else np.clip(texel, NEAREST * length, FARTHEST * length)
 
@@ -267,7 +275,7 @@ class PointBlock(Block):
         """Return the place (n, 2) of each point in a picture of `size` texels, from 0 to 1."""
         return (self._texels() + 0.5) / size
 
-    def draw(self, paths: LightPaths, seen: bool = False) -> None:
+    def draw(self, paths: LightPaths, _: FurtherMirrors | None, seen: bool) -> None:
         """Write the light path of each point; the path from the eye if `seen`."""
         column, row = self._texels().T
         if seen:

@@ -179,6 +179,7 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     record.camera = made.camera
     bring_back(obj)
     record.attributes, record.hidden_faces = made.attributes, made.settings.hidden_faces
+    record.bounces = made.settings.depth
     record.sources.clear()
     for source in made.sources:
         record.sources.add().object = source

@@ -20,6 +20,8 @@ def lit_ball(context: bpy.types.Context, shining: bool) -> bpy.types.Object:
     """A ball that shows a floor of tiles, lit, and a box, which may shine far too brightly; its result alone is
     rendered, and returned."""
     scene_of(context)
+    # the outline of a lamp that is far brighter than white is noise: each pixel has few samples of it
+    bpy.data.objects["Area"].visible_glossy = False
     box, floor, wall = (bpy.data.objects[name] for name in ("Box", "Floor", "Mirror"))
     tiles = principled("Tiles")
     checks = tiles.node_tree.nodes.new("ShaderNodeTexChecker")
@@ -44,7 +46,7 @@ def lit_ball(context: bpy.types.Context, shining: bool) -> bpy.types.Object:
     return result
 
 
-@pytest.mark.parametrize("shining, least", [(False, 40.0), (True, 40.0)])
+@pytest.mark.parametrize("shining, least", [(False, 50.0), (True, 40.0)])
 def test_a_lit_ball_looks_as_in_cycles(blank, room, shining, least):
     """By EEVEE's own look-up of the image it is 22 to 29 dB from Cycles."""
     lit_ball(blank, shining)
