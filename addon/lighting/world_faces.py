@@ -53,12 +53,12 @@ def add_world_faces(mesh: bpy.types.Mesh, result: bpy.types.Object, view: View, 
     _extend(mesh, places @ matrix[:3, :3].T + matrix[:3, 3], faces.reshape(-1, 3))
     for name, values in (("mirror_position", at), ("reflected_position", world_targets(view, at, normals)),
                          ("path_length", path), ("image_parity", 1), (NORMAL, normals)):
-        _set_tail(mesh, name, before[0], values)
+        set_tail(mesh, name, before[0], values)
     # what later mirrors leave of the world's light is in the picture
     alone = [name for name in mesh.attributes.keys() if name.startswith(LATER_MATERIAL.format(""))]
     for name, values in (("source_object", WORLD), ("source_face", WORLD), ("bounces", 1),
                          ("mirror_face", surface.triangle[chosen]), *((name, NONE) for name in alone)):
-        _set_tail(mesh, name, before[1], values)
+        set_tail(mesh, name, before[1], values)
 
 
 def world_targets(view: View, at: np.ndarray, normals: np.ndarray) -> np.ndarray:
@@ -114,12 +114,12 @@ def _extend(mesh: bpy.types.Mesh, positions: np.ndarray, corners: np.ndarray) ->
     loops = len(mesh.loops)
     mesh.polygons.add(len(corners))
     mesh.polygons.foreach_set("loop_start", np.arange(0, loops, 3, dtype=np.int32))
-    _set_tail(mesh, "position", vertices, positions)
-    _set_tail(mesh, ".corner_vert", loops - corners.size, vertices + corners)
+    set_tail(mesh, "position", vertices, positions)
+    set_tail(mesh, ".corner_vert", loops - corners.size, vertices + corners)
     mesh.update(calc_edges=True)
 
 
-def _set_tail(mesh: bpy.types.Mesh, name: str, start: int, values) -> None:
+def set_tail(mesh: bpy.types.Mesh, name: str, start: int, values) -> None:
     """Set the values of an attribute from one element on, where the mesh has it."""
     attribute = mesh.attributes.get(name)
     if attribute is None:
