@@ -49,7 +49,6 @@ SETTINGS = {
     "Always": "Immer",
     "Generate Reflection adds them too": "Auch Spiegelung erzeugen fügt sie hinzu",
     "When it has faces that show the world": "Wann sie Flächen hat, die die Welt zeigen",
-    "By how many mirrors at most it shows anything": "Über wie viele Spiegel sie höchstens etwas zeigt",
     "Light Samples": "Licht-Samples",
     "Number of light paths for each pixel of the mirrors. The light is denoised":
         "Zahl der Lichtpfade für jedes Pixel der Spiegel. Das Licht wird entrauscht",
