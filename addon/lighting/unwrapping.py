@@ -25,7 +25,7 @@ MARGIN = 5          # texels around each block
 NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead, as shares of its length
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
 POINT_LEAD = 1e-3   # the same for points, which lie at vertices
-GROUPS = 1 << 32     # more than a reflection has groups of faces
+GROUPS = 1 << 30     # more than a reflection has groups of faces
 MOST_BOUNCES = 1 << 8
 SEEN_LEAD = 2e-5    # the same for paths from the eye to a reflection, whose layers lie close together
 
@@ -42,7 +42,7 @@ class Faces:
     targets, origins : (m, 3, 3) float64, ends of the light path of each corner
     sky : (m,) bool, faces that show the world
     normals : (m, 3, 3) float64, of the mirror at the corners; zero after several mirrors
-    group : (m,) int64, the same for faces that show one source by as many mirrors
+    group : (m,) int64, the same for faces of one mirror that show one source by as many mirrors
     """
 
     positions: np.ndarray
@@ -57,7 +57,7 @@ class Faces:
     @classmethod
     def joined(cls, parts: list[Faces]) -> Faces:
         """Return the faces of all parts as one."""
-        parts = [cls.none(), *(replace(one, group=one.group + number * GROUPS) for number, one in enumerate(parts))]
+        parts = [cls.none(), *parts]
         starts = np.cumsum([0, *(len(one.positions) for one in parts)])
         corners = np.concatenate([one.corners + start for one, start in zip(parts, starts)])
         others = {name: np.concatenate([getattr(one, name) for one in parts])
@@ -72,12 +72,13 @@ class Faces:
 
 
 class Placed(NamedTuple):
-    """A reflection's mesh, the matrix (4, 4) that places it where it was generated, and whether faces that others hide
-    need light of their own."""
+    """A reflection's mesh, the matrix (4, 4) that places it where it was generated, whether faces that others hide need
+    light of their own, and the number of its mirror: copies of a reflection have the same place in the picture."""
 
     mesh: bpy.types.Mesh
     matrix: np.ndarray
     layered: bool
+    mirror: int
 
     @property
     def positions(self) -> np.ndarray:
@@ -150,7 +151,7 @@ def faces_of(placed: Placed, view: View) -> Faces:
     corners = corner_vertices(mesh).astype(np.int64)
     target, origin = vectors(mesh, "reflected_position")[corners], vectors(mesh, "mirror_position")[corners]
     source, normals = numbers(mesh, "source_object").astype(np.int64), vectors(mesh, NORMAL)[corners]
-    group = (source - WORLD) * MOST_BOUNCES
+    group = placed.mirror * GROUPS + (source - WORLD) * MOST_BOUNCES
     if ARRIVAL in mesh.attributes:
         # light that met several mirrors arrives from the last one
         later = numbers(mesh, "bounces") > 1
