@@ -25,12 +25,12 @@ from ..operators.print_sheet import DPI, check_print, printing
 from ..operators.rounding import rounding_remarks
 from ..operators.shortcomings import other_meshes, scene_shortcomings
 from ..reading import Participants, choose, seen_by_camera, shown_by, with_copies, without_shadow_catchers
-from ..settings import ATTRIBUTES, Wanted
+from ..settings import Wanted
 from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
 from .compare_verb import add_compare
 from .opening import open_file
-from .options import add_join_parts, add_own, add_settings, given, text
+from .options import add_own, add_settings, add_written, given, text
 from .place import add_place, placed
 from .progress import announced
 
@@ -66,9 +66,7 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
     generate = verbs.add_parser("generate", help="generate the reflections and save the file")
     add_settings(generate)
-    generate.add_argument("--attributes", choices=[item[0] for item in ATTRIBUTES],
-                          help="what points and faces know (else as the file has it)")
-    add_join_parts(generate)
+    add_written(generate)
     _add_participants(generate)
     generate.add_argument("--light", type=int, nargs="?", const=FILES, default=0, metavar="N",
                           help="light them too, with N samples per pixel (else the file's)")

@@ -84,7 +84,7 @@ def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean:
         if clean:
             denoise(scene.cycles, "FAST")
         light = yield from rendering(scene)
-        return light[..., :3] * paths.used[..., None]
+        return light[..., :3] * (paths.left * paths.used[..., None])
 
 
 def _bounds(scene: bpy.types.Scene) -> tuple[float, Vector]:

@@ -12,6 +12,7 @@ from ...core import ReflectionError, View
 from ..faults import AllOrNothing, Steps, part, still_there
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
+    FurtherMirrors,
     LightPaths,
     Placed,
     can_be_lit,
@@ -31,7 +32,7 @@ from ..lighting import (
     write_colours,
 )
 from ..mirror_part import LaterMirrors, Surroundings
-from ..reading import has_fog, mirrors_of
+from ..reading import has_fog, known_results, mirrors_of
 from ..reading.materials import reflecting_materials, surface_shaders
 from ..rendering import shown_while
 
@@ -60,7 +61,8 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             placed[result.data] = yield from part(prepared(result, view, dense, whole), 0.0, 0.0)
     yield 0.04, "Reading the reflection"
     unwrapped = unwrap(list(placed.values()), view, dense)
-    paths = unwrapped.paths()
+    shown = known_results(context.scene, context.view_layer)
+    paths = unwrapped.paths(FurtherMirrors.of([one for one in shown if one.reflection_mesh.role == "REFLECTION"], lit))
     if not paths.used.any():
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
     if has_fog(context.scene):
