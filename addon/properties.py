@@ -84,6 +84,8 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
                             "scene's", type=bpy.types.Object, override=OVERRIDABLE)
     aside: BoolVectorProperty(name="Aside", size=2, description="Hidden in renders, and in the viewport, while another "
                               "camera looks that has reflections of its own", override=OVERRIDABLE)
+    bounces: IntProperty(name="Bounces", default=1, description="By how many mirrors at most it shows anything")
+    world_faces: StringProperty(name="World Faces", default="LIT", description="When it has faces that show the world")
     hidden_faces: BoolProperty(name="Hidden Faces", description="It has faces that nearer ones hide, with light of "
                                "their own", override=OVERRIDABLE)
     window: BoolProperty(name="Window", description="Its mirror is a window where this reflection's camera looks",

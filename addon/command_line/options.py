@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import argparse
 
-from ..settings import METHODS, PLACEMENTS, SETTINGS, WRITTEN_SETTINGS
+from ..settings import ATTRIBUTES, METHODS, PLACEMENTS, SETTINGS, WORLD_FACES, WRITTEN_SETTINGS
 
 
 def number(text: str) -> float | None:
@@ -55,8 +55,11 @@ def add_settings(parser: argparse.ArgumentParser, only: tuple[str, ...] = SETTIN
         parser.add_argument(f"--{name.replace('_', '-')}", **asked[name])
 
 
-def add_join_parts(parser: argparse.ArgumentParser) -> None:
-    """The option for mirrors of several parts."""
+def add_written(parser: argparse.ArgumentParser) -> None:
+    """Add the options for what is written of a reflection."""
+    for name, items, text_ in (("attributes", ATTRIBUTES, "what points and faces know"),
+                               ("world-faces", WORLD_FACES, "when faces show the world")):
+        parser.add_argument(f"--{name}", choices=[item[0] for item in items], help=f"{text_} (else as the file has it)")
     parser.add_argument("--join-parts", action=argparse.BooleanOptionalAction,
                         help="mirrors that have one topmost parent share one reflection (else as the file has it)")
 

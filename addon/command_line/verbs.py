@@ -25,12 +25,12 @@ from ..operators.print_sheet import DPI, check_print, printing
 from ..operators.rounding import rounding_remarks
 from ..operators.shortcomings import other_meshes, scene_shortcomings
 from ..reading import Participants, choose, seen_by_camera, shown_by, with_copies, without_shadow_catchers
-from ..settings import ATTRIBUTES, Wanted
+from ..settings import Wanted
 from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
 from .compare_verb import add_compare
 from .opening import open_file
-from .options import add_join_parts, add_own, add_settings, given, text
+from .options import add_own, add_settings, add_written, given, text
 from .place import add_place, placed
 from .progress import announced
 
@@ -66,9 +66,7 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
     generate = verbs.add_parser("generate", help="generate the reflections and save the file")
     add_settings(generate)
-    generate.add_argument("--attributes", choices=[item[0] for item in ATTRIBUTES],
-                          help="what points and faces know (else as the file has it)")
-    add_join_parts(generate)
+    add_written(generate)
     _add_participants(generate)
     generate.add_argument("--light", type=int, nargs="?", const=FILES, default=0, metavar="N",
                           help="light them too, with N samples per pixel (else the file's)")
@@ -76,7 +74,6 @@ def _parser() -> argparse.ArgumentParser:
     generate.set_defaults(work=_generate)
     light = verbs.add_parser("light", help="let the reflections look as the mirrors do, and save the file")
     light.add_argument("--samples", type=int, metavar="N", help="samples per pixel (else the file's)")
-    light.add_argument("--every", action="store_true", help="also those that look right as they are, for glTF and USD")
     _add_output(light)
     light.set_defaults(work=_light)
     caustics = verbs.add_parser("caustics", help="generate the light that mirrors throw, and save the file")
@@ -158,7 +155,7 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
     if options.samples is not None and options.samples < 1:
         raise core.ReflectionError("Light takes at least one sample: raise --samples.")
-    told = _lit(context, chosen_results(context), options.samples, options.every)
+    told = _lit(context, chosen_results(context), options.samples)
     save_blend(path)
     print(told)
 
@@ -198,10 +195,10 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     print(*told, sep="\n")
 
 
-def _lit(context: bpy.types.Context, results: list, samples: int | None, every: bool = False) -> str:
+def _lit(context: bpy.types.Context, results: list, samples: int | None) -> str:
     started = time.perf_counter()
     wanted = Wanted(context.scene, given(argparse.Namespace(), light_samples=samples))
-    lit = announced(lighting_groups(context, wanted.lights(with_copies(context, results)), every))
+    lit = announced(lighting_groups(context, wanted.lights(with_copies(context, results))))
     return "\n".join([*unlike_the_mirror(context, lit), lighting_summary(lit, time.perf_counter() - started)])
 
 

@@ -7,7 +7,8 @@ from .all_or_nothing import AllOrNothing
 
 PLACE = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
 RECORD = ("role", "mirror", "lamp", "eyes", "keeps_own", "camera", "window", "attributes", "estimated_error", "seconds",
-          "counts", "faces", "points", "made_from", "light", "light_material", "lit_from", "hidden_faces", "protected")
+          "counts", "faces", "points", "made_from", "light", "light_material", "lit_from", "hidden_faces", "bounces",
+          "world_faces", "protected")
 NUMBERS = ("resolution", "origin", "basis", "landmarks", "landmark_places", "aside")
 
 

@@ -8,7 +8,7 @@ from ..settings import holder_of, mirror_of
 
 # what is behind the closed door of "Limits"
 SHOWN, LIGHT, LIMITS = ("tolerance", "placement", "method", "depth"), ("light_samples",), (
-    "memory", "hidden_faces", "attributes", "join_parts")
+    "memory", "hidden_faces", "world_faces", "attributes", "join_parts")
 
 
 def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:

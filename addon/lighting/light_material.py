@@ -36,25 +36,6 @@ def new_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.t
     return image
 
 
-def new_export_image(image: bpy.types.Image, light: np.ndarray) -> Steps[None]:
-    """Fill an image of 8 bits with light (height, width, 3): sRGB, nothing brighter than white."""
-    yield 0.0, WRITING
-    light = np.clip(light, 0.0, 1.0)
-    # IEC 61966-2-1
-    shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 0.0031308)**(1.0 / 2.4) - 0.055)
-    yield 0.0, WRITING
-    height, width, channels = shown.shape
-    rgba = np.ones((height, width, 4), dtype=np.float32)
-    rgba[..., :channels] = shown
-    image.scale(width, height)
-    image.alpha_mode = "CHANNEL_PACKED"
-    yield 0.0, WRITING
-    image.pixels.foreach_set(rgba.ravel())
-    yield 0.0, WRITING
-    image.pack()
-    yield 0.0, WRITING
-
-
 def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Image,
                  mirror: Sequence[bpy.types.Material | None], around: Surroundings, whole: AllOrNothing
                  ) -> bpy.types.Material:

@@ -17,6 +17,8 @@ class LightPaths:
     ----------
     used : (h, w) bool
         Texels that have a path.
+    left : (h, w, 3) float32
+        What of the light the picture is to show, in red, green and blue.
     target : (h, w, 3) float32
         The point whose light is looked for.
     origin : (h, w, 3) float32
@@ -28,6 +30,7 @@ class LightPaths:
     """
 
     used: np.ndarray
+    left: np.ndarray
     target: np.ndarray
     origin: np.ndarray
     lead: np.ndarray
@@ -39,7 +42,7 @@ class LightPaths:
         """Return paths without any texel in use."""
         vectors = (np.zeros((height, width, 3), dtype=np.float32) for _ in range(4))
         target, origin, across, up = vectors
-        return cls(np.zeros((height, width), dtype=bool), target, origin,
+        return cls(np.zeros((height, width), dtype=bool), np.ones((height, width, 3), dtype=np.float32), target, origin,
                    np.zeros((height, width), dtype=np.float32), across, up)
 
     def grown(self, rings: int) -> LightPaths:
@@ -47,8 +50,8 @@ class LightPaths:
 
         Between its texels a picture is interpolated, and a denoiser looks at what lies around each.
         """
-        used, arrays = self.used.copy(), [getattr(self, name).copy() for name in ("target", "origin", "lead", "across",
-                                                                                  "up")]
+        used, arrays = self.used.copy(), [getattr(self, name).copy() for name in (
+            "left", "target", "origin", "lead", "across", "up")]
         height, width = used.shape
         for _ in range(rings):
             known = np.pad(used, 1)
@@ -58,5 +61,4 @@ class LightPaths:
                 used[row, column] = True
                 for array in arrays:
                     array[row, column] = array[row + y, column + x]
-        target, origin, lead, across, up = arrays
-        return LightPaths(used, target, origin, lead, across, up)
+        return LightPaths(used, *arrays)

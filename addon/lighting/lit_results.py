@@ -49,8 +49,11 @@ def prepared(result: bpy.types.Object, view: View, dense: int, whole: AllOrNothi
     """
     mesh = result.data.copy()
     whole.undo(remove_new, mesh)
-    placed = Placed(mesh, np.array(place_of(result), dtype=np.float64), result.reflection_mesh.hidden_faces)
-    add_world_faces(mesh, result, view, placed.layered)
+    record = result.reflection_mesh
+    placed = Placed(mesh, np.array(place_of(result), dtype=np.float64), record.hidden_faces,
+                    record.mirror.session_uid if record.mirror else 0)
+    if record.world_faces != "NEVER":
+        add_world_faces(mesh, result, view, placed.layered)
     yield 0.0, WRITING
     yield from halve_edges(mesh, lambda: _straying(placed, view, dense))
     write_mirror_normals(mesh, view)

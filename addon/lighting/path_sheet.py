@@ -26,6 +26,8 @@ AWAY = 4.0      # radii of the scene between its middle and the sheet
 SEEN_BY = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter",
            "visible_shadow")
 EVEN = 0.5      # between whole numbers
+# noise threshold of Cycles' adaptive sampling from which on the denoiser does the rest, and the samples before it
+NOISE, LEAST = 0.1, 8
 
 
 @contextmanager
@@ -83,8 +85,16 @@ def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean:
         scene.cycles.samples, scene.cycles.use_denoising = max(samples, 1), False
         if clean:
             denoise(scene.cycles, "FAST")
+            _stop_early(scene.cycles)
         light = yield from rendering(scene)
-        return light[..., :3] * paths.used[..., None]
+        return light[..., :3] * (paths.left * paths.used[..., None])
+
+
+def _stop_early(cycles: bpy.types.PropertyGroup) -> None:
+    """Let adaptive sampling, if the user has it on, stop at the noise that denoising removes."""
+    cycles.adaptive_min_samples = LEAST
+    if cycles.use_denoising:
+        cycles.adaptive_threshold = max(cycles.adaptive_threshold, NOISE)
 
 
 def _bounds(scene: bpy.types.Scene) -> tuple[float, Vector]:

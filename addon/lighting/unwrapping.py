@@ -1,8 +1,9 @@
 """Unwrap reflections by where the camera sees them: a place in one picture for each face, and the light path of each
 texel.
 
-A texel is as large as a share of a pixel. Faces behind one another lie on pages of their own, side by side in the
-picture, so that each keeps its light if what hides it is taken away.
+A texel is as large as a share of a pixel. Each source has a block of texels of its own, so that nothing shines across
+the outline of another one. Faces behind one another lie in different blocks too, if each is to keep its light where
+what hides it is taken away.
 """
 from __future__ import annotations
 
@@ -16,13 +17,16 @@ from ...core import View, breathe, draw, pages_of
 from ...core.result import place
 from ..reading import corner_vertices, numbers, vectors
 from ..writing import ARRIVAL, NORMAL
+from .further_mirrors import FurtherMirrors
 from .light_paths import LightPaths
-from .world_faces import WORLD, lies_on_mirror, world_targets
+from .world_faces import WORLD, far_away, lies_on_mirror, world_targets
 
-MARGIN = 5          # texels around each page
+MARGIN = 5          # texels around each block
 NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead, as shares of its length
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
 POINT_LEAD = 1e-3   # the same for points, which lie at vertices
+GROUPS = 1 << 30     # more than a reflection has groups of faces
+MOST_BOUNCES = 1 << 8
 SEEN_LEAD = 2e-5    # the same for paths from the eye to a reflection, whose layers lie close together
 
 
@@ -38,6 +42,7 @@ class Faces:
     targets, origins : (m, 3, 3) float64, ends of the light path of each corner
     sky : (m,) bool, faces that show the world
     normals : (m, 3, 3) float64, of the mirror at the corners; zero after several mirrors
+    group : (m,) int64, the same for faces of one mirror that show one source by as many mirrors
     """
 
     positions: np.ndarray
@@ -47,6 +52,7 @@ class Faces:
     origins: np.ndarray
     sky: np.ndarray
     normals: np.ndarray
+    group: np.ndarray
 
     @classmethod
     def joined(cls, parts: list[Faces]) -> Faces:
@@ -55,22 +61,24 @@ class Faces:
         starts = np.cumsum([0, *(len(one.positions) for one in parts)])
         corners = np.concatenate([one.corners + start for one, start in zip(parts, starts)])
         others = {name: np.concatenate([getattr(one, name) for one in parts])
-                  for name in ("positions", "images", "targets", "origins", "sky", "normals")}
+                  for name in ("positions", "images", "targets", "origins", "sky", "normals", "group")}
         return cls(corners=corners, **others)
 
     @classmethod
     def none(cls) -> Faces:
         none, ends = np.zeros((0, 3)), np.zeros((0, 3, 3))
-        return cls(none, none, none.astype(np.int64), ends, ends, np.zeros(0, dtype=bool), ends)
+        return cls(none, none, none.astype(np.int64), ends, ends, np.zeros(0, dtype=bool), ends,
+                   np.zeros(0, dtype=np.int64))
 
 
 class Placed(NamedTuple):
-    """A reflection's mesh, the matrix (4, 4) that places it where it was generated, and whether faces that others hide
-    need light of their own."""
+    """A reflection's mesh, the matrix (4, 4) that places it where it was generated, whether faces that others hide need
+    light of their own, and the number of its mirror: copies of a reflection have the same place in the picture."""
 
     mesh: bpy.types.Mesh
     matrix: np.ndarray
     layered: bool
+    mirror: int
 
     @property
     def positions(self) -> np.ndarray:
@@ -90,18 +98,21 @@ class Unwrapped:
     ----------
     size : (width, height) in texels
     spots : list of (m, 3, 2) float64, from 0 to 1, for each reflection with faces; (n, 2) for one of points
-    blocks : list of FaceBlock and PointBlock
+    pages : list of Page, of faces
+    points : list of PointBlock
     """
 
     size: tuple[int, int]
     spots: list
-    blocks: list
+    pages: list
+    points: list
 
-    def paths(self, seen: bool = False) -> LightPaths:
-        """Return the light path of each texel; the path from the eye to the reflection itself if `seen`."""
+    def paths(self, further: FurtherMirrors | None = None, seen: bool = False) -> LightPaths:
+        """Return the light path of each texel; those to the world by `further` mirrors too; the path from the eye to
+        the reflection itself if `seen`."""
         paths = LightPaths.empty(self.size[1], self.size[0])
-        for block in self.blocks:
-            block.draw(paths, seen)
+        for part in self.pages + self.points:
+            part.draw(paths, further, seen)
         return paths
 
 
@@ -120,21 +131,18 @@ def unwrap(placed: list[Placed], view: View, dense: int) -> Unwrapped:
     layered = any(one.layered for one in placed)
     page = (pages_of(fine, joined.images, joined.corners) if layered
             else np.zeros(len(joined.corners), dtype=np.int64))
-    blocks: list = [FaceBlock.around(fine, joined, own, pixels[own])
-                    for own in (np.flatnonzero(page == number) for number in np.unique(page))]
-    blocks += [PointBlock(one, view) for one in placed if not one.has_faces]
-    size = _pack(blocks)
-    spots, of_points = np.zeros((len(joined.corners), 3, 2)), []
-    for block in blocks:
-        if isinstance(block, FaceBlock):
-            spots[block.own] = (pixels[block.own] + block.shift) / size
-        else:
-            of_points.append(block.spots(size))
+    pages = [Page(fine, joined, own, pixels[own], joined.group[own])
+             for own in (np.flatnonzero(page == number) for number in np.unique(page))]
+    points = [PointBlock(one, view) for one in placed if not one.has_faces]
+    size = _pack([block for one in pages for block in one.blocks] + points)
+    spots, of_points = np.zeros((len(joined.corners), 3, 2)), [block.spots(size) for block in points]
+    for one in pages:
+        spots[one.own] = (one.pixels + one.shifts[one.block][:, None]) / size
     # a texel's place must be one of the picture, also where a corner lies beside the camera's view
     spots = np.clip(np.nan_to_num(spots), 0.0, 1.0)
     with_faces = iter(np.split(spots, np.cumsum([len(one.corners) for one in faces])[:-1]))
     without = iter(of_points)
-    return Unwrapped(size, [next(with_faces if one.has_faces else without) for one in placed], blocks)
+    return Unwrapped(size, [next(with_faces if one.has_faces else without) for one in placed], pages, points)
 
 
 def faces_of(placed: Placed, view: View) -> Faces:
@@ -142,52 +150,57 @@ def faces_of(placed: Placed, view: View) -> Faces:
     mesh = placed.mesh
     corners = corner_vertices(mesh).astype(np.int64)
     target, origin = vectors(mesh, "reflected_position")[corners], vectors(mesh, "mirror_position")[corners]
-    sky, normals = numbers(mesh, "source_object") == WORLD, vectors(mesh, NORMAL)[corners]
+    source, normals = numbers(mesh, "source_object").astype(np.int64), vectors(mesh, NORMAL)[corners]
+    group = placed.mirror * GROUPS + (source - WORLD) * MOST_BOUNCES
     if ARRIVAL in mesh.attributes:
         # light that met several mirrors arrives from the last one
         later = numbers(mesh, "bounces") > 1
         origin[later] = target[later] - vectors(mesh, ARRIVAL)[corners[later]]
         normals[later] = 0.0
+        group += numbers(mesh, "bounces")
     positions = images = placed.positions
     if lies_on_mirror(mesh, positions):
         # all in one plane: what they show tells which is before another
         images = place(view, vectors(mesh, "mirror_position").T, numbers(mesh, "path_length"), "VIRTUAL").T
-    return Faces(positions, images, corners, target, origin, sky, normals)
+    return Faces(positions, images, corners, target, origin, source == WORLD, normals, group)
 
 
 @dataclass
-class FaceBlock:
-    """A rectangle of texels for faces of which none hides another one.
+class Block:
+    """A rectangle of texels: width and height, `size` (2,); lowest column and row in the picture, `corner` (2,)."""
+
+    size: np.ndarray
+    corner: np.ndarray
+
+
+class Page:
+    """Faces of which none hides another one, in a block for each of their groups.
 
     Attributes
     ----------
     fine : View, whose pixels are texels
-    faces : Faces, and which of them are in the block: `own` (k,)
-    low, size : (2,) int64, lowest column and row in the view, and width and height
-    corner : (2,) int64, the lowest column and row in the picture
+    faces : Faces, and which of them are on the page: `own` (k,)
+    pixels : (k, 3, 2) float64, where the view sees their corners
+    block : (k,) int64, which of the `blocks` each is in
     """
 
-    fine: View
-    faces: Faces
-    own: np.ndarray
-    pixels: np.ndarray
-    low: np.ndarray
-    size: np.ndarray
-    corner: np.ndarray
-
-    @classmethod
-    def around(cls, fine: View, faces: Faces, own: np.ndarray, pixels: np.ndarray) -> FaceBlock:
-        """Return the block that holds all of some faces that the view sees, with corners at `pixels` (k, 3, 2)."""
-        spots = np.clip(np.nan_to_num(pixels.reshape(-1, 2)), 0, fine.resolution)
-        low, high = (side.astype(int) for side in (np.floor(spots.min(axis=0)) - MARGIN,
-                                                   np.ceil(spots.max(axis=0)) + MARGIN))
-        return cls(fine, faces, own, pixels, low, high - low, np.zeros(2, dtype=int))
+    def __init__(self, fine: View, faces: Faces, own: np.ndarray, pixels: np.ndarray, group: np.ndarray) -> None:
+        self.fine, self.faces, self.own, self.pixels = fine, faces, own, pixels
+        groups, self.block = np.unique(group, return_inverse=True)
+        spots = np.clip(np.nan_to_num(pixels), 0, fine.resolution)
+        low, high = np.full((len(groups), 2), np.inf), np.zeros((len(groups), 2))
+        np.minimum.at(low, self.block, spots.min(axis=1))
+        np.maximum.at(high, self.block, spots.max(axis=1))
+        self.low = np.floor(low).astype(np.int64) - MARGIN
+        sizes = np.ceil(high).astype(np.int64) + MARGIN - self.low
+        self.blocks = [Block(size, np.zeros(2, dtype=np.int64)) for size in sizes]
 
     @property
-    def shift(self) -> np.ndarray:
-        return self.corner - self.low
+    def shifts(self) -> np.ndarray:
+        """(b, 2) int64, from the view's columns and rows to those of the picture, for each block."""
+        return np.array([block.corner for block in self.blocks]) - self.low
 
-    def draw(self, paths: LightPaths, seen: bool = False) -> None:
+    def draw(self, paths: LightPaths, further: FurtherMirrors | None, seen: bool) -> None:
         """Write the light path of each texel whose centre a face covers; the path from the eye if `seen`."""
         faces, width = self.faces, self.fine.resolution[0]
         drawn = draw(self.fine, faces.images, faces.corners[self.own])
@@ -211,10 +224,17 @@ class FaceBlock:
         if not seen:
             across, up = _before_mirror(across, up, target - origin, normal)
         breathe()
+        left = np.ones_like(target)
+        if further is not None and not seen:
+            later, places, ahead, tint = further.follow(self.fine, origin[sky])
+            later = sky[later]
+            origin[later], target[later], left[later] = places, places + far_away(self.fine) * ahead, tint
+            across[later] = up[later] = 0.0
         length = np.linalg.norm(target - origin, axis=1)
         texel = np.linalg.norm(across, axis=1) + np.linalg.norm(up, axis=1)
-        spot = row + self.shift[1], column + self.shift[0]
-        paths.used[spot] = True
+        shift = self.shifts[self.block[own]]
+        spot = row + shift[:, 1], column + shift[:, 0]
+        paths.used[spot], paths.left[spot] = True, left
         paths.target[spot], paths.origin[spot], paths.across[spot], paths.up[spot] = target, origin, across, up
         paths.lead[spot] = SEEN_LEAD * length if seen else np.clip(texel, NEAREST * length, FARTHEST * length)
 
@@ -244,19 +264,19 @@ def _before_mirror(across: np.ndarray, up: np.ndarray, path: np.ndarray, normal:
     return across * share, up * share
 
 
-class PointBlock:
+class PointBlock(Block):
     """A rectangle of texels, one for each point of a reflection of points."""
 
     def __init__(self, placed: Placed, view: View) -> None:
         self.placed, self.view, self.count = placed, view, len(placed.mesh.vertices)
         width = max(int(np.ceil(np.sqrt(self.count))), 1)
-        self.size, self.corner = np.array((width, -(-self.count // width))), np.zeros(2, dtype=int)
+        super().__init__(np.array((width, -(-self.count // width))), np.zeros(2, dtype=np.int64))
 
     def spots(self, size: np.ndarray) -> np.ndarray:
         """Return the place (n, 2) of each point in a picture of `size` texels, from 0 to 1."""
         return (self._texels() + 0.5) / size
 
-    def draw(self, paths: LightPaths, seen: bool = False) -> None:
+    def draw(self, paths: LightPaths, _: FurtherMirrors | None, seen: bool) -> None:
         """Write the light path of each point; the path from the eye if `seen`."""
         column, row = self._texels().T
         if seen:
@@ -272,7 +292,7 @@ class PointBlock:
         return np.stack((column, row), axis=1) + self.corner
 
 
-def _pack(blocks: list) -> np.ndarray:
+def _pack(blocks: list[Block]) -> np.ndarray:
     """Stack blocks in shelves, the highest first; return the size of the whole."""
     width = max((int(block.size[0]) for block in blocks), default=1)
     shelf = used = height = 0

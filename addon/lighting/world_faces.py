@@ -12,9 +12,10 @@ from ...core import TriangleMesh, View, draw
 from ...core.geometry import unit
 from ...core.result import place
 from ..reading import corner_vertices, join_mirror, mirrors_of, numbers, read_meshes, vectors
-from ..writing import FIELDS, NORMAL, place_of
+from ..writing import FIELDS, LATER_MATERIAL, NORMAL, place_of
 
 WORLD = -1          # `source_object` of faces that show the world
+NONE = -1           # among the materials of later mirrors
 FAR = 1e4           # sizes of the mirror to the points that stand for directions
 BEHIND = 1.05       # of the longest path: a virtual image of the world lies behind all others
 
@@ -52,19 +53,25 @@ def add_world_faces(mesh: bpy.types.Mesh, result: bpy.types.Object, view: View, 
     _extend(mesh, places @ matrix[:3, :3].T + matrix[:3, 3], faces.reshape(-1, 3))
     for name, values in (("mirror_position", at), ("reflected_position", world_targets(view, at, normals)),
                          ("path_length", path), ("image_parity", 1), (NORMAL, normals)):
-        _set_tail(mesh, name, before[0], values)
+        set_tail(mesh, name, before[0], values)
+    # what later mirrors leave of the world's light is in the picture
+    alone = [name for name in mesh.attributes.keys() if name.startswith(LATER_MATERIAL.format(""))]
     for name, values in (("source_object", WORLD), ("source_face", WORLD), ("bounces", 1),
-                         ("mirror_face", surface.triangle[chosen])):
-        _set_tail(mesh, name, before[1], values)
+                         ("mirror_face", surface.triangle[chosen]), *((name, NONE) for name in alone)):
+        set_tail(mesh, name, before[1], values)
 
 
 def world_targets(view: View, at: np.ndarray, normals: np.ndarray) -> np.ndarray:
     """Return points (n, 3) far away in the directions in which a mirror with `normals` (n, 3) shows the world at places
     `at` (n, 3). They change linearly along a flat mirror (unnormalised rays, DESIGN section 2)."""
     ahead, normals = view.directions(at), unit(normals.T).T
+    return at + far_away(view) * (ahead - 2.0 * np.einsum("ni,ni->n", ahead, normals)[:, None] * normals)
+
+
+def far_away(view: View) -> float:
+    """Return the factor from the directions of a view's rays to the points that stand for the world."""
     # an orthographic eye is as far away as its picture is wide
-    far = FAR / abs(view.projection[0, 0]) if view.orthographic else FAR
-    return at + far * (ahead - 2.0 * np.einsum("ni,ni->n", ahead, normals)[:, None] * normals)
+    return FAR / abs(view.projection[0, 0]) if view.orthographic else FAR
 
 
 def lies_on_mirror(mesh: bpy.types.Mesh, positions: np.ndarray) -> bool:
@@ -107,12 +114,12 @@ def _extend(mesh: bpy.types.Mesh, positions: np.ndarray, corners: np.ndarray) ->
     loops = len(mesh.loops)
     mesh.polygons.add(len(corners))
     mesh.polygons.foreach_set("loop_start", np.arange(0, loops, 3, dtype=np.int32))
-    _set_tail(mesh, "position", vertices, positions)
-    _set_tail(mesh, ".corner_vert", loops - corners.size, vertices + corners)
+    set_tail(mesh, "position", vertices, positions)
+    set_tail(mesh, ".corner_vert", loops - corners.size, vertices + corners)
     mesh.update(calc_edges=True)
 
 
-def _set_tail(mesh: bpy.types.Mesh, name: str, start: int, values) -> None:
+def set_tail(mesh: bpy.types.Mesh, name: str, start: int, values) -> None:
     """Set the values of an attribute from one element on, where the mesh has it."""
     attribute = mesh.attributes.get(name)
     if attribute is None:

@@ -69,7 +69,10 @@ def write_later_tints(result: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
         left[later] = MirrorColours(tints, np.arange(len(tints))).left(
             met[later], cosine[corners[later]].astype(np.float64))
         # those that are seen by no more have the last number
-        unknown = ~np.array(_is_whole(result) + [True])[met].all(axis=1)
+        whole = _is_whole(result)
+        unknown = ~np.array(whole + [True])[met].all(axis=1)
+        # faces of the world lie behind those, and show it by any of the mirrors
+        unknown |= (numbers(mesh, "source_object") < 0) & (not all(whole))
     _write(mesh, LATER_TINT, ("FLOAT_VECTOR", "CORNER", "vector"), left)
     _write(mesh, LATER_UNKNOWN, ("FLOAT", "FACE", "value"), unknown)
 

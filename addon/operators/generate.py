@@ -29,9 +29,9 @@ from ..settings import (
     SettingsOfMirrors,
     SettingsOptions,
     UsesSettings,
-    attributes_of,
     of_each,
     option,
+    written_of,
 )
 from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, nearer, point_arrays, what_is_in_the_way
@@ -115,7 +115,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")
         prepared.append(Reflection(joint, context.scene.camera, sources, result, arrays, view.resolution, own[index],
-                                   attributes_of(settings, mirror, context.scene)))
+                                   *(written_of(settings, mirror, context.scene, name)
+                                     for name in ("attributes", "world_faces"))))
     if not prepared:
         raise NothingSeen(refused[0]) if unseen == refused else Refused(refused)
     kept.within(max(one.maximum_memory for one in own))
@@ -195,6 +196,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator
                                     description="Show the colors of the reflected objects, unaffected by lamps, until"
                                                 " the reflection is lit. On if a button is pressed")
     attributes: option("attributes")
+    world_faces: option("world_faces")
     join_parts: option("join_parts")
     collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
                                     description="Put a new result into the collection Reflections instead of the "

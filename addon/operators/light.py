@@ -35,7 +35,7 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, 
     samples : int
         Light paths for each pixel.
     every : bool
-        Also those that look right as they are.
+        Also those that look right as they are. In files for other programs they do not.
     flat : bool
         Put what the mirror makes of the light into the picture too, for materials that show nothing but that picture.
 
@@ -52,7 +52,7 @@ def lighting(context: bpy.types.Context, results: list, samples: int = SAMPLES, 
     return (yield from lighting_groups(context, [(results, samples)], every, flat))
 
 
-def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int]], every: bool = False,
+def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int]], every: bool = True,
                     flat: bool = False) -> Steps[list]:
     """Light several groups (results, samples) as `lighting` does: all of them, or none."""
     if context.mode != "OBJECT":
@@ -69,7 +69,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int]], 
                    if every or needs_light(result) or lamps_before(result.data, lamps)]
             if not lit:
                 continue
-            records |= lit_record(context, view, lit, {"samples": samples, "every": every})
+            records |= lit_record(context, view, lit, {"samples": samples})
             steps = light_results(context, lit, view, samples, whole, flat)
             shows.append((yield from part(steps, number / len(groups), 1.0 / len(groups))))
             everything += lit
@@ -83,16 +83,12 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int]], 
 
 
 def lit_again(context: bpy.types.Context, results: list) -> Steps[list]:
-    """Light each of the results with the settings that it was lit with, else with those of the file."""
+    """Light each of the results with the samples that it was lit with, else with those of the file."""
     groups: dict = {}
     for result in results:
         known = {"samples": Wanted(context.scene).lights([result])[0][1], **lit_with(result)}
-        groups.setdefault(bool(known.get("every")), {}).setdefault(int(known["samples"]), []).append(result)
-    lit = []
-    for number, (every, own) in enumerate(groups.items()):
-        steps = lighting_groups(context, [(group, samples) for samples, group in own.items()], every)
-        lit += yield from part(steps, number / len(groups), 1.0 / len(groups))
-    return lit
+        groups.setdefault(int(known["samples"]), []).append(result)
+    return (yield from lighting_groups(context, [(group, samples) for samples, group in groups.items()]))
 
 
 class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator):
@@ -105,9 +101,6 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
     uses, renamed = LIGHT_SETTINGS, {"light_samples": "samples"}
 
     samples: option("light_samples", name="Samples")
-    every: bpy.props.BoolProperty(name="Light All", default=False, options={"SKIP_SAVE"},
-                                  description="Also light reflections that look right without it, for files that "
-                                              "carry images but not all materials, such as glTF and USD")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -118,7 +111,7 @@ class REFLECTION_MESH_OT_light(UsesSettings, SteppedOperator, bpy.types.Operator
         started = time.perf_counter()
         results, wanted = with_copies(context, chosen_results(context)), self.wanted(context)
         lights = wanted.lights(results)
-        lit = yield from lighting_groups(context, lights, self.every)
+        lit = yield from lighting_groups(context, lights)
         self.show_used(wanted, [result.reflection_mesh.mirror for result in results])
         # what is told last stays in the status bar
         for sentence in [summary(lit, time.perf_counter() - started), *unlike_the_mirror(context, lit)]:

@@ -38,6 +38,4 @@ def _asks_camera(material: bpy.types.Material | None) -> bool:
 
 def summary(lit: list, seconds: float) -> str:
     """One line on what was lit."""
-    if not lit:
-        return "Nothing to light: the reflected materials emit what they show, and the mirrors add nothing."
     return f"{listed(obj.name for obj in lit)}: lit in {seconds:.2f} s"

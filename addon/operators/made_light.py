@@ -12,6 +12,7 @@ from ...core import ReflectionError, View
 from ..faults import AllOrNothing, Steps, part, still_there
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
+    FurtherMirrors,
     LightPaths,
     Placed,
     can_be_lit,
@@ -31,7 +32,7 @@ from ..lighting import (
     write_colours,
 )
 from ..mirror_part import LaterMirrors, Surroundings
-from ..reading import has_fog, mirrors_of
+from ..reading import has_fog, known_results, mirrors_of
 from ..reading.materials import reflecting_materials, surface_shaders
 from ..rendering import shown_while
 
@@ -40,6 +41,7 @@ RENDERING = "Rendering light"
 DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each pixel from which on
 RIM = 4                 # texels around faces that go on as the faces do
 FROM_MIRROR = 1e-4      # of a path: it begins at the mirror
+MATTE = 8               # samples of light for each of what lamps add to the mirror itself, which is dark beside it
 NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
 
 
@@ -60,7 +62,8 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             placed[result.data] = yield from part(prepared(result, view, dense, whole), 0.0, 0.0)
     yield 0.04, "Reading the reflection"
     unwrapped = unwrap(list(placed.values()), view, dense)
-    paths = unwrapped.paths()
+    shown = known_results(context.scene, context.view_layer)
+    paths = unwrapped.paths(FurtherMirrors.of([one for one in shown if one.reflection_mesh.role == "REFLECTION"], lit))
     if not paths.used.any():
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
     if has_fog(context.scene):
@@ -81,10 +84,10 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             materials[key] = new_material(NAME, image, export_image, _mirror_materials(result), around, whole)
             lay_out(mesh, result, view, spots[result.data], materials[key])
     matte, paths_seen = any(map(_is_matte, materials.values())), unwrapped.paths(seen=True).grown(RIM)
-    with path_scene(context) as scene, _copies(scene, lit, placed, materials):
-        steps = render_paths(scene, paths_seen, samples // (2 * dense**2) if matte else 1, matte)
+    with path_scene(context) as scene, _copies(scene, lit, placed, materials, matte):
+        steps = render_paths(scene, paths_seen, samples // (MATTE * dense**2) if matte else 1, matte)
         seen = yield from shown_while(steps, 0.8, RENDERING)
-    yield from part(new_export_image(export_image, seen), 0.95, 0.04)
+    yield from part(new_export_image(export_image, seen, unwrapped, dense), 0.95, 0.04)
     for mesh, own in placed.items():
         write_colours(own.mesh, spots[mesh], seen)
     if flat:
@@ -118,9 +121,15 @@ def _check(lit: list) -> None:
 
 
 @contextmanager
-def _copies(scene: bpy.types.Scene, lit: list, placed: dict, materials: dict) -> Iterator[None]:
-    """Give a temporary scene copies of reflections with their light, which glossy rays alone meet."""
-    copies = []
+def _copies(scene: bpy.types.Scene, lit: list, placed: dict, materials: dict, matte: bool) -> Iterator[None]:
+    """Give a temporary scene copies of reflections with their light, which glossy rays alone meet; they are all that is
+    in it if nothing about them is `matte`."""
+    copies, everything = [], scene.collection
+    if not matte:
+        scene.world = None
+        for kind in (everything.children, everything.objects):
+            for one in list(kind):
+                kind.unlink(one)
     try:
         for result in lit:
             copy = result.copy()
@@ -129,7 +138,7 @@ def _copies(scene: bpy.types.Scene, lit: list, placed: dict, materials: dict) ->
             for slot in copy.material_slots:
                 slot.link, slot.material = "OBJECT", materials[result.reflection_mesh.mirror, result.data]
             copy.visible_camera, copy.visible_glossy, copy.hide_render = False, True, False
-            scene.collection.objects.link(copy)
+            everything.objects.link(copy)
         yield
     finally:
         bpy.data.batch_remove(still_there(copies))

@@ -10,12 +10,14 @@ from ..faults import AllOrNothing, listed, one_or_more
 from ..frames import stop_playing
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
+    can_be_lit,
     forget_previews,
     is_lit,
     keep_light,
     lacks_mattes,
     needs_light,
     show_previews,
+    show_world,
     shows_preview,
     update_mattes,
 )
@@ -126,6 +128,10 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
         entries = [entry for group in written for entry in group]
         unlit = [entry.obj for entry in entries
                  if not is_lit(entry.obj) and (needs_light(entry.obj) or lamps_before(entry.obj.data, lamps))]
+        # reflections of one mirror share their mesh
+        for obj in {obj.data: obj for obj in (entry.obj for entry in entries)}.values():
+            if obj.reflection_mesh.world_faces == "ALWAYS" and not is_lit(obj) and can_be_lit(obj):
+                show_world(obj, view, context.scene.world, whole)
         show_previews([obj for obj in unlit if manners.preview or obj in previewed], view, lamps, whole)
         if manners.collect:
             gather(context, [obj for obj, _ in results if obj not in there], whole)

@@ -15,6 +15,11 @@ METHODS = (
     ("POINTS", "Points", "A small disc for each vertex that the mirror shows, for dense scans with triangles smaller "
                          "than a pixel", 2),
 )
+WORLD_FACES = (
+    ("NEVER", "Never", "None: the mirror itself shows the world, and has to be rendered", 0),
+    ("LIT", "When Lit", "Light Reflection adds them, so that no engine has to trace the mirror", 1),
+    ("ALWAYS", "Always", "Generate Reflection adds them too", 2),
+)
 ATTRIBUTES = (
     ("ALL", "All", "Position on the mirror and on the reflected object, path length and reflected face, for light on "
                    "objects, comparisons and shaders", 0),

@@ -3,14 +3,14 @@ from __future__ import annotations
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from .choices import ATTRIBUTES, METHODS, PLACEMENTS
+from .choices import ATTRIBUTES, METHODS, PLACEMENTS, WORLD_FACES
 
 SAMPLES = 64    # of light, per pixel
 # what a reflection is made by, and how it is lit
 SETTINGS = ("tolerance", "placement", "method", "depth", "memory", "hidden_faces")
 LIGHT_SETTINGS = ("light_samples",)
 # what is written of it; a result remembers what it has
-WRITTEN_SETTINGS = ("attributes", "join_parts")
+WRITTEN_SETTINGS = ("attributes", "world_faces", "join_parts")
 
 
 def declared(names: tuple[str, ...], **more) -> dict:
@@ -38,7 +38,7 @@ def option(setting: str, /, **more):
 
 KINDS = {"tolerance": FloatProperty, "placement": EnumProperty, "method": EnumProperty, "depth": IntProperty,
          "memory": FloatProperty, "hidden_faces": BoolProperty, "light_samples": IntProperty,
-         "attributes": EnumProperty, "join_parts": BoolProperty}
+         "attributes": EnumProperty, "world_faces": EnumProperty, "join_parts": BoolProperty}
 VALUES = {
     "tolerance": {"name": "Tolerance", "default": 0.5, "min": 0.01, "soft_max": 8.0, "max": 1000.0, "precision": 2,
                   "subtype": "PIXEL",
@@ -60,6 +60,9 @@ VALUES = {
                       "description": "Number of light paths for each pixel of the mirrors. The light is denoised"},
     "attributes": {"name": "Attributes", "items": ATTRIBUTES, "default": "ALL",
                    "description": "Attributes that are stored in the reflection's mesh"},
+    "world_faces": {"name": "World Faces", "items": WORLD_FACES, "default": "LIT",
+                    "description": "Faces that show the world, and what is left after the last bounce, so that the "
+                                   "reflection covers its mirror"},
     "join_parts": {"name": "Join Parts", "default": True,
                    "description": "Mirrors that have one topmost parent share one reflection; a mirror with settings "
                    "of its own, or with a reflection already, keeps its own"},

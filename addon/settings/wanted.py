@@ -60,10 +60,10 @@ class Wanted:
         return [(group, samples) for samples, group in groups.items()]
 
 
-def attributes_of(settings: Settings | SettingsOfMirrors, mirror: bpy.types.Object, scene: bpy.types.Scene) -> str:
-    """What the points and faces of a mirror's reflection are to know."""
-    return settings.value(mirror, "attributes") if isinstance(settings, Wanted) else \
-        holder_of(mirror, scene).attributes
+def written_of(settings: Settings | SettingsOfMirrors, mirror: bpy.types.Object, scene: bpy.types.Scene,
+               name: str) -> str:
+    """Return a setting of what is written of a mirror's reflection, one of `WRITTEN_SETTINGS`."""
+    return settings.value(mirror, name) if isinstance(settings, Wanted) else getattr(holder_of(mirror, scene), name)
 
 
 def joins(settings: Settings | SettingsOfMirrors, scene: bpy.types.Scene, mirror: bpy.types.Object) -> bool:

@@ -42,6 +42,8 @@ class Reflection:
         By which it was made; the placement VIRTUAL makes a window of the mirror.
     attributes : {'ALL', 'SHOWN'}
         What of the arrays is written.
+    world_faces : {'NEVER', 'LIT', 'ALWAYS'}
+        When it has faces that show the world.
     """
 
     joint: Assembly
@@ -52,6 +54,7 @@ class Reflection:
     resolution: tuple[int, int]
     settings: Settings
     attributes: str = "ALL"
+    world_faces: str = "LIT"
 
     @property
     def mirror(self) -> bpy.types.Object:
@@ -179,6 +182,7 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     record.camera = made.camera
     bring_back(obj)
     record.attributes, record.hidden_faces = made.attributes, made.settings.hidden_faces
+    record.bounces, record.world_faces = made.settings.depth, made.world_faces
     record.sources.clear()
     for source in made.sources:
         record.sources.add().object = source

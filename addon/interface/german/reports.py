@@ -19,8 +19,6 @@ DONE = {
         "Das Licht von '{}' passt nicht mehr: {}. Klicke Spiegelung beleuchten.",
     "it shows other faces": "sie zeigt andere Flächen",
     "{}: lit in {} s": "{}: beleuchtet in {} s",
-    "Nothing to light: the reflected materials emit what they show, and the mirrors add nothing.":
-        "Nichts zu beleuchten: die gespiegelten Materialien leuchten selbst, und die Spiegel tun nichts hinzu.",
     "{} use Camera or Window coordinates or Camera Data, which light sees from elsewhere: use other coordinates.":
         "{} verwenden Kamera- oder Fensterkoordinaten oder Kameradaten, die das Licht von anderswo sieht: verwende "
         "andere Koordinaten.",

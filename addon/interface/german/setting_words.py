@@ -39,6 +39,19 @@ SETTINGS = {
     " are always kept":
         "Behält Flächen, die nähere ganz verdecken, für Objekte, die später entfernt werden. Flächen hinter "
         "durchsichtigen bleiben immer",
+    "World Faces": "Flächen der Welt",
+    "Faces that show the world, and what is left after the last bounce, so that the reflection covers its mirror":
+        "Flächen, die die Welt zeigen, und was nach der letzten Spiegelung bleibt, damit die Spiegelung ihren Spiegel "
+        "bedeckt",
+    "Never": "Nie",
+    "None: the mirror itself shows the world, and has to be rendered":
+        "Keine: Der Spiegel selbst zeigt die Welt und muss gerendert werden",
+    "When Lit": "Beleuchtet",
+    "Light Reflection adds them, so that no engine has to trace the mirror":
+        "Spiegelung beleuchten fügt sie hinzu, damit kein Renderer den Spiegel verfolgen muss",
+    "Always": "Immer",
+    "Generate Reflection adds them too": "Auch Spiegelung erzeugen fügt sie hinzu",
+    "When it has faces that show the world": "Wann sie Flächen hat, die die Welt zeigen",
     "Light Samples": "Licht-Samples",
     "Number of light paths for each pixel of the mirrors. The light is denoised":
         "Zahl der Lichtpfade für jedes Pixel der Spiegel. Das Licht wird entrauscht",

@@ -231,7 +231,7 @@ def test_light_lies_where_the_mirror_is_although_the_result_was_moved(scene):
     result.location.z += 5.0
     bpy.context.view_layer.update()
     parts.select(result)
-    bpy.ops.reflection_mesh.light(samples=1, every=True)
+    bpy.ops.reflection_mesh.light(samples=1)
     moved = [tuple(spot.vector) for spot in result.data.uv_layers["Reflection Light"].uv]
     assert len(spots) == len(moved)
     assert max(abs(a - b) for one, other in zip(spots, moved) for a, b in zip(one, other)) < 1e-4

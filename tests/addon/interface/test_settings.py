@@ -11,7 +11,7 @@ from tools.extension_zip import PACKAGE
 
 OTHERS = {"tolerance": 2.0, "placement": "SURFACE", "method": "PARALLEL", "depth": 3, "memory": 4.0,
           "hidden_faces": True, "light_samples": 7,
-          "attributes": "SHOWN", "join_parts": False}
+          "attributes": "SHOWN", "world_faces": "NEVER", "join_parts": False}
 
 
 @pytest.fixture
@@ -175,7 +175,7 @@ def test_the_panel_after_a_run_shows_what_was_used_and_changes_that_alone(pair, 
     wanted = operator.wanted(pair)
     operator.show_used(wanted, [left, right])
     assert operator.values == {**{name: OTHERS[name] for name in room("addon.settings").SETTINGS}, "tolerance": 0.75,
-                               "attributes": OTHERS["attributes"], "join_parts": OTHERS["join_parts"]}
+                               **{name: OTHERS[name] for name in room("addon.settings").WRITTEN_SETTINGS}}
     # run again without a change, and with one
     assert operator.wanted(pair).given == {"tolerance": 0.75}
     operator.method = "GENERAL"

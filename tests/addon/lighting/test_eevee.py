@@ -20,6 +20,8 @@ def lit_ball(context: bpy.types.Context, shining: bool) -> bpy.types.Object:
     """A ball that shows a floor of tiles, lit, and a box, which may shine far too brightly; its result alone is
     rendered, and returned."""
     scene_of(context)
+    # the outline of a lamp that is far brighter than white is noise: each pixel has few samples of it
+    bpy.data.objects["Area"].visible_glossy = False
     box, floor, wall = (bpy.data.objects[name] for name in ("Box", "Floor", "Mirror"))
     tiles = principled("Tiles")
     checks = tiles.node_tree.nodes.new("ShaderNodeTexChecker")
@@ -44,12 +46,16 @@ def lit_ball(context: bpy.types.Context, shining: bool) -> bpy.types.Object:
     return result
 
 
-@pytest.mark.parametrize("shining, least", [(False, 40.0), (True, 40.0)])
+@pytest.mark.parametrize("shining, least", [(False, 50.0), (True, 60.0)])
 def test_a_lit_ball_looks_as_in_cycles(blank, room, shining, least):
-    """By EEVEE's own look-up of the image it is 22 to 29 dB from Cycles."""
+    """By EEVEE's own look-up of the image it is 22 to 29 dB from Cycles. Pixels beside what is brighter than white are
+    left out: of its outline each engine has a few samples of its own."""
     lit_ball(blank, shining)
     by_cycles, by_eevee = (eevee.linear(room, one) for one in (False, True))
     inside = (by_cycles[..., 3] > 0.99) & (by_eevee[..., 3] > 0.99)
+    bright = np.pad((by_cycles[..., :3].max(axis=2) > 1.0) & inside, 2)
+    height, width = inside.shape
+    inside &= ~np.logical_or.reduce([bright[y:y + height, x:x + width] for y in range(5) for x in range(5)])
     assert inside.sum() > 500
     error = (np.clip(by_cycles, 0.0, 1.0) - np.clip(by_eevee, 0.0, 1.0))[..., :3][inside]
     assert -10.0 * np.log10((error**2).mean()) > least

@@ -103,8 +103,10 @@ def test_mirrors_in_mirrors_show_the_side_that_they_see(blank, room, turned):
     assert red > 30 and blue > 30
     parts.generate(depth=5)
     light(64)
-    # on the card: after the last bounce mirrors show the world, where Cycles' paths end in black
-    card = np.abs(reference[..., 0] - reference[..., 2]) > 0.2
+    # on the card, but for its outline before what mirrors show after the last bounce: there Cycles' paths end in black
+    ended = np.pad(reference.max(axis=2) < 0.05, 2)
+    beside = np.logical_or.reduce([ended[y:y + SIZE, x:x + SIZE] for y in range(5) for x in range(5)])
+    card = (np.abs(reference[..., 0] - reference[..., 2]) > 0.2) & ~beside
     lit, noise = (-10.0 * np.log10(((one - reference)[card]**2).mean()) for one in (picture(room), other))
     assert lit > min(38.0, noise - 1.5)
 

@@ -165,7 +165,7 @@ def test_update_lights_again_as_it_was_lit(lit, change):
     record = lit.result.reflection_mesh
     assert {slot.material == record.light_material for slot in lit.result.material_slots} == {True}
     assert not lit.outdated() and record.light_material != first
-    assert json.loads(record.lit_from)["lit_with"] == {"samples": 3, "every": False}
+    assert json.loads(record.lit_from)["lit_with"] == {"samples": 3}
 
 
 def test_update_says_why_light_cannot_be_made(lit, monkeypatch, room, capfd):

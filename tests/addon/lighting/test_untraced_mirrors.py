@@ -5,7 +5,7 @@ import bpy
 import bmesh
 import numpy as np
 import parts
-from lamp_scenes import picture, psnr, scene_of, shine
+from lamp_scenes import SIZE, link, picture, principled, psnr, scene_of, shine
 
 
 def light_image() -> np.ndarray:
@@ -48,6 +48,36 @@ def test_a_render_of_a_lit_file_needs_no_mirror(blank, room):
     assert (parts.attribute(result, "source_object") == -1).any()
     ball.hide_render = True
     assert psnr(picture(room), reference) > psnr(other, reference) - 1.5
+
+
+def test_mirrors_show_the_world_that_other_mirrors_show(blank, room):
+    """A gold and a blue wall that meet in a corner, under a world whose colour is the direction."""
+    walls = [parts.add("plane", "Gold", size=4.0, location=(0.0, 2.0, 1.2), rotation=(np.pi / 2, 0.0, 0.0)),
+             parts.add("plane", "Blue", size=4.0, location=(2.0, 0.0, 1.2), rotation=(0.0, -np.pi / 2, 0.0))]
+    for wall, colour in zip(walls, ((0.9, 0.6, 0.2), (0.3, 0.5, 0.9))):
+        wall.data.materials.append(principled(wall.name, colour, Metallic=1.0, Roughness=0.0))
+    ball = parts.add("uv_sphere", "Ball", radius=0.5, location=(0.4, -0.2, 1.0))
+    ball.data.materials.append(parts.material("Shine"))
+    scene = blank.scene
+    scene.camera.location, scene.camera.rotation_euler = (-1.8, -5.0, 2.2), (1.35, 0.0, -0.38)
+    scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 32, False
+    scene.render.resolution_x = scene.render.resolution_y = SIZE
+    scene.world = bpy.data.worlds.new("World")
+    if bpy.app.version < (5, 0, 0):
+        scene.world.use_nodes = True
+    tree = scene.world.node_tree
+    half = tree.nodes.new("ShaderNodeVectorMath")
+    half.operation, half.inputs[1].default_value, half.inputs[2].default_value = "MULTIPLY_ADD", (0.5,) * 3, (0.5,) * 3
+    link(tree, tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"], half.inputs[0])
+    link(tree, half.outputs[0], next(node for node in tree.nodes if node.type == "BACKGROUND").inputs["Color"])
+    parts.select(ball, *walls)
+    reference, other = picture(room), picture(room, seed=7)
+    parts.generate(depth=2)
+    parts.select(*(obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"))
+    bpy.ops.reflection_mesh.light(samples=32)
+    for wall in walls:
+        wall.hide_render = True
+    assert psnr(picture(room), reference) > psnr(other, reference)
 
 
 def test_what_is_deleted_from_a_lit_reflection_leaves_nothing_behind(blank, room):
