@@ -21,6 +21,7 @@ from .further_mirrors import FurtherMirrors
 from .light_paths import LightPaths
 from .world_faces import WORLD, far_away, lies_on_mirror, world_targets
 
+BEYOND = 16.0       # sizes of the picture that a corner may lie beside it
 MARGIN = 5          # texels around each block
 NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead, as shares of its length
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
@@ -138,8 +139,8 @@ def unwrap(placed: list[Placed], view: View, dense: int) -> Unwrapped:
     spots, of_points = np.zeros((len(joined.corners), 3, 2)), [block.spots(size) for block in points]
     for one in pages:
         spots[one.own] = (one.pixels + one.shifts[one.block][:, None]) / size
-    # a texel's place must be one of the picture, also where a corner lies beside the camera's view
-    spots = np.clip(np.nan_to_num(spots), 0.0, 1.0)
+    # a corner beside the camera's view keeps its place, so that the part in view does not change
+    spots = np.clip(np.nan_to_num(spots), -BEYOND, 1.0 + BEYOND)
     with_faces = iter(np.split(spots, np.cumsum([len(one.corners) for one in faces])[:-1]))
     without = iter(of_points)
     return Unwrapped(size, [next(with_faces if one.has_faces else without) for one in placed], pages, points)
