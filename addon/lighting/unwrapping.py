@@ -20,7 +20,7 @@ from .light_paths import LightPaths
 from .world_faces import WORLD, lies_on_mirror, world_targets
 
 MARGIN = 5          # texels around each page
-NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead, as shares of its length
+NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
 POINT_LEAD = 1e-3   # the same for points, which lie at vertices
 SEEN_LEAD = 2e-5    # the same for paths from the eye to a reflection, whose layers lie close together
@@ -211,12 +211,12 @@ class FaceBlock:
         if not seen:
             across, up = _before_mirror(across, up, target - origin, normal)
         breathe()
-        length = np.linalg.norm(target - origin, axis=1)
         texel = np.linalg.norm(across, axis=1) + np.linalg.norm(up, axis=1)
+        lead = texel / np.maximum(np.linalg.norm(target - origin, axis=1), 1e-30)
         spot = row + self.shift[1], column + self.shift[0]
         paths.used[spot] = True
         paths.target[spot], paths.origin[spot], paths.across[spot], paths.up[spot] = target, origin, across, up
-        paths.lead[spot] = SEEN_LEAD * length if seen else np.clip(texel, NEAREST * length, FARTHEST * length)
+        paths.lead[spot] = SEEN_LEAD if seen else np.clip(lead, NEAREST, FARTHEST)
 
 
 def _changes(pixels: np.ndarray, targets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -265,7 +265,7 @@ class PointBlock:
         else:
             target, origin = (vectors(self.placed.mesh, name) for name in ("reflected_position", "mirror_position"))
         paths.used[row, column], paths.target[row, column], paths.origin[row, column] = True, target, origin
-        paths.lead[row, column] = POINT_LEAD * np.linalg.norm(target - origin, axis=1)
+        paths.lead[row, column] = POINT_LEAD
 
     def _texels(self) -> np.ndarray:
         row, column = np.divmod(np.arange(self.count), self.size[0])
