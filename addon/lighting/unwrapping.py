@@ -15,6 +15,7 @@ import numpy as np
 from ...core import View, breathe, draw, pages_of
 from ...core.result import place
 from ..reading import corner_vertices, numbers, vectors
+from ..reading.materials import is_displaced
 from ..writing import ARRIVAL, NORMAL
 from .light_paths import LightPaths
 from .world_faces import WORLD, lies_on_mirror, world_targets
@@ -22,6 +23,7 @@ from .world_faces import WORLD, lies_on_mirror, world_targets
 MARGIN = 5          # texels around each page
 NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
+FROM_MIRROR = 1.0 - 1e-5    # lead of a path that begins at the mirror
 POINT_LEAD = 1e-3   # the same for points, which lie at vertices
 SEEN_LEAD = 2e-5    # the same for paths from the eye to a reflection, whose layers lie close together
 
@@ -37,6 +39,7 @@ class Faces:
     corners : (m, 3) int64, vertices of each face
     targets, origins : (m, 3, 3) float64, ends of the light path of each corner
     sky : (m,) bool, faces that show the world
+    displaced : (m,) bool, faces of which renders move the source: it is looked for from the mirror on
     normals : (m, 3, 3) float64, of the mirror at the corners; zero after several mirrors
     """
 
@@ -46,6 +49,7 @@ class Faces:
     targets: np.ndarray
     origins: np.ndarray
     sky: np.ndarray
+    displaced: np.ndarray
     normals: np.ndarray
 
     @classmethod
@@ -55,13 +59,13 @@ class Faces:
         starts = np.cumsum([0, *(len(one.positions) for one in parts)])
         corners = np.concatenate([one.corners + start for one, start in zip(parts, starts)])
         others = {name: np.concatenate([getattr(one, name) for one in parts])
-                  for name in ("positions", "images", "targets", "origins", "sky", "normals")}
+                  for name in ("positions", "images", "targets", "origins", "sky", "displaced", "normals")}
         return cls(corners=corners, **others)
 
     @classmethod
     def none(cls) -> Faces:
         none, ends = np.zeros((0, 3)), np.zeros((0, 3, 3))
-        return cls(none, none, none.astype(np.int64), ends, ends, np.zeros(0, dtype=bool), ends)
+        return cls(none, none, none.astype(np.int64), ends, ends, *np.zeros((2, 0), dtype=bool), ends)
 
 
 class Placed(NamedTuple):
@@ -89,7 +93,8 @@ class Unwrapped:
     Attributes
     ----------
     size : (width, height) in texels
-    spots : list of (m, 3, 2) float64, from 0 to 1, for each reflection with faces; (n, 2) for one of points
+    spots : list of (m, 3, 2) float64, from 0 to 1 in the camera's view, for each reflection with faces; (n, 2) for one
+        of points
     blocks : list of FaceBlock and PointBlock
     """
 
@@ -130,8 +135,8 @@ def unwrap(placed: list[Placed], view: View, dense: int) -> Unwrapped:
             spots[block.own] = (pixels[block.own] + block.shift) / size
         else:
             of_points.append(block.spots(size))
-    # a texel's place must be one of the picture, also where a corner lies beside the camera's view
-    spots = np.clip(np.nan_to_num(spots), 0.0, 1.0)
+    # beside the camera's view places are linear on a face, too
+    spots = np.clip(np.nan_to_num(spots), -1.0, 2.0)
     with_faces = iter(np.split(spots, np.cumsum([len(one.corners) for one in faces])[:-1]))
     without = iter(of_points)
     return Unwrapped(size, [next(with_faces if one.has_faces else without) for one in placed], blocks)
@@ -152,7 +157,11 @@ def faces_of(placed: Placed, view: View) -> Faces:
     if lies_on_mirror(mesh, positions):
         # all in one plane: what they show tells which is before another
         images = place(view, vectors(mesh, "mirror_position").T, numbers(mesh, "path_length"), "VIRTUAL").T
-    return Faces(positions, images, corners, target, origin, sky, normals)
+    displaced = np.array([is_displaced(one) for one in mesh.materials] or [False])
+    slot = np.zeros(len(corners), dtype=np.int32)
+    mesh.polygons.foreach_get("material_index", slot)
+    displaced = displaced[np.minimum(slot, len(displaced) - 1)] & ~sky
+    return Faces(positions, images, corners, target, origin, sky, displaced, normals)
 
 
 @dataclass
@@ -216,7 +225,8 @@ class FaceBlock:
         spot = row + self.shift[1], column + self.shift[0]
         paths.used[spot] = True
         paths.target[spot], paths.origin[spot], paths.across[spot], paths.up[spot] = target, origin, across, up
-        paths.lead[spot] = SEEN_LEAD if seen else np.clip(lead, NEAREST, FARTHEST)
+        lead = np.where(faces.displaced[face], FROM_MIRROR, np.clip(lead, NEAREST, FARTHEST))
+        paths.lead[spot] = SEEN_LEAD if seen else lead
 
 
 def _changes(pixels: np.ndarray, targets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

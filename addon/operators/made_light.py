@@ -12,6 +12,7 @@ from ...core import ReflectionError, View
 from ..faults import AllOrNothing, Steps, part, still_there
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
+    FROM_MIRROR,
     Placed,
     can_be_lit,
     forget_light,
@@ -37,7 +38,6 @@ from ..rendering import shown_while
 NAME = "Reflection Light"
 RENDERING = "Rendering light"
 DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each pixel from which on
-FROM_MIRROR = 1.0 - 1e-5    # share of a path that is left where it begins at the mirror
 RIM = 4                 # texels around faces that go on as the faces do
 NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
 
@@ -77,8 +77,8 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     spots = dict(zip(placed, unwrapped.spots))
     for result in lit:
         mesh = placed[result.data].mesh
-        around = Surroundings(tuple(mirrors_of(result)), lamps_before(mesh, lamps), LaterMirrors.of(result),
-                              not result.reflection_mesh.window)
+        around = Surroundings(tuple(mirrors_of(result)), lamps_before(mesh, lamps, mirrors_of(result)),
+                              LaterMirrors.of(result), not result.reflection_mesh.window)
         key = result.reflection_mesh.mirror, result.data
         if key not in materials:
             materials[key] = new_material(NAME, image, export_image, _mirror_materials(result), around, whole)

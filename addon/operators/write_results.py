@@ -19,7 +19,7 @@ from ..lighting import (
     shows_preview,
     update_mattes,
 )
-from ..reading import DiffuseScene, results_of
+from ..reading import DiffuseScene, mirrors_of, results_of
 from ..writing import (
     Reflection,
     gather,
@@ -125,7 +125,8 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
         results = [(group[0].obj, made.result) for group, made in zip(written, prepared)]
         entries = [entry for group in written for entry in group]
         unlit = [entry.obj for entry in entries
-                 if not is_lit(entry.obj) and (needs_light(entry.obj) or lamps_before(entry.obj.data, lamps))]
+                 if not is_lit(entry.obj) and (needs_light(entry.obj)
+                                               or lamps_before(entry.obj.data, lamps, mirrors_of(entry.obj)))]
         show_previews([obj for obj in unlit if manners.preview or obj in previewed], view, lamps, whole)
         if manners.collect:
             gather(context, [obj for obj, _ in results if obj not in there], whole)
