@@ -20,12 +20,12 @@ from .mattes import lacks_mattes, update_mattes
 from .needs_light import is_plain, needs_light
 from .path_sheet import path_scene, render_paths
 from .preview import forget_previews, show_previews, shows_preview
-from .unwrapping import Placed, Unwrapped, unwrap
+from .unwrapping import FROM_MIRROR, Placed, Unwrapped, unwrap
 from .world_faces import WORLD
 from .world_material import show_world
 
-__all__ = ["FurtherMirrors", "LightPaths", "Placed", "Unwrapped", "WORLD", "can_be_lit", "forget_light",
-           "forget_previews", "is_lit", "is_plain",
-           "keep_light", "lacks_mattes", "lay_out", "light_record", "light_sentence", "needs_light", "new_export_image",
-           "new_image", "new_material", "path_scene", "prepared", "remember", "render_paths", "show_light",
-           "show_previews", "show_world", "shows_preview", "unwrap", "update_mattes", "write_colours"]
+__all__ = ["FROM_MIRROR", "FurtherMirrors", "LightPaths", "Placed", "Unwrapped", "WORLD", "can_be_lit", "forget_light",
+           "forget_previews", "is_lit", "is_plain", "keep_light", "lacks_mattes", "lay_out", "light_record",
+           "light_sentence", "needs_light", "new_export_image", "new_image", "new_material", "path_scene", "prepared",
+           "remember", "render_paths", "show_light", "show_previews", "show_world", "shows_preview", "unwrap",
+           "update_mattes", "write_colours"]

@@ -24,7 +24,8 @@ class LightPaths:
     origin : (h, w, 3) float32
         A point on the line along which the target is looked at: the mirror's, or the eye.
     lead : (h, w) float32
-        Distance before the target from which on something can hide it.
+        Share of the line from the origin to the target that is left where the path begins: nothing before that hides
+        the target.
     across, up : (h, w, 3) float32
         Change of the target from one texel to the next one, along a row and along a column.
     """

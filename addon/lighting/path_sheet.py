@@ -15,14 +15,15 @@ import numpy as np
 from mathutils import Vector
 
 from .. import compat
+from ..reading import has_fog
 from ..rendering import Renders, copied_scene, denoise, look_through, only_the_picture, put_swift_world, rendering
 from ..writing.nodes.shader_builder import ShaderBuilder
-from .clear_air import clear_air
 from .light_paths import LightPaths
 
 NAME = "Reflection Light"
 UV = "Texel"
 AWAY = 4.0      # radii of the scene between its middle and the sheet
+BESIDE, SMALL = 0.1, 0.004  # in fog: shares of a path between the mirror and the sheet, and of it as the sheet's size
 SEEN_BY = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter",
            "visible_shadow")
 EVEN = 0.5      # between whole numbers
@@ -44,7 +45,6 @@ def path_scene(context: bpy.types.Context) -> Iterator[bpy.types.Scene]:
         if hasattr(scene.cycles, "dicing_camera"):
             scene.cycles.dicing_camera = scene.camera
         put_swift_world(scene, back)
-        clear_air(scene, back)
         yield scene
 
 
@@ -62,8 +62,11 @@ def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean:
     """
     height, width = paths.used.shape
     with ExitStack() as back:
-        radius, middle = _bounds(scene)
-        place = middle - Vector((0.0, 0.0, AWAY * radius))
+        radius, place = _bounds(scene)
+        if has_fog(scene):
+            radius, place = _in_the_fog(paths, radius)
+        else:
+            place -= Vector((0.0, 0.0, AWAY * radius))
         camera = bpy.data.objects.new(NAME, bpy.data.cameras.new(NAME))
         look_through(scene, camera, back)
         camera.data.type, camera.data.sensor_fit = "ORTHO", "HORIZONTAL" if width >= height else "VERTICAL"
@@ -104,6 +107,20 @@ def _bounds(scene: bpy.types.Scene) -> tuple[float, Vector]:
     corners = corners[np.isfinite(corners).all(axis=1)]
     low, high = corners.min(axis=0), corners.max(axis=0)
     return max(0.5 * float(np.linalg.norm(high - low)), 1e-3), Vector((0.5 * (low + high)).tolist())
+
+
+def _in_the_fog(paths: LightPaths, radius: float) -> tuple[float, Vector]:
+    """Return how large a sheet is, and where it lies, that stands in the same fog as the mirror: Cycles knows what is
+    around a ray where a camera stands, and a portal changes nothing of that.
+
+    It lies on a light path, where nothing else is, and is small.
+    """
+    line = (paths.target - paths.origin)[paths.used].astype(np.float64)
+    length = np.linalg.norm(line, axis=1)
+    middle = np.argsort(length)[len(length) // 2]
+    size = min(float(length[middle]), radius)
+    ahead = line[middle] / max(float(length[middle]), 1e-30)
+    return SMALL * size, Vector((paths.origin[paths.used][middle] + BESIDE * size * ahead).tolist())
 
 
 def _images(paths: LightPaths, back: ExitStack) -> list[bpy.types.Image]:
@@ -159,8 +176,11 @@ def _portals(images: list, size: tuple[int, int], back: ExitStack) -> bpy.types.
     for change, share in zip((across, up), within):
         target = build.vector("ADD", target, build.vector("SCALE", change,
                                                           Scale=build.calculated("SUBTRACT", share, EVEN)))
-    ahead = build.vector("NORMALIZE", build.vector("SUBTRACT", target, origin))
-    start = build.vector("SUBTRACT", target, build.vector("SCALE", ahead, Scale=looks[1].outputs["Alpha"]))
+    # a share of the line: one that begins at the mirror must not begin behind it where the target is moved
+    line = build.vector("SUBTRACT", target, origin)
+    before = build.calculated("SUBTRACT", 1.0, looks[1].outputs["Alpha"])
+    start = build.vector("ADD", origin, build.vector("SCALE", line, Scale=before))
+    ahead = build.vector("NORMALIZE", line)
     portal = build.add("ShaderNodeBsdfRayPortal")
     for value, name in (((1.0, 1.0, 1.0, 1.0), "Color"), (start, "Position"), (ahead, "Direction")):
         build.feed(value, portal.inputs[name])

@@ -57,7 +57,8 @@ def show_previews(results: Iterable[bpy.types.Object], view: View, shown: list[S
     for result in results:
         mirror, faces = _mirror_materials(result), len(result.data.polygons) > 0
         around = Surroundings(tuple(mirrors_of(result)) if asks_for_places(mirror) else (),
-                              lamps_before(result.data, shown), _later(result), not result.reflection_mesh.window,
+                              lamps_before(result.data, shown, mirrors_of(result)), _later(result),
+                              not result.reflection_mesh.window,
                               faces and knows_mirror_normals(result.data))
         asked: set = set()
         # a slot that has a material of its own has it from the user, and so what stands in place of what was made

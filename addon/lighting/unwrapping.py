@@ -16,6 +16,7 @@ import numpy as np
 from ...core import View, breathe, draw, pages_of
 from ...core.result import place
 from ..reading import corner_vertices, numbers, vectors
+from ..reading.materials import is_displaced
 from ..writing import ARRIVAL, NORMAL
 from .further_mirrors import FurtherMirrors
 from .light_paths import LightPaths
@@ -23,8 +24,9 @@ from .world_faces import WORLD, far_away, lies_on_mirror, world_targets
 
 BEYOND = 16.0       # sizes of the picture that a corner may lie beside it
 MARGIN = 5          # texels around each block
-NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead, as shares of its length
+NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
+FROM_MIRROR = 1.0 - 1e-5    # lead of a path that begins at the mirror
 POINT_LEAD = 1e-3   # the same for points, which lie at vertices
 GROUPS = 1 << 30     # more than a reflection has groups of faces
 MOST_BOUNCES = 1 << 8
@@ -42,6 +44,7 @@ class Faces:
     corners : (m, 3) int64, vertices of each face
     targets, origins : (m, 3, 3) float64, ends of the light path of each corner
     sky : (m,) bool, faces that show the world
+    displaced : (m,) bool, faces of which renders move the source: it is looked for from the mirror on
     normals : (m, 3, 3) float64, of the mirror at the corners; zero after several mirrors
     group : (m,) int64, the same for faces of one mirror that show one source by as many mirrors
     """
@@ -52,6 +55,7 @@ class Faces:
     targets: np.ndarray
     origins: np.ndarray
     sky: np.ndarray
+    displaced: np.ndarray
     normals: np.ndarray
     group: np.ndarray
 
@@ -62,13 +66,13 @@ class Faces:
         starts = np.cumsum([0, *(len(one.positions) for one in parts)])
         corners = np.concatenate([one.corners + start for one, start in zip(parts, starts)])
         others = {name: np.concatenate([getattr(one, name) for one in parts])
-                  for name in ("positions", "images", "targets", "origins", "sky", "normals", "group")}
+                  for name in ("positions", "images", "targets", "origins", "sky", "displaced", "normals", "group")}
         return cls(corners=corners, **others)
 
     @classmethod
     def none(cls) -> Faces:
         none, ends = np.zeros((0, 3)), np.zeros((0, 3, 3))
-        return cls(none, none, none.astype(np.int64), ends, ends, np.zeros(0, dtype=bool), ends,
+        return cls(none, none, none.astype(np.int64), ends, ends, *np.zeros((2, 0), dtype=bool), ends,
                    np.zeros(0, dtype=np.int64))
 
 
@@ -98,7 +102,8 @@ class Unwrapped:
     Attributes
     ----------
     size : (width, height) in texels
-    spots : list of (m, 3, 2) float64, from 0 to 1, for each reflection with faces; (n, 2) for one of points
+    spots : list of (m, 3, 2) float64, from 0 to 1 in the camera's view, for each reflection with faces; (n, 2) for one
+        of points
     pages : list of Page, of faces
     points : list of PointBlock
     """
@@ -163,7 +168,11 @@ def faces_of(placed: Placed, view: View) -> Faces:
     if lies_on_mirror(mesh, positions):
         # all in one plane: what they show tells which is before another
         images = place(view, vectors(mesh, "mirror_position").T, numbers(mesh, "path_length"), "VIRTUAL").T
-    return Faces(positions, images, corners, target, origin, source == WORLD, normals, group)
+    sky, displaced = source == WORLD, np.array([is_displaced(one) for one in mesh.materials] or [False])
+    slot = np.zeros(len(corners), dtype=np.int32)
+    mesh.polygons.foreach_get("material_index", slot)
+    displaced = displaced[np.minimum(slot, len(displaced) - 1)] & ~sky
+    return Faces(positions, images, corners, target, origin, sky, displaced, normals, group)
 
 
 @dataclass
@@ -231,13 +240,14 @@ class Page:
             later = sky[later]
             origin[later], target[later], left[later] = places, places + far_away(self.fine) * ahead, tint
             across[later] = up[later] = 0.0
-        length = np.linalg.norm(target - origin, axis=1)
         texel = np.linalg.norm(across, axis=1) + np.linalg.norm(up, axis=1)
+        lead = texel / np.maximum(np.linalg.norm(target - origin, axis=1), 1e-30)
         shift = self.shifts[self.block[own]]
         spot = row + shift[:, 1], column + shift[:, 0]
         paths.used[spot], paths.left[spot] = True, left
         paths.target[spot], paths.origin[spot], paths.across[spot], paths.up[spot] = target, origin, across, up
-        paths.lead[spot] = SEEN_LEAD * length if seen else np.clip(texel, NEAREST * length, FARTHEST * length)
+        lead = np.where(faces.displaced[face], FROM_MIRROR, np.clip(lead, NEAREST, FARTHEST))
+        paths.lead[spot] = SEEN_LEAD if seen else lead
 
 
 def _changes(pixels: np.ndarray, targets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -286,7 +296,7 @@ class PointBlock(Block):
         else:
             target, origin = (vectors(self.placed.mesh, name) for name in ("reflected_position", "mirror_position"))
         paths.used[row, column], paths.target[row, column], paths.origin[row, column] = True, target, origin
-        paths.lead[row, column] = POINT_LEAD * np.linalg.norm(target - origin, axis=1)
+        paths.lead[row, column] = POINT_LEAD
 
     def _texels(self) -> np.ndarray:
         row, column = np.divmod(np.arange(self.count), self.size[0])

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...core import TriangleMesh, View, draw
 from ...core.geometry import unit
+from ...core.polygons import ConvexPolygons, Line
 from ...core.result import place
 from ..reading import corner_vertices, join_mirror, mirrors_of, numbers, read_meshes, vectors
 from ..writing import FIELDS, LATER_MATERIAL, NORMAL, place_of
@@ -17,6 +18,7 @@ from ..writing import FIELDS, LATER_MATERIAL, NORMAL, place_of
 WORLD = -1          # `source_object` of faces that show the world
 NONE = -1           # among the materials of later mirrors
 FAR = 1e4           # sizes of the mirror to the points that stand for directions
+BORDER = 1.05       # of a picture's half width and height: faces reach so far
 BEHIND = 1.05       # of the longest path: a virtual image of the world lies behind all others
 
 
@@ -39,11 +41,13 @@ def add_world_faces(mesh: bpy.types.Mesh, result: bpy.types.Object, view: View, 
     chosen = _seen(view, surface.mesh, None if hidden else (positions, corner_vertices(mesh)))
     if not len(chosen):
         return
+    part, weights = _in_the_view(view, surface.mesh.positions[surface.mesh.triangles[chosen]])
+    chosen = chosen[part]
     # vertices of which faces have different normals are several
-    corners = surface.mesh.triangles[chosen].reshape(-1)
-    normals = surface.mesh.corner_normals[chosen].reshape(-1, 3)
+    corners, normals = (np.einsum("ikn,nix->nkx", weights, values[chosen]).reshape(-1, 3) for values in (
+        surface.mesh.positions[surface.mesh.triangles], surface.mesh.corner_normals))
     own, faces = np.unique(np.column_stack((corners, normals.astype(np.float32))), axis=0, return_inverse=True)
-    at, normals = surface.mesh.positions[own[:, 0].astype(np.int64)], own[:, 1:]
+    at, normals = own[:, :3], own[:, 3:]
     far = FAR * max(float(np.ptp(surface.mesh.positions, axis=0).max()), 1e-12)
     path = np.full(len(at), BEHIND * float(numbers(mesh, "path_length").max(initial=0.0)) if record.window else far)
     placement = "VIRTUAL" if record.window else "LAYERED"
@@ -59,6 +63,16 @@ def add_world_faces(mesh: bpy.types.Mesh, result: bpy.types.Object, view: View, 
     for name, values in (("source_object", WORLD), ("source_face", WORLD), ("bounces", 1),
                          ("mirror_face", surface.triangle[chosen]), *((name, NONE) for name in alone)):
         set_tail(mesh, name, before[1], values)
+
+
+def _in_the_view(view: View, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the parts (n,) of triangles (m, 3, 3) that a view sees: which triangle each is of, and the weights
+    (3, 3, n) of its corners, entry [i, k]: weight i of corner k. What lies behind the eye has no place in a picture."""
+    x, y, _, w = np.moveaxis(view.clip(corners.reshape(-1, 3)).reshape(-1, 3, 4), (2, 1), (0, 1))
+    parts = ConvexPolygons.whole(len(corners))
+    for values in (BORDER * w - x, BORDER * w + x, BORDER * w - y, BORDER * w + y):
+        parts = parts.cut(values, Line.HIDDEN)
+    return parts.triangles(0.0)
 
 
 def world_targets(view: View, at: np.ndarray, normals: np.ndarray) -> np.ndarray:

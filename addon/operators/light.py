@@ -10,7 +10,7 @@ from ..faults import AllOrNothing, SteppedOperator, Steps, part, tell
 from ..freshness import lit_record, lit_with
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import needs_light, update_mattes
-from ..reading import has_linked_results, read_view, with_copies
+from ..reading import has_linked_results, mirrors_of, read_view, with_copies
 from ..settings import LIGHT_SETTINGS, SAMPLES, UsesSettings, Wanted, option
 from . import polls
 from .clear import chosen_results
@@ -66,7 +66,7 @@ def lighting_groups(context: bpy.types.Context, groups: list[tuple[list, int]], 
     with AllOrNothing() as whole:
         for number, (results, samples) in enumerate(groups):
             lit = [result for result in results
-                   if every or needs_light(result) or lamps_before(result.data, lamps)]
+                   if every or needs_light(result) or lamps_before(result.data, lamps, mirrors_of(result))]
             if not lit:
                 continue
             records |= lit_record(context, view, lit, {"samples": samples})

@@ -12,8 +12,8 @@ from ...core import ReflectionError, View
 from ..faults import AllOrNothing, Steps, part, still_there
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
+    FROM_MIRROR,
     FurtherMirrors,
-    LightPaths,
     Placed,
     can_be_lit,
     forget_light,
@@ -40,7 +40,6 @@ NAME = "Reflection Light"
 RENDERING = "Rendering light"
 DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each pixel from which on
 RIM = 4                 # texels around faces that go on as the faces do
-FROM_MIRROR = 1e-4      # of a path: it begins at the mirror
 MATTE = 8               # samples of light for each of what lamps add to the mirror itself, which is dark beside it
 NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
 
@@ -66,19 +65,23 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     paths = unwrapped.paths(FurtherMirrors.of([one for one in shown if one.reflection_mesh.role == "REFLECTION"], lit))
     if not paths.used.any():
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
-    if has_fog(context.scene):
-        paths = _from_the_mirror(paths)
+    fog = has_fog(context.scene)
+    if fog:
+        # it counts from the mirror on
+        paths = replace(paths, lead=np.full_like(paths.lead, FROM_MIRROR))
     with path_scene(context) as scene:
         light = yield from shown_while(render_paths(scene, paths.grown(RIM), samples // dense**2, True), 0.1, RENDERING)
     image = yield from part(new_image(NAME, light, whole), 0.7, 0.05)
     export_image = bpy.data.images.new(f"{NAME} Export", 1, 1)
     whole.undo(bpy.data.batch_remove, [export_image])
     materials: dict = {}
-    lamps, spots = lamps_that_show(context), dict(zip(placed, unwrapped.spots))
+    # paths from the mirror on meet lamps themselves
+    lamps = [] if fog else lamps_that_show(context)
+    spots = dict(zip(placed, unwrapped.spots))
     for result in lit:
         mesh = placed[result.data].mesh
-        around = Surroundings(tuple(mirrors_of(result)), lamps_before(mesh, lamps), LaterMirrors.of(result),
-                              not result.reflection_mesh.window)
+        around = Surroundings(tuple(mirrors_of(result)), lamps_before(mesh, lamps, mirrors_of(result)),
+                              LaterMirrors.of(result), not result.reflection_mesh.window)
         key = result.reflection_mesh.mirror, result.data
         if key not in materials:
             materials[key] = new_material(NAME, image, export_image, _mirror_materials(result), around, whole)
@@ -105,12 +108,6 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             mesh = result.data
             show_light(result, placed[mesh].mesh, materials[result.reflection_mesh.mirror, mesh], told, whole)
     return show
-
-
-def _from_the_mirror(paths: LightPaths) -> LightPaths:
-    """Return paths that begin at the mirror, from which on fog counts."""
-    length = np.linalg.norm(paths.target - paths.origin, axis=2)
-    return replace(paths, lead=(1.0 - FROM_MIRROR) * length)
 
 
 def _check(lit: list) -> None:

@@ -21,7 +21,7 @@ from ..lighting import (
     shows_preview,
     update_mattes,
 )
-from ..reading import DiffuseScene, results_of
+from ..reading import DiffuseScene, mirrors_of, results_of
 from ..writing import (
     Reflection,
     gather,
@@ -127,7 +127,8 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
         results = [(group[0].obj, made.result) for group, made in zip(written, prepared)]
         entries = [entry for group in written for entry in group]
         unlit = [entry.obj for entry in entries
-                 if not is_lit(entry.obj) and (needs_light(entry.obj) or lamps_before(entry.obj.data, lamps))]
+                 if not is_lit(entry.obj) and (needs_light(entry.obj)
+                                               or lamps_before(entry.obj.data, lamps, mirrors_of(entry.obj)))]
         # reflections of one mirror share their mesh
         for obj in {obj.data: obj for obj in (entry.obj for entry in entries)}.values():
             if obj.reflection_mesh.world_faces == "ALWAYS" and not is_lit(obj) and can_be_lit(obj):

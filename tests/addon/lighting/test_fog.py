@@ -37,8 +37,10 @@ def in_a_collection(cube: bpy.types.Object) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["world", "absorbing world", "cube", "cube in a collection", "half open"])
-def test_fog_before_a_mirror_is_seen_once(blank, room, kind):
+@pytest.mark.parametrize(("kind", "measured"), [
+    ("world", 43.0), ("absorbing world", 42.4), ("cube", 43.2), ("cube in a collection", 43.2), ("half open", 41.2)])
+def test_fog_before_a_mirror_is_seen_once(blank, room, kind, measured):
+    """Cycles against itself has 38.6 to 40.8 dB: a denoised picture is better."""
     mirror = scene_of(blank)
     if "world" in kind:
         filled(blank.scene.world, "ShaderNodeVolumeAbsorption" if "absorbing" in kind else "ShaderNodeVolumeScatter")
@@ -49,13 +51,13 @@ def test_fog_before_a_mirror_is_seen_once(blank, room, kind):
         cube.select_set(True)
     if kind == "half open":
         shader_of(mirror.data.materials[0]).inputs["Alpha"].default_value = 0.7
-    reference, other = picture(room), picture(room, seed=7)
+    reference = picture(room)
     result = parts.generate()
     before = lit_state()
     assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
     blank.view_layer.update()
     assert not outdated(room, result)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert psnr(picture(room), reference) > measured - 2.5
     after = lit_state()
     assert all(after[name] == before[name] for name in ("rays", "worlds", "cycles"))
 

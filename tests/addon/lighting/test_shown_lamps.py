@@ -144,7 +144,7 @@ def test_lamps_that_stand_before_a_face_are_found_and_far_ones_are_not(blank, ro
     lamps = [rooms.ShownLamp(place, np.eye(3), "BALL", (0.1, 0.1), (1.0, 1.0, 1.0), (-1.0, -1.0), False)
              for place in places]
     away = np.array([np.linalg.norm(strewn - lamp.place, axis=1).min() for lamp in lamps])
-    found = set(map(id, rooms.lamps_before(result.data, lamps)))
+    found = set(map(id, rooms.lamps_before(result.data, lamps, [])))
     told = np.array([id(lamp) in found for lamp in lamps])
     assert (away < 0.05).sum() > 20 and told[away < 0.05].all()
     assert (away > 0.6).sum() > 20 and not told[away > 0.6].any()
