@@ -39,7 +39,7 @@ class Stitched(ColumnArrays):
     ----------
     triangles : (m, 3) int64, between the vertices of the reflection
     origin : (m,) int64, the face of the reflection that each is a part of
-    on_side : (m, 3) bool, which of the sides 01, 12, 20 lie on a side of their receiver's triangle
+    on_side : (m, 3) bool, True for the sides 01, 12, 20 that lie on a side of their receiver's triangle
     """
 
     counting_axis = 0
@@ -90,8 +90,10 @@ def merged(positions: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np
 
 
 def _without_twins(triangles: np.ndarray) -> np.ndarray:
-    """Return the numbers (k,) of those triangles (m, 3) that have three vertices, of several with the same ones the
-    first: a mesh of Blender holds no others."""
+    """Return the indices (k,) of triangles (m, 3) with three different vertices, without duplicates.
+
+    A Blender mesh must not hold other faces. Of duplicates the first is kept.
+    """
     whole = np.flatnonzero((triangles != following(triangles)).all(axis=1))
     _, first = np.unique(np.sort(triangles[whole], axis=1), axis=0, return_index=True)
     return whole[np.sort(first)]
@@ -111,7 +113,7 @@ def _one_vertex(count: int, pairs: np.ndarray) -> np.ndarray:
 
 
 def _near(places: np.ndarray, chosen: np.ndarray) -> np.ndarray:
-    """Pairs (p, 2) of `chosen` vertices (k,) that lie no further apart than a sliver is wide."""
+    """Find pairs (p, 2) of `chosen` vertices (k,) that lie no farther apart than the width of a sliver."""
     along = places[:, -3:] @ ODD
     chosen = chosen[np.argsort(along[chosen])]
     start, number = between(along[chosen], along[chosen], along[chosen] + THINNEST)
@@ -178,7 +180,7 @@ def _split(faces: Stitched, key: np.ndarray, vertex: np.ndarray, count: int) -> 
     step, face = ranges(np.zeros_like(number), number + 1)
 
     def corner(step: np.ndarray) -> np.ndarray:
-        """The vertices of side ab, the end a being the first."""
+        """Return the vertices at position `step` along side ab, counted from end a."""
         inner = start[face] + np.where(a < b, 0, number - 1)[face] + np.where(a < b, 1, -1)[face] * (step - 1)
         within = vertex[np.clip(inner, 0, len(vertex) - 1)]
         return np.where(step == 0, a[face], np.where(step > number[face], b[face], within))
