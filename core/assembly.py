@@ -148,7 +148,7 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     # drop faces whose source is a mirror: the next bounce shows their reflection instead
     faces = faces.select(~met.shows_mirror(frames)[faces.column])
     frames, faces = _on_whole_triangles(frames, faces, met)
-    # doubled triangles of the scene, and polygons that fold flat, give the same face twice
+    # drop duplicate faces, which come from duplicate triangles of the scene and from polygons that fold flat
     once, _ = groups(*np.sort(faces.nodes, axis=1).T)
     faces = faces.select(np.sort(once))
     used, corner = distinct(faces.nodes.ravel())
@@ -171,7 +171,7 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     breathe()
     turned = mirror_map.turned(owner, uv, nodes.distance[used])
     breathe()
-    # a corner that was brought back to its triangle or to the mirror has left its ray by a little
+    # corners moved back to their triangle or to the mirror lie slightly off their ray: measure the path by its points
     mirrors = [seen, *mirror_map.met_later(owner, uv)]
     stops = [*mirrors, point]
     corners = rows(met.positions[frames.vertices[:, faces.column]])

@@ -1,7 +1,7 @@
-"""Following: the faces of a reflection stay, and their vertices move to where the eye now sees their points.
+"""Incremental update of a reflection: faces stay, and vertices move to the new images of their points.
 
-While the eye, the mirror or the points move a little, each image moves a little too: Newton's method on the true map
-starts where the image was and ends where it is. What comes into sight, or goes, is left to the next reflection.
+If the eye, the mirror or the points move a little, each image moves a little too. Newton's method on the true map
+starts at the old image and ends at the new one. Points that become visible or hidden need a new reflection.
 """
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ class Lattice:
         """Return the nearest triangle (n,) at each point, -1 for none, and barycentric coordinates (3, n) on it."""
         size, own = np.array(self.size), np.array(self.view.resolution)
         scale = own / (self.step * size)
-        # the point k has its place in the middle of pixel k
+        # project such that lattice point k is the centre of pixel k
         shift = scale - 2.0 * self.low / (self.step * size) + 1.0 / size - 1.0
         projection = self.view.projection.copy()
         projection[:2] = scale[:, None] * projection[:2] + shift[:, None] * projection[3]

@@ -42,7 +42,7 @@ class MirrorMap(ReflectionMap):
             return
         least, most = self._rises(every, FEW)
         self.grazing = least < NEARLY_GRAZING
-        # near the eye, or where normals turn much, rays between these places rise less than at any of them
+        # near the eye, or with strongly curved normals, rays between these places may have smaller sines than at them
         doubtful = np.flatnonzero((2.0 * least - most < NEARLY_GRAZING) & ~self.grazing)
         least, most = self._rises(doubtful, MANY)
         # between samples the sine may be lower by an amount that shrinks with the square of their distance

@@ -1,15 +1,17 @@
-"""Error-bounded refinement of the mirror: cameras are split where their rays stray from the true reflection map.
+"""Error-bounded refinement of the mirror: cameras are split where their rays deviate from the true reflection map.
 
-A camera interpolates the rays of its corners; the true map bends between them. Halfway along an edge the two differ by
-an angle, which moves the image of a point at distance l by some pixels: the angle's displacement l |delta| over the
-motion of the reflected point along the edge, times the edge's length in the picture. Flat mirrors show no difference at
-all and stay whole. Where the mirror is bent strongly one way and hardly the other, the same angle is little along an
-edge and pixels beside it: there the displacement is solved in the motions along two edges, and bounded more loosely,
-since what cameras are cut into later has true rays. It asks what the whole has met, which must not be far off.
+A camera interpolates the rays of its corners; the true map is curved between them. At an edge's midpoint the two rays
+differ by a vector delta, which moves the image of a point at distance l by some pixels: l |delta|, divided by the
+motion of the reflected point along the edge, times the edge's length in the picture. Flat mirrors have no difference
+and are not split.
 
-In a picture a sliver narrower than a pixel shows little, wherever its rays go. Of a lamp's light it may be much: what
-grazes one mirror after another leaves each many times as bright as it fell on it. There rays part by no more than an
-angle.
+If the mirror is strongly curved in one direction and almost flat in the other, the same delta is a small displacement
+along an edge, but pixels across it. So the displacement is also solved in the motions along two edges. Its tolerance
+is larger, because parts that cameras are cut into later have true rays.
+
+In a picture, a sliver narrower than a pixel shows little, wherever its rays go. For a lamp, it may carry much light:
+light that grazes several mirrors gets much brighter at each. There a further limit holds for the angle between the rays
+at the ends of an edge.
 """
 from __future__ import annotations
 
@@ -26,10 +28,10 @@ from .three_ray_cameras import Cameras
 
 LEVELS, DEEPER, FEW = 12, 48, 1024  # levels of splitting; levels if at most FEW cameras are left to split
 INDEPENDENT = 1e-6  # sine between the motions along two edges: below, as on a fold, the system is singular
-ROUNDING = 1e-14  # radians: what unit vectors are rounded by must not split a flat mirror
+ROUNDING = 1e-14  # radians: rounding of unit vectors, which must not split a flat mirror
 PARTED = 0.5  # smallest cosine between the rays of a lamp's light at the ends of an edge, after the first bounce
 THIN = 0.05  # pixels: displacements across a narrower camera are ignored
-SHORTEST_EDGE = 0.5  # pixels: a shorter edge cannot stray by a visible amount
+SHORTEST_EDGE = 0.5  # pixels: shorter edges cannot deviate visibly
 
 
 def refine_mirror(cameras: Cameras, tolerance: float, reach: float,

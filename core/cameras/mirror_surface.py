@@ -167,7 +167,7 @@ class MirrorSurface:
         """Turn rays that would enter their flat triangle until they just clear it. `ray` (3, n) is changed in place."""
         flat = columns(self.face_normal, face)
         length, upright = np.maximum(norm(direction), 1e-300), dot(direction, flat)
-        # seen from behind, the triangle's back is its front
+        # flip the normals of triangles seen from behind
         side = np.where(upright > 0.0, -1.0, 1.0)
         asked = np.flatnonzero(side * dot(ray, flat) < _least_rise(upright / length) * length)
         if not len(asked):

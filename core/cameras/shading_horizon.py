@@ -19,7 +19,7 @@ CAMERAS_AT_ONCE = 4096
 LEVELS = 20  # levels of splitting before the cut, for cameras with a curved horizon inside
 LONG_EDGE = 8.0  # pixels: on shorter edges a curved horizon does not matter
 SLIVER = 2.0  # pixels: a narrower camera of lifted rays alone is not worth refining
-ON_LINE = 1e-6  # rise of rays on the horizon itself, which belong to both its sides
+ON_LINE = 1e-6  # sine: tolerance for rays on the horizon itself, which belong to both sides
 _PROBES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [1 / 3] * 3]).T
 
 

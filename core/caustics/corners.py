@@ -1,13 +1,14 @@
-"""Light at the corners of faces, by the derivative of the true map that the lamp sees them by.
+"""Light at the corners of faces, from the derivative of the true map from the lamp's picture.
 
-Light of the intensity I that has gone the way d to the mirror has the irradiance I / |d|^2 across its direction there.
-On its way on a thin bundle of it grows to `turned` times its area across the light, and falls on the receiver with the
-cosine c: I c / (|d|^2 |turned|) is the irradiance there, infinite on a caustic, where `turned` is zero.
+Light of intensity I that has travelled the vector d to the mirror has the irradiance I / |d|^2 there, on a plane
+perpendicular to it. After the mirror, the cross section of a thin bundle grows by the factor `turned`. It arrives at
+the receiver with the cosine c, so the irradiance there is I c / (|d|^2 |turned|). It is infinite on a caustic, where
+`turned` is zero.
 
-Flat triangles with smooth normals send a bundle on that is wider or narrower than what came, by the sines of both ways
-to them. A path tracer, which comes from the receiver, does not see that: it finds the lamp as bright as ever in what it
-sees of the triangle. So that both find the same, light must be weighted by how much wider its bundle leaves. E. Veach,
-"Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 5.3.
+Flat triangles with smooth normals change the cross section of a bundle, by the ratio of the sines of the leaving and
+the arriving ray to the triangle. A path tracer that comes from the receiver does not know this factor: it finds the
+lamp at full brightness in its image of the triangle. To get the same result, light is weighted by the growth of its
+bundle. E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 5.3.
 """
 from __future__ import annotations
 
@@ -110,7 +111,7 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
     if lamp.pattern is not None:
         share = lamp.share(place.T)
         irradiance = np.where(share > 0.0, irradiance, 0.0) * share
-    # a ray is turned by twice the angle that it has to the mirror's plane
+    # half the deflection of a ray is its angle to the mirror, whose sine is the cosine of incidence
     directions = [unit(way) for way in ways]
     upright = np.stack([np.sqrt(np.clip(0.5 * (1.0 - dot(came, sent)), 0.0, 1.0))
                         for came, sent in zip(directions, directions[1:])])

@@ -14,7 +14,7 @@ from ..trees import along_curve
 from .lamps import Lamp
 
 ABOVE = 1e-7  # share of the scene's size: points closer to a plane count as lying in it
-PLANES = 1e-6  # components of a unit normal: planes that differ by less are merged, with heights merged in proportion
+PLANES = 1e-6  # components of a unit normal, and share of the scene's size: planes that differ by less are merged
 AT_ONCE, FEW_AT_ONCE = 1 << 22, 1 << 18
 WAYS = 200  # directions in which the outermost corners of a mesh are searched
 TOGETHER = 32  # neighbouring corners in one box

@@ -14,7 +14,7 @@ from .energy import amounting, balanced, on_faces, shown_area
 from .refinement import LitFaces
 from .slivers import merged
 
-OF_VERTICES = ("positions", "mirror_position", "image_parity")  # arrays of `CausticMesh`; all others are of faces
+OF_VERTICES = ("positions", "mirror_position", "image_parity")  # vertex arrays of `CausticMesh`; others belong to faces
 ON_CAUSTIC = 1e-5  # growth of a bundle below which bisection has put a vertex on the caustic
 STRAY = 1e-6  # share of the flux: faces with less are dropped as rounding if no ray hits one of their corners
 

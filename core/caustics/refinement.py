@@ -1,9 +1,9 @@
-"""Faces split until their irradiance is nearly linear in each, and so finely towards a caustic, where it is infinite.
+"""Splitting of caustic faces until the irradiance is nearly linear in each; near a caustic the faces get very small.
 
-Sides are split on both their faces. Those on a side of a receiver's triangle are straight there, and are split in the
-middle; Newton's method tells where the lamp sees it. All others, along the mirror's triangles and what hides, are
-straight in the lamp's picture, and the ray through the middle there tells where its light falls. So the faces have
-their exact share of the picture, which is the flux.
+A side is split in both of its faces. Sides on a side of a receiver's triangle are straight on the receiver. They are
+split at their midpoint, and Newton's method finds the midpoint's place in the lamp's picture. All other sides, along
+mirror triangles and occluders, are straight in the lamp's picture. The ray through the midpoint there finds the lit
+point. So each face keeps its exact area in the lamp's picture, which is its flux.
 """
 from __future__ import annotations
 

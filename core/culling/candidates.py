@@ -19,7 +19,7 @@ from ..support import INSIDE
 
 @dataclass(frozen=True)
 class Candidates(ColumnArrays):
-    """Pairs (p) that survive: at some corner of the camera each edge of the triangle is on the right side.
+    """Pairs (p) of a camera and a triangle that may overlap: each side of the triangle is inside at some corner.
 
     Attributes
     ----------
@@ -31,8 +31,8 @@ class Candidates(ColumnArrays):
     ahead : (3, p) float64, the distance a from corner i to the plane, positive on the side that the rays leave
     bend : (3, 3, p) float64, entry [j, k]: what the quadratic part adds to `sides` j halfway along the camera's edge
         from corner k to the next
-    outlines : (3, p) bool, sides that may bound what is seen: not those that the camera has no part of, nor those over
-        which a mirror goes on
+    outlines : (3, p) bool, True for sides of the triangle that may bound its visible part; False for sides outside of
+        the camera, and for sides across which a mirror continues
     """
 
     cameras: Cameras

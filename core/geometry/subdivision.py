@@ -9,7 +9,7 @@ from .distinct import first_of
 
 Corner = TypeVar("Corner", int, np.ndarray)
 
-# Corners 0 1 2 and the middles 3 4 5 of edges 01, 12, 20: the children for each set of marked edges (bit k: edge k).
+# Children for each set of marked edges (bit k: edge k), with corners 0 1 2 and midpoints 3 4 5 of edges 01, 12, 20.
 _TEMPLATES = {
     0b001: [(0, 3, 2), (3, 1, 2)],
     0b010: [(0, 1, 4), (0, 4, 2)],
