@@ -48,7 +48,7 @@ class Task:
     progress: Progress
 
     def reach(self, cameras: Cameras) -> float:
-        """Length of the longest path from cameras to the diffuse scene, in scene units."""
+        """Return an upper bound on the length of rays from cameras to the diffuse scene, in scene units."""
         centre, radius = self.met.bounds
         return float(norm(cameras.origins - centre[:, None]).max(initial=0.0) + radius)
 

@@ -40,7 +40,7 @@ def edge_middles(cameras: Cameras, ends: np.ndarray, first: np.ndarray,
     Parameters
     ----------
     ends : (e, 2) int64, corners at the ends of the edges
-    first : (e,) int64, index of a camera's side 3 * camera + side that each edge belongs to
+    first : (e,) int64, for each edge one camera and its side, as 3 * camera + side
     share : (e,) float64 or float, place along each edge from 0 to 1
     """
     mirror_map = cameras.mirror_map

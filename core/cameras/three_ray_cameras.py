@@ -62,8 +62,9 @@ class Cameras:
 def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
     """Return the indices of the mirror's triangles that the view may see.
 
-    Triangles without an area are left out. On a closed mirror only front faces count. Open mirrors show both sides, as
-    in Cycles. So does a closed mirror that is cut by the plane of an orthographic eye: some rays start inside of it.
+    Triangles without an area are left out. On a closed mirror only outer sides count, or inner sides if the eye is
+    inside. Open mirrors show both sides, as in Cycles. So does a closed mirror that is cut by the plane of an
+    orthographic eye, because some rays start inside of it.
     """
     areal = np.flatnonzero(mirror.areal)
     triangles = mirror.triangles[areal]

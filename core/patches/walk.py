@@ -20,7 +20,7 @@ FEW = 4  # rounds after which most points have converged
 ARRIVED = 1e-7  # length of a step in (u, v), below which the point has converged: the next step is rounding
 NEARLY = 1e-5  # the same from near starts, where the error is about the square of the last step
 LONGEST = 1.5  # longest step, in (u, v)
-FUTILE = 8.0  # a point diverges if it is this many last steps beyond the border, or its last step this many moves
+FUTILE = 8.0  # ratio that means divergence: distance over the border to last step, or last step to a round's motion
 INSIDE = 1e-6  # barycentric tolerance for rounding: points this little outside of a triangle count as inside
 
 
